@@ -1,0 +1,30 @@
+# make demo | test | build | bench | lint | clean; each sets up .venv by itself.
+PYTHON ?= python3
+BIN := .venv/bin
+
+demo: .venv/ready
+	$(BIN)/python -m analysis.demo
+
+test: .venv/ready lint build
+	$(BIN)/python -m pytest -n 2
+
+build: .venv/ready
+	$(BIN)/python build_fmus.py
+
+bench: build
+	$(BIN)/perilune benchmark
+
+lint: .venv/ready
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+.venv/ready: pyproject.toml
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	touch $@
+
+clean:
+	rm -rf build .venv
+
+.PHONY: demo test build bench lint clean

@@ -1,0 +1,1 @@
+"""Perilune's components, one Python class each, and what turns them into FMUs."""

@@ -1,0 +1,1 @@
+"""Allocation of commands to engines and attitude."""

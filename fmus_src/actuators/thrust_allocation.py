@@ -1,0 +1,106 @@
+"""Allocation to one engine fixed to the body: throttle and attitude with their limits."""
+
+import math
+
+from ..block import Parameter, State
+from ..interfaces.allocation import Allocation
+from ..mathlib.rng import normal, seed_streams
+from ..mathlib.rotation import turn_towards
+from ..mathlib.vectors import clip, copy3, norm
+
+
+class ThrustAllocation(Allocation):
+    """Engine thrust and attitude for a demanded thrust acceleration and direction.
+
+    Thrust is mass times demand, kept within its limits, scaled by a constant random error and
+    delayed by a first-order lag (exact for a demand held over the step; the output is the value
+    at the communication point, held by the plant, which adds half a step of delay). With a slew
+    limit the direction turns towards the demanded one by at most slew_rate_limit; it starts
+    aligned. All limits are off by default. Frame: landing site.
+    """
+
+    minimum_thrust = Parameter(0.0, unit="N", minimum=0.0, description="least thrust while burning")
+    maximum_thrust = Parameter(0.0, unit="N", minimum=0.0, description="largest thrust; 0: no limit")
+    thrust_lag = Parameter(0.0, unit="s", minimum=0.0, description="time constant of thrust; 0: none")
+    slew_rate_limit = Parameter(
+        0.0, unit="rad/s", minimum=0.0, description="largest rate of the direction; 0: no limit"
+    )
+    thrust_error = Parameter(
+        0.0, unit="1", minimum=0.0, description="relative error of thrust, 1 sigma, constant over a flight"
+    )
+    seed = Parameter(1, minimum=0, description="random numbers: seed")
+    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    generator = State([0.0] * 6, description="random number generator")
+    thrust_factor = State(1.0, unit="1", description="thrust given over thrust commanded")
+    commanded_thrust = State(0.0, unit="N", description="thrust commanded at the last communication point")
+
+    def initialize(self) -> None:
+        seed_streams(self.generator, self.seed, self.stream)
+        error = normal(self.generator)
+        self.thrust_factor = 1.0 + self.thrust_error * error
+        self.command_thrust()
+        self.thrust = self.commanded_thrust
+        self.pass_direction()
+
+    def command_thrust(self) -> None:
+        """Set commanded_thrust (N) from the demand."""
+        demanded = self.mass * self.thrust_acceleration
+        allowed = demanded
+        if demanded > 0.0:
+            if demanded < self.minimum_thrust:
+                allowed = self.minimum_thrust
+            if self.maximum_thrust > 0.0:
+                allowed = clip(allowed, 0.0, self.maximum_thrust)
+        self.status = 0
+        if allowed != demanded:
+            self.status = 1
+        self.commanded_thrust = allowed * self.thrust_factor
+
+    def pass_direction(self) -> None:
+        """Direction and timing as demanded."""
+        copy3(self.thrust_direction, self.demanded_direction)
+        copy3(self.thrust_direction_rate, self.demanded_direction_rate)
+        self.command_time = self.demand_time
+        self.burn_duration = self.demanded_duration
+
+    def slew(self, time: float, h: float) -> None:
+        """Follow the demanded direction within the slew limit, from the direction flown over the last h (s)."""
+        goal = [0.0] * 3
+        now = [0.0] * 3
+        for i in range(3):
+            goal[i] = self.demanded_direction[i] + self.demanded_direction_rate[i] * (time - self.demand_time)
+            now[i] = self.thrust_direction[i] + self.thrust_direction_rate[i] * (time - self.command_time)
+        goal_length = norm(goal)
+        now_length = norm(now)
+        for i in range(3):
+            goal[i] = goal[i] / goal_length
+            now[i] = now[i] / now_length
+        ahead = [0.0] * 3
+        copy3(ahead, now)
+        for i in range(3):
+            goal[i] = goal[i] + h * self.demanded_direction_rate[i]
+        goal_length = norm(goal)
+        for i in range(3):
+            goal[i] = goal[i] / goal_length
+        left = turn_towards(ahead, goal, self.slew_rate_limit * h)
+        if left > 0.0:
+            self.status = 1
+        cosine = now[0] * ahead[0] + now[1] * ahead[1] + now[2] * ahead[2]
+        for i in range(3):
+            self.thrust_direction[i] = now[i]
+            # now + rate h is parallel to ahead, and the rate is perpendicular to now
+            self.thrust_direction_rate[i] = (ahead[i] / cosine - now[i]) / h
+        self.command_time = time
+        self.burn_duration = self.demand_time + self.demanded_duration - time
+
+    def step(self, t: float, h: float) -> None:
+        held = self.commanded_thrust
+        lagged = self.thrust
+        self.command_thrust()
+        self.thrust = self.commanded_thrust
+        if self.thrust_lag > 0.0:
+            self.thrust = held + (lagged - held) * math.exp(-h / self.thrust_lag)
+        if self.slew_rate_limit > 0.0:
+            self.slew(t + h, h)
+        else:
+            self.pass_direction()

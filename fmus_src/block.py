@@ -1,0 +1,212 @@
+"""How a component is declared: one class, its variables as class attributes.
+
+Everything else about a component (modelDescription.xml, connectors, C struct, tables in the
+docs) is derived from these declarations. Values live on the instance under the same names:
+floats, ints and bools for scalars, lists that are never rebound for vectors.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from .units import UNITS
+
+Value = float | int | bool | list
+TYPE_NAMES = {float: "Real", int: "Integer", bool: "Boolean"}
+
+
+class DeclarationError(TypeError):
+    """A block's declaration is inconsistent; the message names block, variable and remedy."""
+
+
+class Variable:
+    """One declared variable: start value, unit, description, bounds.
+
+    ``start`` fixes type and size: a float, int or bool, or a list of equal ones. ``unit`` is a
+    key of `fmus_src.units.UNITS`; ``minimum``, ``maximum`` and ``nominal`` hold per element;
+    ``frame`` names the frame that a vector's components refer to.
+    """
+
+    causality: ClassVar[str]
+
+    def __init__(
+        self,
+        start: Any,
+        *,
+        unit: str | None = None,
+        description: str = "",
+        frame: str | None = None,
+        minimum: float | None = None,
+        maximum: float | None = None,
+        nominal: float | None = None,
+    ) -> None:
+        self.start: Value = list(start) if isinstance(start, list | tuple) else start
+        self.unit = unit
+        self.description = description
+        self.frame = frame
+        self.minimum = minimum
+        self.maximum = maximum
+        self.nominal = nominal
+        self.name = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = name
+        where = f"{owner.__name__}.{name}"
+        kinds = {type(value) for value in self.elements}
+        if len(kinds) != 1 or not kinds <= set(TYPE_NAMES):
+            raise DeclarationError(f"{where}: start must be one float, int or bool, or a list of one of these")
+        if self.unit is not None and self.unit not in UNITS:
+            raise DeclarationError(f"{where}: unit {self.unit!r} is not in fmus_src/units.py; add it there")
+        if not self.description:
+            raise DeclarationError(f"{where}: give a description")
+
+    if TYPE_CHECKING:  # instances hold plain values under the same name
+
+        def __get__(self, instance: object, owner: type | None = None) -> Any: ...
+
+        def __set__(self, instance: object, value: Any) -> None: ...
+
+    @property
+    def is_vector(self) -> bool:
+        return isinstance(self.start, list)
+
+    @property
+    def elements(self) -> list:
+        """Start values, one per element."""
+        return self.start if isinstance(self.start, list) else [self.start]
+
+    @property
+    def size(self) -> int:
+        return len(self.elements)
+
+    @property
+    def type_name(self) -> str:
+        """FMI type: Real, Integer or Boolean."""
+        return TYPE_NAMES[type(self.elements[0])]
+
+    def element_names(self) -> list[str]:
+        """FMI names of the elements: ``name``, or ``name[1]``, ``name[2]``, ... for vectors."""
+        if not self.is_vector:
+            return [self.name]
+        return [f"{self.name}[{index + 1}]" for index in range(self.size)]
+
+    def with_start(self, start: Any) -> Any:
+        """The same variable with another start value, for thin variants of a block."""
+        other = copy.copy(self)
+        other.start = list(start) if isinstance(start, list | tuple) else start
+        return other
+
+
+class Input(Variable):
+    """Set from outside at every communication point."""
+
+    causality = "input"
+
+
+class Parameter(Variable):
+    """Fixed after initialisation."""
+
+    causality = "parameter"
+
+
+class State(Variable):
+    """Internal, kept from step to step; readable from outside, never set."""
+
+    causality = "local"
+
+
+class Output(Variable):
+    """Read from outside at every communication point.
+
+    ``direct`` says which inputs of the same communication point the value depends on: True for
+    all, False for none (a plant's states), or their names.
+    """
+
+    causality = "output"
+
+    def __init__(self, start: Any, *, direct: bool | tuple[str, ...] = False, **declaration: Any) -> None:
+        super().__init__(start, **declaration)
+        self.direct = direct
+
+
+def snake_case(name: str) -> str:
+    """``AstarGuidance`` -> ``astar_guidance``."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+
+
+class Block:
+    """A component: declared variables, `initialize` and `step`.
+
+    Subclasses declare variables and write `initialize` (states and outputs at the start, from
+    parameters and inputs; total: the declared starts alone must not fail) and `step` (outputs
+    valid at t + h). Both are kernels: the subset of Python in `fmus_src.export.subset`.
+
+    A parameter ``sample_period`` makes the block sampled: `step` is called at start + k *
+    sample_period only; 0 means at every communication point. An output is ``direct`` where it
+    answers for t + h from inputs of t + h; a plant has none and is given inputs of t.
+
+    ``class Name(Block, interface=True)`` declares connectors only and builds no FMU.
+    ``python_only = True`` with ``requires`` lets a block use libraries; it then has no C form.
+    """
+
+    variables: ClassVar[dict[str, Variable]] = {}
+    is_interface: ClassVar[bool] = True
+    fmu_name: ClassVar[str] = "block"
+    python_only: ClassVar[bool] = False
+    requires: ClassVar[tuple[str, ...]] = ()
+    default_step: ClassVar[float] = 0.1
+
+    def __init_subclass__(cls, interface: bool = False, **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        cls.is_interface = interface
+        cls.fmu_name = snake_case(cls.__name__)
+        cls.variables = {}
+        for base in reversed(cls.__mro__):
+            for name, value in vars(base).items():
+                if isinstance(value, Variable):
+                    cls.variables[name] = value
+        if not (cls.__doc__ or "").strip():
+            raise DeclarationError(f"{cls.__name__}: write a docstring: purpose, assumptions, source")
+        cls._check_dependencies()
+
+    @classmethod
+    def _check_dependencies(cls) -> None:
+        inputs = {name for name, variable in cls.variables.items() if isinstance(variable, Input)}
+        for name, variable in cls.variables.items():
+            if isinstance(variable, Output) and isinstance(variable.direct, tuple):
+                for unknown in sorted(set(variable.direct) - inputs):
+                    raise DeclarationError(f"{cls.__name__}.{name}: direct names {unknown!r}, which is not an input")
+
+    def __init__(self, **parameters: Any) -> None:
+        for name, variable in self.variables.items():
+            setattr(self, name, list(variable.start) if isinstance(variable.start, list) else variable.start)
+        for name, value in parameters.items():
+            if not isinstance(self.variables.get(name), Parameter | Input):
+                raise TypeError(f"{self.fmu_name} has no parameter or input {name!r}")
+            if isinstance(value, list | tuple):
+                getattr(self, name)[:] = value
+            else:
+                setattr(self, name, value)
+
+    def initialize(self) -> None:
+        """Compute states and outputs at the start time."""
+
+    def step(self, t: float, h: float) -> None:
+        """Make the outputs valid at t + h (s)."""
+        raise TypeError(f"{type(self).__name__} has no step(t, h); write one")
+
+    @classmethod
+    def direct_inputs(cls, output: Output) -> list[str]:
+        """Names of the inputs that ``output`` depends on within one communication point."""
+        if isinstance(output.direct, tuple):
+            return list(output.direct)
+        if not output.direct:
+            return []
+        return [name for name, variable in cls.variables.items() if isinstance(variable, Input)]
+
+    @classmethod
+    def summary(cls) -> str:
+        """First line of the docstring."""
+        return (cls.__doc__ or "").strip().splitlines()[0]

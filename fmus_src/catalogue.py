@@ -1,0 +1,64 @@
+"""Finds blocks by their FMU names."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import inspect
+import pkgutil
+import sys
+from pathlib import Path
+from types import ModuleType
+
+from .block import Block
+
+HERE = Path(__file__).parent
+KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
+
+
+def blocks_of(module: ModuleType) -> list[type[Block]]:
+    """The blocks that a module itself defines, in order of definition; interfaces are left out."""
+    found = [
+        value
+        for value in vars(module).values()
+        if inspect.isclass(value) and issubclass(value, Block) and value.__module__ == module.__name__
+    ]
+    return [block for block in found if not block.is_interface]
+
+
+def catalogue() -> dict[str, type[Block]]:
+    """Every block of the repository by FMU name, in order of kind and file.
+
+    Raises ValueError when two blocks have one FMU name.
+    """
+    found: dict[str, type[Block]] = {}
+    for kind in KINDS:
+        for module in pkgutil.iter_modules([str(HERE / kind)]):
+            for block in blocks_of(importlib.import_module(f"{__package__}.{kind}.{module.name}")):
+                if block.fmu_name in found:
+                    raise ValueError(
+                        f"{block.__module__}.{block.__name__}: FMU name {block.fmu_name} is taken; rename it"
+                    )
+                found[block.fmu_name] = block
+    return found
+
+
+def blocks_in_file(path: Path) -> list[type[Block]]:
+    """The blocks defined in a Python file outside the repository.
+
+    Raises ValueError, with the file's name, when there is none or the file does not import.
+    """
+    name = f"perilune_block_file_{path.stem}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None or not path.is_file():
+        raise ValueError(f"{path}: not a Python file; give the .py file that defines the blocks")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:  # whatever the user's file raises is reported as one line
+        raise ValueError(f"{path}: importing it failed: {type(error).__name__}: {error}") from error
+    found = blocks_of(module)
+    if not found:
+        raise ValueError(f"{path}: defines no block; derive a class from fmus_src.block.Block or an interface of it")
+    return found

@@ -1,0 +1,1 @@
+"""Random disturbances with a given spectrum."""

@@ -1,0 +1,1 @@
+"""From a block to an FMU, and from a system folder to an .ssp."""

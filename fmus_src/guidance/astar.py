@@ -1,0 +1,68 @@
+"""Method A* as published: time-to-go by Newton's method, which fails where there is no root."""
+
+from ..block import State
+from ..interfaces.terminal_guidance import NO_SOLUTION, NOT_CONVERGED
+from ..mathlib.terminal import impulse_and_miss
+from ..mathlib.vectors import norm
+from .astar_programme import AstarProgramme
+
+
+class AstarGuidance(AstarProgramme):
+    """Terminal guidance by method A*: time-to-go from (A T - 3 B).(A T - 2 B) = 0 by Newton's method.
+
+    Starts from 2 R/V, then from the last time-to-go; tolerance 1e-6 s, at most 50 iterations. Without
+    convergence the status is 2 and the last command is held: the method has no root in about 15 %
+    of the published box, a defect of its own that this block keeps. See `astar_robust_guidance`.
+    Source: Fomichev and Li 2017, method A* (the equation for T is not printed there).
+    """
+
+    last_root = State(0.0, unit="s", description="where Newton's method starts; 0: from 2 R/V")
+
+    def root(self, dr: list, v: list, dv: list, start: float) -> float:
+        """The root reached from ``start`` (s), or 0 without convergence."""
+        g = self.gravity
+        time = start
+        converged = False
+        for _ in range(50):
+            if not converged:
+                value = 0.0
+                slope = 0.0
+                for i in range(3):
+                    # A T - 3 B and A T - 2 B with their derivatives; gravity acts on the third axis
+                    p = (dv[i] + 3.0 * v[i]) * time - 3.0 * dr[i]
+                    q = (dv[i] + 2.0 * v[i]) * time - 2.0 * dr[i]
+                    p_slope = dv[i] + 3.0 * v[i]
+                    if i == 2:
+                        p = p - 0.5 * g * time * time
+                        p_slope = p_slope - g * time
+                    value = value + p * q
+                    slope = slope + p_slope * q + p * (dv[i] + 2.0 * v[i])
+                change = 0.0
+                if slope != 0.0:
+                    change = value / slope
+                    converged = abs(change) < 1e-6
+                time = time - change
+        if converged and time > 0.0:
+            return time
+        return 0.0
+
+    def solve(self) -> None:
+        dr = [0.0] * 3
+        dv = [0.0] * 3
+        self.remaining(dr, dv)
+        speed = norm(self.velocity)
+        self.status = NO_SOLUTION
+        start = self.last_root
+        if start <= 0.0 and speed > 0.0:
+            start = 2.0 * norm(dr) / speed
+        if start > 0.0:
+            self.status = NOT_CONVERGED
+            time = self.root(dr, self.velocity, dv, start)
+            if time > 0.0:
+                a = [0.0] * 3
+                b = [0.0] * 3
+                impulse_and_miss(dr, self.velocity, dv, self.gravity, time, a, b)
+                acceleration = 2.0 * norm(b) / (time * time)
+                if acceleration > 0.0:
+                    self.last_root = time
+                    self.point(a, b, time, acceleration)

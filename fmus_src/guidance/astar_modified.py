@@ -1,0 +1,40 @@
+"""Method A* with a closed formula for time-to-go."""
+
+import math
+
+from ..block import Parameter
+from ..interfaces.terminal_guidance import NO_SOLUTION
+from ..mathlib.terminal import impulse_and_miss
+from ..mathlib.vectors import norm
+from .astar_programme import AstarProgramme
+
+
+class AstarModifiedGuidance(AstarProgramme):
+    """Terminal guidance by the modified method A*: time-to-go from range, speed and exhaust speed.
+
+    Source: Fomichev and Li 2017, modified A*. Arcsine arguments above 1, which made the original
+    fail, are clamped and counted.
+    """
+
+    exhaust_speed = Parameter(3100.0, unit="m/s", minimum=1.0, description="effective exhaust speed of the engine")
+
+    def solve(self) -> None:
+        g = self.gravity
+        dr = [0.0] * 3
+        dv = [0.0] * 3
+        self.remaining(dr, dv)
+        distance = norm(dr)
+        speed_sum = norm(self.velocity) + norm(self.target_velocity)
+        self.status = NO_SOLUTION
+        if speed_sum > 0.0:
+            lift = dv[2] + 2.0 * g * distance / speed_sum
+            e = math.sqrt(dv[0] * dv[0] + dv[1] * dv[1] + lift * lift)
+            closing = norm(self.velocity) - dr[2] * g / speed_sum - 0.5 * e + e * e / (12.0 * self.exhaust_speed)
+            if closing > 0.0 and distance > 0.0:
+                time = distance / closing
+                a = [0.0] * 3
+                b = [0.0] * 3
+                impulse_and_miss(dr, self.velocity, dv, g, time, a, b)
+                acceleration = 2.0 * norm(b) / (time * time)
+                if acceleration > 0.0:
+                    self.point(a, b, time, acceleration)

@@ -1,0 +1,56 @@
+"""The angle programme that the three guidances of method A* share."""
+
+import math
+
+from ..block import Output
+from ..interfaces.terminal_guidance import CLAMPED, GOOD, TerminalGuidance
+from ..mathlib.vectors import clip
+
+
+class AstarProgramme(TerminalGuidance, interface=True):
+    """Linear pitch and yaw programmes of method A*, for a given time-to-go and thrust acceleration.
+
+    In the method's own axes (x forward, y up, z right) the thrust acceleration is
+    W (cos th cos psi, sin th cos psi, -sin psi); its angles are not the analytic method's.
+    An arcsine argument above 1 is clamped, the angle's rate set to 0, and counted: in the
+    original arithmetic it turned the state complex. Source: Fomichev and Li 2017, method A*.
+    """
+
+    clamp_count = Output(0, direct=True, description="arcsine arguments clamped so far")
+
+    def angle(self, sine: float) -> float:
+        """Arcsine, clamped and counted outside [-1, 1] (1e-12 allowed for rounding)."""
+        if abs(sine) > 1.000000000001:
+            self.clamp_count = self.clamp_count + 1
+            self.status = CLAMPED
+        return math.asin(clip(sine, -1.0, 1.0))
+
+    def point(self, a: list, b: list, time: float, acceleration: float) -> None:
+        """Set the command from A, B (landing-site frame), time-to-go (s) and acceleration (m/s2)."""
+        ay = a[2]
+        az = -a[1]
+        by = b[2]
+        bz = -b[1]
+        w = acceleration
+        self.status = GOOD
+        psi = self.angle((2.0 * az / time - 6.0 * bz / (time * time)) / w)
+        cpsi = math.cos(psi)
+        spsi = math.sin(psi)
+        psi_rate = 0.0
+        if self.status == GOOD:
+            psi_rate = (-6.0 * az / (time * time) + 12.0 * bz / (time * time * time)) / (w * cpsi)
+        theta = self.angle((-2.0 * ay / time + 6.0 * by / (time * time)) / (w * cpsi))
+        ct = math.cos(theta)
+        st = math.sin(theta)
+        theta_rate = 0.0
+        if self.status == GOOD:
+            climb = 6.0 * ay / (time * time) - 12.0 * by / (time * time * time)
+            theta_rate = (climb + w * psi_rate * st * spsi) / (w * ct * cpsi)
+        self.time_to_go = time
+        self.thrust_acceleration = w
+        self.thrust_direction[0] = ct * cpsi
+        self.thrust_direction[1] = spsi
+        self.thrust_direction[2] = st * cpsi
+        self.thrust_direction_rate[0] = -st * cpsi * theta_rate - ct * spsi * psi_rate
+        self.thrust_direction_rate[1] = cpsi * psi_rate
+        self.thrust_direction_rate[2] = ct * cpsi * theta_rate - st * spsi * psi_rate

@@ -1,0 +1,113 @@
+"""The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
+
+from ..block import Block, Input, Output, Parameter, State
+
+GOOD = 0
+CLAMPED = 1
+NOT_CONVERGED = 2
+NO_SOLUTION = 3
+UNLIMITED = 1e9  # s; longer than any flight
+
+
+class TerminalGuidance(Block, interface=True):
+    """Terminal guidance in a landing-site frame: thrust command until the target state is met.
+
+    Frame: origin at the site, x north, y west, z up; not rotating. A guidance writes `solve`,
+    which sets time_to_go, thrust_acceleration, thrust_direction, its rate and status from
+    position and velocity; this class samples it, ends the flight and times the last burn.
+    With status not converged or no solution the last command is held and time_to_go counts down.
+    """
+
+    target_position = Parameter([0.0, 0.0, 2000.0], unit="m", frame="landing site", description="where to arrive")
+    target_velocity = Parameter(
+        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity to arrive with"
+    )
+    gravity = Parameter(1.62, unit="m/s2", minimum=0.0, description="gravity, constant, along -z")
+    sample_period = Parameter(0.0, unit="s", minimum=0.0, description="guidance cycle; 0: every communication point")
+    terminal_step = Parameter(
+        0,
+        minimum=0,
+        maximum=1,
+        description="0 stop: finished when time_to_go < cycle; 1 exact: burn the last time_to_go",
+    )
+    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated position")
+    velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated velocity")
+    mass = Input(1.0, unit="kg", description="estimated mass")
+    thrust_acceleration = Output(0.0, unit="m/s2", direct=True, description="commanded thrust over mass")
+    thrust_direction = Output(
+        [0.0, 0.0, 1.0],
+        unit="1",
+        frame="landing site",
+        direct=True,
+        description="commanded unit vector at command_time",
+    )
+    thrust_direction_rate = Output(
+        [0.0, 0.0, 0.0],
+        unit="1/s",
+        frame="landing site",
+        direct=True,
+        description="its derivative, perpendicular to it",
+    )
+    command_time = Output(0.0, unit="s", direct=True, description="when the command was computed")
+    burn_duration = Output(UNLIMITED, unit="s", direct=True, description="how long to thrust from command_time on")
+    time_to_go = Output(0.0, unit="s", direct=True, description="time left to the target state")
+    status = Output(
+        0, minimum=0, maximum=3, direct=True, description="0 good, 1 clamped, 2 not converged, 3 no solution"
+    )
+    finished = Output(False, direct=True, description="the flight is over")
+    last_burn = State(False, description="the command flown now is the last one")
+
+    def solve(self) -> None:
+        """Set the command, time_to_go and status from position and velocity."""
+
+    def remaining(self, dr: list, dv: list) -> None:
+        """dr (m) and dv (m/s): position and velocity still to gain, landing-site frame."""
+        for i in range(3):
+            dr[i] = self.target_position[i] - self.position[i]
+            dv[i] = self.target_velocity[i] - self.velocity[i]
+
+    def initialize(self) -> None:
+        self.solve()
+        if self.status >= NOT_CONVERGED:
+            self.time_to_go = 0.0
+        elif self.terminal_step == 1:
+            self.burn_duration = self.time_to_go
+
+    def step(self, t: float, h: float) -> None:
+        if not self.finished:
+            cycle = self.sample_period
+            if cycle <= 0.0:
+                cycle = h
+            self.follow(t + h, cycle)
+
+    def follow(self, time: float, cycle: float) -> None:
+        """Answer for the sample at ``time`` (s); the next one comes a ``cycle`` (s) later."""
+        if self.last_burn:
+            self.finished = True
+            self.thrust_acceleration = 0.0
+            self.time_to_go = 0.0
+            self.burn_duration = 0.0
+            self.command_time = time
+        else:
+            left = self.time_to_go - cycle
+            self.solve()
+            if self.status >= NOT_CONVERGED:
+                if left > 0.0:
+                    self.time_to_go = left
+                else:
+                    self.time_to_go = 0.0
+            else:
+                self.command_time = time
+            self.end(cycle)
+
+    def end(self, cycle: float) -> None:
+        """Finish, or time the last burn, when no full cycle is left (rounding of 1e-9 allowed for)."""
+        if self.terminal_step == 1:
+            if self.status < NOT_CONVERGED:
+                self.burn_duration = UNLIMITED
+                if self.time_to_go <= cycle * 1.000000001:
+                    self.burn_duration = self.time_to_go
+                    self.last_burn = True
+        elif self.time_to_go > 0.0 and self.time_to_go < cycle:
+            self.finished = True
+            self.thrust_acceleration = 0.0

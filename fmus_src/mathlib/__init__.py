@@ -1,0 +1,1 @@
+"""Kernel functions shared by blocks."""

@@ -1,0 +1,141 @@
+"""Random numbers with independent streams: MRG32k3a, exact in doubles. Kernel functions.
+
+The generator's state is a list of six floats held by the block. Source: L'Ecuyer, "Good
+parameters and implementations for combined multiple recursive random number generators",
+Operations Research 47(1), 1999; streams and jumps: L'Ecuyer, Simard, Chen and Kelton, "An
+object-oriented random-number package with many long streams and substreams", 2002. Constants
+are those of the 2002 package: streams 2^127 apart, substreams 2^76.
+"""
+
+import math
+
+M1 = 4294967087.0
+M2 = 4294944443.0
+NORM = 2.328306549295727688e-10
+
+
+def multiply_modulo(a: float, s: float, c: float, m: float) -> float:
+    """(a s + c) mod m for integers below 2^35 held in doubles, without losing a bit."""
+    v = a * s + c
+    if v >= 9007199254740992.0 or v <= -9007199254740992.0:
+        high = float(math.floor(a / 131072.0))
+        rest = a - high * 131072.0
+        v = high * s
+        v = v - float(math.floor(v / m)) * m
+        v = v * 131072.0 + rest * s + c
+    v = v - float(math.floor(v / m)) * m
+    return v
+
+
+def multiply_matrices(a: list, b: list, c: list, m: float) -> None:
+    """c = a b mod m for 3x3 matrices in row order; c may be a or b."""
+    product = [0.0] * 9
+    for i in range(3):
+        for j in range(3):
+            v = 0.0
+            for k in range(3):
+                v = multiply_modulo(a[3 * i + k], b[3 * k + j], v, m)
+            product[3 * i + j] = v
+    for i in range(9):
+        c[i] = product[i]
+
+
+def jump(state: list, offset: int, matrix: list, count: int, m: float) -> None:
+    """state[offset : offset + 3] = matrix^count state mod m, by repeated squaring; overwrites matrix."""
+    left = count
+    vector = [0.0] * 3
+    while left > 0:
+        if left % 2 == 1:
+            for i in range(3):
+                v = 0.0
+                for k in range(3):
+                    v = multiply_modulo(matrix[3 * i + k], state[offset + k], v, m)
+                vector[i] = v
+            for i in range(3):
+                state[offset + i] = vector[i]
+        left = left // 2
+        if left > 0:
+            multiply_matrices(matrix, matrix, matrix, m)
+
+
+def seed_streams(state: list, seed: int, stream: int) -> None:
+    """Put the generator at stream number ``seed``, substream number ``stream`` (both >= 0).
+
+    Pairs (seed, stream) with stream < 2^51 never share a number.
+    """
+    for i in range(6):
+        state[i] = 12345.0
+    # A1^(2^127), A2^(2^127): one stream
+    a1 = [
+        2427906178.0,
+        3580155704.0,
+        949770784.0,
+        226153695.0,
+        1230515664.0,
+        3580155704.0,
+        1988835001.0,
+        986791581.0,
+        1230515664.0,
+    ]
+    a2 = [
+        1464411153.0,
+        277697599.0,
+        1610723613.0,
+        32183930.0,
+        1464411153.0,
+        1022607788.0,
+        2824425944.0,
+        32183930.0,
+        2093834863.0,
+    ]
+    jump(state, 0, a1, seed, M1)
+    jump(state, 3, a2, seed, M2)
+    # A1^(2^76), A2^(2^76): one substream
+    b1 = [
+        82758667.0,
+        1871391091.0,
+        4127413238.0,
+        3672831523.0,
+        69195019.0,
+        1871391091.0,
+        3672091415.0,
+        3528743235.0,
+        69195019.0,
+    ]
+    b2 = [
+        1511326704.0,
+        3759209742.0,
+        1610795712.0,
+        4292754251.0,
+        1511326704.0,
+        3889917532.0,
+        3859662829.0,
+        4292754251.0,
+        3708466080.0,
+    ]
+    jump(state, 0, b1, stream, M1)
+    jump(state, 3, b2, stream, M2)
+
+
+def uniform(state: list) -> float:
+    """The next number, in (0, 1)."""
+    p1 = 1403580.0 * state[1] - 810728.0 * state[0]
+    p1 = p1 - float(math.floor(p1 / M1)) * M1
+    state[0] = state[1]
+    state[1] = state[2]
+    state[2] = p1
+    p2 = 527612.0 * state[5] - 1370589.0 * state[3]
+    p2 = p2 - float(math.floor(p2 / M2)) * M2
+    state[3] = state[4]
+    state[4] = state[5]
+    state[5] = p2
+    if p1 > p2:
+        return (p1 - p2) * NORM
+    return (p1 - p2 + M1) * NORM
+
+
+def normal(state: list) -> float:
+    """The next standard normal number (Box and Muller 1958, cosine branch; uses two uniform ones)."""
+    radius = uniform(state)
+    angle = uniform(state)
+    return math.sqrt(-2.0 * math.log(radius)) * math.cos(6.283185307179586 * angle)

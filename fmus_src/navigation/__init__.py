@@ -1,0 +1,1 @@
+"""Estimates of the vehicle's state for guidance and control."""

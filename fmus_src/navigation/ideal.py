@@ -1,0 +1,21 @@
+"""Navigation without errors."""
+
+from ..interfaces.navigation import Navigation
+
+
+class IdealNavigation(Navigation):
+    """Ideal navigation: the estimate is the truth. Frame: landing site."""
+
+    def initialize(self) -> None:
+        self.sample_count = 0
+        self.measure()
+
+    def measure(self) -> None:
+        """Pass the truth on."""
+        self.sample_count = self.sample_count + 1
+        for i in range(3):
+            self.estimated_position[i] = self.position[i]
+            self.estimated_velocity[i] = self.velocity[i]
+
+    def step(self, t: float, h: float) -> None:
+        self.measure()

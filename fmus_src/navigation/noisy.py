@@ -1,0 +1,122 @@
+"""Navigation from noisy position and velocity fixes through a Kalman filter."""
+
+import math
+
+from ..block import Output, Parameter, State
+from ..interfaces.navigation import Navigation
+from ..mathlib.kalman import predict, update
+from ..mathlib.rng import normal, seed_streams
+
+
+class NoisyNavigation(Navigation):
+    """Position and velocity fixes with white errors at their own rates, filtered by a six-state Kalman filter.
+
+    Between fixes the filter moves with the measured mean specific force, constant gravity and
+    white process noise of density process_noise on each axis. Fixes count from the first communication
+    point; the first estimate is the truth with errors of first_position_sigma and
+    first_velocity_sigma. The specific force itself is measured without error. Frame: landing site.
+    Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2 (discretised white acceleration noise).
+    """
+
+    gravity = Parameter(1.62, unit="m/s2", minimum=0.0, description="gravity assumed, constant, along -z")
+    position_period = Parameter(1.0, unit="s", minimum=1e-3, description="time between position fixes")
+    position_sigma = Parameter(20.0, unit="m", minimum=1e-6, description="error of a position fix, 1 sigma per axis")
+    velocity_period = Parameter(0.2, unit="s", minimum=1e-3, description="time between velocity fixes")
+    velocity_sigma = Parameter(0.2, unit="m/s", minimum=1e-6, description="error of a velocity fix, 1 sigma per axis")
+    first_position_sigma = Parameter(
+        100.0, unit="m", minimum=0.0, description="first error of position, 1 sigma per axis"
+    )
+    first_velocity_sigma = Parameter(
+        1.0, unit="m/s", minimum=0.0, description="first error of velocity, 1 sigma per axis"
+    )
+    process_noise = Parameter(1e-6, unit="m2/s3", minimum=0.0, description="density of white acceleration noise")
+    seed = Parameter(1, minimum=0, description="random numbers: seed")
+    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    position_estimate_sigma = Output(
+        [0.0, 0.0, 0.0],
+        unit="m",
+        frame="landing site",
+        direct=(),
+        description="filter's own standard deviation of position",
+    )
+    velocity_estimate_sigma = Output(
+        [0.0, 0.0, 0.0],
+        unit="m/s",
+        frame="landing site",
+        direct=(),
+        description="filter's own standard deviation of velocity",
+    )
+    innovation_square = Output(
+        0.0, unit="1", direct=True, description="normalised innovation squared of the last scalar fix"
+    )
+    generator = State([0.0] * 6, description="random number generator")
+    estimate = State([0.0] * 6, description="position (m) and velocity (m/s), landing-site frame")
+    covariance = State([0.0] * 36, description="covariance of the estimate, row order, m and m/s")
+    stepped = State(False, description="a step has been taken since the start")
+    start_time = State(0.0, unit="s", description="time of the first communication point")
+    position_fixes = State(0, description="position fixes taken")
+    velocity_fixes = State(0, description="velocity fixes taken")
+
+    def initialize(self) -> None:
+        seed_streams(self.generator, self.seed, self.stream)
+        for i in range(3):
+            error = normal(self.generator)
+            self.estimate[i] = self.position[i] + self.first_position_sigma * error
+            error = normal(self.generator)
+            self.estimate[3 + i] = self.velocity[i] + self.first_velocity_sigma * error
+            self.covariance[7 * i] = self.first_position_sigma * self.first_position_sigma
+            self.covariance[7 * (i + 3)] = self.first_velocity_sigma * self.first_velocity_sigma
+        self.publish()
+
+    def move(self, h: float) -> None:
+        """Predict the estimate h (s) ahead."""
+        f = [0.0] * 36
+        q = [0.0] * 36
+        for i in range(3):
+            f[7 * i] = 1.0
+            f[7 * (i + 3)] = 1.0
+            f[6 * i + i + 3] = h
+            q[7 * i] = self.process_noise * h * h * h / 3.0
+            q[6 * i + i + 3] = self.process_noise * h * h / 2.0
+            q[6 * (i + 3) + i] = q[6 * i + i + 3]
+            q[7 * (i + 3)] = self.process_noise * h
+        predict(self.estimate, self.covariance, f, q, 6)
+        for i in range(3):
+            acceleration = self.specific_force[i]
+            if i == 2:
+                acceleration = acceleration - self.gravity
+            self.estimate[i] = self.estimate[i] + 0.5 * acceleration * h * h
+            self.estimate[3 + i] = self.estimate[3 + i] + acceleration * h
+
+    def fix(self, first: int, truth: list, sigma: float) -> None:
+        """Measure three states from number ``first`` on, with errors of sigma, and take them in."""
+        for i in range(3):
+            row = [0.0] * 6
+            row[first + i] = 1.0
+            error = normal(self.generator)
+            self.innovation_square = update(
+                self.estimate, self.covariance, row, sigma * sigma, truth[i] + sigma * error, 6
+            )
+        self.sample_count = self.sample_count + 1
+
+    def publish(self) -> None:
+        """Put estimate and standard deviations on the outputs."""
+        for i in range(3):
+            self.estimated_position[i] = self.estimate[i]
+            self.estimated_velocity[i] = self.estimate[3 + i]
+            self.position_estimate_sigma[i] = math.sqrt(self.covariance[7 * i])
+            self.velocity_estimate_sigma[i] = math.sqrt(self.covariance[7 * (i + 3)])
+
+    def step(self, t: float, h: float) -> None:
+        self.move(h)
+        if not self.stepped:
+            self.stepped = True
+            self.start_time = t
+        elapsed = t + h - self.start_time
+        if elapsed > (self.position_fixes + 1) * self.position_period - 1e-9:
+            self.position_fixes = self.position_fixes + 1
+            self.fix(0, self.position, self.position_sigma)
+        if elapsed > (self.velocity_fixes + 1) * self.velocity_period - 1e-9:
+            self.velocity_fixes = self.velocity_fixes + 1
+            self.fix(3, self.velocity, self.velocity_sigma)
+        self.publish()
