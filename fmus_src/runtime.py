@@ -28,7 +28,7 @@ class Component:
     """
 
     def __init__(self, block_class: type[Block]) -> None:
-        self.block = block_class()
+        self.block: Any = block_class()
         self.sampled = "sample_period" in block_class.variables
         self.initialising = True
         self.unsettled = True

@@ -14,20 +14,25 @@ class NoisyNavigation(Navigation):
     Between fixes the filter moves with the measured mean specific force, constant gravity and
     white process noise of density process_noise on each axis. Fixes count from the first communication
     point; the first estimate is the truth with errors of first_position_sigma and
-    first_velocity_sigma. The specific force itself is measured without error. Frame: landing site.
+    first_velocity_sigma. A sigma of 0 switches its sensor off; with both off the estimate is the
+    truth. The specific force itself is measured without error. Frame: landing site.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2 (discretised white acceleration noise).
     """
 
     gravity = Parameter(1.62, unit="m/s2", minimum=0.0, description="gravity assumed, constant, along -z")
     position_period = Parameter(1.0, unit="s", minimum=1e-3, description="time between position fixes")
-    position_sigma = Parameter(20.0, unit="m", minimum=1e-6, description="error of a position fix, 1 sigma per axis")
+    position_sigma = Parameter(
+        0.0, unit="m", minimum=0.0, description="error of a position fix, 1 sigma per axis; 0: none taken"
+    )
     velocity_period = Parameter(0.2, unit="s", minimum=1e-3, description="time between velocity fixes")
-    velocity_sigma = Parameter(0.2, unit="m/s", minimum=1e-6, description="error of a velocity fix, 1 sigma per axis")
+    velocity_sigma = Parameter(
+        0.0, unit="m/s", minimum=0.0, description="error of a velocity fix, 1 sigma per axis; 0: none taken"
+    )
     first_position_sigma = Parameter(
-        100.0, unit="m", minimum=0.0, description="first error of position, 1 sigma per axis"
+        0.0, unit="m", minimum=0.0, description="first error of position, 1 sigma per axis"
     )
     first_velocity_sigma = Parameter(
-        1.0, unit="m/s", minimum=0.0, description="first error of velocity, 1 sigma per axis"
+        0.0, unit="m/s", minimum=0.0, description="first error of velocity, 1 sigma per axis"
     )
     process_noise = Parameter(1e-6, unit="m2/s3", minimum=0.0, description="density of white acceleration noise")
     seed = Parameter(1, minimum=0, description="random numbers: seed")
@@ -107,16 +112,26 @@ class NoisyNavigation(Navigation):
             self.position_estimate_sigma[i] = math.sqrt(self.covariance[7 * i])
             self.velocity_estimate_sigma[i] = math.sqrt(self.covariance[7 * (i + 3)])
 
+    def pass_truth(self) -> None:
+        """The estimate without sensors: the truth."""
+        self.sample_count = self.sample_count + 1
+        for i in range(3):
+            self.estimated_position[i] = self.position[i]
+            self.estimated_velocity[i] = self.velocity[i]
+
     def step(self, t: float, h: float) -> None:
-        self.move(h)
         if not self.stepped:
             self.stepped = True
             self.start_time = t
-        elapsed = t + h - self.start_time
-        if elapsed > (self.position_fixes + 1) * self.position_period - 1e-9:
-            self.position_fixes = self.position_fixes + 1
-            self.fix(0, self.position, self.position_sigma)
-        if elapsed > (self.velocity_fixes + 1) * self.velocity_period - 1e-9:
-            self.velocity_fixes = self.velocity_fixes + 1
-            self.fix(3, self.velocity, self.velocity_sigma)
-        self.publish()
+        if self.position_sigma > 0.0 or self.velocity_sigma > 0.0:
+            self.move(h)
+            elapsed = t + h - self.start_time
+            if self.position_sigma > 0.0 and elapsed > (self.position_fixes + 1) * self.position_period - 1e-9:
+                self.position_fixes = self.position_fixes + 1
+                self.fix(0, self.position, self.position_sigma)
+            if self.velocity_sigma > 0.0 and elapsed > (self.velocity_fixes + 1) * self.velocity_period - 1e-9:
+                self.velocity_fixes = self.velocity_fixes + 1
+                self.fix(3, self.velocity, self.velocity_sigma)
+            self.publish()
+        else:
+            self.pass_truth()

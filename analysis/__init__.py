@@ -1,0 +1,1 @@
+"""What runs on components and systems: co-simulation, batches, reports, the command line."""

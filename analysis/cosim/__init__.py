@@ -1,0 +1,1 @@
+"""Co-simulation of SSP systems: read and check, schedule, run, record."""

@@ -1,0 +1,85 @@
+"""Calls of FMI 2.0 C functions by address, from compiled code.
+
+Each function here is usable inside numba-compiled code only. ``address`` is that of the FMU's
+function and ``instance`` the fmi2Component, both as integers; arrays are passed by address.
+They return the fmi2Status.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+INT32 = ir.IntType(32)
+INT64 = ir.IntType(64)
+DOUBLE = ir.DoubleType()
+
+
+def _call(builder: Any, address: Any, values: list) -> Any:
+    """Emit the call of the C function at an address; every argument has its C type already."""
+    function_type = ir.FunctionType(INT32, [value.type for value in values])
+    pointer = builder.inttoptr(address, cgutils.voidptr_t)
+    return builder.call(builder.bitcast(pointer, function_type.as_pointer()), values)
+
+
+def _element(context: Any, builder: Any, array_type: Any, array: Any, index: Any) -> Any:
+    """Address of an array's element, as an integer."""
+    start = builder.ptrtoint(context.make_array(array_type)(context, builder, array).data, INT64)
+    size = context.get_abi_sizeof(context.get_data_type(array_type.dtype))
+    return builder.add(start, builder.mul(index, INT64(size)))
+
+
+@intrinsic
+def exchange(typing: Any, address: Any, instance: Any, references: Any, values: Any, first: Any, count: Any) -> Any:
+    """fmi2SetReal, fmi2GetInteger and their kin for ``count`` variables.
+
+    Value references (uint32) and values (float64 or int32) are taken from index ``first`` on in
+    their arrays.
+    """
+    signature = types.int32(types.int64, types.int64, references, values, types.int64, types.int64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        address, instance, references, values, first, count = arguments
+        reference_address = _element(context, builder, signature.args[2], references, first)
+        value_address = _element(context, builder, signature.args[3], values, first)
+        return _call(builder, address, [instance, reference_address, count, value_address])
+
+    return signature, emit
+
+
+@intrinsic
+def do_step(typing: Any, address: Any, instance: Any, time: Any, step: Any) -> Any:
+    """fmi2DoStep, with the promise not to go back before the current point."""
+    signature = types.int32(types.int64, types.int64, types.float64, types.float64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return _call(builder, arguments[0], [*arguments[1:], INT32(1)])
+
+    return signature, emit
+
+
+@intrinsic
+def change_mode(typing: Any, address: Any, instance: Any) -> Any:
+    """fmi2Reset, fmi2EnterInitializationMode, fmi2ExitInitializationMode or fmi2Terminate."""
+    signature = types.int32(types.int64, types.int64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return _call(builder, arguments[0], [arguments[1]])
+
+    return signature, emit
+
+
+@intrinsic
+def setup_experiment(typing: Any, address: Any, instance: Any, start: Any, stop: Any) -> Any:
+    """fmi2SetupExperiment without tolerance, with start and stop time."""
+    signature = types.int32(types.int64, types.int64, types.float64, types.float64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        address, instance, start, stop = arguments
+        return _call(builder, address, [instance, INT32(0), DOUBLE(0.0), start, INT32(1), stop])
+
+    return signature, emit

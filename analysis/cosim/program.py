@@ -1,0 +1,247 @@
+"""From network, settings and schedule to the arrays that the compiled loop runs on."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from analysis.errors import InputError, suggestion
+
+from . import loop
+from .assignments import Settings
+from .faults import Fault
+from .fmu import Instance
+from .network import Link, Network, Node
+from .schedule import Schedule
+from .transformations import VALUE_TYPES
+
+TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2}
+
+
+@dataclass
+class Layout:
+    """Where everything lies: slots by name, parameters by (component, variable)."""
+
+    slots: dict[str, int]
+    types: dict[str, str]
+    units: dict[str, str | None]
+    parameters: dict[tuple[str, str], int]
+    parameter_types: dict[tuple[str, str], str]
+    real_values: np.ndarray
+    whole_values: np.ndarray
+    strings: dict[str, dict[int, str]]  # String parameters by component and value reference
+
+    def set_parameter(self, key: tuple[str, str], value: float | int | bool) -> None:
+        """Put a value into the parameter arrays, by (component, variable)."""
+        position = self.parameters[key]
+        if self.parameter_types[key] == "Real":
+            self.real_values[position] = value
+        else:
+            self.whole_values[position] = value
+
+
+def build_program(
+    network: Network,
+    settings: Settings,
+    schedule: Schedule,
+    instances: dict[str, Instance],
+    wanted: Collection[str] | None,
+    faults: Sequence[Fault] = (),
+) -> tuple[loop.Program, Layout]:
+    """Arrays for the loop. ``wanted`` names what is recorded (None: everything).
+
+    Only outputs that are connected or wanted are fetched.
+    """
+    builder = _Builder(network, settings, wanted, faults)
+    return builder.program(schedule, instances), builder.layout()
+
+
+class _Builder:
+    def __init__(
+        self, network: Network, settings: Settings, wanted: Collection[str] | None, faults: Sequence[Fault]
+    ) -> None:
+        self.network = network
+        self.settings = settings
+        self.faults = faults
+        self.names = list(network.fmus)
+        self.slots: dict[str, int] = {}
+        self.references: list[int] = []
+        self.initial: list[float] = []
+        self.types: dict[str, str] = {}
+        self.units: dict[str, str | None] = {}
+        read = {link.source.name for link in network.driver.values()}
+        self.fetched = None if wanted is None else read | set(wanted) | {fault.name for fault in faults}
+        self.ranges = np.zeros((len(self.names), loop.RANGES, 2), dtype=np.int64)
+        for index, name in enumerate(self.names):
+            self._place_component(index, name)
+        for node in network.nodes.values():
+            if node.component is None and not self._is_parameter(node):
+                unit = node.unit.name if node.unit else None
+                self._place(node.name, 0, settings.nodes.get(node.name, 0.0), node.type_name or "Real", unit)
+        self._place_parameters()
+
+    @staticmethod
+    def _is_parameter(node: Node) -> bool:
+        return node.kind in ("parameter", "calculatedParameter")
+
+    def _place(self, name: str, reference: int, initial: float, type_name: str, unit: str | None) -> None:
+        self.slots[name] = len(self.references)
+        self.types[name] = type_name
+        self.units[name] = unit
+        self.references.append(reference)
+        self.initial.append(initial)
+
+    def _place_component(self, index: int, component: str) -> None:
+        fmu = self.network.fmus[component]
+        for function in range(loop.RANGES):
+            first = len(self.references)
+            causality = "input" if function % 2 == 0 else "output"
+            for variable in fmu.variables.values():
+                if variable.causality != causality or TYPE_KIND.get(variable.type) != function // 2:
+                    continue
+                name = f"{component}.{variable.name}"
+                if causality == "input" and name not in self.network.driver:
+                    continue
+                if causality == "output" and self.fetched is not None and name not in self.fetched:
+                    continue
+                self._place(name, variable.valueReference, 0.0, variable.type, fmu.unit_of(variable))
+            self.ranges[index, function] = first, len(self.references) - first
+
+    def _place_parameters(self) -> None:
+        self.parameters: dict[tuple[str, str], int] = {}
+        self.parameter_types: dict[tuple[str, str], str] = {}
+        self.parameter_references: list[int] = []
+        values: list[float] = []
+        self.parameter_ranges = np.zeros((len(self.names), 3, 2), dtype=np.int64)
+        self.strings: dict[str, dict[int, str]] = {}
+        for index, component in enumerate(self.names):
+            fmu = self.network.fmus[component]
+            mine = {name: value for (owner, name), value in self.settings.variables.items() if owner == component}
+            texts = {
+                fmu.variables[name].valueReference: value for name, value in mine.items() if isinstance(value, str)
+            }
+            if texts:
+                self.strings[component] = texts
+            for kind in range(3):
+                first = len(values)
+                for name, value in mine.items():
+                    if TYPE_KIND.get(fmu.variables[name].type) == kind:
+                        self.parameters[component, name] = len(values)
+                        self.parameter_types[component, name] = fmu.variables[name].type
+                        self.parameter_references.append(fmu.variables[name].valueReference)
+                        values.append(float(value))
+                self.parameter_ranges[index, kind] = first, len(values) - first
+        self.values = np.array(values, dtype=np.float64)
+
+    def _links(self) -> tuple[list[Link], np.ndarray]:
+        """Links grouped by the component they feed, upstream first; the last group feeds system connectors."""
+        groups: list[list[Link]] = []
+        for component in self.names:
+            group: list[Link] = []
+            for name in self.slots:
+                if name in self.network.driver and name.startswith(f"{component}."):
+                    node = self.network.driver[name].target
+                    if node.component == component:
+                        self._chain(name, group)
+            groups.append(group)
+        plain: list[Link] = []
+        for node in self.network.nodes.values():
+            if node.component is None and not self._is_parameter(node):
+                self._chain(node.name, plain)
+        groups.append(plain)
+        ranges = np.zeros((len(groups), 2), dtype=np.int64)
+        flat: list[Link] = []
+        for index, group in enumerate(groups):
+            ranges[index] = len(flat), len(group)
+            flat += group
+        return flat, ranges
+
+    def _chain(self, name: str, group: list[Link]) -> None:
+        """Append the links that bring a value to a node, those before it first, none twice."""
+        link = self.network.driver.get(name)
+        if link is None or link in group:
+            return
+        if link.source.component is None:
+            self._chain(link.source.name, group)
+        group.append(link)
+
+    def program(self, schedule: Schedule, instances: dict[str, Instance]) -> loop.Program:
+        links, connection_ranges = self._links()
+        tables = [self._table(link) for link in links]
+        firsts = np.cumsum([0, *(len(table) for table in tables)])
+        flat = [entry for table in tables for entry in table]
+        index = {name: position for position, name in enumerate(self.names)}
+        groups = (schedule.initial_order, schedule.sources_first, schedule.followers)
+        order = [np.array([index[name] for name in names], dtype=np.int64) for names in groups]
+        finished = self.network.nodes.get("finished")
+        has_finish = finished is not None and finished.component is None and finished.kind == "output"
+        return loop.Program(
+            instance=np.array([instances[name].address for name in self.names], dtype=np.int64),
+            address=np.array([instances[name].function_addresses() for name in self.names], dtype=np.int64),
+            ranges=self.ranges,
+            reference=np.array(self.references, dtype=np.uint32),
+            initial=np.array(self.initial, dtype=np.float64),
+            parameter_ranges=self.parameter_ranges,
+            parameter_reference=np.array(self.parameter_references, dtype=np.uint32),
+            connection_ranges=connection_ranges,
+            source=np.array([self.slots[link.source.name] for link in links], dtype=np.int64),
+            target=np.array([self.slots[link.target.name] for link in links], dtype=np.int64),
+            kind=np.array([loop.TABLE if table else loop.LINEAR for table in tables], dtype=np.int64),
+            factor=np.array([link.transformation.factor for link in links], dtype=np.float64),
+            offset=np.array([link.transformation.offset for link in links], dtype=np.float64),
+            table=np.array([(first, len(table)) for first, table in zip(firsts, tables, strict=False)], dtype=np.int64),
+            table_from=np.array([entry[0] for entry in flat], dtype=np.float64),
+            table_to=np.array([entry[1] for entry in flat], dtype=np.float64),
+            initial_order=order[0],
+            sources_first=order[1],
+            followers=order[2],
+            finished_slot=self.slots["finished"] if has_finish else -1,
+            fault_slot=np.array([self._fault_slot(fault) for fault in self.faults], dtype=np.int64),
+            fault_kind=np.array([fault.kind_number for fault in self.faults], dtype=np.int64),
+            fault_window=np.array([fault.window for fault in self.faults], dtype=np.float64).reshape(-1, 2),
+            fault_value=np.array([fault.value for fault in self.faults], dtype=np.float64),
+        )
+
+    def _fault_slot(self, fault: Fault) -> int:
+        if fault.name not in self.slots or "." not in fault.name:
+            names = [name for name in self.slots if "." in name]
+            raise InputError("fault", fault.name, "no such connector of a component", suggestion(fault.name, names))
+        return self.slots[fault.name]
+
+    def _table(self, link: Link) -> list[tuple[float, float]]:
+        """A mapping's entries as numbers: Booleans 0 and 1, enumeration items by their values."""
+        transformation = link.transformation
+        kind = VALUE_TYPES[transformation.kind][0]
+        if not transformation.table:
+            return []
+
+        def number(text: str, node: Node) -> float:
+            if kind == "Boolean":
+                return float(text in ("true", "1"))
+            if kind == "Integer":
+                return float(text)
+            if text not in node.enumeration:
+                where = f"connection {link.source.name} -> {link.target.name} (line {link.line})"
+                problem = f"{node.name} has no enumeration item {text}"
+                raise InputError(self.network.file, where, problem, suggestion(text, node.enumeration))
+            return float(node.enumeration[text])
+
+        return [(number(source, link.source), number(target, link.target)) for source, target in transformation.table]
+
+    def layout(self) -> Layout:
+        whole = np.zeros(self.values.size, dtype=np.int32)
+        for key, position in self.parameters.items():
+            if self.parameter_types[key] != "Real":
+                whole[position] = int(self.values[position])
+        return Layout(
+            slots=self.slots,
+            types=self.types,
+            units=self.units,
+            parameters=self.parameters,
+            parameter_types=self.parameter_types,
+            real_values=self.values.copy(),
+            whole_values=whole,
+            strings=self.strings,
+        )

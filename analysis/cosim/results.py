@@ -1,0 +1,81 @@
+"""What a run leaves: a table of signals over time, how it ended, where it came from."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow
+import pyarrow.csv
+import pyarrow.parquet
+
+COMPLETE = ("finished", "stop_time")
+
+
+@dataclass
+class Result:
+    """One flight. Row n of every signal is its value at ``time[n]`` (s).
+
+    ``status`` is ``finished`` (the system's own end), ``stop_time``, ``nonfinite`` (a component
+    gave NaN or infinity) or ``failed`` (an FMU reported an error); ``message`` explains the last
+    two. ``signals`` are float64, Integer and Boolean values included. ``provenance`` holds
+    parameter values, hashes and versions.
+    """
+
+    time: np.ndarray
+    signals: dict[str, np.ndarray]
+    units: dict[str, str | None]
+    types: dict[str, str]
+    status: str
+    message: str
+    provenance: dict[str, Any]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A signal by name, ``component.variable``."""
+        return self.signals[name]
+
+    @property
+    def complete(self) -> bool:
+        return self.status in COMPLETE
+
+    def final(self) -> dict[str, float | int | bool]:
+        """Last values by signal, with their types."""
+        convert = {"Integer": int, "Enumeration": int, "Boolean": bool}
+        if not self.time.size:
+            return {}
+        return {name: convert.get(self.types[name], float)(values[-1]) for name, values in self.signals.items()}
+
+    def table(self) -> pyarrow.Table:
+        """The flight as an Arrow table: time first, units and provenance in the metadata."""
+        arrays = [pyarrow.array(self.time)]
+        fields = [pyarrow.field("time", pyarrow.float64(), metadata={"unit": "s"})]
+        kinds = {"Integer": pyarrow.int32(), "Enumeration": pyarrow.int32(), "Boolean": pyarrow.bool_()}
+        for name, values in self.signals.items():
+            kind = kinds.get(self.types[name], pyarrow.float64())
+            arrays.append(pyarrow.array(values).cast(kind))
+            unit = self.units[name]
+            fields.append(pyarrow.field(name, kind, metadata={"unit": unit} if unit else None))
+        metadata = {"perilune": json.dumps(self.summary())}
+        return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields, metadata=metadata))
+
+    def summary(self) -> dict[str, Any]:
+        """Status and provenance, without the signals."""
+        last = float(self.time[-1]) if self.time.size else None
+        return {"status": self.status, "message": self.message, "rows": int(self.time.size), "end_time": last} | (
+            self.provenance
+        )
+
+    def write(self, path: Path) -> None:
+        """Write .parquet, or .csv with units and provenance in a .json file beside it."""
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if path.suffix == ".parquet":
+            pyarrow.parquet.write_table(self.table(), path)
+        else:
+            options = pyarrow.csv.WriteOptions(quoting_style="needed")
+            pyarrow.csv.write_csv(self.table(), path, options)
+            units = {"time": "s"} | {name: unit for name, unit in self.units.items() if unit}
+            text = json.dumps(self.summary() | {"units": units}, indent=1)
+            path.with_name(f"{path.name}.json").write_text(text + "\n", encoding="utf-8")

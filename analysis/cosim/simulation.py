@@ -1,0 +1,208 @@
+"""A system in memory that flies again and again: instances, program, buffers."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from analysis.errors import InputError
+
+from . import loop
+from .assignments import Settings
+from .faults import Fault
+from .fmu import Instance, instantiate
+from .parameter_sets import ParameterValue, parse_value
+from .program import build_program
+from .results import Result
+from .system import PreparedSystem
+
+STATUS = {
+    loop.STOP_TIME: "stop_time",
+    loop.FINISHED: "finished",
+    loop.NONFINITE: "nonfinite",
+    loop.FAILED: "failed",
+}
+FMI_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
+FMI_FATAL = 4
+
+
+class Simulation:
+    """Instances of a system's FMUs, reset and reused from flight to flight.
+
+    ``varied`` names the parameters (``component.variable``) that `fly` may be given anew;
+    ``wanted`` the signals to record (None: all outputs, connected inputs and system connectors).
+    Use it as a context manager: it frees the instances. Not shared between threads.
+    """
+
+    def __init__(
+        self,
+        prepared: PreparedSystem,
+        *,
+        varied: Collection[str] = (),
+        wanted: Collection[str] | None = None,
+        faults: Sequence[Fault] = (),
+    ) -> None:
+        self.prepared = prepared
+        self.settings = prepared.settings
+        if varied:
+            self._place_varied(varied)
+        self.instances: dict[str, Instance] = {}
+        self._wanted = wanted
+        self._faults = faults
+        self._instantiate()
+
+    def _place_varied(self, varied: Collection[str]) -> None:
+        """Give every varied parameter a place in the settings, at its start value."""
+        network = self.prepared.network
+        variables = dict(self.settings.variables)
+        for name in varied:
+            component, variable = self._key(name)
+            declared = network.fmus[component].variables[variable]
+            start = parse_value(str(declared.start), declared.type, network.fmus[component].label, name)
+            variables.setdefault((component, variable), start)
+        self.settings = Settings(variables, self.settings.nodes, self.settings.unmatched)
+
+    def _key(self, name: str) -> tuple[str, str]:
+        """(component, variable) of a parameter's name; raises InputError."""
+        for component, fmu in self.prepared.network.fmus.items():
+            variable = fmu.variables.get(name.removeprefix(f"{component}."))
+            if (
+                name.startswith(f"{component}.")
+                and variable is not None
+                and variable.causality in ("parameter", "input")
+            ):
+                return component, variable.name
+        raise InputError(self.prepared.network.file, name, "no such parameter", "see perilune list for components")
+
+    def _instantiate(self) -> None:
+        prepared = self.prepared
+        for name, fmu in prepared.network.fmus.items():
+            self.instances[name] = instantiate(fmu, name)
+        self.program, self.layout = build_program(
+            prepared.network, self.settings, prepared.schedule, self.instances, self._wanted, self._faults
+        )
+        self.signal_names = [name for name in self.layout.slots if self._wanted is None or name in self._wanted]
+        for name in self._wanted or ():
+            if name not in self.layout.slots:
+                raise InputError(
+                    prepared.network.file, name, "no such signal", "name a connector as component.variable"
+                )
+        self._recorded = np.array([self.layout.slots[name] for name in self.signal_names], dtype=np.int64)
+        self._buffers = loop.Buffers(
+            values=np.zeros(len(self.layout.slots)),
+            whole=np.zeros(len(self.layout.slots), dtype=np.int32),
+            frozen=np.zeros(len(self._faults)),
+            outcome=np.zeros(5, dtype=np.int64),
+        )
+        self._record = np.empty((0, 0))
+        self._fresh = True
+
+    def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> Result:
+        """One flight from the start, with ``values`` for varied parameters; every n-th row is kept.
+
+        The arrays of the result are the simulation's own and are overwritten by the next flight.
+        """
+        for name, value in (values or {}).items():
+            self.layout.set_parameter(self._key(name), value)  # type: ignore[arg-type]
+        prepared = self.prepared
+        rows = prepared.steps // every + 2
+        if self._record.shape[0] < rows:
+            self._record = np.empty((rows, self._recorded.size))
+            self._times = np.empty(rows)
+        reset = not self._fresh
+        if self.layout.strings:
+            reset = self._set_strings(reset)
+        function = loop.fly_unlocked if prepared.is_native else loop.fly_locked
+        for instance in self.instances.values():
+            instance.messages.clear()
+        count = function(
+            self.program, self._buffers, self.layout.real_values, self.layout.whole_values, reset,
+            prepared.start, prepared.step, prepared.steps, prepared.options.algorithm == "jacobi",
+            self._recorded, every, self._record, self._times,
+        )  # fmt: skip
+        self._fresh = False
+        status, message = self._end()
+        result = Result(
+            time=self._times[:count],
+            signals={name: self._record[:count, index] for index, name in enumerate(self.signal_names)},
+            units={name: self.layout.units[name] for name in self.signal_names},
+            types={name: self.layout.types[name] for name in self.signal_names},
+            status=status,
+            message=message,
+            provenance=self.provenance(),
+        )
+        if self._buffers.outcome[0] == loop.FAILED and self._buffers.outcome[3] >= FMI_FATAL:
+            self._replace_instances()
+        return result
+
+    def _set_strings(self, reset: bool) -> bool:
+        """Reset here and set String parameters, which the compiled loop does not know; returns False."""
+        for component, instance in self.instances.items():
+            if reset:
+                instance.slave.reset()
+            texts = self.layout.strings.get(component, {})
+            if texts:
+                instance.slave.setString(list(texts), list(texts.values()))
+        return False
+
+    def _end(self) -> tuple[str, str]:
+        code, subject, function, fmi_status, row = (int(value) for value in self._buffers.outcome)
+        time = self.prepared.start + row * self.prepared.step
+        if code == loop.NONFINITE:
+            name = list(self.layout.slots)[subject]
+            return STATUS[code], f"{name} is {self._buffers.values[subject]} at t = {time:g} s"
+        if code == loop.FAILED:
+            component = list(self.instances)[subject]
+            log = " | ".join(self.instances[component].messages) or "no message in its log"
+            call = f"{loop.FUNCTION_NAMES[function]} returned {FMI_STATUS[fmi_status]}"
+            return STATUS[code], f"{component}: {call} at t = {time:g} s: {log}"
+        return STATUS[code], ""
+
+    def _replace_instances(self) -> None:
+        """After a fatal error no instance may be used again, nor freed (FMI 2.0, fmi2Fatal)."""
+        kept = self.layout
+        self.instances = {}
+        self._instantiate()
+        self.layout.real_values[:] = kept.real_values
+        self.layout.whole_values[:] = kept.whole_values
+
+    def provenance(self) -> dict[str, Any]:
+        """Parameter values, hashes, options and version: what the result depends on."""
+        prepared = self.prepared
+        values: dict[str, ParameterValue] = {}
+        for (component, variable), value in self.settings.variables.items():
+            position = self.layout.parameters.get((component, variable))
+            if position is not None:
+                kind = self.layout.parameter_types[component, variable]
+                array = self.layout.real_values if kind == "Real" else self.layout.whole_values
+                value = array[position].item()
+                value = bool(value) if kind == "Boolean" else value
+            values[f"{component}.{variable}"] = value
+        return {
+            "system": prepared.archive.name,
+            "system_sha256": prepared.archive.digest(),
+            "fmus": {
+                name: {"fmu": fmu.name, "sha256": fmu.digest, "guid": fmu.description.guid}
+                for name, fmu in prepared.network.fmus.items()
+            },
+            "parameters": values,
+            "start_time": prepared.start,
+            "step": prepared.step,
+            "algorithm": prepared.options.algorithm,
+            "perilune": version("perilune"),
+        }
+
+    def close(self) -> None:
+        """Free the instances."""
+        for instance in self.instances.values():
+            instance.free()
+        self.instances = {}
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

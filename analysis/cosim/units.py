@@ -1,0 +1,55 @@
+"""Units as FMI and SSP define them: exponents of base units, a factor and an offset."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from lxml import etree
+
+from .documents import child, children
+
+BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+
+
+@dataclass(frozen=True)
+class Unit:
+    """value in base units = factor * value + offset."""
+
+    name: str
+    exponents: tuple[int, ...]
+    factor: float = 1.0
+    offset: float = 0.0
+
+    def fits(self, other: Unit) -> bool:
+        """Whether values can be converted; rad counts as dimensionless where the other has none (FMI 2.0)."""
+        return self.exponents[:-1] == other.exponents[:-1]
+
+    def conversion_to(self, other: Unit) -> tuple[float, float]:
+        """Factor and offset that turn a value in this unit into one in the other."""
+        if (self.factor, self.offset) == (other.factor, other.offset):
+            return 1.0, 0.0
+        return self.factor / other.factor, (self.offset - other.offset) / other.factor
+
+
+def units_of_fmu(description: Any) -> dict[str, Unit]:
+    """Units that an FMU defines with base units, by name (fmpy ModelDescription)."""
+    found = {}
+    for definition in description.unitDefinitions:
+        base = definition.baseUnit
+        if base is not None:
+            exponents = tuple(int(getattr(base, name, 0) or 0) for name in BASE_UNITS)
+            found[definition.name] = Unit(definition.name, exponents, float(base.factor), float(base.offset))
+    return found
+
+
+def units_of_document(root: etree._Element, prefix: str) -> dict[str, Unit]:
+    """Units defined in an SSP document; ``prefix`` is its namespace prefix (ssd, ssv, ssb)."""
+    found = {}
+    for element in children(child(root, f"{prefix}:Units"), "ssc:Unit"):
+        base = child(element, "ssc:BaseUnit")
+        assert base is not None  # the schema requires it
+        exponents = tuple(int(base.get(name, "0")) for name in BASE_UNITS)
+        name = element.get("name", "")
+        found[name] = Unit(name, exponents, float(base.get("factor", "1")), float(base.get("offset", "0")))
+    return found

@@ -1,0 +1,33 @@
+"""Zip archives whose bytes depend on their content alone."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+
+EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date a zip can hold
+
+
+def write_zip(path: Path, files: Mapping[str, bytes]) -> None:
+    """Write ``files`` (name in the archive -> content) in name order, with fixed dates and modes.
+
+    The archive appears whole or not at all: it is written beside its place and moved there.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
+    with zipfile.ZipFile(partial, "w") as archive:
+        for name in sorted(files):
+            entry = zipfile.ZipInfo(name, EPOCH)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.create_system = 3
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, files[name], compresslevel=6)
+    partial.replace(path)
+
+
+def read_zip(path: Path) -> dict[str, bytes]:
+    """Every file of an archive by name."""
+    with zipfile.ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}

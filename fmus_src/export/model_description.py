@@ -1,0 +1,154 @@
+"""A block's declaration as FMI 2.0 modelDescription.xml."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from lxml import etree
+
+from ..block import Block, Output, Parameter, State, Variable
+from ..units import UNITS
+
+LOG_CATEGORIES = {
+    "logStatusError": "what ended a step, with the traceback or source line",
+    "logAll": "everything",
+}
+
+
+def model_description(
+    block_class: type[Block],
+    *,
+    guid: str,
+    generation_tool: str,
+    needs_execution_tool: bool,
+    sources: Sequence[str] = (),
+    native_memory: bool = False,
+) -> bytes:
+    """modelDescription.xml of a block.
+
+    ``sources`` lists the C files under ``sources/`` that an importer compiles; ``native_memory``
+    says that the FMU uses the importer's memory functions. Value references number the elements
+    of all variables in order of declaration.
+    """
+    root = etree.Element(
+        "fmiModelDescription",
+        fmiVersion="2.0",
+        modelName=block_class.fmu_name,
+        guid=guid,
+        description=block_class.summary(),
+        generationTool=generation_tool,
+        variableNamingConvention="structured",
+    )
+    simulation = etree.SubElement(
+        root,
+        "CoSimulation",
+        modelIdentifier=block_class.fmu_name,
+        needsExecutionTool=_boolean(needs_execution_tool),
+        canHandleVariableCommunicationStepSize="true",
+        canGetAndSetFMUstate="true",
+        canSerializeFMUstate="true",
+        canNotUseMemoryManagementFunctions=_boolean(not native_memory),
+    )
+    if sources:
+        files = etree.SubElement(simulation, "SourceFiles")
+        for name in sources:
+            etree.SubElement(files, "File", name=name)
+    variables = list(block_class.variables.values())
+    _unit_definitions(root, variables)
+    categories = etree.SubElement(root, "LogCategories")
+    for name, description in LOG_CATEGORIES.items():
+        etree.SubElement(categories, "Category", name=name, description=description)
+    etree.SubElement(root, "DefaultExperiment", startTime="0.0", stepSize=repr(block_class.default_step))
+    sampled = "sample_period" in block_class.variables
+    model_variables = etree.SubElement(root, "ModelVariables")
+    indices: dict[str, list[int]] = {}
+    reference = 0
+    for variable in variables:
+        indices[variable.name] = []
+        for position, name in enumerate(variable.element_names()):
+            _scalar_variable(model_variables, variable, name, position, reference, sampled)
+            reference += 1
+            indices[variable.name].append(reference)  # ScalarVariable indices count from 1
+    _structure(root, block_class, indices)
+    return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
+
+
+def _unit_definitions(root: etree._Element, variables: list[Variable]) -> None:
+    used = sorted({variable.unit for variable in variables if variable.unit})
+    if used:
+        definitions = etree.SubElement(root, "UnitDefinitions")
+        for name in used:
+            unit = etree.SubElement(definitions, "Unit", name=name)
+            etree.SubElement(unit, "BaseUnit", {base: str(power) for base, power in UNITS[name].items()})
+
+
+def _scalar_variable(
+    parent: etree._Element, variable: Variable, name: str, position: int, reference: int, sampled: bool
+) -> None:
+    continuous = variable.type_name == "Real" and not (sampled and variable.causality != "input")
+    attributes = {
+        "name": name,
+        "valueReference": str(reference),
+        "description": _description(variable),
+        "causality": variable.causality,
+        "variability": "continuous" if continuous else "discrete",
+    }
+    if isinstance(variable, Parameter):
+        attributes |= {"variability": "fixed", "initial": "exact"}
+    elif isinstance(variable, Output | State):
+        attributes["initial"] = "calculated"
+    element = etree.SubElement(parent, "ScalarVariable", attributes)
+    details: dict[str, str] = {}
+    if not isinstance(variable, Output | State):
+        details["start"] = literal(variable.elements[position])
+    if variable.type_name == "Real" and variable.unit:
+        details["unit"] = variable.unit
+    for key, bound in (("min", variable.minimum), ("max", variable.maximum)):
+        if bound is not None:
+            details[key] = literal(bound)
+    if variable.nominal is not None and variable.type_name == "Real":
+        details["nominal"] = literal(variable.nominal)
+    etree.SubElement(element, variable.type_name, details)
+
+
+def _structure(root: etree._Element, block_class: type[Block], indices: dict[str, list[int]]) -> None:
+    structure = etree.SubElement(root, "ModelStructure")
+    outputs = [variable for variable in block_class.variables.values() if isinstance(variable, Output)]
+    parameters = [name for name, variable in block_class.variables.items() if isinstance(variable, Parameter)]
+    if not outputs:
+        return
+    direct = etree.SubElement(structure, "Outputs")
+    initial = etree.SubElement(structure, "InitialUnknowns")
+    for output in outputs:
+        inputs = [index for name in block_class.direct_inputs(output) for index in indices[name]]
+        known = [index for name in parameters for index in indices[name]]
+        for index in indices[output.name]:
+            _unknown(direct, index, inputs)
+            _unknown(initial, index, sorted(inputs + known))
+
+
+def _unknown(parent: etree._Element, index: int, dependencies: list[int]) -> None:
+    etree.SubElement(
+        parent,
+        "Unknown",
+        index=str(index),
+        dependencies=" ".join(map(str, dependencies)),
+        dependenciesKind=" ".join(["dependent"] * len(dependencies)),
+    )
+
+
+def _description(variable: Variable) -> str:
+    text = variable.description
+    if variable.frame:
+        text += f" ({variable.frame} frame)"
+    return re.sub(r"\s+", " ", text)
+
+
+def _boolean(value: bool) -> str:
+    return "true" if value else "false"
+
+
+def literal(value: float | int | bool) -> str:
+    """A start value as XML text that reads back to the same bits."""
+    return _boolean(value) if isinstance(value, bool) else repr(value)

@@ -1,0 +1,101 @@
+"""A block as an FMU that runs its Python source, built with pythonfmu."""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+import tempfile
+from importlib.metadata import version
+from pathlib import Path
+
+from pythonfmu import FmuBuilder
+
+from ..block import Block
+from .archive import read_zip, write_zip
+from .closure import Closure, closure_of
+from .model_description import model_description
+
+SCRIPT = '''"""FMU script of {fmu_name}, generated; the block is in {package}/{block_path}."""
+
+import sys
+
+# pythonfmu releases the module's dict once too often at each instantiation: keep one more reference.
+sys.__dict__.setdefault("_perilune_scripts", []).append(globals())
+
+from {package}.export.pythonfmu_slave import BlockSlave
+from {package}.{block_module} import {class_name}
+
+
+class {script_class}(BlockSlave):
+    block_class = {class_name}
+'''
+
+
+def build_python_fmu(block_class: type[Block], path: Path) -> Path:
+    """Build the pythonfmu FMU of a block at ``path``; two builds are byte-identical.
+
+    The FMU holds the block's import closure under a package name with its content's hash, and
+    needs Python, numpy and what the block ``requires`` where it runs. Raises `ClosureError`.
+    """
+    closure = closure_of(block_class)
+    script_name = f"{block_class.fmu_name}_{closure.digest[:16]}"
+    script = SCRIPT.format(
+        fmu_name=block_class.fmu_name,
+        package=closure.package,
+        block_path=f"{closure.block_module.replace('.', '/')}.py",
+        block_module=closure.block_module,
+        class_name=block_class.__name__,
+        script_class=f"{block_class.__name__}Slave",
+    )
+    files = _with_pythonfmu(closure, script_name, script)
+    tool = f"Perilune with PythonFMU {version('pythonfmu')}"
+    files["modelDescription.xml"] = model_description(
+        block_class, guid="", generation_tool=tool, needs_execution_tool=True
+    )
+    guid = content_guid(files)
+    files["modelDescription.xml"] = model_description(
+        block_class, guid=guid, generation_tool=tool, needs_execution_tool=True
+    )
+    write_zip(path, files)
+    return path
+
+
+def content_guid(files: dict[str, bytes]) -> str:
+    """GUID of an FMU: a hash of its files, modelDescription.xml without GUID among them."""
+    digest = hashlib.sha256()
+    for name in sorted(files):
+        digest.update(name.encode() + b"\0" + hashlib.sha256(files[name]).digest())
+    text = digest.hexdigest()
+    return f"{{{text[:8]}-{text[8:12]}-{text[12:16]}-{text[16:20]}-{text[20:32]}}}"
+
+
+def _with_pythonfmu(closure: Closure, script_name: str, script: str) -> dict[str, bytes]:
+    """The FMU that pythonfmu's builder makes of script and closure, as files.
+
+    The builder imports the script; sys.path and sys.modules are put back afterwards. Its zip
+    carries dates, so only the content is taken.
+    """
+    path_before = list(sys.path)
+    modules_before = set(sys.modules)
+    with tempfile.TemporaryDirectory() as folder:
+        work = Path(folder) / "script"
+        script_file = work / f"{script_name}.py"
+        script_file.parent.mkdir()
+        script_file.write_text(script, encoding="utf-8")
+        for name, text in closure.packed().items():
+            target = work / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(text)
+        sys.path.insert(0, str(work))
+        write_bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+        try:
+            built = FmuBuilder.build_FMU(script_file, Path(folder) / "out.fmu", [work / closure.package])
+        finally:
+            sys.dont_write_bytecode = write_bytecode
+            sys.path[:] = path_before
+            for name in set(sys.modules) - modules_before:
+                if name.startswith(("perilune_", script_name)):
+                    del sys.modules[name]
+            getattr(sys, "_perilune_scripts", []).clear()
+        files = read_zip(built)
+    return {name: text for name, text in files.items() if name != "modelDescription.xml"}

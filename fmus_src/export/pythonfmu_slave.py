@@ -1,0 +1,79 @@
+"""What runs inside a pythonfmu FMU: FMI calls passed on to a block's life cycle."""
+
+from __future__ import annotations
+
+import json
+import sys
+import traceback
+from typing import Any, ClassVar
+
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+from ..block import Block
+from ..runtime import Component
+
+
+class BlockSlave(Fmi2Slave):
+    """FMI 2.0 slave around one block; the FMU's script names the block.
+
+    Values are reached by reference straight in the block, without pythonfmu's registered
+    variables; modelDescription.xml comes from the block's declaration at build time. A failing
+    step logs its traceback and ends as fmi2Discard, the only failure pythonfmu's wrapper can
+    report without losing the instance.
+    """
+
+    block_class: ClassVar[type[Block]]
+
+    def __init__(self, **keywords: Any) -> None:
+        super().__init__(**keywords)
+        self.modelName = self.block_class.fmu_name
+        self.component = Component(self.block_class)
+        self.get_real = self.get_integer = self.get_boolean = self.get_values
+        self.set_real = self.set_integer = self.set_boolean = self.component.set
+
+    def get_values(self, references: list[int]) -> list:
+        """Values by reference; a failing initialisation is logged and raised."""
+        try:
+            return self.component.get(references)
+        except Exception:
+            self.log_failure()
+            raise
+
+    def log_failure(self) -> None:
+        """Send the traceback under way to the importer's log, a printf format as FMI 2.0 has it."""
+        self.log(traceback.format_exc().replace("%", "%%"), Fmi2Status.error)
+
+    def setup_experiment(self, start_time: float, *_: object) -> None:
+        # All is imported by now; left on the path, this FMU's folder would answer for other FMUs' imports.
+        sys.path[:] = [entry for entry in sys.path if entry != self.resources]
+        self.component.start_time = start_time
+
+    def exit_initialization_mode(self) -> None:
+        try:
+            self.component.start()
+        except Exception:
+            self.log_failure()
+            raise
+
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        try:
+            self.component.do_step(current_time, step_size)
+        except Exception:  # whatever a block raises ends the run with its traceback
+            self.log_failure()
+            return False
+        return True
+
+    def _get_fmu_state(self) -> dict[str, Any]:
+        return self.component.get_state()
+
+    def _set_fmu_state(self, state: dict[str, Any]) -> None:
+        self.component.set_state(state)
+
+    @staticmethod
+    def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
+        return json.dumps(state).encode()  # Python writes floats so that they read back to the same bits
+
+    @staticmethod
+    def _fmu_state_from_bytes(state: bytes) -> dict[str, Any]:
+        return json.loads(state.decode())

@@ -1,0 +1,57 @@
+"""From a system's folder to its .ssp archive."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from lxml import etree
+
+from .archive import write_zip
+
+SSD_NAMESPACE = "http://ssp-standard.org/SSP1/SystemStructureDescription"
+DESCRIPTION = "SystemStructure.ssd"
+RESOURCE_SUFFIXES = (".ssv", ".ssm", ".ssb")
+CAMPAIGN_FOLDER = "extra/org.perilune/campaigns"
+
+
+def system_files(folder: Path) -> dict[str, Path]:
+    """Archive name -> file of a system folder, FMUs left out.
+
+    SSDs stay at the root, parameter sets, mappings and dictionaries go to resources/, campaigns
+    below extra/, the README to documentation/; everything under the folder's resources/ as it is.
+    """
+    files: dict[str, Path] = {}
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder).as_posix()
+        if not path.is_file() or name.startswith("."):
+            continue
+        if path.parent == folder and path.suffix == ".ssd":
+            files[name] = path
+        elif path.parent == folder and path.suffix in RESOURCE_SUFFIXES:
+            files[f"resources/{name}"] = path
+        elif path.parent == folder / "campaigns":
+            files[f"{CAMPAIGN_FOLDER}/{path.name}"] = path
+        elif name == "README.md":
+            files["documentation/README.md"] = path
+        elif name.startswith(("resources/", "documentation/", "extra/")):
+            files[name] = path
+    return files
+
+
+def pack_system(folder: Path, fmus: Path, target: Path) -> Path:
+    """Write ``target``/NAME.ssp with the system's files and the FMUs its SSDs name.
+
+    Raises ValueError naming the SSD and the FMU that is missing in the folder ``fmus``.
+    """
+    files = {name: path.read_bytes() for name, path in system_files(folder).items()}
+    for name in [name for name in files if name.endswith(".ssd")]:
+        for component in etree.fromstring(files[name]).iter(f"{{{SSD_NAMESPACE}}}Component"):
+            source = component.get("source", "")
+            built = fmus / Path(source).name
+            if source not in files:
+                if not built.is_file():
+                    raise ValueError(f"{folder / name}: {source}: no file {built}; add a block of this name")
+                files[source] = built.read_bytes()
+    path = target / f"{folder.name}.ssp"
+    write_zip(path, files)
+    return path
