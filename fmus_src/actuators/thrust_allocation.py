@@ -68,7 +68,7 @@ class ThrustAllocation(Allocation):
         goal = [0.0] * 3
         now = [0.0] * 3
         for i in range(3):
-            goal[i] = self.demanded_direction[i] + self.demanded_direction_rate[i] * (time - self.demand_time)
+            goal[i] = self.demanded_direction[i] + self.demanded_direction_rate[i] * (time + h - self.demand_time)
             now[i] = self.thrust_direction[i] + self.thrust_direction_rate[i] * (time - self.command_time)
         goal_length = norm(goal)
         now_length = norm(now)
@@ -77,12 +77,8 @@ class ThrustAllocation(Allocation):
             now[i] = now[i] / now_length
         ahead = [0.0] * 3
         copy3(ahead, now)
-        for i in range(3):
-            goal[i] = goal[i] + h * self.demanded_direction_rate[i]
-        goal_length = norm(goal)
-        for i in range(3):
-            goal[i] = goal[i] / goal_length
-        left = turn_towards(ahead, goal, self.slew_rate_limit * h)
+        # a direction and its rate cannot express a turn of 90 deg or more in one step
+        left = turn_towards(ahead, goal, clip(self.slew_rate_limit * h, 0.0, 1.5))
         if left > 0.0:
             self.status = 1
         cosine = now[0] * ahead[0] + now[1] * ahead[1] + now[2] * ahead[2]

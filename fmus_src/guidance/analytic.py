@@ -20,7 +20,8 @@ class AnalyticGuidance(TerminalGuidance):
         dv = [0.0] * 3
         self.remaining(dr, dv)
         time = quadratic_time(dr, self.velocity, dv, self.gravity)
-        self.status = NO_SOLUTION
+        self.time_to_go = time
+        self.status = GOOD
         if time > 0.0:
             a = [0.0] * 3
             b = [0.0] * 3
@@ -30,14 +31,12 @@ class AnalyticGuidance(TerminalGuidance):
             pz = 3.0 * b[2] - a[2] * time
             horizontal = px * px + py * py
             if horizontal > 0.0:
+                forward = math.sqrt(horizontal)
                 yaw = math.atan2(py, px)
                 yaw_rate = -3.0 * (a[0] * b[1] - a[1] * b[0]) / horizontal
-                pitch = math.pi / 2.0
-                pitch_rate = 0.0
-                if px != 0.0:
-                    pitch = math.atan(math.cos(yaw) * pz / px)
-                    pitch_rate = 3.0 / time * math.cos(yaw) * (a[2] * time - 2.0 * b[2]) / px
-                self.time_to_go = time
+                # the published cos(yaw)/px is 1/forward, which holds across px = 0 too
+                pitch = math.atan(pz / forward)
+                pitch_rate = 3.0 / time * (a[2] * time - 2.0 * b[2]) / forward
                 self.thrust_acceleration = norm(a) / time
                 cp = math.cos(pitch)
                 sp = math.sin(pitch)
@@ -49,4 +48,5 @@ class AnalyticGuidance(TerminalGuidance):
                 self.thrust_direction_rate[0] = -sp * cy * pitch_rate - cp * sy * yaw_rate
                 self.thrust_direction_rate[1] = -sp * sy * pitch_rate + cp * cy * yaw_rate
                 self.thrust_direction_rate[2] = cp * pitch_rate
-                self.status = GOOD
+            else:
+                self.status = NO_SOLUTION

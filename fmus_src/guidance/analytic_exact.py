@@ -22,7 +22,8 @@ class AnalyticExactGuidance(TerminalGuidance):
         dv = [0.0] * 3
         self.remaining(dr, dv)
         time = cubic_time(dr, self.velocity, dv, self.target_velocity, self.gravity)
-        self.status = NO_SOLUTION
+        self.time_to_go = time
+        self.status = GOOD
         if time > 0.0:
             a = [0.0] * 3
             b = [0.0] * 3
@@ -38,6 +39,6 @@ class AnalyticExactGuidance(TerminalGuidance):
                 for i in range(3):
                     self.thrust_direction[i] = p[i] / length
                     self.thrust_direction_rate[i] = 3.0 / time * (q[i] - along * p[i]) / length
-                self.time_to_go = time
                 self.thrust_acceleration = norm(a) / time
-                self.status = GOOD
+            else:
+                self.status = NO_SOLUTION

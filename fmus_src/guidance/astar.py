@@ -65,4 +65,5 @@ class AstarGuidance(AstarProgramme):
                 acceleration = 2.0 * norm(b) / (time * time)
                 if acceleration > 0.0:
                     self.last_root = time
+                    self.time_to_go = time
                     self.point(a, b, time, acceleration)

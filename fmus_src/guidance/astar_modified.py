@@ -3,7 +3,7 @@
 import math
 
 from ..block import Parameter
-from ..interfaces.terminal_guidance import NO_SOLUTION
+from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION
 from ..mathlib.terminal import impulse_and_miss
 from ..mathlib.vectors import norm
 from .astar_programme import AstarProgramme
@@ -30,11 +30,15 @@ class AstarModifiedGuidance(AstarProgramme):
             lift = dv[2] + 2.0 * g * distance / speed_sum
             e = math.sqrt(dv[0] * dv[0] + dv[1] * dv[1] + lift * lift)
             closing = norm(self.velocity) - dr[2] * g / speed_sum - 0.5 * e + e * e / (12.0 * self.exhaust_speed)
-            if closing > 0.0 and distance > 0.0:
+            if closing != 0.0:
+                # close to the target the formula can give a negative time, which ends the flight
                 time = distance / closing
-                a = [0.0] * 3
-                b = [0.0] * 3
-                impulse_and_miss(dr, self.velocity, dv, g, time, a, b)
-                acceleration = 2.0 * norm(b) / (time * time)
-                if acceleration > 0.0:
-                    self.point(a, b, time, acceleration)
+                self.time_to_go = time
+                self.status = GOOD
+                if time > 0.0:
+                    a = [0.0] * 3
+                    b = [0.0] * 3
+                    impulse_and_miss(dr, self.velocity, dv, g, time, a, b)
+                    acceleration = 2.0 * norm(b) / (time * time)
+                    if acceleration > 0.0:
+                        self.point(a, b, time, acceleration)

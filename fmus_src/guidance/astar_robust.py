@@ -1,6 +1,6 @@
 """Method A* made to work everywhere: time-to-go from the cubic, thrust from |a0|."""
 
-from ..interfaces.terminal_guidance import NO_SOLUTION
+from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION
 from ..mathlib.terminal import cubic_time, impulse_and_miss
 from ..mathlib.vectors import norm
 from .astar_programme import AstarProgramme
@@ -21,7 +21,8 @@ class AstarRobustGuidance(AstarProgramme):
         dv = [0.0] * 3
         self.remaining(dr, dv)
         time = cubic_time(dr, self.velocity, dv, self.target_velocity, self.gravity)
-        self.status = NO_SOLUTION
+        self.time_to_go = time
+        self.status = GOOD
         if time > 0.0:
             a = [0.0] * 3
             b = [0.0] * 3
@@ -32,3 +33,5 @@ class AstarRobustGuidance(AstarProgramme):
             acceleration = 2.0 * norm(p) / (time * time)
             if acceleration > 0.0:
                 self.point(a, b, time, acceleration)
+            else:
+                self.status = NO_SOLUTION

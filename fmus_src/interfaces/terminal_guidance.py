@@ -15,7 +15,8 @@ class TerminalGuidance(Block, interface=True):
     Frame: origin at the site, x north, y west, z up; not rotating. A guidance writes `solve`,
     which sets time_to_go, thrust_acceleration, thrust_direction, its rate and status from
     position and velocity; this class samples it, ends the flight and times the last burn.
-    With status not converged or no solution the last command is held and time_to_go counts down.
+    A solve that is good with time_to_go <= 0 says that time is up and leaves the command. With
+    status not converged or no solution the last command is held and time_to_go counts down.
     """
 
     target_position = Parameter([0.0, 0.0, 2000.0], unit="m", frame="landing site", description="where to arrive")
@@ -55,6 +56,8 @@ class TerminalGuidance(Block, interface=True):
         0, minimum=0, maximum=3, direct=True, description="0 good, 1 clamped, 2 not converged, 3 no solution"
     )
     finished = Output(False, direct=True, description="the flight is over")
+    cycle = State(0.0, unit="s", description="time to the next sample; 0 until the first step")
+    started = State(False, description="a command with time left has been given")
     last_burn = State(False, description="the command flown now is the last one")
 
     def solve(self) -> None:
@@ -67,21 +70,23 @@ class TerminalGuidance(Block, interface=True):
             dv[i] = self.target_velocity[i] - self.velocity[i]
 
     def initialize(self) -> None:
+        self.cycle = self.sample_period
         self.solve()
         if self.status >= NOT_CONVERGED:
             self.time_to_go = 0.0
-        elif self.terminal_step == 1:
+        self.started = self.time_to_go > 0.0
+        if self.started and self.terminal_step == 1:
             self.burn_duration = self.time_to_go
 
     def step(self, t: float, h: float) -> None:
         if not self.finished:
-            cycle = self.sample_period
-            if cycle <= 0.0:
-                cycle = h
-            self.follow(t + h, cycle)
+            self.cycle = self.sample_period
+            if self.cycle <= 0.0:
+                self.cycle = h
+            self.follow(t + h)
 
-    def follow(self, time: float, cycle: float) -> None:
-        """Answer for the sample at ``time`` (s); the next one comes a ``cycle`` (s) later."""
+    def follow(self, time: float) -> None:
+        """Answer for the sample at ``time`` (s)."""
         if self.last_burn:
             self.finished = True
             self.thrust_acceleration = 0.0
@@ -89,25 +94,24 @@ class TerminalGuidance(Block, interface=True):
             self.burn_duration = 0.0
             self.command_time = time
         else:
-            left = self.time_to_go - cycle
+            left = self.time_to_go - self.cycle
             self.solve()
             if self.status >= NOT_CONVERGED:
-                if left > 0.0:
-                    self.time_to_go = left
-                else:
-                    self.time_to_go = 0.0
-            else:
+                self.time_to_go = left
+            elif self.time_to_go > 0.0:
+                self.started = True
                 self.command_time = time
-            self.end(cycle)
+            if self.started:
+                self.end(time)
 
-    def end(self, cycle: float) -> None:
+    def end(self, time: float) -> None:
         """Finish, or time the last burn, when no full cycle is left (rounding of 1e-9 allowed for)."""
         if self.terminal_step == 1:
-            if self.status < NOT_CONVERGED:
-                self.burn_duration = UNLIMITED
-                if self.time_to_go <= cycle * 1.000000001:
-                    self.burn_duration = self.time_to_go
-                    self.last_burn = True
-        elif self.time_to_go > 0.0 and self.time_to_go < cycle:
+            self.burn_duration = UNLIMITED
+            if self.time_to_go <= self.cycle * 1.000000001:
+                # from command_time on, which is earlier where the last command is held
+                self.burn_duration = time - self.command_time + self.time_to_go
+                self.last_burn = True
+        elif self.time_to_go < self.cycle:
             self.finished = True
             self.thrust_acceleration = 0.0

@@ -36,6 +36,7 @@ class FlatMoonLander(Block):
         [0.0, 0.0, 0.0], unit="m/s2", frame="landing site", description="mean of thrust over mass in the last step"
     )
     latched = State(False, description="thrust has ended and the motion is kept")
+    under_thrust = State(False, description="thrust was on at the end of the last step")
 
     def initialize(self) -> None:
         self.mass = self.initial_mass
@@ -95,11 +96,12 @@ class FlatMoonLander(Block):
             piece = burning / pieces
             for k in range(pieces):
                 self.burn(t + k * piece, piece)
-            if ends and self.latch_at_burn_end and burning > 0.0:
+            if ends and self.latch_at_burn_end and (burning > 0.0 or self.under_thrust):
                 self.latched = True
                 moving = burning
             elif ends:
                 self.fall(h - burning)
+            self.under_thrust = not ends
             for i in range(3):
                 self.specific_force[i] = (self.velocity[i] - before[i]) / h
             self.specific_force[2] = self.specific_force[2] + self.gravity * moving / h

@@ -1,0 +1,92 @@
+"""A campaign: what is flown, drawn, measured, recorded and called a success. See docs/campaigns.md."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ..errors import InputError
+from .distributions import Draw
+from .expressions import Expression
+
+REDUCTIONS = ("final", "min", "max", "mean", "rms", "last_outside")
+TRACES = ("none", "failures", "all")
+
+Setting = float | int | bool | str
+
+
+@dataclass(frozen=True)
+class Metric:
+    """One number per trial: an expression over the record, reduced over the rows of a window.
+
+    ``band`` (low, high) belongs to the reduction last_outside; ``window`` (t0, t1) is in s, both
+    ends included, None for the whole flight. ``unit`` labels the value.
+    """
+
+    name: str
+    expression: Expression
+    reduction: str
+    band: tuple[float, float] | None = None
+    window: tuple[float, float] | None = None
+    unit: str = "1"
+    description: str = ""
+
+
+@dataclass(frozen=True)
+class Record:
+    """What is kept of a trial beside its metrics: final values, every n-th row of signals, full traces."""
+
+    final: tuple[str, ...] = ()
+    every: int | None = None
+    signals: tuple[str, ...] = ()
+    traces: str = "none"
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One way to build the system: which FMU flies in each compared slot."""
+
+    name: str
+    use: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """A campaign as declared. Raises InputError where trials or seed make no sense, also after `replace`.
+
+    ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are
+    expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
+    [compare]. ``file`` is what errors name.
+    """
+
+    file: str
+    system: str
+    trials: int
+    seed: int
+    success: Expression
+    metrics: tuple[Metric, ...] = ()
+    draws: tuple[Draw, ...] = ()
+    derived: Mapping[str, Expression] = field(default_factory=dict)
+    settings: Mapping[str, Setting] = field(default_factory=dict)
+    compare: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    parameters: tuple[str, ...] = ()
+    record: Record = Record()
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        if self.trials < 1:
+            raise InputError(self.file, "trials", f"{self.trials} trial(s)", "give 1 or more")
+        if self.seed < 0:
+            raise InputError(self.file, "seed", f"{self.seed} is negative", "give a seed >= 0")
+
+    def drawn_names(self) -> list[str]:
+        """Names of all drawn and derived values."""
+        return [name for draw in self.draws for name in draw.names] + list(self.derived)
+
+    def variants(self) -> list[Variant]:
+        """Every combination of the compared FMUs, named by them; one named ``default`` without [compare]."""
+        if not self.compare:
+            return [Variant("default", {})]
+        combinations = itertools.product(*self.compare.values())
+        return [Variant("__".join(fmus), dict(zip(self.compare, fmus, strict=True))) for fmus in combinations]

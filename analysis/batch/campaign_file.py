@@ -1,0 +1,154 @@
+"""Reads a campaign from its TOML file; whatever is not understood is refused by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError, suggestion
+from .campaign import REDUCTIONS, TRACES, Campaign, Metric, Record, Setting
+from .distributions import Draw, read_draw
+from .expressions import RESERVED, Expression, is_name
+from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, read_toml, sequence, text
+
+COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})  # of records and of the results' table
+
+
+def _check_name(table: Table, name: str, taken: Iterable[str]) -> None:
+    """Refuse a drawn, derived or metric name that is malformed, reserved or already ``taken``."""
+    if not is_name(name):
+        remedy = 'use letters, digits and _; for a parameter "component.variable" or "component.variable[1]"'
+        raise table.error(name, f"{name!r} is not a name that expressions can use", remedy)
+    if name in RESERVED or name in COLUMNS:
+        raise table.error(name, f"{name!r} has a meaning of its own", "choose another name")
+    if name in taken:
+        raise table.error(name, f"{name!r} is declared twice", "give each value one declaration and one name")
+
+
+def _draws(table: Table) -> tuple[Draw, ...]:
+    draws: list[Draw] = []
+    taken: list[str] = []
+    for name, content in table.flat(of_tables=True):
+        if not isinstance(content, dict):
+            raise table.error(name, "not a table", f'write [draw."{name}"] with distribution = ... below it')
+        draw = read_draw(name, Table(content, table.file, table.place(name)))
+        for filled in draw.names:
+            _check_name(table, filled, taken)
+            taken.append(filled)
+        draws.append(draw)
+    return tuple(draws)
+
+
+def _derived(table: Table, draws: tuple[Draw, ...]) -> dict[str, Expression]:
+    known = [name for draw in draws for name in draw.names]
+    derived: dict[str, Expression] = {}
+    for name, value in table.flat():
+        _check_name(table, name, known)
+        derived[name] = expression(table, name, value)
+        _check_names_in(derived[name], known, "a draw or an earlier derived value")
+        known.append(name)
+    return derived
+
+
+def _check_names_in(formula: Expression, known: Iterable[str], kind: str) -> None:
+    for unknown in sorted(formula.names - set(known)):
+        raise InputError(*formula.where, f"{unknown!r} is not {kind}", suggestion(unknown, known))
+
+
+def _pair(table: Table, key: str, value: Any) -> tuple[float, float]:
+    found = sequence(bound)(table, key, value)
+    if len(found) != 2 or not found[0] < found[1]:
+        raise table.error(key, f"{value!r} is not an interval", "write [low, high] with low < high")
+    return found[0], found[1]
+
+
+def _metric(name: str, table: Table) -> Metric:
+    table.only(["expression", "reduction", "band", "window", "unit", "description"])
+    reduction = table.get("reduction", choice_of(*REDUCTIONS))
+    if reduction != "last_outside" and "band" in table.content:
+        raise table.error("band", f"not used by the reduction {reduction!r}", "drop it, or use last_outside")
+    return Metric(
+        name=name,
+        expression=table.get("expression", expression),
+        reduction=reduction,
+        band=table.get("band", _pair, REQUIRED if reduction == "last_outside" else None),
+        window=table.get("window", _pair, None),
+        unit=table.get("unit", text, "1"),
+        description=table.get("description", text, ""),
+    )
+
+
+def _metrics(table: Table, drawn: list[str]) -> tuple[Metric, ...]:
+    for name in table.content:
+        _check_name(table, name, drawn)
+        if not name.isidentifier():
+            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
+    return tuple(_metric(name, table.table(name)) for name in table.content)
+
+
+def _record(table: Table) -> Record:
+    table.only(["final", "every", "signals", "traces"])
+    every = table.get("every", integer, None)
+    if every is not None and every < 1:
+        raise table.error("every", f"{every} row(s)", "give 1 or more: every n-th row is kept")
+    none: tuple[str, ...] = ()
+    signals = table.get("signals", names, none)
+    if (every is None) != (not signals):
+        missing = "signals" if every is not None else "every"
+        raise table.error(missing, "missing", "give every = n together with signals = [...], or neither")
+    return Record(table.get("final", names, none), every, signals, table.get("traces", choice_of(*TRACES), "none"))
+
+
+def _settings(table: Table, drawn: list[str]) -> dict[str, Setting]:
+    settings: dict[str, Setting] = {}
+    for name, value in table.flat():
+        if not isinstance(value, float | int | bool | str):
+            raise table.error(name, f"{value!r} is not one value", "give a number, true, false or a text")
+        if "." not in name:
+            raise table.error(name, "names no component", "write component.variable = value")
+        if name in drawn:
+            raise table.error(name, "also drawn or derived", "keep one of the two")
+        settings[name] = value
+    return settings
+
+
+def _compare(table: Table) -> dict[str, tuple[str, ...]]:
+    return {slot: names(table, slot, value) for slot, value in table.flat()}
+
+
+def _success(table: Table, metrics: tuple[Metric, ...]) -> Expression:
+    table.only(["expression"])
+    success = table.get("expression", expression)
+    _check_names_in(success, [metric.name for metric in metrics], "a metric")
+    return success
+
+
+def parse_campaign(table: Table) -> Campaign:
+    """The campaign in a table that was read from a file or made in memory. Raises InputError."""
+    keys = ["system", "description", "trials", "seed", "parameters"]
+    table.only([*keys, "set", "compare", "draw", "derive", "metric", "record", "success"])
+    draws = _draws(table.table("draw"))
+    derived = _derived(table.table("derive"), draws)
+    drawn = [name for draw in draws for name in draw.names] + list(derived)
+    metrics = _metrics(table.table("metric"), drawn)
+    return Campaign(
+        file=table.file,
+        system=table.get("system", text),
+        trials=table.get("trials", integer),
+        seed=table.get("seed", integer),
+        success=_success(table.table("success"), metrics),
+        metrics=metrics,
+        draws=draws,
+        derived=derived,
+        settings=_settings(table.table("set"), drawn),
+        compare=_compare(table.table("compare")),
+        parameters=table.get("parameters", names, ()),
+        record=_record(table.table("record")),
+        description=" ".join(table.get("description", text, "").split()),
+    )
+
+
+def read_campaign(path: Path) -> Campaign:
+    """The campaign in a TOML file. Raises InputError."""
+    return parse_campaign(read_toml(path))

@@ -1,0 +1,104 @@
+"""Flies trials of a plan in one worker: one simulation per variant, reset and reused."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from analysis.cosim.results import Result
+from analysis.cosim.simulation import Simulation
+
+from .metrics import evaluate_metrics, succeeded
+from .plan import BatchPlan, VariantNames, variant_names
+
+
+@dataclass
+class TrialResult:
+    """One row of the results' table, and what the campaign records beside it."""
+
+    trial: int
+    status: str
+    message: str
+    success: bool
+    end_time: float
+    metrics: dict[str, float]
+    final: dict[str, float | int | bool]
+    traces: dict[str, np.ndarray] | None
+
+
+class Flyer:
+    """Holds the simulations of a plan's variants; made once per worker, not shared between threads."""
+
+    def __init__(self, plan: BatchPlan) -> None:
+        self.plan = plan
+        self.variants = {variant.name: variant for variant in plan.campaign.variants()}
+        self._ready: dict[str, tuple[Simulation, VariantNames]] = {}
+
+    def simulation(self, variant: str) -> tuple[Simulation, VariantNames]:
+        """The simulation of a variant, made at its first use."""
+        if variant not in self._ready:
+            prepared = self.plan.prepare(self.variants[variant])
+            names = variant_names(self.plan, prepared)
+            wanted = {*names.signals, *names.statuses}
+            if self.plan.campaign.record.traces != "none":
+                wanted = None
+            self._ready[variant] = Simulation(prepared, varied=names.varied, wanted=wanted), names
+        return self._ready[variant]
+
+    def fly(self, variant: str, trials: range) -> list[TrialResult]:
+        """Fly some trials of one variant, in order."""
+        return [self.fly_one(variant, trial) for trial in trials]
+
+    def fly_one(self, variant: str, trial: int) -> TrialResult:
+        """Fly one trial; the result does not depend on what was flown before."""
+        simulation, names = self.simulation(variant)
+        campaign = self.plan.campaign
+        result = simulation.fly(self.plan.parameters(simulation.prepared, trial))
+        metrics = {metric.name: float("nan") for metric in campaign.metrics}
+        success = False
+        if result.complete:
+            constants = names.constants | self.plan.draws.row(trial)
+            metrics = evaluate_metrics(campaign.metrics, result.time, result.signals, constants)
+            success = succeeded(campaign.success, metrics)
+        final = result.final()
+        return TrialResult(
+            trial=trial,
+            status=trial_status(result, names.statuses),
+            message=result.message,
+            success=success,
+            end_time=float(result.time[-1]) if result.time.size else float("nan"),
+            metrics=metrics,
+            final={name: final[name] for name in campaign.record.final if name in final},
+            traces=self._traces(result, success),
+        )
+
+    def _traces(self, result: Result, success: bool) -> dict[str, np.ndarray] | None:
+        """Copies of what the campaign keeps over time: sampled signals, or everything of some trials."""
+        record = self.plan.campaign.record
+        if record.traces == "all" or (record.traces == "failures" and not success):
+            return {"time": result.time.copy()} | {name: values.copy() for name, values in result.signals.items()}
+        if record.every is not None:
+            rows = slice(None, None, record.every)
+            return {"time": result.time[rows].copy()} | {name: result[name][rows].copy() for name in record.signals}
+        return None
+
+    def close(self) -> None:
+        """Free all instances."""
+        for simulation, _ in self._ready.values():
+            simulation.close()
+        self._ready = {}
+
+
+def trial_status(result: Result, statuses: list[str]) -> str:
+    """How a trial ended, with the worst status of every component that reported other than 0.
+
+    For instance ``finished`` or ``finished (guidance.status 2)``.
+    """
+    worst: list[Any] = []
+    for name in statuses:
+        values = result.signals[name]
+        if values.size and np.max(values) != 0:
+            worst.append(f"{name} {int(np.max(values))}")
+    return f"{result.status} ({', '.join(worst)})" if worst else result.status

@@ -1,0 +1,145 @@
+"""A campaign made concrete: system, options, draws and variants, checked before anything flies."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from analysis.cosim.archive import open_system
+from analysis.cosim.system import PreparedSystem, SystemOptions, prepare_system
+from analysis.errors import InputError
+
+from .campaign import Campaign, Variant
+from .campaign_file import parse_campaign
+from .draws import DrawTable, draw_table, stream_numbers
+from .metrics import names_needed
+from .toml_table import Table
+
+
+@dataclass(frozen=True)
+class BatchPlan:
+    """What a batch flies; small enough to be sent to every worker.
+
+    ``options`` are the user's system options, which win over the campaign's own.
+    """
+
+    system: str
+    campaign: Campaign
+    options: SystemOptions
+
+    @cached_property
+    def draws(self) -> DrawTable:
+        """The table of draws of all trials."""
+        return draw_table(self.campaign)
+
+    def prepare(self, variant: Variant) -> PreparedSystem:
+        """The system as one variant flies it. Raises InputError."""
+        options = replace(
+            self.options,
+            use={**self.options.use, **variant.use},
+            parameters=(*self.campaign.parameters, *self.options.parameters),
+            set={**self.campaign.settings, **self.options.set},
+        )
+        return prepare_system(self.system, options)
+
+    def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
+        """The parameters of one trial: draws, and seed and stream of every component that has them."""
+        streams = stream_numbers(self.campaign.seed, trial, prepared.network.fmus, self.campaign.file)
+        values: dict[str, float | int] = dict(self.draws.parameters(trial))
+        for name, fmu in prepared.network.fmus.items():
+            if {"seed", "stream"} <= set(fmu.variables):
+                values[f"{name}.seed"], values[f"{name}.stream"] = streams[name]
+        return values
+
+
+def read_plan(
+    system: str | Path,
+    campaign: str,
+    options: SystemOptions,
+    *,
+    trials: int | None = None,
+    seed: int | None = None,
+    compare: Mapping[str, Sequence[str]] | None = None,
+) -> BatchPlan:
+    """Read a campaign by name or path, with the command line's changes. Raises InputError.
+
+    ``compare`` replaces the campaign's own comparison.
+    """
+    archive = open_system(system)
+    data, label = archive.campaign(campaign)
+    try:
+        table = Table(tomllib.loads(data.decode("utf-8")), label)
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
+    read = parse_campaign(table)
+    if read.system != archive.name:
+        raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
+    changes: dict = {}
+    if trials is not None:
+        changes["trials"] = trials
+    if seed is not None:
+        changes["seed"] = seed
+    if compare is not None:
+        changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
+    return BatchPlan(str(system), replace(read, **changes), options)
+
+
+def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
+    """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
+    _ = plan.draws
+    systems = {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
+    for prepared in systems.values():
+        variant_names(plan, prepared)
+    return systems
+
+
+@dataclass(frozen=True)
+class VariantNames:
+    """What one variant varies, records and holds constant, by name."""
+
+    varied: list[str]
+    signals: list[str]
+    statuses: list[str]
+    constants: dict[str, float]
+
+
+def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
+    """Names that a variant's simulation needs. Raises InputError for one that does not exist."""
+    campaign = plan.campaign
+    needed = names_needed(campaign.metrics, plan.draws.columns)
+    needed |= set(campaign.record.final) | set(campaign.record.signals)
+    signals: list[str] = []
+    constants: dict[str, float] = {}
+    for name in sorted(needed):
+        if name in prepared.network.nodes or _is_output(prepared, name):
+            signals.append(name)
+        else:
+            constants[name] = _constant(plan, prepared, name)
+    statuses = [f"{name}.status" for name in prepared.network.fmus if _is_output(prepared, f"{name}.status")]
+    return VariantNames(sorted(plan.parameters(prepared, 0)), signals, statuses, constants)
+
+
+def _is_output(prepared: PreparedSystem, name: str) -> bool:
+    return any(
+        name.startswith(f"{component}.")
+        and getattr(fmu.variables.get(name[len(component) + 1 :]), "causality", "") == "output"
+        for component, fmu in prepared.network.fmus.items()
+    )
+
+
+def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:
+    """The value of a parameter that metrics refer to."""
+    for component, fmu in prepared.network.fmus.items():
+        variable = fmu.variables.get(name.removeprefix(f"{component}."))
+        if name.startswith(f"{component}.") and variable is not None and variable.start is not None:
+            value = prepared.settings.variables.get((component, variable.name), variable.start)
+            return float({"true": 1, "false": 0}.get(str(value).lower(), value))
+    raise InputError(
+        plan.campaign.file,
+        name,
+        "neither a signal nor a parameter of the system",
+        "correct the name, as component.variable",
+    )

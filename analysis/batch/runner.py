@@ -1,0 +1,71 @@
+"""Runs a batch: plan, draws, workers, results."""
+
+from __future__ import annotations
+
+import os
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import pyarrow
+import pyarrow.parquet
+from tqdm import tqdm
+
+from analysis.errors import InputError
+
+from .flyer import TrialResult
+from .plan import BatchPlan, check_plan
+from .results import BatchResult, make_result
+from .workers import fly_all, tasks_of
+
+
+def run_batch(plan: BatchPlan, *, workers: int | None = None, output: Path | None = None) -> BatchResult:
+    """Fly every trial of every variant of a plan. Raises InputError before anything flies.
+
+    ``workers`` is the number of parallel flights (default: one per processor). With ``output``
+    the table of draws is written there first, the results at the end.
+    """
+    count = workers if workers is not None else len(os.sched_getaffinity(0))
+    if count < 1:
+        raise InputError("--workers", str(count), "not a positive number", "give 1 or more")
+    systems = check_plan(plan)
+    native = all(prepared.is_native for prepared in systems.values())
+    if output is not None:
+        write_draws(plan, output)
+    tasks = tasks_of(plan, count)
+    trials: dict[str, list[TrialResult]] = {variant.name: [] for variant in plan.campaign.variants()}
+    total = plan.campaign.trials * len(trials)
+    with tqdm(total=total, unit="trial", disable=None, leave=False) as progress:
+        for variant, found in fly_all(plan, tasks, min(count, len(tasks)), native):
+            trials[variant] += found
+            progress.update(len(found))
+    result = make_result(plan, trials, provenance(plan, systems))
+    if output is not None:
+        result.write(output)
+    return result
+
+
+def write_draws(plan: BatchPlan, folder: Path) -> None:
+    """Write the table of draws to ``folder``/draws.parquet, a row per trial."""
+    folder.mkdir(parents=True, exist_ok=True)
+    columns = {"trial": list(range(plan.campaign.trials)), **plan.draws.columns}
+    pyarrow.parquet.write_table(pyarrow.table(columns), folder / "draws.parquet")
+
+
+def provenance(plan: BatchPlan, systems: dict) -> dict[str, Any]:
+    """What a batch's numbers depend on, apart from the trials themselves."""
+    first = next(iter(systems.values()))
+    return {
+        "system": first.archive.name,
+        "system_sha256": first.archive.digest(),
+        "campaign": plan.campaign.file,
+        "trials": plan.campaign.trials,
+        "seed": plan.campaign.seed,
+        "step": first.step,
+        "algorithm": plan.options.algorithm,
+        "fmus": {
+            variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
+            for variant, prepared in systems.items()
+        },
+        "perilune": version("perilune"),
+    }
