@@ -145,7 +145,8 @@ class Block:
 
     A parameter ``sample_period`` makes the block sampled: `step` is called at start + k *
     sample_period only; 0 means at every communication point. An output is ``direct`` where it
-    answers for t + h from inputs of t + h; a plant has none and is given inputs of t.
+    answers for t + h from inputs of t + h; a plant has none and is given inputs of t. A state
+    ``start_time`` is set to the time of the start (s) before `initialize` runs.
 
     ``class Name(Block, interface=True)`` declares connectors only and builds no FMU.
     ``python_only = True`` with ``requires`` lets a block use libraries; it then has no C form.

@@ -9,7 +9,9 @@ from typing import Any
 
 from .block import Block, Output, State
 
-SAMPLE_TOLERANCE = 1e-9  # of a sample period: communication points t0 + n h are rounded
+# How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
+SAMPLE_TOLERANCE = 1e-6  # of a sample period
+TIME_TOLERANCE = 1e-15  # of the time
 
 
 class StepError(ValueError):
@@ -67,6 +69,8 @@ class Component:
                 else:
                     setattr(self.block, name, variable.start)
         self.tick = 0
+        if "start_time" in self.block.variables:
+            self.block.start_time = self.start_time
         self.block.initialize()
         self.unsettled = False
 
@@ -80,7 +84,7 @@ class Component:
         """Advance from t to t + h (s); a sampled block steps at its sample instants only."""
         if self.sampled and self.block.sample_period > 0.0:
             period = self.block.sample_period
-            margin = SAMPLE_TOLERANCE * period
+            margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * abs(t + h)
             due = self.start_time + (self.tick + 1) * period
             if t + h < due - margin:
                 return

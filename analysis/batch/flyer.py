@@ -54,8 +54,19 @@ class Flyer:
     def fly_one(self, variant: str, trial: int) -> TrialResult:
         """Fly one trial; the result does not depend on what was flown before."""
         simulation, names = self.simulation(variant)
+        return self._judge(simulation.fly(self.plan.parameters(simulation.prepared, trial)), names, trial)
+
+    def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
+        """Fly one trial with every signal recorded; same bits as in the batch."""
+        prepared = self.plan.prepare(self.variants[variant])
+        names = variant_names(self.plan, prepared)
+        with Simulation(prepared, varied=names.varied) as simulation:
+            result = simulation.fly(self.plan.parameters(prepared, trial))
+        return result, self._judge(result, names, trial)
+
+    def _judge(self, result: Result, names: VariantNames, trial: int) -> TrialResult:
+        """Metrics, success and records of a flight."""
         campaign = self.plan.campaign
-        result = simulation.fly(self.plan.parameters(simulation.prepared, trial))
         metrics = {metric.name: float("nan") for metric in campaign.metrics}
         success = False
         if result.complete:

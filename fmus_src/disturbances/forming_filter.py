@@ -42,21 +42,26 @@ class FormingFilter(Block):
         w = self.natural_frequency
         decay = self.damping * w
         square = self.damping * self.damping - 1.0
-        c = 1.0
-        s = h
+        e = math.exp(-decay * h)
+        c = e
+        s = e * h
         if square < 0.0:
             wd = w * math.sqrt(-square)
-            c = math.cos(wd * h)
-            s = math.sin(wd * h) / wd
+            c = e * math.cos(wd * h)
+            s = e * math.sin(wd * h) / wd
         if square > 0.0:
             wd = w * math.sqrt(square)
-            c = math.cosh(wd * h)
-            s = math.sinh(wd * h) / wd
-        e = math.exp(-decay * h)
-        f[0] = e * (c + decay * s)
-        f[1] = e * s
-        f[2] = -e * w * w * s
-        f[3] = e * (c - decay * s)
+            if wd * h < 20.0:
+                c = e * math.cosh(wd * h)
+                s = e * math.sinh(wd * h) / wd
+            else:
+                # cosh and sinh are equal here, and overflow further on
+                c = 0.5 * math.exp((wd - decay) * h)
+                s = c / wd
+        f[0] = c + decay * s
+        f[1] = s
+        f[2] = -w * w * s
+        f[3] = c - decay * s
 
     def step(self, t: float, h: float) -> None:
         w = self.natural_frequency

@@ -7,6 +7,7 @@ CLAMPED = 1
 NOT_CONVERGED = 2
 NO_SOLUTION = 3
 UNLIMITED = 1e9  # s; longer than any flight
+ROUNDING = 1e-9  # of a cycle, allowed for in times of communication points
 
 
 class TerminalGuidance(Block, interface=True):
@@ -58,7 +59,7 @@ class TerminalGuidance(Block, interface=True):
     finished = Output(False, direct=True, description="the flight is over")
     cycle = State(0.0, unit="s", description="time to the next sample; 0 until the first step")
     started = State(False, description="a command with time left has been given")
-    last_burn = State(False, description="the command flown now is the last one")
+    start_time = State(0.0, unit="s", description="start of the flight")
 
     def solve(self) -> None:
         """Set the command, time_to_go and status from position and velocity."""
@@ -70,48 +71,55 @@ class TerminalGuidance(Block, interface=True):
             dv[i] = self.target_velocity[i] - self.velocity[i]
 
     def initialize(self) -> None:
+        self.command_time = self.start_time
         self.cycle = self.sample_period
         self.solve()
+        self.judge()
         if self.status >= NOT_CONVERGED:
             self.time_to_go = 0.0
-        self.started = self.time_to_go > 0.0
-        if self.started and self.terminal_step == 1:
+        elif self.terminal_step == 1:
             self.burn_duration = self.time_to_go
+
+    def judge(self) -> None:
+        """Tell time that is up from time that never was."""
+        if self.time_to_go > 0.0 and self.status < NOT_CONVERGED:
+            self.started = True
+        if not self.started and self.status < NOT_CONVERGED:
+            self.status = NO_SOLUTION
 
     def step(self, t: float, h: float) -> None:
         if not self.finished:
             self.cycle = self.sample_period
             if self.cycle <= 0.0:
                 self.cycle = h
-            self.follow(t + h)
+            burn_end = self.command_time + self.burn_duration
+            if self.terminal_step == 1 and self.started and burn_end <= t + h + self.cycle * ROUNDING:
+                self.finish(t + h)
+            else:
+                self.follow(t + h)
+
+    def finish(self, time: float) -> None:
+        """End the flight at ``time`` (s)."""
+        self.finished = True
+        self.thrust_acceleration = 0.0
+        self.time_to_go = 0.0
+        self.burn_duration = 0.0
+        self.command_time = time
 
     def follow(self, time: float) -> None:
-        """Answer for the sample at ``time`` (s)."""
-        if self.last_burn:
-            self.finished = True
-            self.thrust_acceleration = 0.0
-            self.time_to_go = 0.0
-            self.burn_duration = 0.0
+        """Command for the sample at ``time`` (s), or the end, or the last burn."""
+        left = self.time_to_go - self.cycle
+        self.solve()
+        self.judge()
+        if self.status >= NOT_CONVERGED:
+            self.time_to_go = left
+        elif self.time_to_go > 0.0:
             self.command_time = time
-        else:
-            left = self.time_to_go - self.cycle
-            self.solve()
-            if self.status >= NOT_CONVERGED:
-                self.time_to_go = left
-            elif self.time_to_go > 0.0:
-                self.started = True
-                self.command_time = time
-            if self.started:
-                self.end(time)
-
-    def end(self, time: float) -> None:
-        """Finish, or time the last burn, when no full cycle is left (rounding of 1e-9 allowed for)."""
-        if self.terminal_step == 1:
+        if self.started and self.terminal_step == 1:
             self.burn_duration = UNLIMITED
-            if self.time_to_go <= self.cycle * 1.000000001:
+            if self.time_to_go <= self.cycle * (1.0 + ROUNDING):
                 # from command_time on, which is earlier where the last command is held
                 self.burn_duration = time - self.command_time + self.time_to_go
-                self.last_burn = True
-        elif self.time_to_go < self.cycle:
+        elif self.started and self.time_to_go < self.cycle:
             self.finished = True
             self.thrust_acceleration = 0.0

@@ -20,7 +20,7 @@ def turn_towards(direction: list, goal: list, largest: float) -> float:
         for i in range(3):
             direction[i] = goal[i]
         return 0.0
-    if sine < 1e-9:
+    if cosine < 0.0 and sine < 1e-6:
         k = 0
         for i in range(3):
             if abs(direction[i]) < abs(direction[k]):

@@ -12,10 +12,9 @@ class NoisyNavigation(Navigation):
     """Position and velocity fixes with white errors at their own rates, filtered by a six-state Kalman filter.
 
     Between fixes the filter moves with the measured mean specific force, constant gravity and
-    white process noise of density process_noise on each axis. Fixes count from the first communication
-    point; the first estimate is the truth with errors of first_position_sigma and
-    first_velocity_sigma. A sigma of 0 switches its sensor off; with both off the estimate is the
-    truth. The specific force itself is measured without error. Frame: landing site.
+    white process noise of density process_noise on each axis. Fixes count from the start; the
+    first estimate is the truth with errors of first_position_sigma and first_velocity_sigma. A
+    sigma of 0 switches its sensor off; with both off the estimate is the truth. The specific force itself is measured without error. Frame: landing site.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2 (discretised white acceleration noise).
     """
 
@@ -57,8 +56,7 @@ class NoisyNavigation(Navigation):
     generator = State([0.0] * 6, description="random number generator")
     estimate = State([0.0] * 6, description="position (m) and velocity (m/s), landing-site frame")
     covariance = State([0.0] * 36, description="covariance of the estimate, row order, m and m/s")
-    stepped = State(False, description="a step has been taken since the start")
-    start_time = State(0.0, unit="s", description="time of the first communication point")
+    start_time = State(0.0, unit="s", description="start of the flight")
     position_fixes = State(0, description="position fixes taken")
     velocity_fixes = State(0, description="velocity fixes taken")
 
@@ -71,7 +69,10 @@ class NoisyNavigation(Navigation):
             self.estimate[3 + i] = self.velocity[i] + self.first_velocity_sigma * error
             self.covariance[7 * i] = self.first_position_sigma * self.first_position_sigma
             self.covariance[7 * (i + 3)] = self.first_velocity_sigma * self.first_velocity_sigma
-        self.publish()
+        if self.position_sigma > 0.0 or self.velocity_sigma > 0.0:
+            self.publish()
+        else:
+            self.pass_truth()
 
     def move(self, h: float) -> None:
         """Predict the estimate h (s) ahead."""
@@ -120,9 +121,6 @@ class NoisyNavigation(Navigation):
             self.estimated_velocity[i] = self.velocity[i]
 
     def step(self, t: float, h: float) -> None:
-        if not self.stepped:
-            self.stepped = True
-            self.start_time = t
         if self.position_sigma > 0.0 or self.velocity_sigma > 0.0:
             self.move(h)
             elapsed = t + h - self.start_time

@@ -1,0 +1,72 @@
+"""What a Python program calls: one flight, one campaign."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from analysis.batch.plan import read_plan
+from analysis.batch.results import BatchResult
+from analysis.batch.runner import run_batch
+from analysis.cosim.faults import Fault
+from analysis.cosim.parameter_sets import ParameterValue
+from analysis.cosim.results import Result
+from analysis.cosim.simulation import Simulation
+from analysis.cosim.system import SystemOptions, prepare_system
+
+
+def simulate(
+    system: str | Path,
+    *,
+    use: Mapping[str, str] | None = None,
+    parameters: Sequence[str] = (),
+    set: Mapping[str, ParameterValue] | None = None,
+    faults: Sequence[Fault] = (),
+    **options: Any,
+) -> Result:
+    """Fly a system once.
+
+    ``system`` is a name under ssp_systems, a folder or an .ssp; ``use`` maps components to FMUs
+    (block names or paths), ``parameters`` lists parameter sets, ``set`` maps
+    ``component.variable`` to values in SI units. Further options are those of `SystemOptions`
+    (step, stop_time in s, algorithm, variant, flavour, allow_unmatched, no_feedthrough).
+    Raises InputError; a flight that fails comes back with its ``status``.
+    """
+    prepared = prepare_system(system, _options(use, parameters, set, options))
+    with Simulation(prepared, faults=faults) as simulation:
+        return simulation.fly()
+
+
+def batch(
+    system: str | Path,
+    campaign: str,
+    *,
+    compare: Mapping[str, Sequence[str]] | None = None,
+    trials: int | None = None,
+    seed: int | None = None,
+    workers: int | None = None,
+    output: str | Path | None = None,
+    use: Mapping[str, str] | None = None,
+    parameters: Sequence[str] = (),
+    set: Mapping[str, ParameterValue] | None = None,
+    **options: Any,
+) -> BatchResult:
+    """Fly a campaign, by name or path of its .toml file; see docs/campaigns.md.
+
+    ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for
+    trials.parquet, draws.parquet and summary.json. The rest is as in `simulate`. Raises InputError.
+    """
+    plan = read_plan(
+        system, campaign, _options(use, parameters, set, options), trials=trials, seed=seed, compare=compare
+    )
+    return run_batch(plan, workers=workers, output=Path(output) if output is not None else None)
+
+
+def _options(
+    use: Mapping[str, str] | None,
+    parameters: Sequence[str],
+    settings: Mapping[str, ParameterValue] | None,
+    options: Mapping[str, Any],
+) -> SystemOptions:
+    return SystemOptions(use=dict(use or {}), parameters=tuple(parameters), set=dict(settings or {}), **options)

@@ -1,0 +1,96 @@
+"""perilune batch: a campaign of many flights."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from analysis.batch.expressions import Expression
+from analysis.batch.flyer import Flyer
+from analysis.batch.plan import BatchPlan, check_plan, read_plan
+from analysis.batch.runner import run_batch
+from analysis.batch.summary import requirement_values
+from analysis.errors import InputError, suggestion
+from analysis.reports.batch_report import write_batch_report
+
+from .options import add_json, add_system, pair, system_options, write_json
+
+HELP = "fly a campaign: many trials, variants compared on the same draws"
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    add_system(parser)
+    parser.add_argument("--campaign", required=True, metavar="NAME", help="a campaign of the system, or a .toml file")
+    parser.add_argument("--trials", type=int, metavar="N", help="instead of the campaign's number")
+    parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
+    parser.add_argument(
+        "--compare", action="append", metavar="SLOT=A,B,C", help="fly these FMUs in a slot, on the same draws"
+    )
+    parser.add_argument("--workers", type=int, metavar="N", help="flights in parallel; default: one per processor")
+    parser.add_argument("--output", type=Path, metavar="DIR", help="write trials.parquet, draws.parquet, summary.json")
+    parser.add_argument("--replay", type=int, metavar="K", help="fly trial K only, with all signals to --output DIR")
+    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
+    parser.add_argument(
+        "--require",
+        action="append",
+        default=[],
+        metavar="EXPRESSION",
+        help="exit 1 unless true of the summary's numbers",
+    )
+    add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    compare = None
+    if options.compare is not None:
+        pairs = [pair(text, "--compare", "SLOT=A,B,C") for text in options.compare]
+        compare = {slot: [name.strip() for name in names.split(",")] for slot, names in pairs}
+    requirements = [Expression(text, ("--require", text)) for text in options.require]
+    plan = read_plan(
+        options.system,
+        options.campaign,
+        system_options(options),
+        trials=options.trials,
+        seed=options.seed,
+        compare=compare,
+    )
+    if options.replay is not None:
+        return _replay(plan, options)
+    result = run_batch(plan, workers=options.workers, output=options.output)
+    if options.report is not None:
+        write_batch_report(result, options.report, result.provenance["system"])
+    if not write_json(result.document(), options.json):
+        print(result.text())
+    values = requirement_values(result.summary)
+    failed = []
+    for requirement in requirements:
+        unknown = sorted(requirement.names - set(values))
+        if unknown:
+            raise InputError("--require", unknown[0], "no such number in the summary", suggestion(unknown[0], values))
+        if not requirement.evaluate(values):
+            failed.append(requirement.text)
+    for text in failed:
+        print(f"perilune: --require: {text}: not met", file=sys.stderr)
+    return 1 if failed else 0
+
+
+def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
+    """Fly one trial of every variant again, every signal recorded."""
+    trial = options.replay
+    if not 0 <= trial < plan.campaign.trials:
+        raise InputError("--replay", str(trial), "no such trial", f"give 0 to {plan.campaign.trials - 1}")
+    check_plan(plan)
+    flyer = Flyer(plan)
+    document = {}
+    for variant in flyer.variants:
+        result, found = flyer.replay(variant, trial)
+        if options.output is not None:
+            result.write(options.output / f"{variant}_{trial:06d}.parquet")
+        document[variant] = {"status": found.status, "success": found.success, "metrics": found.metrics}
+    flyer.close()
+    if not write_json({"trial": trial, "variants": document}, options.json):
+        for variant, entry in document.items():
+            metrics = ", ".join(f"{name} {value:.6g}" for name, value in entry["metrics"].items())
+            print(f"{variant}: trial {trial}: {entry['status']}, success {entry['success']}: {metrics}")
+    return 0

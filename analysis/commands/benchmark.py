@@ -1,0 +1,25 @@
+"""perilune benchmark: this loop beside other importers, on the same FMUs in one run."""
+
+from __future__ import annotations
+
+import argparse
+
+from analysis.benchmark.measure import run_benchmark
+from analysis.benchmark.table import benchmark_text
+
+from .options import add_json, write_json
+
+HELP = "time a communication step against other importers"
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--steps", type=int, default=2500, metavar="N", help="communication steps; default 2500")
+    parser.add_argument("--repeats", type=int, default=5, metavar="N", help="runs of each; default 5")
+    add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    document = run_benchmark(steps=options.steps, repeats=options.repeats)
+    if not write_json(document, options.json):
+        print(benchmark_text(document))
+    return 0

@@ -1,0 +1,61 @@
+"""perilune list: what there is to fly."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from fmpy import read_model_description
+
+from analysis.cosim.archive import SystemArchive, open_system, system_names
+from analysis.places import BUILD
+from fmus_src.catalogue import catalogue
+from fmus_src.export.ssp_package import CAMPAIGN_FOLDER
+
+from .options import add_json, write_json
+
+HELP = "list systems, with parameter sets and campaigns, and FMUs"
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    document = {
+        "systems": {name: _system(open_system(name)) for name in system_names()},
+        "fmus": _fmus(),
+    }
+    if write_json(document, options.json):
+        return 0
+    for name, system in document["systems"].items():
+        print(name)
+        print(f"  parameter sets  {', '.join(system['parameter_sets']) or 'none'}")
+        print(f"  campaigns       {', '.join(system['campaigns']) or 'none'}")
+    print("FMUs")
+    width = max((len(name) for name in document["fmus"]), default=0)
+    for name, entry in document["fmus"].items():
+        print(f"  {name:{width}}  {'+'.join(entry['built']) or 'not built':13}  {entry['description']}")
+    return 0
+
+
+def _system(archive: SystemArchive) -> dict[str, list[str]]:
+    return {
+        "parameter_sets": sorted(Path(name).name for name in archive.files if name.endswith(".ssv")),
+        "campaigns": sorted(Path(name).stem for name in archive.files if name.startswith(f"{CAMPAIGN_FOLDER}/")),
+    }
+
+
+def _fmus() -> dict[str, dict[str, Any]]:
+    """FMUs of this repository and those built from elsewhere, by name."""
+    found: dict[str, dict[str, Any]] = {
+        name: {"interface": block.__mro__[1].__name__, "description": block.summary(), "built": []}
+        for name, block in catalogue().items()
+    }
+    for path in sorted(BUILD.glob("fmus/*/*.fmu")):
+        if path.stem not in found:
+            description = read_model_description(str(path), validate=False).description or ""
+            found[path.stem] = {"interface": None, "description": description, "built": []}
+        found[path.stem]["built"].append(path.parent.name)
+    return found

@@ -1,0 +1,87 @@
+"""Options that several verbs share, and how results leave as JSON."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from analysis.cosim.system import ALGORITHMS, FLAVOURS, SystemOptions
+from analysis.errors import InputError
+
+
+def add_json(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--json", metavar="FILE", help="write the result as JSON to a file, or to standard output with -"
+    )
+
+
+def add_system(parser: argparse.ArgumentParser) -> None:
+    """The system and its options, as in docs/command_line.md."""
+    parser.add_argument("system", metavar="SYSTEM", help="a name under ssp_systems, a folder or an .ssp file")
+    group = parser.add_argument_group("system options")
+    group.add_argument(
+        "--use", action="append", default=[], metavar="SLOT=FMU", help="put another FMU in a component's place"
+    )
+    group.add_argument(
+        "--parameters", action="append", default=[], metavar="F.ssv", help="apply a parameter set, by name or path"
+    )
+    group.add_argument(
+        "--set", action="append", default=[], metavar="COMPONENT.VARIABLE=VALUE", help="set one parameter or input"
+    )
+    group.add_argument("--step", type=_seconds, metavar="H", help="communication step, s")
+    group.add_argument("--stop-time", type=_seconds, metavar="T", help="s")
+    group.add_argument("--algorithm", choices=ALGORITHMS, default="sequential")
+    group.add_argument("--variant", metavar="NAME", help="another SSD of the archive")
+    group.add_argument("--flavour", choices=FLAVOURS, help="which FMUs of this repository; default: native if built")
+    group.add_argument("--allow-unmatched", action="store_true", help="let parameters pass that match nothing")
+    group.add_argument(
+        "--no-feedthrough", action="append", default=[], metavar="COMPONENT", help="its outputs wait for no input"
+    )
+
+
+def _seconds(text: str) -> float:
+    value = float(text)
+    if not value == value or value in (float("inf"), float("-inf")):
+        raise argparse.ArgumentTypeError(f"{text} is not a finite number of seconds")
+    return value
+
+
+def pair(text: str, option: str, form: str) -> tuple[str, str]:
+    """``NAME=VALUE`` split; raises InputError."""
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip() or not value.strip():
+        raise InputError(option, text, f"not of the form {form}", "write it so")
+    return name.strip(), value.strip()
+
+
+def system_options(options: argparse.Namespace) -> SystemOptions:
+    """The system options of a parsed command line."""
+    return SystemOptions(
+        use=dict(pair(text, "--use", "SLOT=FMU") for text in options.use),
+        parameters=tuple(options.parameters),
+        set=dict(pair(text, "--set", "COMPONENT.VARIABLE=VALUE") for text in options.set),
+        step=options.step,
+        stop_time=options.stop_time,
+        algorithm=options.algorithm,
+        variant=options.variant,
+        flavour=options.flavour,
+        allow_unmatched=options.allow_unmatched,
+        no_feedthrough=tuple(options.no_feedthrough),
+    )
+
+
+def write_json(document: Any, target: str | None) -> bool:
+    """Write a document as strict JSON; returns whether it went to standard output."""
+    if target is None:
+        return False
+    text = json.dumps(document, indent=1, allow_nan=False) + "\n"
+    if target == "-":
+        sys.stdout.write(text)
+        return True
+    path = Path(target)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return False

@@ -1,0 +1,69 @@
+"""perilune validate: check FMUs, systems and parameter sets without flying them."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from fmpy.validation import validate_fmu
+
+from analysis.batch.campaign_file import read_campaign
+from analysis.cosim.fmu import load_fmu
+from analysis.cosim.parameter_sets import read_parameter_file
+from analysis.cosim.system import prepare_system
+from analysis.errors import InputError
+
+from .options import add_json, write_json
+
+HELP = "check systems, FMUs, parameter sets and campaigns"
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("path", nargs="+", metavar="PATH", help="a system, .ssp, .fmu, .ssv or campaign .toml")
+    add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    results = [_check(path) for path in options.path]
+    silent = write_json(results, options.json)
+    for result in results:
+        for problem in result["problems"]:
+            print(f"perilune: {problem}", file=sys.stderr)
+        if not silent:
+            for note in result["notes"]:
+                print(f"{result['path']}: note: {note}")
+            if not result["problems"]:
+                print(f"{result['path']}: good")
+    return 2 if any(result["problems"] for result in results) else 0
+
+
+def _check(path: str) -> dict[str, Any]:
+    """Problems and notes of one path."""
+    notes: list[str] = []
+    problems: list[str] = []
+    try:
+        if path.endswith(".fmu"):
+            load_fmu(_read(path), path)
+            remedy = "mend the FMU's modelDescription.xml"
+            problems += [
+                f"{path}: modelDescription.xml: {' '.join(text.split())}; {remedy}" for text in validate_fmu(path)
+            ]
+        elif path.endswith(".ssv"):
+            read_parameter_file(_read(path), path)
+        elif path.endswith(".toml"):
+            read_campaign(Path(path))
+        else:
+            prepared = prepare_system(path)
+            notes += prepared.network.notes
+            notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
+    except InputError as error:
+        problems.append(str(error))
+    return {"path": path, "problems": problems, "notes": notes}
+
+
+def _read(path: str) -> bytes:
+    if not Path(path).is_file():
+        raise InputError(path, "file", "not found", "give the path of a file")
+    return Path(path).read_bytes()
