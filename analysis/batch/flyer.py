@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from analysis.cosim.results import Result
+from analysis.cosim.results import Flight, Result
 from analysis.cosim.simulation import Simulation
 
 from .metrics import evaluate_metrics, succeeded
@@ -41,9 +41,8 @@ class Flyer:
         if variant not in self._ready:
             prepared = self.plan.prepare(self.variants[variant])
             names = variant_names(self.plan, prepared)
-            wanted = {*names.signals, *names.statuses}
-            if self.plan.campaign.record.traces != "none":
-                wanted = None
+            everything = self.plan.campaign.record.traces != "none"
+            wanted = None if everything else {*names.signals, *names.statuses}
             self._ready[variant] = Simulation(prepared, varied=names.varied, wanted=wanted), names
         return self._ready[variant]
 
@@ -54,7 +53,7 @@ class Flyer:
     def fly_one(self, variant: str, trial: int) -> TrialResult:
         """Fly one trial; the result does not depend on what was flown before."""
         simulation, names = self.simulation(variant)
-        return self._judge(simulation.fly(self.plan.parameters(simulation.prepared, trial)), names, trial)
+        return self._judge(simulation.run(self.plan.parameters(simulation.prepared, trial)), names, trial)
 
     def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
         """Fly one trial with every signal recorded; same bits as in the batch."""
@@ -64,7 +63,7 @@ class Flyer:
             result = simulation.fly(self.plan.parameters(prepared, trial))
         return result, self._judge(result, names, trial)
 
-    def _judge(self, result: Result, names: VariantNames, trial: int) -> TrialResult:
+    def _judge(self, result: Flight, names: VariantNames, trial: int) -> TrialResult:
         """Metrics, success and records of a flight."""
         campaign = self.plan.campaign
         metrics = {metric.name: float("nan") for metric in campaign.metrics}
@@ -85,7 +84,7 @@ class Flyer:
             traces=self._traces(result, success),
         )
 
-    def _traces(self, result: Result, success: bool) -> dict[str, np.ndarray] | None:
+    def _traces(self, result: Flight, success: bool) -> dict[str, np.ndarray] | None:
         """Copies of what the campaign keeps over time: sampled signals, or everything of some trials."""
         record = self.plan.campaign.record
         if record.traces == "all" or (record.traces == "failures" and not success):
@@ -102,7 +101,7 @@ class Flyer:
         self._ready = {}
 
 
-def trial_status(result: Result, statuses: list[str]) -> str:
+def trial_status(result: Flight, statuses: list[str]) -> str:
     """How a trial ended, with the worst status of every component that reported other than 0.
 
     For instance ``finished`` or ``finished (guidance.status 2)``.

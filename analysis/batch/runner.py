@@ -57,7 +57,7 @@ def provenance(plan: BatchPlan, systems: dict) -> dict[str, Any]:
     first = next(iter(systems.values()))
     return {
         "system": first.archive.name,
-        "system_sha256": first.archive.digest(),
+        "system_sha256": first.archive.digest,
         "campaign": plan.campaign.file,
         "trials": plan.campaign.trials,
         "seed": plan.campaign.seed,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
+from typing import Any
 
 from analysis.batch.expressions import Expression
 from analysis.batch.flyer import Flyer
@@ -82,7 +83,7 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
         raise InputError("--replay", str(trial), "no such trial", f"give 0 to {plan.campaign.trials - 1}")
     check_plan(plan)
     flyer = Flyer(plan)
-    document = {}
+    document: dict[str, dict[str, Any]] = {}
     for variant in flyer.variants:
         result, found = flyer.replay(variant, trial)
         if options.output is not None:

@@ -8,6 +8,7 @@ import posixpath
 import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from analysis.errors import InputError, suggestion
@@ -81,6 +82,7 @@ class SystemArchive:
             self.label, option, f"no {name} in the system, nor a file of this name", suggestion(name, known)
         )
 
+    @cached_property
     def digest(self) -> str:
         """SHA-256 over names and contents."""
         total = hashlib.sha256()

@@ -16,22 +16,19 @@ COMPLETE = ("finished", "stop_time")
 
 
 @dataclass
-class Result:
-    """One flight. Row n of every signal is its value at ``time[n]`` (s).
+class Flight:
+    """One flight in memory. Row n of every signal is its value at ``time[n]`` (s).
 
     ``status`` is ``finished`` (the system's own end), ``stop_time``, ``nonfinite`` (a component
     gave NaN or infinity) or ``failed`` (an FMU reported an error); ``message`` explains the last
-    two. ``signals`` are float64, Integer and Boolean values included. ``provenance`` holds
-    parameter values, hashes and versions.
+    two. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
     """
 
     time: np.ndarray
     signals: dict[str, np.ndarray]
-    units: dict[str, str | None]
     types: dict[str, str]
     status: str
     message: str
-    provenance: dict[str, Any]
 
     def __getitem__(self, name: str) -> np.ndarray:
         """A signal by name, ``component.variable``."""
@@ -47,6 +44,14 @@ class Result:
         if not self.time.size:
             return {}
         return {name: convert.get(self.types[name], float)(values[-1]) for name, values in self.signals.items()}
+
+
+@dataclass
+class Result(Flight):
+    """A flight with units by signal, and with parameter values, hashes and versions as provenance."""
+
+    units: dict[str, str | None]
+    provenance: dict[str, Any]
 
     def table(self) -> pyarrow.Table:
         """The flight as an Arrow table: time first, units and provenance in the metadata."""

@@ -16,7 +16,7 @@ from .faults import Fault
 from .fmu import Instance, instantiate
 from .parameter_sets import ParameterValue, parse_value
 from .program import build_program
-from .results import Result
+from .results import Flight, Result
 from .system import PreparedSystem
 
 STATUS = {
@@ -47,19 +47,18 @@ class Simulation:
     ) -> None:
         self.prepared = prepared
         self.settings = prepared.settings
-        if varied:
-            self._place_varied(varied)
+        self._varied = {name: self._key(name) for name in varied}
+        self._place_varied()
         self.instances: dict[str, Instance] = {}
         self._wanted = wanted
         self._faults = faults
         self._instantiate()
 
-    def _place_varied(self, varied: Collection[str]) -> None:
+    def _place_varied(self) -> None:
         """Give every varied parameter a place in the settings, at its start value."""
         network = self.prepared.network
         variables = dict(self.settings.variables)
-        for name in varied:
-            component, variable = self._key(name)
+        for name, (component, variable) in self._varied.items():
             declared = network.fmus[component].variables[variable]
             start = parse_value(str(declared.start), declared.type, network.fmus[component].label, name)
             variables.setdefault((component, variable), start)
@@ -90,6 +89,7 @@ class Simulation:
                 raise InputError(
                     prepared.network.file, name, "no such signal", "name a connector as component.variable"
                 )
+        self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._recorded = np.array([self.layout.slots[name] for name in self.signal_names], dtype=np.int64)
         self._buffers = loop.Buffers(
             values=np.zeros(len(self.layout.slots)),
@@ -105,8 +105,17 @@ class Simulation:
 
         The arrays of the result are the simulation's own and are overwritten by the next flight.
         """
-        for name, value in (values or {}).items():
-            self.layout.set_parameter(self._key(name), value)  # type: ignore[arg-type]
+        flight = self.run(values or {}, every=every)
+        return Result(
+            **vars(flight),
+            units={name: self.layout.units[name] for name in self.signal_names},
+            provenance=self.provenance(),
+        )
+
+    def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
+        """The flight alone, for batches; see `fly`."""
+        for name, value in values.items():
+            self.layout.set_parameter(self._varied[name], value)  # type: ignore[arg-type]
         prepared = self.prepared
         rows = prepared.steps // every + 2
         if self._record.shape[0] < rows:
@@ -115,28 +124,36 @@ class Simulation:
         reset = not self._fresh
         if self.layout.strings:
             reset = self._set_strings(reset)
-        function = loop.fly_unlocked if prepared.is_native else loop.fly_locked
         for instance in self.instances.values():
             instance.messages.clear()
+        function = loop.fly_unlocked if prepared.is_native else loop.fly_locked
         count = function(
-            self.program, self._buffers, self.layout.real_values, self.layout.whole_values, reset,
-            prepared.start, prepared.step, prepared.steps, prepared.options.algorithm == "jacobi",
-            self._recorded, every, self._record, self._times,
-        )  # fmt: skip
+            self.program,
+            self._buffers,
+            self.layout.real_values,
+            self.layout.whole_values,
+            reset,
+            prepared.start,
+            prepared.step,
+            prepared.steps,
+            prepared.options.algorithm == "jacobi",
+            self._recorded,
+            every,
+            self._record,
+            self._times,
+        )
         self._fresh = False
         status, message = self._end()
-        result = Result(
+        flight = Flight(
             time=self._times[:count],
             signals={name: self._record[:count, index] for index, name in enumerate(self.signal_names)},
-            units={name: self.layout.units[name] for name in self.signal_names},
-            types={name: self.layout.types[name] for name in self.signal_names},
+            types=self._types,
             status=status,
             message=message,
-            provenance=self.provenance(),
         )
         if self._buffers.outcome[0] == loop.FAILED and self._buffers.outcome[3] >= FMI_FATAL:
             self._replace_instances()
-        return result
+        return flight
 
     def _set_strings(self, reset: bool) -> bool:
         """Reset here and set String parameters, which the compiled loop does not know; returns False."""
@@ -183,7 +200,7 @@ class Simulation:
             values[f"{component}.{variable}"] = value
         return {
             "system": prepared.archive.name,
-            "system_sha256": prepared.archive.digest(),
+            "system_sha256": prepared.archive.digest,
             "fmus": {
                 name: {"fmu": fmu.name, "sha256": fmu.digest, "guid": fmu.description.guid}
                 for name, fmu in prepared.network.fmus.items()
