@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import io
+import lzma
 import posixpath
+import struct
 import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +17,20 @@ from pathlib import Path
 from analysis.errors import InputError, suggestion
 from analysis.places import ROOT, SYSTEMS, built_fmu
 from fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
+
+# what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
+UNREADABLE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    lzma.LZMAError,
+    struct.error,
+    EOFError,
+    OSError,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    OverflowError,
+)
 
 
 @dataclass(frozen=True)
@@ -96,7 +113,7 @@ def open_zip(data: bytes, label: str) -> zipfile.ZipFile:
     try:
         archive = zipfile.ZipFile(io.BytesIO(data))
         broken = archive.testzip()
-    except (zipfile.BadZipFile, EOFError, OSError, NotImplementedError, RuntimeError, ValueError) as error:
+    except UNREADABLE as error:
         raise InputError(label, "archive", f"not a readable zip: {error}", "build or copy the file again") from error
     if broken is not None:
         raise InputError(label, broken, "damaged in the zip (checksum)", "build or copy the file again")

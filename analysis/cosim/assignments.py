@@ -10,7 +10,7 @@ from analysis.errors import InputError, suggestion
 from .archive import SystemArchive
 from .description import Binding, Component, System
 from .documents import read_document
-from .network import Network, Node
+from .network import Link, Network, Node
 from .parameter_sets import (
     Assignment,
     ParameterValue,
@@ -19,7 +19,7 @@ from .parameter_sets import (
     read_parameter_file,
     read_parameter_set,
 )
-from .transformations import Transformation
+from .transformations import VALUE_TYPES, Transformation
 
 SETTABLE = ("parameter", "input")
 
@@ -116,6 +116,7 @@ def _apply(
             number = _fit(assignment, target.type_name or "Real", target)
             if isinstance(number, str):
                 raise InputError(assignment.file, assignment.where, "String signals are not supported yet", "remove it")
+            _check_bounds(assignment, None, number)
             settings.nodes[target.name] = float(number)
             return
     elif target is not None:
@@ -171,11 +172,14 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
             transformation = transformation.after_units(assignment.unit.conversion_to(node.unit))
         return float(value) * transformation.factor + transformation.offset
     if transformation.table:
-        text = str(value).lower() if isinstance(value, bool) else str(value)
-        table = dict(transformation.table)
-        if text not in table:
-            raise InputError(assignment.file, assignment.where, f"the mapping has no entry for {text}", "add one")
-        value = parse_value(table[text], type_name, assignment.file, assignment.where)
+        table = [
+            [parse_value(text, type_name, assignment.file, assignment.where) for text in entry]
+            for entry in transformation.table
+        ]
+        found = [target for source, target in table if source == value]
+        if not found:
+            raise InputError(assignment.file, assignment.where, f"the mapping has no entry for {value}", "add one")
+        value = found[-1]
     if type_name == "Enumeration":
         if str(value) in node.enumeration:
             return node.enumeration[str(value)]
@@ -195,6 +199,8 @@ def _check_bounds(assignment: Assignment, variable: object, value: ParameterValu
     low, high = getattr(variable, "min", None), getattr(variable, "max", None)
     if not abs(value) < float("inf"):
         raise InputError(assignment.file, assignment.where, f"{value} is not finite", "give a finite number")
+    if isinstance(value, int) and not -(2**31) <= value < 2**31:
+        raise InputError(assignment.file, assignment.where, f"{value} has more than 32 bits", "give a smaller number")
     if low is not None and value < float(low):
         raise InputError(
             assignment.file, assignment.where, f"{value} is below the minimum {low}", "give a larger value"
@@ -214,19 +220,42 @@ def _pass_parameters(network: Network, settings: Settings) -> None:
         while chain[-1].source.name in network.driver:
             chain.append(network.driver[chain[-1].source.name])
         origin = chain[-1].source
-        if origin.component is not None:
-            raise InputError(
-                network.file,
-                f"{origin.name} -> {node.name} (line {chain[-1].line})",
-                "calculated parameters are not passed between components yet",
-                "give the value in a parameter set",
-            )
         if origin.name in settings.nodes:
             value = settings.nodes[origin.name]
             for link in reversed(chain):
-                value = value * link.transformation.factor + link.transformation.offset
+                value = _passed(network, link, value)
             kind = {"Real": float, "Boolean": bool}.get(node.type_name or "", int)
             settings.variables[node.component or "", node.variable] = kind(value)
+
+
+def _passed(network: Network, link: Link, value: float) -> float:
+    """A parameter's value behind a connection."""
+    if not link.transformation.table:
+        return value * link.transformation.factor + link.transformation.offset
+    table = dict(numbers(network, link))
+    if value not in table:
+        where = f"connection {link.source.name} -> {link.target.name} (line {link.line})"
+        raise InputError(network.file, where, f"the mapping has no entry for {value:g}", "add one")
+    return table[value]
+
+
+def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
+    """A connection's mapping as numbers: Booleans 0 and 1, enumeration items by their values; else nothing."""
+    transformation = link.transformation
+    kind = VALUE_TYPES[transformation.kind][0]
+
+    def number(text: str, node: Node) -> float:
+        if kind == "Boolean":
+            return float(text in ("true", "1"))
+        if kind == "Integer":
+            return float(text)
+        if text not in node.enumeration:
+            where = f"connection {link.source.name} -> {link.target.name} (line {link.line})"
+            problem = f"{node.name} has no enumeration item {text}"
+            raise InputError(network.file, where, problem, suggestion(text, node.enumeration))
+        return float(node.enumeration[text])
+
+    return [(number(source, link.source), number(target, link.target)) for source, target in transformation.table]
 
 
 def _check_inputs(network: Network, settings: Settings) -> None:
@@ -241,10 +270,13 @@ def _check_inputs(network: Network, settings: Settings) -> None:
             f"connect it, or give a value: --set {node.name}=VALUE",
         )
     for link in network.driver.values():
-        if link.source.kind == "inout" and link.source.name not in network.driver:
-            raise InputError(
-                network.file, link.source.where, "signal is read but never driven", "connect a source to it"
-            )
+        source = link.source
+        is_signal = source.component is None and source.kind in ("inout", "output")
+        if is_signal and source.name not in network.driver:
+            raise InputError(network.file, source.where, "signal is read but never driven", "connect a source to it")
+    for node in network.nodes.values():
+        if node.component is None and node.kind == "output" and node.name not in network.driver:
+            network.notes.append(f"{node.name}: output without a source, not recorded")
     for component, fmu in network.fmus.items():
         for name, variable in fmu.variables.items():
             if variable.causality == "input" and f"{component}.{name}" not in network.nodes:

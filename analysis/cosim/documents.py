@@ -33,13 +33,17 @@ def _schema(kind: str) -> etree.XMLSchema:
 
 def parse_xml(data: bytes, file: str) -> etree._Element:
     """Root element of an XML document; a DOCTYPE is refused before anything else is looked at."""
+    refusal = InputError(file, "DOCTYPE", "a document type declaration is not accepted", "remove the <!DOCTYPE ...>")
     if b"<!DOCTYPE" in data.upper():
-        raise InputError(file, "DOCTYPE", "a document type declaration is not accepted", "remove the <!DOCTYPE ...>")
+        raise refusal
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False)
     try:
-        return etree.fromstring(data, parser)
+        root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
         raise InputError(file, f"line {error.lineno}", f"not well-formed XML: {error.msg}", "mend the XML") from error
+    if root.getroottree().docinfo.internalDTD is not None:  # in an encoding in which the bytes look otherwise
+        raise refusal
+    return root
 
 
 def check_schema(element: etree._Element, kind: str, file: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import io
+import itertools
 import shutil
 import tempfile
 import weakref
@@ -113,7 +114,7 @@ class Instance:
 
 # fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
 _logs: dict[str, list[str]] = {}
-_instances = 0
+_instances = itertools.count(1)
 
 
 def _log(_environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
@@ -131,9 +132,7 @@ addLoggerProxy(ctypes.byref(_callbacks))
 
 def instantiate(fmu: Fmu, name: str) -> Instance:
     """Instantiate an FMU; ``name`` is the component's, made unique in the process."""
-    global _instances
-    _instances += 1
-    unique = f"{name}#{_instances}"
+    unique = f"{name}#{next(_instances)}"
     _logs[unique] = []
     try:
         slave = fmi2.FMU2Slave(

@@ -1,8 +1,13 @@
 """The co-simulation loop: one compiled function that initialises the FMUs and flies them.
 
-Every exchanged variable has a slot in one float64 array; Integer, Boolean and Enumeration values
-pass through an int32 array of the same layout. The slots of a component are contiguous by type
-and direction (`RANGES`), so that each FMI call takes a piece of the arrays as it stands.
+A system becomes a list of instructions (`instructions.py`): one part that initialises, one part
+that is repeated every communication step. The loop knows nothing of algorithms; their order is
+in the list. Every exchanged variable has a slot in one float64 array; Integer, Boolean and
+Enumeration values pass through an int32 array of the same layout. The slots of a component are
+contiguous by type and direction, so that each FMI call takes a piece of the arrays as it stands.
+
+It is one function without calls to others of ours: numba counts references to every array that
+crosses a call, which costs more than the FMI calls themselves.
 """
 
 from __future__ import annotations
@@ -14,10 +19,12 @@ from numba import njit
 
 from .fmi_calls import change_mode, do_step, exchange, setup_experiment
 
-# Columns of Program.address; the first six also number Program.ranges.
-SET_REAL, GET_REAL, SET_INTEGER, GET_INTEGER, SET_BOOLEAN, GET_BOOLEAN = range(6)
-DO_STEP, RESET, SETUP_EXPERIMENT, ENTER_INITIALISATION, EXIT_INITIALISATION = range(6, 11)
-RANGES = 6
+# Instruction codes.
+CONNECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP, PARAMETERS, WHOLE_PARAMETERS, SETUP, MODE = range(10)
+# Instruction columns. FIRST and COUNT are connections, slots or parameters; AT_END is 1 where the
+# values belong to the end of the step; FUNCTION numbers FUNCTION_NAMES.
+CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION, AT_END = range(8)
+COLUMNS = 8
 FUNCTION_NAMES = (
     "fmi2SetReal",
     "fmi2GetReal",
@@ -32,24 +39,22 @@ FUNCTION_NAMES = (
     "fmi2ExitInitializationMode",
 )
 
-# How a run ends: Outcome.code
-STOP_TIME, FINISHED, NONFINITE, FAILED = range(4)
+# How a run ends: Buffers.outcome[0].
+STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED = range(5)
 OVERRIDE, BIAS, FREEZE = range(3)
 LINEAR, TABLE = range(2)
 FMI_WARNING = 1
 
 
 class Program(NamedTuple):
-    """A system as arrays; n components, s slots, p parameter values, c connections."""
+    """A system as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
 
-    instance: np.ndarray  # int64 [n], fmi2Component
-    address: np.ndarray  # int64 [n, 11], functions in the order of FUNCTION_NAMES
-    ranges: np.ndarray  # int64 [n, 6, 2], first slot and count per exchange function
+    instructions: np.ndarray  # int64 [i, 8]
+    reset_end: int  # instructions before this one reset the FMUs; a fresh instance skips them
+    initial_end: int  # instructions before this one initialise, the others make a step
     reference: np.ndarray  # uint32 [s], value references
     initial: np.ndarray  # float64 [s], values before anything is exchanged
-    parameter_ranges: np.ndarray  # int64 [n, 3, 2], first and count per type, in the parameter arrays
     parameter_reference: np.ndarray  # uint32 [p]
-    connection_ranges: np.ndarray  # int64 [n + 1, 2], those that feed a component; last: system connectors
     source: np.ndarray  # int64 [c], slots
     target: np.ndarray  # int64 [c], slots
     kind: np.ndarray  # int64 [c], LINEAR or TABLE
@@ -58,9 +63,6 @@ class Program(NamedTuple):
     table: np.ndarray  # int64 [c, 2], first and count in table_from, table_to
     table_from: np.ndarray  # float64
     table_to: np.ndarray  # float64
-    initial_order: np.ndarray  # int64 [n], components in the order that settles initialisation
-    sources_first: np.ndarray  # int64, class S: no output depends directly on an input
-    followers: np.ndarray  # int64, class F in topological order
     finished_slot: int  # -1: no `finished` connector
     fault_slot: np.ndarray  # int64 [f]
     fault_kind: np.ndarray  # int64 [f], OVERRIDE, BIAS or FREEZE
@@ -74,209 +76,121 @@ class Buffers(NamedTuple):
     values: np.ndarray  # float64 [s]
     whole: np.ndarray  # int32 [s]
     frozen: np.ndarray  # float64 [f], NaN until a freeze begins
-    outcome: np.ndarray  # int64 [5]: code, component or slot, function, fmi2Status, row
-
-
-@njit(cache=True)
-def _fail(buffers, component, function, status):  # type: ignore[no-untyped-def]
-    buffers.outcome[0] = FAILED
-    buffers.outcome[1] = component
-    buffers.outcome[2] = function
-    buffers.outcome[3] = status
-    return False
-
-
-@njit(cache=True)
-def _inject(program, buffers, first, count, time):  # type: ignore[no-untyped-def]
-    for k in range(program.fault_slot.size):
-        slot = program.fault_slot[k]
-        active = program.fault_window[k, 0] <= time < program.fault_window[k, 1]
-        if first <= slot < first + count and active:
-            if program.fault_kind[k] == OVERRIDE:
-                buffers.values[slot] = program.fault_value[k]
-            elif program.fault_kind[k] == BIAS:
-                buffers.values[slot] += program.fault_value[k]
-            else:
-                if np.isnan(buffers.frozen[k]):
-                    buffers.frozen[k] = buffers.values[slot]
-                buffers.values[slot] = buffers.frozen[k]
-
-
-@njit(cache=True)
-def _connect(program, buffers, component):  # type: ignore[no-untyped-def]
-    values = buffers.values
-    first = program.connection_ranges[component, 0]
-    for k in range(first, first + program.connection_ranges[component, 1]):
-        value = values[program.source[k]]
-        if program.kind[k] == LINEAR:
-            values[program.target[k]] = value * program.factor[k] + program.offset[k]
-        else:
-            entry = program.table[k, 0]
-            for _ in range(program.table[k, 1]):
-                if program.table_from[entry] == value:
-                    values[program.target[k]] = program.table_to[entry]
-                entry += 1
-
-
-@njit(cache=True)
-def _set(program, buffers, component, time):  # type: ignore[no-untyped-def]
-    _connect(program, buffers, component)
-    for function in (SET_REAL, SET_INTEGER, SET_BOOLEAN):
-        first = program.ranges[component, function, 0]
-        count = program.ranges[component, function, 1]
-        if count > 0:
-            _inject(program, buffers, first, count, time)
-            address = program.address[component, function]
-            instance = program.instance[component]
-            if function == SET_REAL:
-                status = exchange(address, instance, program.reference, buffers.values, first, count)
-            else:
-                for slot in range(first, first + count):
-                    buffers.whole[slot] = np.int32(buffers.values[slot])
-                status = exchange(address, instance, program.reference, buffers.whole, first, count)
-            if status > FMI_WARNING:
-                return _fail(buffers, component, function, status)
-    return True
-
-
-@njit(cache=True)
-def _get(program, buffers, component, time):  # type: ignore[no-untyped-def]
-    for function in (GET_REAL, GET_INTEGER, GET_BOOLEAN):
-        first = program.ranges[component, function, 0]
-        count = program.ranges[component, function, 1]
-        if count > 0:
-            address = program.address[component, function]
-            instance = program.instance[component]
-            if function == GET_REAL:
-                status = exchange(address, instance, program.reference, buffers.values, first, count)
-            else:
-                status = exchange(address, instance, program.reference, buffers.whole, first, count)
-                for slot in range(first, first + count):
-                    buffers.values[slot] = buffers.whole[slot]
-            if status > FMI_WARNING:
-                return _fail(buffers, component, function, status)
-            _inject(program, buffers, first, count, time)
-            for slot in range(first, first + count):
-                if not np.isfinite(buffers.values[slot]):
-                    buffers.outcome[0] = NONFINITE
-                    buffers.outcome[1] = slot
-                    return False
-    return True
-
-
-@njit(cache=True)
-def _step(program, buffers, component, time, step):  # type: ignore[no-untyped-def]
-    status = do_step(program.address[component, DO_STEP], program.instance[component], time, step)
-    if status > FMI_WARNING:
-        return _fail(buffers, component, DO_STEP, status)
-    return True
-
-
-@njit(cache=True)
-def _initialise(program, buffers, parameters, whole_parameters, reset, start, stop):  # type: ignore[no-untyped-def]
-    for component in range(program.instance.size):
-        instance = program.instance[component]
-        if reset:
-            status = change_mode(program.address[component, RESET], instance)
-            if status > FMI_WARNING:
-                return _fail(buffers, component, RESET, status)
-        for kind in range(3):
-            first = program.parameter_ranges[component, kind, 0]
-            count = program.parameter_ranges[component, kind, 1]
-            if count > 0:
-                address = program.address[component, 2 * kind]
-                if kind == 0:
-                    status = exchange(address, instance, program.parameter_reference, parameters, first, count)
-                else:
-                    status = exchange(address, instance, program.parameter_reference, whole_parameters, first, count)
-                if status > FMI_WARNING:
-                    return _fail(buffers, component, 2 * kind, status)
-        status = setup_experiment(program.address[component, SETUP_EXPERIMENT], instance, start, stop)
-        if status > FMI_WARNING:
-            return _fail(buffers, component, SETUP_EXPERIMENT, status)
-        status = change_mode(program.address[component, ENTER_INITIALISATION], instance)
-        if status > FMI_WARNING:
-            return _fail(buffers, component, ENTER_INITIALISATION, status)
-    for component in program.initial_order:
-        if not _set(program, buffers, component, start) or not _get(program, buffers, component, start):
-            return False
-    for component in range(program.instance.size):
-        status = change_mode(program.address[component, EXIT_INITIALISATION], program.instance[component])
-        if status > FMI_WARNING:
-            return _fail(buffers, component, EXIT_INITIALISATION, status)
-    return True
-
-
-@njit(cache=True)
-def _advance_sequential(program, buffers, time, after, step):  # type: ignore[no-untyped-def]
-    for component in program.sources_first:
-        if not _set(program, buffers, component, time) or not _step(program, buffers, component, time, step):
-            return False
-    for component in program.sources_first:
-        if not _get(program, buffers, component, after):
-            return False
-    for component in program.followers:
-        if (
-            not _set(program, buffers, component, after)
-            or not _step(program, buffers, component, time, step)
-            or not _get(program, buffers, component, after)
-        ):
-            return False
-    return True
-
-
-@njit(cache=True)
-def _advance_jacobi(program, buffers, time, after, step):  # type: ignore[no-untyped-def]
-    for component in range(program.instance.size):
-        if not _set(program, buffers, component, time):
-            return False
-    for component in range(program.instance.size):
-        if not _step(program, buffers, component, time, step):
-            return False
-    for component in range(program.instance.size):  # noqa: SIM110 - numba compiles loops, not generators
-        if not _get(program, buffers, component, after):
-            return False
-    return True
+    outcome: np.ndarray  # int64 [5]: code, component or slot, function, fmi2Status, communication point
 
 
 def _fly(  # type: ignore[no-untyped-def]
-    program, buffers, parameters, whole_parameters, reset, start, step, steps, jacobi, recorded, stride, record, times
+    program, buffers, parameters, whole_parameters, reset, start, step, steps, recorded, stride, record, times
 ):
     """Initialise and run; returns the number of rows recorded, buffers.outcome says how it ended.
 
-    ``record`` takes the slots ``recorded`` of every stride-th communication point and always
-    those of the last one.
+    ``parameters`` and ``whole_parameters`` are float64 and int32 [p]. ``record`` takes the slots
+    ``recorded`` of every stride-th communication point and always those of the last one.
     """
-    buffers.values[:] = program.initial
-    buffers.frozen[:] = np.nan
-    buffers.outcome[:] = 0
-    if not _initialise(program, buffers, parameters, whole_parameters, reset, start, start + steps * step):
-        return 0
+    instructions = program.instructions
+    reference, parameter_reference = program.reference, program.parameter_reference
+    source, target, kind = program.source, program.target, program.kind
+    factor, offset = program.factor, program.offset
+    table, table_from, table_to = program.table, program.table_from, program.table_to
+    fault_slot, fault_kind = program.fault_slot, program.fault_kind
+    fault_window, fault_value = program.fault_window, program.fault_value
+    faults = fault_slot.size
+    values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
+    values[:] = program.initial
+    frozen[:] = np.nan
+    outcome[:] = 0
+    stop = start + steps * step
+    first_instruction = 0 if reset else program.reset_end
+    last_instruction = program.initial_end
     rows = 0
-    n = 0
+    n = -1  # the initialisation
     while True:
-        time = start + n * step
-        buffers.outcome[4] = n
-        _connect(program, buffers, program.instance.size)
-        finished = program.finished_slot >= 0 and buffers.values[program.finished_slot] != 0.0
+        time = start + max(n, 0) * step
+        after = start + (n + 1) * step
+        outcome[4] = n + 1
+        for k in range(first_instruction, last_instruction):
+            code = instructions[k, CODE]
+            address = instructions[k, ADDRESS]
+            instance = instructions[k, INSTANCE]
+            first = instructions[k, FIRST]
+            count = instructions[k, COUNT]
+            status = np.int32(0)
+            if code == CONNECT:
+                for c in range(first, first + count):
+                    value = values[source[c]]
+                    if kind[c] == LINEAR:
+                        values[target[c]] = value * factor[c] + offset[c]
+                    else:
+                        mapped = False
+                        for entry in range(table[c, 0], table[c, 0] + table[c, 1]):
+                            if table_from[entry] == value:
+                                values[target[c]] = table_to[entry]
+                                mapped = True
+                        if not mapped:
+                            outcome[0] = UNMAPPED
+                            outcome[1] = source[c]
+                            return rows
+                continue
+            if code == GET_REAL:
+                status = exchange(address, instance, reference, values, first, count)
+            elif code == GET_WHOLE:
+                status = exchange(address, instance, reference, whole, first, count)
+                for slot in range(first, first + count):
+                    values[slot] = whole[slot]
+            if faults > 0 and SET_REAL <= code <= GET_WHOLE:
+                now = after if instructions[k, AT_END] else time
+                for f in range(faults):
+                    slot = fault_slot[f]
+                    if first <= slot < first + count and fault_window[f, 0] <= now < fault_window[f, 1]:
+                        if fault_kind[f] == OVERRIDE:
+                            values[slot] = fault_value[f]
+                        elif fault_kind[f] == BIAS:
+                            values[slot] += fault_value[f]
+                        else:
+                            if np.isnan(frozen[f]):
+                                frozen[f] = values[slot]
+                            values[slot] = frozen[f]
+            if code == SET_REAL:
+                status = exchange(address, instance, reference, values, first, count)
+            elif code == SET_WHOLE:
+                for slot in range(first, first + count):
+                    whole[slot] = np.int32(values[slot])
+                status = exchange(address, instance, reference, whole, first, count)
+            elif code == STEP:
+                status = do_step(address, instance, time, step)
+            elif code == PARAMETERS:
+                status = exchange(address, instance, parameter_reference, parameters, first, count)
+            elif code == WHOLE_PARAMETERS:
+                status = exchange(address, instance, parameter_reference, whole_parameters, first, count)
+            elif code == SETUP:
+                status = setup_experiment(address, instance, start, stop)
+            elif code == MODE:
+                status = change_mode(address, instance)
+            if status > FMI_WARNING:
+                outcome[0] = FAILED
+                outcome[1] = instructions[k, COMPONENT]
+                outcome[2] = instructions[k, FUNCTION]
+                outcome[3] = status
+                return rows
+            if code == GET_REAL:
+                for slot in range(first, first + count):
+                    if not np.isfinite(values[slot]):
+                        outcome[0] = NONFINITE
+                        outcome[1] = slot
+                        return rows
+        n += 1
+        finished = program.finished_slot >= 0 and values[program.finished_slot] != 0.0
         last = finished or n == steps
         if last or n % stride == 0:
-            times[rows] = time
-            for k in range(recorded.size):
-                record[rows, k] = buffers.values[recorded[k]]
+            times[rows] = after
+            for c in range(recorded.size):
+                record[rows, c] = values[recorded[c]]
             rows += 1
         if last:
-            buffers.outcome[0] = FINISHED if finished else STOP_TIME
+            outcome[0] = FINISHED if finished else STOP_TIME
             return rows
-        after = start + (n + 1) * step
-        if jacobi:
-            good = _advance_jacobi(program, buffers, time, after, step)
-        else:
-            good = _advance_sequential(program, buffers, time, after, step)
-        if not good:
-            buffers.outcome[4] = n + 1
-            return rows
-        n += 1
+        first_instruction = program.initial_end
+        last_instruction = instructions.shape[0]
 
 
 # For Python FMUs, which need the interpreter lock at every call, and for native ones, which run without.

@@ -67,14 +67,14 @@ class Network:
     def file(self) -> str:
         return self.description.file
 
-    def components(self) -> dict[str, Component]:
-        """Components by flat name."""
-        return {
-            path + element.name: element
+    def components(self) -> list[tuple[str, Component]]:
+        """Components with their flat names."""
+        return [
+            (path + element.name, element)
             for path, system in self.systems.items()
             for element in system.elements.values()
             if isinstance(element, Component)
-        }
+        ]
 
 
 def build_network(description: Description, load: Callable[[str, Component], Fmu]) -> Network:
@@ -84,7 +84,11 @@ def build_network(description: Description, load: Callable[[str, Component], Fmu
     """
     network = Network(description)
     _walk(network, description.system, "")
-    for name, component in network.components().items():
+    for name, component in network.components():
+        if name in network.fmus:
+            raise InputError(
+                network.file, f"{name} (line {component.line})", "two components have this name", "rename one"
+            )
         network.fmus[name] = load(name, component)
         for connector in component.connectors.values():
             _add(network, _component_node(network, name, connector))
@@ -118,7 +122,7 @@ def _add(network: Network, node: Node) -> None:
 def _unit(network: Network, name: str | None, fmu: Fmu | None, where: str) -> Unit | None:
     if name is None:
         return None
-    units = network.description.units | (fmu.units if fmu is not None else {})
+    units = (fmu.units if fmu is not None else {}) | network.description.units
     if name not in units:
         raise InputError(network.file, where, f"unit {name} is not defined", "define it under Units of the SSD")
     return units[name]
@@ -154,7 +158,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
             f"is {variable.type} in {fmu.label}, {connector.type_name} here",
             "correct the connector's type or use another FMU",
         )
-    own = _unit(network, fmu.unit_of(variable), fmu, where) if fmu.unit_of(variable) in fmu.units else None
+    own = fmu.units.get(fmu.unit_of(variable) or "")
     declared = _unit(network, connector.unit, fmu, where)
     if (
         own
@@ -233,6 +237,20 @@ def _connect(network: Network, path: str, system: System, connection: Connection
         raise InputError(network.file, where, f"{start.name} is {start.kind} and cannot be a start", "swap the ends")
     if end.kind not in (*ends, "inout"):
         raise InputError(network.file, where, f"{end.name} is {end.kind} and cannot be an end", "swap the ends")
+    if "calculatedParameter" in (start.kind, end.kind):
+        raise InputError(
+            network.file,
+            where,
+            "calculated parameters are not passed on yet",
+            "remove the connection and give the value in a parameter set",
+        )
+    if "parameter" in (start.kind, end.kind) and start.kind != end.kind:
+        raise InputError(
+            network.file,
+            where,
+            f"connects {start.kind} {start.name} with {end.kind} {end.name}",
+            "connect parameters with parameters, and signals with signals",
+        )
     if end.name in network.driver:
         first = network.driver[end.name]
         raise InputError(

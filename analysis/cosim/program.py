@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from analysis.errors import InputError, suggestion
 
 from . import loop
-from .assignments import Settings
+from .assignments import Settings, numbers
 from .faults import Fault
 from .fmu import Instance
+from .instructions import InstructionList, write_instructions
 from .network import Link, Network, Node
 from .schedule import Schedule
-from .transformations import VALUE_TYPES
 
+EXCHANGES = loop.FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2}
 
 
@@ -46,6 +48,7 @@ def build_program(
     network: Network,
     settings: Settings,
     schedule: Schedule,
+    algorithm: str,
     instances: dict[str, Instance],
     wanted: Collection[str] | None,
     faults: Sequence[Fault] = (),
@@ -55,7 +58,7 @@ def build_program(
     Only outputs that are connected or wanted are fetched.
     """
     builder = _Builder(network, settings, wanted, faults)
-    return builder.program(schedule, instances), builder.layout()
+    return builder.program(schedule, algorithm, instances), builder.layout()
 
 
 class _Builder:
@@ -73,13 +76,14 @@ class _Builder:
         self.units: dict[str, str | None] = {}
         read = {link.source.name for link in network.driver.values()}
         self.fetched = None if wanted is None else read | set(wanted) | {fault.name for fault in faults}
-        self.ranges = np.zeros((len(self.names), loop.RANGES, 2), dtype=np.int64)
+        self.ranges = np.zeros((len(self.names), len(EXCHANGES), 2), dtype=np.int64)
         for index, name in enumerate(self.names):
             self._place_component(index, name)
         for node in network.nodes.values():
-            if node.component is None and not self._is_parameter(node):
+            known = node.name in network.driver or node.name in settings.nodes
+            if node.component is None and not self._is_parameter(node) and known:
                 unit = node.unit.name if node.unit else None
-                self._place(node.name, 0, settings.nodes.get(node.name, 0.0), node.type_name or "Real", unit)
+                self._place(node.name, 0, settings.nodes.get(node.name, np.nan), node.type_name or "Real", unit)
         self._place_parameters()
 
     @staticmethod
@@ -95,7 +99,7 @@ class _Builder:
 
     def _place_component(self, index: int, component: str) -> None:
         fmu = self.network.fmus[component]
-        for function in range(loop.RANGES):
+        for function in range(len(EXCHANGES)):
             first = len(self.references)
             causality = "input" if function % 2 == 0 else "output"
             for variable in fmu.variables.values():
@@ -106,8 +110,14 @@ class _Builder:
                     continue
                 if causality == "output" and self.fetched is not None and name not in self.fetched:
                     continue
-                self._place(name, variable.valueReference, 0.0, variable.type, fmu.unit_of(variable))
+                initial = self._start(component, variable) if causality == "input" else np.nan
+                self._place(name, variable.valueReference, initial, variable.type, fmu.unit_of(variable))
             self.ranges[index, function] = first, len(self.references) - first
+
+    def _start(self, component: str, variable: Any) -> float:
+        """What an input is given while its source is not known yet: the value set for it, else its FMU's start."""
+        value = self.settings.variables.get((component, variable.name), variable.start)
+        return float({"true": 1, "false": 0, "none": 0}.get(str(value).lower(), value))
 
     def _place_parameters(self) -> None:
         self.parameters: dict[tuple[str, str], int] = {}
@@ -148,7 +158,7 @@ class _Builder:
             groups.append(group)
         plain: list[Link] = []
         for node in self.network.nodes.values():
-            if node.component is None and not self._is_parameter(node):
+            if node.name in self.slots and node.component is None:
                 self._chain(node.name, plain)
         groups.append(plain)
         ranges = np.zeros((len(groups), 2), dtype=np.int64)
@@ -167,25 +177,23 @@ class _Builder:
             self._chain(link.source.name, group)
         group.append(link)
 
-    def program(self, schedule: Schedule, instances: dict[str, Instance]) -> loop.Program:
+    def program(self, schedule: Schedule, algorithm: str, instances: dict[str, Instance]) -> loop.Program:
         links, connection_ranges = self._links()
-        tables = [self._table(link) for link in links]
+        tables = [numbers(self.network, link) for link in links]
         firsts = np.cumsum([0, *(len(table) for table in tables)])
         flat = [entry for table in tables for entry in table]
-        index = {name: position for position, name in enumerate(self.names)}
-        groups = (schedule.initial_order, schedule.sources_first, schedule.followers)
-        order = [np.array([index[name] for name in names], dtype=np.int64) for names in groups]
         finished = self.network.nodes.get("finished")
         has_finish = finished is not None and finished.component is None and finished.kind == "output"
+        ordered = [instances[name] for name in self.names]
+        collected = InstructionList(ordered, self.ranges, self.parameter_ranges, connection_ranges)
+        instructions, reset_end, initial_end = write_instructions(collected, self.names, schedule, algorithm)
         return loop.Program(
-            instance=np.array([instances[name].address for name in self.names], dtype=np.int64),
-            address=np.array([instances[name].function_addresses() for name in self.names], dtype=np.int64),
-            ranges=self.ranges,
+            instructions=instructions,
+            reset_end=reset_end,
+            initial_end=initial_end,
             reference=np.array(self.references, dtype=np.uint32),
             initial=np.array(self.initial, dtype=np.float64),
-            parameter_ranges=self.parameter_ranges,
             parameter_reference=np.array(self.parameter_references, dtype=np.uint32),
-            connection_ranges=connection_ranges,
             source=np.array([self.slots[link.source.name] for link in links], dtype=np.int64),
             target=np.array([self.slots[link.target.name] for link in links], dtype=np.int64),
             kind=np.array([loop.TABLE if table else loop.LINEAR for table in tables], dtype=np.int64),
@@ -194,9 +202,6 @@ class _Builder:
             table=np.array([(first, len(table)) for first, table in zip(firsts, tables, strict=False)], dtype=np.int64),
             table_from=np.array([entry[0] for entry in flat], dtype=np.float64),
             table_to=np.array([entry[1] for entry in flat], dtype=np.float64),
-            initial_order=order[0],
-            sources_first=order[1],
-            followers=order[2],
             finished_slot=self.slots["finished"] if has_finish else -1,
             fault_slot=np.array([self._fault_slot(fault) for fault in self.faults], dtype=np.int64),
             fault_kind=np.array([fault.kind_number for fault in self.faults], dtype=np.int64),
@@ -209,26 +214,6 @@ class _Builder:
             names = [name for name in self.slots if "." in name]
             raise InputError("fault", fault.name, "no such connector of a component", suggestion(fault.name, names))
         return self.slots[fault.name]
-
-    def _table(self, link: Link) -> list[tuple[float, float]]:
-        """A mapping's entries as numbers: Booleans 0 and 1, enumeration items by their values."""
-        transformation = link.transformation
-        kind = VALUE_TYPES[transformation.kind][0]
-        if not transformation.table:
-            return []
-
-        def number(text: str, node: Node) -> float:
-            if kind == "Boolean":
-                return float(text in ("true", "1"))
-            if kind == "Integer":
-                return float(text)
-            if text not in node.enumeration:
-                where = f"connection {link.source.name} -> {link.target.name} (line {link.line})"
-                problem = f"{node.name} has no enumeration item {text}"
-                raise InputError(self.network.file, where, problem, suggestion(text, node.enumeration))
-            return float(node.enumeration[text])
-
-        return [(number(source, link.source), number(target, link.target)) for source, target in transformation.table]
 
     def layout(self) -> Layout:
         whole = np.zeros(self.values.size, dtype=np.int32)

@@ -15,8 +15,9 @@ from .network import Link, Network
 class Schedule:
     """Components by class: ``sources_first`` (S) have no direct output, ``followers`` (F) have.
 
-    ``initial_order`` settles initialisation. ``late`` lists connections that are read one step
-    late because two FMUs, though no two variables, wait for each other.
+    ``initial_order`` settles initialisation, followers again where need be. ``late`` lists
+    connections that are read one step late because two FMUs, though no two variables, wait for
+    each other.
     """
 
     sources_first: list[str]
@@ -64,11 +65,12 @@ def make_schedule(network: Network, no_feedthrough: Collection[str] = ()) -> Sch
                     network.file,
                     " -> ".join(cycle),
                     "these FMUs wait for each other in one communication point",
-                    "declare their output dependencies, or use --algorithm jacobi",
+                    "declare their output dependencies",
                 ) from None
             edges.remove(broken)
             late.append(f"{broken[0].name} -> {broken[1].name}")
-    return Schedule(sources, order, [*sources, *order], late)
+    # Once more for every late connection: at the start all outputs settle, which the variables' order allows.
+    return Schedule(sources, order, [*sources, *order * (len(late) + 1)], late)
 
 
 def _origin(network: Network, link: Link):  # type: ignore[no-untyped-def]

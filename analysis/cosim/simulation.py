@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from typing import Any
 
@@ -24,9 +25,11 @@ STATUS = {
     loop.FINISHED: "finished",
     loop.NONFINITE: "nonfinite",
     loop.FAILED: "failed",
+    loop.UNMAPPED: "failed",
 }
 FMI_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
 FMI_FATAL = 4
+TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding
 
 
 class Simulation:
@@ -80,8 +83,16 @@ class Simulation:
         prepared = self.prepared
         for name, fmu in prepared.network.fmus.items():
             self.instances[name] = instantiate(fmu, name)
+        margin = TIME_MARGIN * prepared.step
+        faults = [replace(fault, start=fault.start - margin, stop=fault.stop - margin) for fault in self._faults]
         self.program, self.layout = build_program(
-            prepared.network, self.settings, prepared.schedule, self.instances, self._wanted, self._faults
+            prepared.network,
+            self.settings,
+            prepared.schedule,
+            prepared.options.algorithm,
+            self.instances,
+            self._wanted,
+            faults,
         )
         self.signal_names = [name for name in self.layout.slots if self._wanted is None or name in self._wanted]
         for name in self._wanted or ():
@@ -136,7 +147,6 @@ class Simulation:
             prepared.start,
             prepared.step,
             prepared.steps,
-            prepared.options.algorithm == "jacobi",
             self._recorded,
             every,
             self._record,
@@ -171,6 +181,10 @@ class Simulation:
         if code == loop.NONFINITE:
             name = list(self.layout.slots)[subject]
             return STATUS[code], f"{name} is {self._buffers.values[subject]} at t = {time:g} s"
+        if code == loop.UNMAPPED:
+            name = list(self.layout.slots)[subject]
+            value = self._buffers.values[subject]
+            return STATUS[code], f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
         if code == loop.FAILED:
             component = list(self.instances)[subject]
             log = " | ".join(self.instances[component].messages) or "no message in its log"

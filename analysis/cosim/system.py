@@ -133,7 +133,7 @@ def _times(network: Network, options: SystemOptions) -> tuple[float, float, int]
         for fmu in network.fmus.values()
         if fmu.description.defaultExperiment is not None and fmu.description.defaultExperiment.stepSize
     ]
-    step = options.step or description.step or min(proposed, default=None)
+    step = next((value for value in (options.step, description.step) if value is not None), min(proposed, default=None))
     if step is None:
         raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give --step SECONDS")
     if not 0.0 < step < float("inf"):
