@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -17,8 +18,9 @@ class InstructionList:
     """Collects instructions.
 
     ``ranges`` [component][get or set function 0..5] and ``parameter_ranges`` [component][type]
-    are (first, count) of slots and parameters; ``connection_ranges`` [component] are those that
-    feed a component, the last entry those that feed system connectors.
+    are (first, count) of slots and parameters. ``connections`` [component] lists the instruction
+    code of each connection that feeds a component, in order; the last entry is for system
+    connectors. Connections and ``fault_slots`` are numbered as in the program's arrays.
     """
 
     def __init__(
@@ -26,43 +28,54 @@ class InstructionList:
         instances: Sequence[Instance],
         ranges: np.ndarray,
         parameter_ranges: np.ndarray,
-        connection_ranges: np.ndarray,
+        connections: Sequence[Sequence[int]],
+        fault_slots: Sequence[int],
     ) -> None:
         self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
         self.ranges = ranges
         self.parameter_ranges = parameter_ranges
-        self.connection_ranges = connection_ranges
+        self.connections = connections
+        self.fault_slots = fault_slots
         self.rows: list[list[int]] = []
 
-    def call(
-        self, code: int, component: int, function: int, piece: Sequence[int] = (0, 0), at_end: bool = False
-    ) -> None:
+    def call(self, code: int, component: int, function: int, piece: Sequence[int] = (0, 0)) -> None:
         """A call of an FMI function on a piece of slots or parameters."""
         instance, addresses = self.instances[component]
-        self.rows.append(
-            [code, addresses[function], instance, int(piece[0]), int(piece[1]), component, function, int(at_end)]
-        )
+        self.rows.append([code, addresses[function], instance, int(piece[0]), int(piece[1]), component, function, 0])
 
-    def connect(self, component: int) -> None:
-        """Values over the connections that feed a component; -1 for system connectors."""
-        first, count = self.connection_ranges[component]
-        if count:
-            self.rows.append([loop.CONNECT, 0, 0, int(first), int(count), component, 0, 0])
+    def connect(self, group: int) -> None:
+        """Values over the connections that feed a component; group -1: system connectors."""
+        group %= len(self.connections)
+        first = sum(len(codes) for codes in self.connections[:group])
+        for code, run in itertools.groupby(self.connections[group]):
+            count = len(list(run))
+            self.rows.append([code, 0, 0, first, count, group, 0, 0])
+            first += count
+
+    def inject(self, piece: Sequence[int], at_end: bool) -> None:
+        """The faults on a piece of slots."""
+        for number, slot in enumerate(self.fault_slots):
+            if piece[0] <= slot < piece[0] + piece[1]:
+                self.rows.append([loop.INJECT, 0, 0, number, 1, 0, 0, int(at_end)])
 
     def set(self, component: int, at_end: bool) -> None:
         """Inputs of a component."""
         self.connect(component)
         for function in (FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"]):
-            if self.ranges[component, function, 1]:
+            piece = self.ranges[component, function]
+            if piece[1]:
+                self.inject(piece, at_end)
                 code = loop.SET_REAL if function == FUNCTION["SetReal"] else loop.SET_WHOLE
-                self.call(code, component, function, self.ranges[component, function], at_end)
+                self.call(code, component, function, piece)
 
     def get(self, component: int) -> None:
         """Outputs of a component, at the end of the step."""
         for function in (FUNCTION["GetReal"], FUNCTION["GetInteger"], FUNCTION["GetBoolean"]):
-            if self.ranges[component, function, 1]:
+            piece = self.ranges[component, function]
+            if piece[1]:
                 code = loop.GET_REAL if function == FUNCTION["GetReal"] else loop.GET_WHOLE
-                self.call(code, component, function, self.ranges[component, function], True)
+                self.call(code, component, function, piece)
+                self.inject(piece, at_end=True)
 
     def step(self, component: int) -> None:
         self.call(loop.STEP, component, FUNCTION["DoStep"])

@@ -20,9 +20,10 @@ from numba import njit
 from .fmi_calls import change_mode, do_step, exchange, setup_experiment
 
 # Instruction codes.
-CONNECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP, PARAMETERS, WHOLE_PARAMETERS, SETUP, MODE = range(10)
-# Instruction columns. FIRST and COUNT are connections, slots or parameters; AT_END is 1 where the
-# values belong to the end of the step; FUNCTION numbers FUNCTION_NAMES.
+COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP = range(9)
+PARAMETERS, WHOLE_PARAMETERS, SETUP, MODE = range(9, 13)
+# Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; AT_END is 1
+# where the values belong to the end of the step; FUNCTION numbers FUNCTION_NAMES.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION, AT_END = range(8)
 COLUMNS = 8
 FUNCTION_NAMES = (
@@ -42,7 +43,6 @@ FUNCTION_NAMES = (
 # How a run ends: Buffers.outcome[0].
 STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED = range(5)
 OVERRIDE, BIAS, FREEZE = range(3)
-LINEAR, TABLE = range(2)
 FMI_WARNING = 1
 
 
@@ -57,7 +57,6 @@ class Program(NamedTuple):
     parameter_reference: np.ndarray  # uint32 [p]
     source: np.ndarray  # int64 [c], slots
     target: np.ndarray  # int64 [c], slots
-    kind: np.ndarray  # int64 [c], LINEAR or TABLE
     factor: np.ndarray  # float64 [c]
     offset: np.ndarray  # float64 [c]
     table: np.ndarray  # int64 [c, 2], first and count in table_from, table_to
@@ -89,12 +88,11 @@ def _fly(  # type: ignore[no-untyped-def]
     """
     instructions = program.instructions
     reference, parameter_reference = program.reference, program.parameter_reference
-    source, target, kind = program.source, program.target, program.kind
+    source, target = program.source, program.target
     factor, offset = program.factor, program.offset
     table, table_from, table_to = program.table, program.table_from, program.table_to
     fault_slot, fault_kind = program.fault_slot, program.fault_kind
     fault_window, fault_value = program.fault_window, program.fault_value
-    faults = fault_slot.size
     values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
     values[:] = program.initial
     frozen[:] = np.nan
@@ -115,49 +113,62 @@ def _fly(  # type: ignore[no-untyped-def]
             first = instructions[k, FIRST]
             count = instructions[k, COUNT]
             status = np.int32(0)
-            if code == CONNECT:
+            if code == COPY:
                 for c in range(first, first + count):
-                    value = values[source[c]]
-                    if kind[c] == LINEAR:
-                        values[target[c]] = value * factor[c] + offset[c]
-                    else:
-                        mapped = False
-                        for entry in range(table[c, 0], table[c, 0] + table[c, 1]):
-                            if table_from[entry] == value:
-                                values[target[c]] = table_to[entry]
-                                mapped = True
-                        if not mapped:
-                            outcome[0] = UNMAPPED
-                            outcome[1] = source[c]
-                            return rows
-                continue
-            if code == GET_REAL:
+                    values[target[c]] = values[source[c]]
+            elif code == SET_REAL:
                 status = exchange(address, instance, reference, values, first, count)
+            elif code == GET_REAL:
+                status = exchange(address, instance, reference, values, first, count)
+                finite = True
+                for slot in range(first, first + count):
+                    finite &= abs(values[slot]) < np.inf
+                if not finite:
+                    slot = first
+                    while abs(values[slot]) < np.inf:
+                        slot += 1
+                    outcome[0] = NONFINITE
+                    outcome[1] = slot
+                    return rows
+            elif code == STEP:
+                status = do_step(address, instance, time, step)
             elif code == GET_WHOLE:
                 status = exchange(address, instance, reference, whole, first, count)
                 for slot in range(first, first + count):
                     values[slot] = whole[slot]
-            if faults > 0 and SET_REAL <= code <= GET_WHOLE:
-                now = after if instructions[k, AT_END] else time
-                for f in range(faults):
-                    slot = fault_slot[f]
-                    if first <= slot < first + count and fault_window[f, 0] <= now < fault_window[f, 1]:
-                        if fault_kind[f] == OVERRIDE:
-                            values[slot] = fault_value[f]
-                        elif fault_kind[f] == BIAS:
-                            values[slot] += fault_value[f]
-                        else:
-                            if np.isnan(frozen[f]):
-                                frozen[f] = values[slot]
-                            values[slot] = frozen[f]
-            if code == SET_REAL:
-                status = exchange(address, instance, reference, values, first, count)
             elif code == SET_WHOLE:
                 for slot in range(first, first + count):
                     whole[slot] = np.int32(values[slot])
                 status = exchange(address, instance, reference, whole, first, count)
-            elif code == STEP:
-                status = do_step(address, instance, time, step)
+            elif code == TRANSFORM:
+                for c in range(first, first + count):
+                    values[target[c]] = values[source[c]] * factor[c] + offset[c]
+            elif code == MAP:
+                for c in range(first, first + count):
+                    mapped = False
+                    for entry in range(table[c, 0], table[c, 0] + table[c, 1]):
+                        if table_from[entry] == values[source[c]]:
+                            values[target[c]] = table_to[entry]
+                            mapped = True
+                            break
+                    if not mapped:
+                        outcome[0] = UNMAPPED
+                        outcome[1] = source[c]
+                        return rows
+            elif code == INJECT:
+                now = after if instructions[k, AT_END] else time
+                for f in range(first, first + count):
+                    slot = fault_slot[f]
+                    if not fault_window[f, 0] <= now < fault_window[f, 1]:
+                        continue
+                    if fault_kind[f] == OVERRIDE:
+                        values[slot] = fault_value[f]
+                    elif fault_kind[f] == BIAS:
+                        values[slot] += fault_value[f]
+                    else:
+                        if np.isnan(frozen[f]):
+                            frozen[f] = values[slot]
+                        values[slot] = frozen[f]
             elif code == PARAMETERS:
                 status = exchange(address, instance, parameter_reference, parameters, first, count)
             elif code == WHOLE_PARAMETERS:
@@ -172,12 +183,6 @@ def _fly(  # type: ignore[no-untyped-def]
                 outcome[2] = instructions[k, FUNCTION]
                 outcome[3] = status
                 return rows
-            if code == GET_REAL:
-                for slot in range(first, first + count):
-                    if not np.isfinite(values[slot]):
-                        outcome[0] = NONFINITE
-                        outcome[1] = slot
-                        return rows
         n += 1
         finished = program.finished_slot >= 0 and values[program.finished_slot] != 0.0
         last = finished or n == steps

@@ -17,6 +17,7 @@ from .fmu import Instance
 from .instructions import InstructionList, write_instructions
 from .network import Link, Network, Node
 from .schedule import Schedule
+from .transformations import IDENTITY
 
 EXCHANGES = loop.FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2}
@@ -145,7 +146,7 @@ class _Builder:
                 self.parameter_ranges[index, kind] = first, len(values) - first
         self.values = np.array(values, dtype=np.float64)
 
-    def _links(self) -> tuple[list[Link], np.ndarray]:
+    def _links(self) -> list[list[Link]]:
         """Links grouped by the component they feed, upstream first; the last group feeds system connectors."""
         groups: list[list[Link]] = []
         for component in self.names:
@@ -161,12 +162,7 @@ class _Builder:
             if node.name in self.slots and node.component is None:
                 self._chain(node.name, plain)
         groups.append(plain)
-        ranges = np.zeros((len(groups), 2), dtype=np.int64)
-        flat: list[Link] = []
-        for index, group in enumerate(groups):
-            ranges[index] = len(flat), len(group)
-            flat += group
-        return flat, ranges
+        return groups
 
     def _chain(self, name: str, group: list[Link]) -> None:
         """Append the links that bring a value to a node, those before it first, none twice."""
@@ -178,14 +174,21 @@ class _Builder:
         group.append(link)
 
     def program(self, schedule: Schedule, algorithm: str, instances: dict[str, Instance]) -> loop.Program:
-        links, connection_ranges = self._links()
+        groups = self._links()
+        links = [link for group in groups for link in group]
         tables = [numbers(self.network, link) for link in links]
         firsts = np.cumsum([0, *(len(table) for table in tables)])
         flat = [entry for table in tables for entry in table]
         finished = self.network.nodes.get("finished")
         has_finish = finished is not None and finished.component is None and finished.kind == "output"
-        ordered = [instances[name] for name in self.names]
-        collected = InstructionList(ordered, self.ranges, self.parameter_ranges, connection_ranges)
+        fault_slots = [self._fault_slot(fault) for fault in self.faults]
+        collected = InstructionList(
+            [instances[name] for name in self.names],
+            self.ranges,
+            self.parameter_ranges,
+            [[_connection_code(link) for link in group] for group in groups],
+            fault_slots,
+        )
         instructions, reset_end, initial_end = write_instructions(collected, self.names, schedule, algorithm)
         return loop.Program(
             instructions=instructions,
@@ -196,14 +199,13 @@ class _Builder:
             parameter_reference=np.array(self.parameter_references, dtype=np.uint32),
             source=np.array([self.slots[link.source.name] for link in links], dtype=np.int64),
             target=np.array([self.slots[link.target.name] for link in links], dtype=np.int64),
-            kind=np.array([loop.TABLE if table else loop.LINEAR for table in tables], dtype=np.int64),
             factor=np.array([link.transformation.factor for link in links], dtype=np.float64),
             offset=np.array([link.transformation.offset for link in links], dtype=np.float64),
             table=np.array([(first, len(table)) for first, table in zip(firsts, tables, strict=False)], dtype=np.int64),
             table_from=np.array([entry[0] for entry in flat], dtype=np.float64),
             table_to=np.array([entry[1] for entry in flat], dtype=np.float64),
             finished_slot=self.slots["finished"] if has_finish else -1,
-            fault_slot=np.array([self._fault_slot(fault) for fault in self.faults], dtype=np.int64),
+            fault_slot=np.array(fault_slots, dtype=np.int64),
             fault_kind=np.array([fault.kind_number for fault in self.faults], dtype=np.int64),
             fault_window=np.array([fault.window for fault in self.faults], dtype=np.float64).reshape(-1, 2),
             fault_value=np.array([fault.value for fault in self.faults], dtype=np.float64),
@@ -230,3 +232,10 @@ class _Builder:
             whole_values=whole,
             strings=self.strings,
         )
+
+
+def _connection_code(link: Link) -> int:
+    """The instruction that carries a connection's value."""
+    if link.transformation.table:
+        return loop.MAP
+    return loop.COPY if link.transformation == IDENTITY else loop.TRANSFORM
