@@ -4,7 +4,7 @@ Plant and analytic terminal guidance in one loop, written from the published for
 their known corrections. What it shares with the components is the contract only: a command holds for
 one guidance cycle, its thrust points along normalised(d + d' (t - command_time)) meanwhile, motion is
 integrated by the classic Runge-Kutta method with substeps of at most 0.1 s, and a flight ends with the
-first cycle whose time-to-go is shorter than the cycle, or with a last burn of just that length.
+first cycle whose time-to-go is shorter than the cycle, or with a last burn of the time-to-go that is left.
 
 Frame: landing site, x north, y west, z up; m, m/s, s, rad.
 """
@@ -17,6 +17,7 @@ import numpy as np
 TARGET = np.array([0.0, 0.0, 2000.0])
 GRAVITY = 1.62
 LONGEST_SUBSTEP = 0.1
+LAST_BURN = 1.5  # steps
 CYCLES_AT_MOST = 1_000_000
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -89,8 +90,8 @@ def fly(initial_position: Any, initial_velocity: Any, step: float, variant: str)
     """Fly from a state (m, m/s) with a guidance cycle of ``step`` (s) to the target at rest.
 
     ``variant`` is "stop" (quadratic time-to-go; ends at the first cycle, after the start, with
-    time-to-go below the step) or "exact" (cubic time-to-go, exact pitch rate; the last burn lasts the
-    time-to-go, and the state is kept from there to the end of its cycle).
+    time-to-go below the step) or "exact" (cubic time-to-go, exact pitch rate; from one and a half
+    steps on the last command burns for the time-to-go, and the state is kept from there).
 
     Returns ``times`` (n + 1), ``positions`` and ``velocities`` (n + 1, 3) at every cycle, and
     ``last_burn`` (s), the length of the last burn ("exact") or the time-to-go left unflown ("stop").
@@ -103,13 +104,15 @@ def fly(initial_position: Any, initial_velocity: Any, step: float, variant: str)
     states = [state]
     for cycle in range(CYCLES_AT_MOST):
         time, acceleration, direction, rate = command(state[:3], state[3:], exact)
-        last = cycle > 0 and (time <= step * (1.0 + 1e-9) if exact else time < step)
+        last = cycle > 0 and (time <= LAST_BURN * step if exact else time < step)
         if last and not exact:
             break
-        state = burn(state, min(time, step) if last else step, acceleration, direction, rate)
-        states.append(state)
+        if not last or time > step:
+            states.append(burn(state, step, acceleration, direction, rate))
         if last:
+            states.append(burn(state, time, acceleration, direction, rate))
             break
+        state = states[-1]
     else:
         raise RuntimeError(f"no end of the flight in {CYCLES_AT_MOST} cycles")
     table = np.array(states)

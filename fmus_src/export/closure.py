@@ -59,7 +59,7 @@ def closure_of(block_class: type[Block]) -> Closure:
         _collect(block_module, files, allowed)
     else:
         path = Path(inspect.getfile(block_class))
-        block_module = path.stem
+        block_module = "outside_" + re.sub(r"\W", "_", path.stem)  # no module of ours has such a name
         text = path.read_bytes()
         files[f"{block_module}.py"] = text
         for name in _imported(text, block_module, path, allowed):
@@ -88,6 +88,18 @@ def _collect(module: str, files: dict[str, bytes], allowed: set[str]) -> None:
         _collect(name, files, allowed)
 
 
+def _with_submodules(parts: list[str], names: list[ast.alias]) -> list[str]:
+    """The module that an import names, and those of ``names`` that are modules in it."""
+    module = [part for part in parts if part]
+    folder = SOURCE_ROOT.joinpath(*module)
+    inner = [
+        alias.name
+        for alias in names
+        if (folder / f"{alias.name}.py").is_file() or (folder / alias.name / "__init__.py").is_file()
+    ]
+    return [".".join(module), *(".".join([*module, name]) for name in inner)]
+
+
 def _imported(text: bytes, module: str, path: Path, allowed: set[str]) -> list[str]:
     """Modules of the source package that a file imports, as dotted names below it."""
     package = module.rsplit(".", 1)[0].split(".") if "." in module else []
@@ -95,9 +107,9 @@ def _imported(text: bytes, module: str, path: Path, allowed: set[str]) -> list[s
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.ImportFrom) and node.level > 0:
             base = package[: len(package) - (node.level - 1)]
-            found.append(".".join([*base, node.module] if node.module else base))
+            found += _with_submodules([*base, *(node.module or "").split(".")], node.names)
         elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == SOURCE_PACKAGE:
-            found.append((node.module or "").removeprefix(SOURCE_PACKAGE).removeprefix("."))
+            found += _with_submodules((node.module or "").split(".")[1:], node.names)
         elif isinstance(node, ast.Import | ast.ImportFrom):
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else [node.module or ""]
             for name in names:

@@ -9,30 +9,71 @@ from pathlib import Path
 
 from ..block import Block
 from ..catalogue import blocks_in_file, catalogue
+from .compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
+from .native_fmu import build_native_fmu
 from .pythonfmu_fmu import build_python_fmu
 from .ssp_package import pack_system
 
 ROOT = Path(__file__).parents[2]
+FLAVOURS = ("native", "python")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Build FMUs and systems; returns the exit status (2 for wrong input)."""
-    parser = argparse.ArgumentParser(prog="build_fmus.py", description=__doc__)
+    """Build FMUs and systems; returns the exit status: 0 done, 1 compilation failed, 2 wrong input."""
+    parser = argparse.ArgumentParser(prog="build_fmus.py", description="Build every FMU and pack every system.")
     parser.add_argument("--blocks", type=Path, metavar="FILE", help="build the blocks of this file only")
     parser.add_argument("--output", type=Path, metavar="DIR", default=ROOT / "build", help="default: build")
+    parser.add_argument("--flavour", choices=(*FLAVOURS, "all"), default="all")
+    parser.add_argument(
+        "--platform",
+        action="append",
+        choices=tuple(PLATFORMS),
+        help="platforms of native FMUs; may be repeated; default: all that a compiler here serves",
+    )
+    parser.add_argument("--portable", action="store_true", help="compile with zig, against an old C library")
     options = parser.parse_args(arguments)
+    flavours = FLAVOURS if options.flavour == "all" else (options.flavour,)
+    platforms = options.platform or available_platforms()
+    if not platforms and "native" in flavours:
+        flavours = tuple(flavour for flavour in flavours if flavour != "native")
+        print("no C compiler here: native FMUs are not built; pip install ziglang", file=sys.stderr)
+        if not flavours:
+            return 1
     try:
         blocks = catalogue() if options.blocks is None else _blocks_of(options.blocks)
-        for name, block in blocks.items():
-            build_python_fmu(block, options.output / "fmus" / "python" / f"{name}.fmu")
-        print(f"{len(blocks)} FMUs in {options.output / 'fmus'}")
+        counts = {flavour: _build(flavour, blocks, options.output, platforms, options.portable) for flavour in flavours}
+        print(
+            ", ".join(f"{count} {flavour} FMUs" for flavour, count in counts.items()), f"in {options.output / 'fmus'}"
+        )
         if options.blocks is None:
             for folder in sorted(path.parent for path in (ROOT / "ssp_systems").glob("*/SystemStructure.ssd")):
-                print(pack_system(folder, options.output / "fmus" / "python", options.output / "ssp"))
+                print(
+                    pack_system(
+                        folder, [options.output / "fmus" / flavour for flavour in flavours], options.output / "ssp"
+                    )
+                )
     except ValueError as error:
         print(f"build_fmus.py: {error}", file=sys.stderr)
         return 2
+    except (CompilerMissing, CompilationFailed) as error:
+        print(f"build_fmus.py: {error}", file=sys.stderr)
+        return 1
     return 0
+
+
+def _build(flavour: str, blocks: dict[str, type[Block]], output: Path, platforms: Sequence[str], portable: bool) -> int:
+    """Build the FMUs of one flavour; returns how many. Blocks that need Python have no native form."""
+    count = 0
+    for name, block in blocks.items():
+        path = output / "fmus" / flavour / f"{name}.fmu"
+        if flavour == "python":
+            build_python_fmu(block, path)
+        elif not block.python_only:
+            build_native_fmu(block, path, platforms=platforms, cache=output / "cache", portable=portable)
+        else:
+            continue
+        count += 1
+    return count
 
 
 def _blocks_of(path: Path) -> dict[str, type[Block]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from lxml import etree
@@ -38,20 +39,23 @@ def system_files(folder: Path) -> dict[str, Path]:
     return files
 
 
-def pack_system(folder: Path, fmus: Path, target: Path) -> Path:
+def pack_system(folder: Path, fmus: Sequence[Path], target: Path) -> Path:
     """Write ``target``/NAME.ssp with the system's files and the FMUs its SSDs name.
 
-    Raises ValueError naming the SSD and the FMU that is missing in the folder ``fmus``.
+    An FMU is taken from the first of the folders ``fmus`` that has it. Raises ValueError naming
+    the SSD and the FMU that is in none.
     """
     files = {name: path.read_bytes() for name, path in system_files(folder).items()}
     for name in [name for name in files if name.endswith(".ssd")]:
         for component in etree.fromstring(files[name]).iter(f"{{{SSD_NAMESPACE}}}Component"):
             source = component.get("source", "")
-            built = fmus / Path(source).name
-            if source not in files:
-                if not built.is_file():
-                    raise ValueError(f"{folder / name}: {source}: no file {built}; add a block of this name")
-                files[source] = built.read_bytes()
+            if source in files:
+                continue
+            built = [path / Path(source).name for path in fmus if (path / Path(source).name).is_file()]
+            if not built:
+                places = " or ".join(str(path) for path in fmus)
+                raise ValueError(f"{folder / name}: {source}: no such FMU in {places}; add a block of this name")
+            files[source] = built[0].read_bytes()
     path = target / f"{folder.name}.ssp"
     write_zip(path, files)
     return path

@@ -54,11 +54,12 @@ class AstarProgramme(TerminalGuidance, interface=True):
         for i in range(3):
             self.thrust_direction[i] = 0.0
         self.thrust_acceleration = w
-        if (abs(psi_rate) + abs(theta_rate)) * self.cycle > 1.0:
-            half = 0.5 * self.cycle
+        span = clip(time, 0.0, self.cycle)
+        if (abs(psi_rate) + abs(theta_rate)) * span > 1.0:
+            half = 0.5 * span
             self.add_direction(theta, psi, 1.0 / 6.0)
             self.add_direction(theta + theta_rate * half, psi + psi_rate * half, 4.0 / 6.0)
-            self.add_direction(theta + theta_rate * self.cycle, psi + psi_rate * self.cycle, 1.0 / 6.0)
+            self.add_direction(theta + theta_rate * span, psi + psi_rate * span, 1.0 / 6.0)
             share = norm(self.thrust_direction)
             self.thrust_acceleration = w * share
             for i in range(3):

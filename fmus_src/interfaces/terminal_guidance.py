@@ -8,6 +8,8 @@ NOT_CONVERGED = 2
 NO_SOLUTION = 3
 UNLIMITED = 1e9  # s; longer than any flight
 ROUNDING = 1e-9  # of a cycle, allowed for in times of communication points
+# Cycles; a last burn is never a sliver of one, in which small misses would ask for a large thrust.
+LAST_BURN = 1.5
 
 
 class TerminalGuidance(Block, interface=True):
@@ -30,7 +32,7 @@ class TerminalGuidance(Block, interface=True):
         0,
         minimum=0,
         maximum=1,
-        description="0 stop: finished when time_to_go < cycle; 1 exact: burn the last time_to_go",
+        description="0 stop: finished when time_to_go < cycle; 1 exact: burn the last 0.5 to 1.5 cycles to the end",
     )
     position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated position")
     velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated velocity")
@@ -92,11 +94,13 @@ class TerminalGuidance(Block, interface=True):
             self.cycle = self.sample_period
             if self.cycle <= 0.0:
                 self.cycle = h
-            burn_end = self.command_time + self.burn_duration
-            if self.terminal_step == 1 and self.started and burn_end <= t + h + self.cycle * ROUNDING:
-                self.finish(t + h)
-            else:
+            burn_left = self.command_time + self.burn_duration - t - h
+            if self.terminal_step == 0 or not self.started or burn_left > (LAST_BURN - 1.0) * self.cycle:
                 self.follow(t + h)
+            elif burn_left > self.cycle * ROUNDING:
+                self.time_to_go = burn_left
+            else:
+                self.finish(t + h)
 
     def finish(self, time: float) -> None:
         """End the flight at ``time`` (s)."""
@@ -117,7 +121,7 @@ class TerminalGuidance(Block, interface=True):
             self.command_time = time
         if self.started and self.terminal_step == 1:
             self.burn_duration = UNLIMITED
-            if self.time_to_go <= self.cycle * (1.0 + ROUNDING):
+            if self.time_to_go <= LAST_BURN * self.cycle:
                 # from command_time on, which is earlier where the last command is held
                 self.burn_duration = time - self.command_time + self.time_to_go
         elif self.started and self.time_to_go < self.cycle:

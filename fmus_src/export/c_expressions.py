@@ -1,0 +1,183 @@
+"""Expressions of a kernel function as C text."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+
+from .c_names import C_TYPES, Names, identifier, literal
+from .kernel import FLOAT, INT, BuiltinCall, Function, KernelCall, List, MathCall, Scalar, is_self_attribute
+from .kernel_effects import own_outcome
+
+OR, AND, EQUALITY, RELATION, SUM, PRODUCT, UNARY, ATOM = range(8)  # C's precedence; 0 binds least
+CONDITIONAL = -1
+OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
+    ast.Add: ("+", SUM),
+    ast.Sub: ("-", SUM),
+    ast.Mult: ("*", PRODUCT),
+    ast.Div: ("/", PRODUCT),
+    ast.Lt: ("<", RELATION),
+    ast.LtE: ("<=", RELATION),
+    ast.Gt: (">", RELATION),
+    ast.GtE: (">=", RELATION),
+    ast.Eq: ("==", EQUALITY),
+    ast.NotEq: ("!=", EQUALITY),
+}
+CHECKED_INT: dict[type[ast.AST], str] = {ast.Add: "py_add", ast.Sub: "py_subtract", ast.Mult: "py_multiply"}
+WHOLE = {"floor": "floor", "ceil": "ceil", "int": "trunc"}
+
+
+class ExpressionWriter:
+    """Writes one function's expressions; hoisted parts come out through ``hoist`` before the statement."""
+
+    def __init__(self, function: Function, names: Names, hoist: Callable[[ast.expr, str], str]) -> None:
+        self.function = function
+        self.names = names
+        self.hoist = hoist
+
+    def write(self, node: ast.expr, outer: int = CONDITIONAL) -> str:
+        """C text of an expression, in parentheses where the operator around it binds tighter."""
+        text, precedence = getattr(self, f"write_{type(node).__name__.lower()}")(node)
+        if node in self.function.hoisted:
+            return self.hoist(node, text)
+        return f"({text})" if precedence < outer else text
+
+    def write_as_float(self, node: ast.expr, outer: int) -> str:
+        """An operand that Python widens to float."""
+        if self.function.types[node] is not INT:
+            return self.write(node, outer)
+        if isinstance(node, ast.Constant):
+            return literal(float(node.value))  # type: ignore[arg-type]
+        text = f"(double){self.write(node, UNARY)}"
+        return f"({text})" if outer > UNARY else text
+
+    def call(self, name: str, *arguments: str) -> str:
+        return f"{name}({', '.join(arguments)})"
+
+    def checked(self, node: ast.expr, name: str, *arguments: str) -> tuple[str, int]:
+        """A call of a function of kernel_math.h that can record a fault at the node's line."""
+        return self.call(name, f"AT({node.lineno})", *arguments), ATOM
+
+    def write_constant(self, node: ast.Constant) -> tuple[str, int]:
+        return literal(node.value), ATOM  # type: ignore[arg-type]
+
+    def write_name(self, node: ast.Name) -> tuple[str, int]:
+        constant = self.function.constants.get(node)
+        return (self.names.constants[constant] if constant else identifier(node.id)), ATOM
+
+    def write_attribute(self, node: ast.Attribute) -> tuple[str, int]:
+        if is_self_attribute(node):
+            return f"self->{identifier(node.attr)}", ATOM
+        return self.names.constants[self.function.constants[node]], ATOM
+
+    def write_subscript(self, node: ast.Subscript) -> tuple[str, int]:
+        return f"{self.write(node.value)}[{self.index(node)}]", ATOM
+
+    def index(self, node: ast.Subscript) -> str:
+        """The index of an element; checked where it was not proven right."""
+        container = self.function.types[node.value]
+        assert isinstance(container, List)
+        text = self.write(node.slice)
+        if node in self.function.unproven:
+            return self.checked(node, "py_index", text, str(container.size))[0]
+        return text
+
+    def write_binop(self, node: ast.BinOp) -> tuple[str, int]:
+        if self.function.types[node] is INT:
+            return self._int_operation(node)
+        operator, precedence = OPERATORS.get(type(node.op), ("", CONDITIONAL))
+        fails = bool(own_outcome(self.function, node))
+        if not operator:
+            name = "float_modulo" if isinstance(node.op, ast.Mod) else "float_floor_divide"
+        elif fails:
+            name = "divide"
+        else:
+            left, right = self.write_as_float(node.left, precedence), self.write_as_float(node.right, precedence + 1)
+            return f"{left} {operator} {right}", precedence
+        operands = self.write_as_float(node.left, CONDITIONAL), self.write_as_float(node.right, CONDITIONAL)
+        if fails:
+            return self.checked(node, f"py_{name}", *operands)
+        return self.call(name, *operands), ATOM
+
+    def _int_operation(self, node: ast.BinOp) -> tuple[str, int]:
+        unproven = node in self.function.unproven
+        if isinstance(node.op, ast.FloorDiv | ast.Mod):
+            name = "int_modulo" if isinstance(node.op, ast.Mod) else "int_floor_divide"
+            operands = self.write(node.left), self.write(node.right)
+            return self.checked(node, f"py_{name}", *operands) if unproven else (self.call(name, *operands), ATOM)
+        if unproven:
+            return self.checked(node, CHECKED_INT[type(node.op)], self.write(node.left), self.write(node.right))
+        operator, precedence = OPERATORS[type(node.op)]
+        return f"{self.write(node.left, precedence)} {operator} {self.write(node.right, precedence + 1)}", precedence
+
+    def write_unaryop(self, node: ast.UnaryOp) -> tuple[str, int]:
+        if isinstance(node.op, ast.Not):
+            return f"!{self.write(node.operand, UNARY)}", UNARY
+        if isinstance(node.op, ast.UAdd):
+            return self.write(node.operand, UNARY), UNARY
+        if node in self.function.unproven:
+            return self.checked(node, "py_negative", self.write(node.operand))
+        inner = self.write(node.operand, UNARY)
+        return (f"-({inner})" if inner.startswith("-") else f"-{inner}"), UNARY
+
+    def write_boolop(self, node: ast.BoolOp) -> tuple[str, int]:
+        operator, precedence = ("&&", AND) if isinstance(node.op, ast.And) else ("||", OR)
+        # parentheses between && and ||: compilers warn without them
+        return f" {operator} ".join(self.write(value, EQUALITY) for value in node.values), precedence
+
+    def write_compare(self, node: ast.Compare) -> tuple[str, int]:
+        operator, precedence = OPERATORS[type(node.ops[0])]
+        left, right = node.left, node.comparators[0]
+        write = self.write_as_float if FLOAT in (self.function.types[left], self.function.types[right]) else self.write
+        return f"{write(left, SUM)} {operator} {write(right, SUM)}", precedence
+
+    def write_ifexp(self, node: ast.IfExp) -> tuple[str, int]:
+        parts = self.write(node.test, OR), self.write(node.body, OR), self.write(node.orelse, CONDITIONAL)
+        return "{} ? {} : {}".format(*parts), CONDITIONAL
+
+    def write_call(self, node: ast.Call) -> tuple[str, int]:
+        call = self.function.calls[node]
+        if isinstance(call, KernelCall):
+            return self._kernel_call(node, call.callee), ATOM
+        if isinstance(call, MathCall):
+            if call.name in WHOLE:
+                return self._whole(node, call.name, "py_whole_int")
+            arguments = [self.write_as_float(argument, CONDITIONAL) for argument in node.args]
+            if call.function.faults:
+                return self.checked(node, f"py_{call.name}", *arguments)
+            return self.call(call.name, *arguments), ATOM
+        return self._builtin(node, call)
+
+    def _kernel_call(self, node: ast.Call, callee: Function) -> str:
+        arguments = ["self"] if callee.is_method else []
+        if callee.can_fault:
+            arguments.append("fault")
+        return self.call(self.names.functions[callee], *arguments, *[self.write(argument) for argument in node.args])
+
+    def _builtin(self, node: ast.Call, call: BuiltinCall) -> tuple[str, int]:
+        argument = node.args[0]
+        kind = self.function.types[argument]
+        if call.name == "len":
+            assert isinstance(kind, List)
+            return str(kind.size), ATOM
+        if call.name == "abs":
+            if kind is FLOAT:
+                return self.call("fabs", self.write(argument)), ATOM
+            if node in self.function.unproven:
+                return self.checked(node, "py_int_abs", self.write(argument))
+            return self.call("int_abs", self.write(argument)), ATOM
+        if call.name == "int" and kind is FLOAT:
+            return self._whole(node, "int", "py_whole_int")
+        if call.name == "float" and isinstance(argument, ast.Call) and argument not in self.function.hoisted:
+            inner = self.function.calls[argument]
+            whole = isinstance(inner, MathCall | BuiltinCall) and inner.name in WHOLE
+            if whole and self.function.types[argument.args[0]] is FLOAT:
+                return self._whole(argument, inner.name, "py_whole_float")  # type: ignore[union-attr]
+        target = Scalar(call.name)
+        if kind is target:
+            return self.write(argument, ATOM), ATOM
+        return f"({C_TYPES[target]}){self.write(argument, UNARY)}", UNARY
+
+    def _whole(self, node: ast.Call, name: str, checked: str) -> tuple[str, int]:
+        """math.floor, math.ceil or int of a float, as int or as float."""
+        return self.checked(node, checked, self.call(WHOLE[name], self.write(node.args[0])))

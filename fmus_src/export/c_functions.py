@@ -1,0 +1,50 @@
+"""One kernel function as a C definition."""
+
+from __future__ import annotations
+
+import ast
+
+from .c_names import C_TYPES, Names, declaration, identifier
+from .c_statements import StatementWriter
+from .kernel import Function, body_of
+from .kernel_source import label
+
+
+def signature(function: Function, name: str, block_type: str) -> str:
+    """``static double terminal_cubic_time(Fault *fault, const double *dr, double g)``."""
+    arguments = []
+    if function.is_method:
+        arguments.append(f"{'' if function.changes_block else 'const '}{block_type} *self")
+    if function.can_fault:
+        arguments.append("Fault *fault")
+    for parameter, kind in function.parameters.items():
+        arguments.append(declaration(kind, identifier(parameter), parameter not in function.changed_lists))
+    returned = C_TYPES[function.returns] if function.returns else "void"
+    return f"static {returned} {name}({', '.join(arguments) or 'void'})"
+
+
+def write_function(function: Function, names: Names, block_type: str) -> list[str]:
+    """The C definition of a function, with its docstring and the Python line of each statement."""
+    node = function.source.node
+    docstring = ast.get_docstring(node) or ""
+    writer = StatementWriter(function, names)
+    writer.lines.comment(f"{function.name} ({label(function.source.path)}:{node.lineno})", docstring)
+    writer.lines.add(signature(function, names.functions[function], block_type))
+    writer.lines.open("{")
+    if docstring:
+        writer.last_line = node.body[0].end_lineno or node.lineno
+    for name in _unused(function):
+        writer.lines.add(f"(void){name};")
+    writer.block(body_of(node))
+    writer.lines.close("}")
+    return writer.lines.text
+
+
+def _unused(function: Function) -> list[str]:
+    """C names of the arguments that the function does not use."""
+    read = {part.id for part in ast.walk(function.source.node) if isinstance(part, ast.Name)}
+    unused = [identifier(name) for name in function.parameters if name not in read]
+    calls_methods = any(callee.is_method for callee in function.callees())
+    if function.is_method and "self" not in read and not calls_methods:
+        unused.append("self")
+    return unused

@@ -1,0 +1,124 @@
+"""Names and literals of the generated C."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from ..block import snake_case
+from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, Scalar
+
+C_TYPES = {FLOAT: "double", INT: "int64_t", BOOL: "bool"}
+
+# Words that a Python name may be and a C name may not, and what the generated code itself uses.
+_RESERVED_TEXT = """
+    auto break case char const continue default do double else enum extern float for goto if inline int long
+    register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+    bool true false linux unix NULL NAN INFINITY EOF errno stdin stdout stderr fault self
+    acos asin atan atan2 cbrt ceil copysign cos cosh exp exp2 expm1 fabs floor fmod isfinite isinf isnan log
+    log10 log1p log2 pow sin sinh sqrt tan tanh trunc
+"""
+RESERVED = frozenset(_RESERVED_TEXT.split())
+
+
+# What the wrapper in fmi2_*.h and kernel_math.h calls its own; block types and functions stay clear of these.
+_WRAPPER_NAMES_TEXT = """
+    Block Component Element Fault Kind Mode Role SavedState Snapshot advance check_mode check_references
+    check_state checked_result double_at element_of end_with_fault fail float_floor_divide float_modulo int_abs
+    int_at int_floor_divide int_modulo is_mode kind_name mode_name model_hash model_initialize model_sample_period
+    model_set_start_time
+    model_step no_strings not_provided prepare_get prepare_set put_double put_int python_repr restart set_fault
+    settle state_space
+"""
+WRAPPER_NAMES = frozenset(_WRAPPER_NAMES_TEXT.split())
+
+
+def identifier(name: str) -> str:
+    """A Python name as a C name."""
+    return f"{name}_" if name in RESERVED or name.startswith("py_") else name
+
+
+def module_prefix(module: str) -> str:
+    """``fmus_src.mathlib.rng`` -> ``rng``."""
+    return re.sub(r"\W", "_", module.split(".")[-1])
+
+
+@dataclass(frozen=True)
+class Names:
+    """C names of a kernel's functions and of the module constants it uses."""
+
+    functions: dict[Function, str]
+    constants: dict[Constant, str]
+
+
+def names_of(kernel: Kernel) -> Names:
+    """Names for all of a kernel, no two of them the same."""
+    constants = [constant for function in kernel.functions for constant in function.constants.values()]
+    return Names(_function_names(kernel.functions), _constant_names(constants))
+
+
+def _function_names(functions: list[Function]) -> dict[Function, str]:
+    """A C name per function: its module (a method's class) and its own name.
+
+    Where that is not enough, the folder of the module or the sizes of its lists follow.
+    """
+    names: dict[Function, str] = {}
+    owners: dict[str, object] = {}
+    for function in functions:
+        source = function.source
+        prefix = snake_case(source.owner.__name__) if source.owner is not None else module_prefix(source.module)
+        name = f"{prefix}_{source.name.strip('_')}"
+        if owners.setdefault(name, source.function) is not source.function:
+            name = re.sub(r"\W", "_", f"{source.module}_{source.qualified_name}")
+        if name in WRAPPER_NAMES:
+            name += "_"
+        if name in names.values():
+            sizes = [str(kind.size) for kind in function.parameters.values() if isinstance(kind, List)]
+            name = "_".join([name, *sizes])
+        while name in names.values():  # same sizes, other element types
+            name += "_"
+        names[function] = name
+    return names
+
+
+def block_type_name(name: str) -> str:
+    """The struct type of a block class."""
+    return f"{name}Block" if name in WRAPPER_NAMES or name in RESERVED else name
+
+
+def _constant_names(constants: list[Constant]) -> dict[Constant, str]:
+    """``UNLIMITED`` of terminal_guidance -> ``TERMINAL_GUIDANCE_UNLIMITED``; with folders where that is not enough."""
+    names: dict[Constant, str] = {}
+    for constant in constants:
+        name = f"{module_prefix(constant.module)}_{constant.name.strip('_')}".upper()
+        if name in names.values():
+            name = re.sub(r"\W", "_", f"{constant.module}_{constant.name}").upper()
+        names.setdefault(constant, name)
+    return names
+
+
+def literal(value: float | int | bool) -> str:
+    """A number as C reads it back to the same bits."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value) if abs(value) < 2**31 else f"INT64_C({value})"
+    if math.isnan(value):
+        return "NAN"
+    if math.isinf(value):
+        return "INFINITY" if value > 0.0 else "-INFINITY"
+    return repr(value)
+
+
+def declaration(kind: Scalar | List, name: str, constant: bool = False) -> str:
+    """``double x`` for a scalar, ``const double *x`` for a list argument that is not changed."""
+    if isinstance(kind, List):
+        qualifier = "const " if constant else ""
+        return f"{qualifier}{C_TYPES[kind.element]} *{name}"
+    return f"{C_TYPES[kind]} {name}"
+
+
+def comment(text: str) -> str:
+    """Text that is safe inside a C comment."""
+    return text.replace("*/", "* /").replace("/*", "/ *")

@@ -1,0 +1,212 @@
+"""Statements of a kernel function as C text."""
+
+from __future__ import annotations
+
+import ast
+
+from .c_names import identifier
+from .c_placement import assigned_names
+from .c_writer import ZERO, FunctionWriter
+from .kernel import KernelCall, List
+from .kernel_statements import is_list_binding, range_step
+
+FEW = 8  # elements that are written out where a loop would do
+
+
+class StatementWriter(FunctionWriter):
+    """Writes the statements of one function.
+
+    After a statement that can record a fault comes the return; what it assigns to the block or
+    to an argument goes through a variable first, so that a fault leaves the same values as an
+    exception does in Python.
+    """
+
+    def block(self, statements: list[ast.stmt]) -> None:
+        """Statements in order, with the comments that stand before each."""
+        outer_names = set(self.used)
+        for statement in statements:
+            self.comments_before(statement)
+            self.line = statement.lineno
+            for name in self.placement.before.get(statement, []):
+                self.lines.add(f"{self.declared(name)};")
+            getattr(self, f"write_{type(statement).__name__.lower()}")(statement)
+            self.last_line = max(self.last_line, statement.end_lineno or 0)
+        self.used = outer_names  # C forgets a block's variables at its end
+
+    def write_pass(self, node: ast.Pass) -> None:
+        """Nothing to do in C either."""
+
+    def write_break(self, node: ast.Break) -> None:
+        self.add("break;")
+
+    def write_continue(self, node: ast.Continue) -> None:
+        self.add("continue;")
+
+    def write_expr(self, node: ast.Expr) -> None:
+        text = self.expressions.write(node.value)
+        self.add(f"{text};")
+        if self.can_fault(node.value):
+            self.check()
+
+    def write_return(self, node: ast.Return) -> None:
+        self.add(f"return {self.expressions.write(node.value)};" if node.value is not None else "return;")
+
+    def write_assign(self, node: ast.Assign) -> None:
+        self.assign(node, node.targets[0], node.value)
+
+    def write_annassign(self, node: ast.AnnAssign) -> None:
+        assert node.value is not None
+        self.assign(node, node.target, node.value)
+
+    def assign(self, node: ast.stmt, target: ast.expr, value: ast.expr) -> None:
+        """``target = value``; a local variable's first assignment declares it where its uses allow."""
+        if is_list_binding(value):
+            assert isinstance(target, ast.Name)
+            self.bind_list(node, target.id, value)
+            return
+        text = self.expressions.write(value)
+        if isinstance(target, ast.Name):
+            left = self.declared(target.id) if node in self.placement.with_value else identifier(target.id)
+            self.add(f"{left} = {text};")
+            if self.can_fault(value):
+                self.check()
+            return
+        fails = self.can_fault(value)
+        if (fails and not self._is_local_element(target)) or self._changes_anything(value):
+            holder = target.value if isinstance(target, ast.Subscript) else target
+            name = holder.attr if isinstance(holder, ast.Attribute) else ast.unparse(holder)
+            text = self.keep(value, text, f"new_{name}")
+            fails = False
+        self._store(target, text)
+        if fails:
+            self.check()
+
+    def _store(self, target: ast.expr, text: str) -> None:
+        if isinstance(target, ast.Subscript) and self.can_fault(target):
+            place = self.fresh("place")
+            self.add(f"const int64_t {place} = {self.expressions.index(target)};")
+            self.check()
+            self.add(f"{self.expressions.write(target.value)}[{place}] = {text};")
+        else:
+            self.add(f"{self.expressions.write(target)} = {text};")
+
+    def _is_local_element(self, target: ast.expr) -> bool:
+        """Whether a target is an element of a list that ends with the function, its index proven."""
+        if not isinstance(target, ast.Subscript) or not isinstance(target.value, ast.Name):
+            return False
+        return target.value.id in self.function.locals and not self.can_fault(target)
+
+    def _changes_anything(self, value: ast.expr) -> bool:
+        call = self.function.calls.get(value) if isinstance(value, ast.Call) else None
+        return isinstance(call, KernelCall) and call.callee.changes_anything
+
+    def bind_list(self, node: ast.stmt, name: str, value: ast.expr) -> None:
+        """``name = [a, b]`` or ``name = [a] * n``."""
+        kind = self.function.locals[name]
+        assert isinstance(kind, List)
+        declares = node in self.placement.with_value
+        if isinstance(value, ast.BinOp):
+            assert isinstance(value.left, ast.List)
+            self._fill(name, value.left.elts[0], kind, declares)
+            return
+        assert isinstance(value, ast.List)
+        items = []
+        for element in value.elts:
+            text = self.expressions.write(element)
+            items.append(self.keep(element, text, "part") if self.can_fault(element) else text)
+        if declares:
+            self.add(f"{self.declared(name)} = {{{', '.join(items)}}};")
+        else:
+            for index, item in enumerate(items):
+                self.add(f"{identifier(name)}[{index}] = {item};")
+
+    def _fill(self, name: str, item: ast.expr, kind: List, declares: bool) -> None:
+        text = self.expressions.write(item)
+        if not isinstance(item, ast.Constant):
+            text = self.keep(item, text, "fill")
+        if declares and (kind.size <= FEW or text == ZERO[kind.element]):
+            items = [text] * (kind.size if kind.size <= FEW else 1)  # C fills the rest with zeros
+            self.add(f"{self.declared(name)} = {{{', '.join(items)}}};")
+            return
+        if declares:
+            self.add(f"{self.declared(name)};")
+        k = self.fresh("k")
+        self.add(f"for (int {k} = 0; {k} < {kind.size}; {k}++) {identifier(name)}[{k}] = {text};")
+
+    def write_if(self, node: ast.If) -> None:
+        self.lines.open(f"if ({self._condition(node.test, 'condition')}) {{", self.line)
+        self.block(node.body)
+        if node.orelse:
+            self._else(node.orelse)
+        self.lines.close("}")
+
+    def _condition(self, test: ast.expr, name: str) -> str:
+        """A condition, in a checked variable of its own where it can fail."""
+        text = self.expressions.write(test)
+        return self.keep(test, text, name) if self.can_fault(test) else text
+
+    def _else(self, statements: list[ast.stmt]) -> None:
+        """An else branch; ``else if`` where nothing has to come between."""
+        inner = statements[0]
+        if len(statements) == 1 and isinstance(inner, ast.If) and self._is_plain(inner):
+            self.comments_before(inner)
+            self.lines.reopen(f"}} else if ({self.expressions.write(inner.test)}) {{", inner.lineno)
+            self.block(inner.body)
+            if inner.orelse:
+                self._else(inner.orelse)
+        else:
+            self.lines.reopen("} else {")
+            self.block(statements)
+
+    def _is_plain(self, node: ast.If) -> bool:
+        """Whether an if statement needs no declaration or check in front of it."""
+        declares = node in self.placement.before
+        hoists = any(part in self.function.hoisted for part in ast.walk(node.test))
+        return not (declares or hoists or self.can_fault(node.test))
+
+    def write_while(self, node: ast.While) -> None:
+        if self.can_fault(node.test) or any(part in self.function.hoisted for part in ast.walk(node.test)):
+            self.lines.open("for (;;) {", self.line)
+            goes_on = self._condition(node.test, "goes_on")
+            self.add(f"if (!({goes_on})) break;")
+        else:
+            self.lines.open(f"while ({self.expressions.write(node.test)}) {{", self.line)
+        self.block(node.body)
+        self.lines.close("}")
+
+    def write_for(self, node: ast.For) -> None:
+        assert isinstance(node.iter, ast.Call)
+        assert isinstance(node.target, ast.Name)
+        bounds = self._bounds(node, node.iter)
+        first = bounds[0] if len(bounds) == 2 else "0"
+        plain = node in self.placement.plain_loops
+        variable = identifier(node.target.id)
+        counter = variable if plain else self.fresh(f"{variable}_counter".strip("_"))
+        step = range_step(node.iter)
+        compare = "<" if step > 0 else ">"
+        advance = {1: f"{counter}++", -1: f"{counter}--"}.get(
+            step, f"{counter} {'+' if step > 0 else '-'}= {abs(step)}"
+        )
+        self.lines.open(f"for (int64_t {counter} = {first}; {counter} {compare} {bounds[-1]}; {advance}) {{", self.line)
+        if not plain:  # Python's loop variable may be assigned in the loop and keeps its last value
+            self.add(f"{variable} = {counter};")
+        self.block(node.body)
+        self.lines.close("}")
+
+    def _bounds(self, node: ast.For, call: ast.Call) -> list[str]:
+        """First and last bound; in variables of their own where evaluating them again could differ."""
+        changed = assigned_names([node])
+        stop = call.args[:2][-1]
+        texts = []
+        for argument in call.args[:2]:
+            text = self.expressions.write(argument)
+            fixed = isinstance(argument, ast.Constant) or argument in self.function.constants
+            stays = isinstance(argument, ast.Name) and argument.id not in changed
+            is_length = text.isdigit()
+            if not (fixed or stays or is_length):
+                assert isinstance(node.target, ast.Name)
+                text = self.keep(
+                    argument, text, f"{identifier(node.target.id)}_{'stop' if argument is stop else 'first'}"
+                )
+            texts.append(text)
+        return texts

@@ -1,0 +1,183 @@
+"""A block as one readable C99 file: its struct, its kernel, the tables that the FMI wrapper reads."""
+
+from __future__ import annotations
+
+import inspect
+from pathlib import Path
+
+from ..block import Block, Variable
+from ..runtime import SAMPLE_TOLERANCE, TIME_TOLERANCE
+from .c_functions import write_function
+from .c_layout import Lines
+from .c_names import C_TYPES, Names, block_type_name, comment, identifier, literal, names_of
+from .kernel import Function, Kernel
+from .kernel_expressions import SCALARS
+from .kernel_source import label
+from .subset import analysed_kernel
+
+KINDS = {float: "KIND_REAL", int: "KIND_INTEGER", bool: "KIND_BOOLEAN"}
+ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_OUTPUT", "local": "ROLE_STATE"}
+
+HEADER = """\
+/* {name}: {summary}
+ *
+ * Translated from {file}; change that, not this. Numbers at the right
+ * are lines of the Python file named above the function.
+ *
+ * Compile with -std=c99 -O2 -ffp-contract=off -fno-builtin and link with -lm: then every result has
+ * the bits of the Python source. To link several FMUs into one program, define
+ * FMI2_FUNCTION_PREFIX={name}_ for each.
+ */
+#include "fmi2_block.h"
+"""
+
+
+def translate(block_class: type[Block], guid: str) -> str:
+    """The C source of a block for an FMU with the given GUID; it includes fmi2_wrapper.c.
+
+    Raises `SubsetError` where the block is outside the subset of Python.
+    """
+    kernel = analysed_kernel(block_class)
+    names = names_of(kernel)
+    type_name = block_type_name(block_class.__name__)
+    parts = [
+        HEADER.format(
+            name=block_class.fmu_name,
+            summary=comment(block_class.summary()),
+            file=label(Path(inspect.getfile(block_class))),
+        ),
+        _struct(block_class, type_name),
+        *_constants(names),
+        *_functions(kernel, names, type_name),
+        _tables(block_class, type_name, guid),
+        _entry_points(kernel, names),
+        '#include "fmi2_wrapper.c"\n',
+    ]
+    return "\n".join(parts)
+
+
+def _struct(block_class: type[Block], type_name: str) -> str:
+    """One member per variable, with causality, unit, frame and description."""
+    lines = Lines()
+    lines.comment("Variables in order of declaration.")
+    lines.open(f"typedef struct {type_name} {{")
+    for name, variable in block_class.variables.items():
+        size = f"[{variable.size}]" if variable.is_vector else ""
+        scalar = SCALARS[type(variable.elements[0])]
+        lines.member(f"{C_TYPES[scalar]} {identifier(name)}{size};", _about(variable))
+    lines.close(f"}} {type_name};")
+    return "\n".join([*lines.text, ""])
+
+
+def _about(variable: Variable) -> str:
+    kind = "state" if variable.causality == "local" else variable.causality
+    unit = f", {variable.unit}" if variable.unit and variable.unit != "1" else ""
+    frame = f" ({variable.frame} frame)" if variable.frame else ""
+    return comment(f"{kind}{unit}: {variable.description}{frame}")
+
+
+def _constants(names: Names) -> list[str]:
+    """Module constants that the kernel uses; those of math are in kernel_math.h."""
+    lines = Lines()
+    for constant, name in sorted(names.constants.items(), key=lambda item: item[1]):
+        if constant.module == "math":
+            continue
+        elements = constant.value if isinstance(constant.value, tuple) else (constant.value,)
+        kind = C_TYPES[SCALARS[type(elements[0])]]
+        if isinstance(constant.value, tuple):
+            lines.add(f"static const {kind} {name}[{len(elements)}] = {{{', '.join(map(literal, elements))}}};")
+        else:
+            lines.add(f"static const {kind} {name} = {literal(constant.value)};")
+    return ["\n".join([*lines.text, ""])] if lines.text else []
+
+
+def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
+    """Every function, callees first, under the name of its Python file."""
+    parts = []
+    file = ""
+    for function in _by_file(kernel.functions):
+        here = label(function.source.path)
+        if here != file:
+            undefine = "#undef AT\n" if file else ""
+            parts.append(f'/* ---- {here} ---- */\n\n{undefine}#define AT(line) fault, "{here}", line\n')
+            file = here
+        parts.append("\n".join([*write_function(function, names, type_name), ""]))
+    return parts
+
+
+def _by_file(functions: list[Function]) -> list[Function]:
+    """Callees before callers still, with those of one file together where that is possible."""
+    waiting = list(functions)
+    ordered: list[Function] = []
+    while waiting:
+        ready = [function for function in waiting if not set(function.callees()) & set(waiting)]
+        same_file = [function for function in ready if ordered and function.source.path == ordered[-1].source.path]
+        ordered.append((same_file or ready)[0])
+        waiting.remove(ordered[-1])
+    return ordered
+
+
+def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
+    """What the wrapper needs to know: GUID, declared starts, and one row per value reference."""
+    starts = Lines()
+    starts.open("static const Block STARTS = {")
+    elements = Lines()
+    elements.open("static const Element ELEMENTS[] = {")
+    for name, variable in block_class.variables.items():
+        values = ", ".join(map(literal, variable.elements))
+        starts.add(f".{identifier(name)} = {f'{{{values}}}' if variable.is_vector else values},")
+        kind, role = KINDS[type(variable.elements[0])], ROLES[variable.causality]
+        for position, element_name in enumerate(variable.element_names()):
+            member = identifier(name) + (f"[{position}]" if variable.is_vector else "")
+            elements.add(f'{{"{element_name}", {kind}, {role}, offsetof(Block, {member})}},')
+    starts.close("};")
+    elements.close("};")
+    return "\n".join(
+        [
+            "/* ---- for the FMI wrapper ---- */",
+            "",
+            f"typedef {type_name} Block;",
+            "",
+            f'#define MODEL_GUID "{guid}"',
+            f"#define SAMPLE_TOLERANCE {SAMPLE_TOLERANCE!r} /* of a sample period */",
+            f"#define TIME_TOLERANCE {TIME_TOLERANCE!r} /* of the time */",
+            "",
+            "/* Declared start values. */",
+            *starts.text,
+            "",
+            "/* In order of value references. */",
+            *elements.text,
+            "",
+        ]
+    )
+
+
+def _entry_points(kernel: Kernel, names: Names) -> str:
+    assert kernel.initialize is not None
+    assert kernel.step is not None
+    lines = Lines()
+    for function, c_name, extra in ((kernel.initialize, "model_initialize", ""), (kernel.step, "model_step", "t, h")):
+        arguments = ", double t, double h" if extra else ""
+        lines.open(f"static void {c_name}(Block *self, Fault *fault{arguments})\n{{")
+        if not function.can_fault:
+            lines.add("(void)fault;")
+        passed = ["self", *(["fault"] if function.can_fault else []), *([extra] if extra else [])]
+        lines.add(f"{names.functions[function]}({', '.join(passed)});")
+        lines.close("}")
+        lines.text.append("")
+    sampled = "sample_period" in kernel.block_class.variables
+    lines.comment("Time between samples (s); 0 where the block steps at every communication point.")
+    lines.open("static double model_sample_period(const Block *self)\n{")
+    if not sampled:
+        lines.add("(void)self;")
+    lines.add(f"return {'self->sample_period' if sampled else '0.0'};")
+    lines.close("}")
+    lines.text.append("")
+    lines.comment("Tell a block that has a state start_time when it starts (s).")
+    lines.open("static void model_set_start_time(Block *self, double start_time)\n{")
+    if "start_time" in kernel.block_class.variables:
+        lines.add("self->start_time = start_time;")
+    else:
+        lines.add("(void)self, (void)start_time;")
+    lines.close("}")
+    return "\n".join([*lines.text, ""])

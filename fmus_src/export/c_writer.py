@@ -1,0 +1,84 @@
+"""What the statements of a kernel function are written with: names, checks, comments, declarations."""
+
+from __future__ import annotations
+
+import ast
+
+from .c_expressions import ExpressionWriter
+from .c_layout import Lines
+from .c_names import C_TYPES, Names, identifier
+from .c_placement import Placement
+from .kernel import BOOL, FLOAT, INT, Function, List, Scalar
+from .kernel_effects import own_outcome
+from .kernel_source import comments_of
+
+ZERO = {FLOAT: "0.0", INT: "0", BOOL: "false"}
+
+
+class FunctionWriter:
+    """Lines of C for one function, as they come."""
+
+    def __init__(self, function: Function, names: Names) -> None:
+        self.function = function
+        self.names = names
+        self.expressions = ExpressionWriter(function, names, self.hoist)
+        self.placement = Placement(function)
+        self.lines = Lines()
+        self.comments = comments_of(function.source.path)
+        self.last_line = function.source.node.lineno
+        self.used = {identifier(name) for name in [*function.parameters, *function.locals]}
+        self.line = 0  # of the statement being written
+
+    def fresh(self, name: str) -> str:
+        """A name that nothing in the function has yet."""
+        candidate = name
+        number = 2
+        while candidate in self.used:
+            candidate = f"{name}_{number}"
+            number += 1
+        self.used.add(candidate)
+        return candidate
+
+    def add(self, text: str) -> None:
+        """A line of C with the Python line at its right."""
+        self.lines.add(text, self.line)
+
+    def check(self) -> None:
+        """Return when a fault was recorded."""
+        value = f" {ZERO[self.function.returns]}" if self.function.returns else ""
+        self.lines.add(f"if (fault->what) return{value};")
+
+    def keep(self, node: ast.expr, text: str, name: str) -> str:
+        """Give the value of an expression a variable of its own, checked where it can fail."""
+        kind = self.function.types[node]
+        assert isinstance(kind, Scalar)
+        variable = self.fresh(name)
+        self.add(f"const {C_TYPES[kind]} {variable} = {text};")
+        if self.can_fault(node) or node in self.function.hoisted:
+            self.check()
+        return variable
+
+    def hoist(self, node: ast.expr, text: str) -> str:
+        """Put a part of the statement in front of it."""
+        return self.keep(node, text, "part")
+
+    def can_fault(self, node: ast.expr) -> bool:
+        """Whether evaluating an expression can record a fault, hoisted parts left aside."""
+        if node in self.function.hoisted:
+            return False
+        parts = [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr)]
+        return bool(own_outcome(self.function, node)) or any(self.can_fault(part) for part in parts)
+
+    def declared(self, name: str) -> str:
+        """A local variable with its type, as a declaration begins."""
+        kind = self.function.locals[name]
+        if isinstance(kind, List):
+            return f"{C_TYPES[kind.element]} {identifier(name)}[{kind.size}]"
+        return f"{C_TYPES[kind]} {identifier(name)}"
+
+    def comments_before(self, statement: ast.stmt) -> None:
+        """The Python comments between the statement before and this one."""
+        for number in range(self.last_line + 1, statement.lineno):
+            if number in self.comments:
+                self.lines.comment(self.comments[number])
+        self.last_line = max(self.last_line, statement.lineno)

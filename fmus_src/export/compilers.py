@@ -1,0 +1,122 @@
+"""C compilers: which one serves a platform, and shared libraries from sources through a cache."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import os
+import platform as host
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+FLAGS = ("-O2", "-std=c99", "-ffp-contract=off", "-fno-builtin", "-fPIC", "-shared", "-s")
+
+
+class CompilerMissing(RuntimeError):  # noqa: N818
+    """No compiler for a platform on this machine; the message says how to get one."""
+
+
+class CompilationFailed(RuntimeError):  # noqa: N818
+    """The compiler refused the sources; its own message is in this one."""
+
+
+@dataclass(frozen=True)
+class Platform:
+    """An FMI 2.0 platform: the extension of its libraries and zig's name for it."""
+
+    extension: str
+    zig_target: str
+
+
+PLATFORMS = {
+    "linux64": Platform(".so", "x86_64-linux-gnu.2.17"),
+    "win64": Platform(".dll", "x86_64-windows-gnu"),
+    "darwin64": Platform(".dylib", "x86_64-macos"),
+}
+
+
+def local_platform() -> str | None:
+    """FMI 2.0 name of the platform that this process runs on; None where FMI 2.0 has none."""
+    if host.machine().lower() not in ("x86_64", "amd64"):
+        return None
+    return {"linux": "linux64", "win32": "win64", "darwin": "darwin64"}.get(sys.platform)
+
+
+def compiler_for(platform: str, portable: bool = False) -> list[str]:
+    """The compiler's command for a platform, without flags.
+
+    The system's ``cc`` serves the platform this process runs on; zig, from the PyPI package
+    ziglang, serves all. ``portable`` asks for zig everywhere, whose linux64 libraries run on any
+    Linux with glibc 2.17 or later. Raises `CompilerMissing`, and ValueError for an unknown platform.
+    """
+    if platform not in PLATFORMS:
+        raise ValueError(f"platform {platform!r} is unknown; give one of {', '.join(PLATFORMS)}")
+    system = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
+    if system and platform == local_platform() and not portable:
+        return [system]
+    if importlib.util.find_spec("ziglang") is not None:
+        return [sys.executable, "-m", "ziglang", "cc", "-target", PLATFORMS[platform].zig_target]
+    raise CompilerMissing(
+        f"no C compiler for {platform}: pip install ziglang (any platform), or install a system cc for the local one; "
+        "the FMU's sources/ folder can also be compiled elsewhere"
+    )
+
+
+def available_platforms() -> list[str]:
+    """The usual platforms that some compiler here serves: linux64 and win64 with zig, else the local one."""
+    found = []
+    for platform in ("linux64", "win64"):
+        try:
+            compiler_for(platform)
+        except CompilerMissing:
+            continue
+        found.append(platform)
+    return found
+
+
+@cache
+def _identity(command: tuple[str, ...]) -> str:
+    """Command and version of a compiler, as part of the cache's key."""
+    version = subprocess.run([*command, "--version"], capture_output=True, text=True, check=False).stdout
+    return " ".join(command[1:] if command[0] == sys.executable else command) + version
+
+
+def shared_library(
+    sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
+) -> bytes:
+    """The shared library of the source file ``main``, compiled or taken from the folder ``cache``.
+
+    ``sources`` holds all files by name. The result depends on sources, flags and compiler only,
+    not on time or place. Raises `CompilerMissing` and `CompilationFailed`.
+    """
+    command = compiler_for(platform, portable)
+    digest = hashlib.sha256("\0".join([_identity(tuple(command)), *FLAGS, main]).encode())
+    for name in sorted(sources):
+        digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
+    cached = cache / f"{digest.hexdigest()[:32]}{PLATFORMS[platform].extension}"
+    if not cached.is_file():
+        library = _compile(command, sources, main, Path(main).stem + PLATFORMS[platform].extension)
+        cache.mkdir(parents=True, exist_ok=True)
+        partial = cached.with_name(f".{cached.name}.{os.getpid()}.part")
+        partial.write_bytes(library)
+        partial.replace(cached)
+    return cached.read_bytes()
+
+
+def _compile(command: list[str], sources: Mapping[str, bytes], main: str, output: str) -> bytes:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for source, text in sources.items():
+            (folder / source).write_bytes(text)
+        finished = subprocess.run(
+            [*command, *FLAGS, "-o", output, main, "-lm"], cwd=folder, capture_output=True, text=True, check=False
+        )
+        if finished.returncode != 0:
+            raise CompilationFailed(f"{' '.join(command)} on {main}:\n{finished.stderr}")
+        return (folder / output).read_bytes()

@@ -1,0 +1,157 @@
+/* One instance of a block: its state, its life cycle, its messages.
+ *
+ * The life cycle is that of fmus_src/runtime.py, line by line: setting a variable during
+ * initialisation marks the instance, the next read puts states and outputs back to their
+ * declared starts and runs the block's initialize again.
+ */
+#ifndef FMI2_COMPONENT_H
+#define FMI2_COMPONENT_H
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fmi2Functions.h"
+#include "fmi2_python_repr.h"
+
+#define ELEMENT_COUNT (sizeof ELEMENTS / sizeof ELEMENTS[0])
+#define MESSAGE_SIZE 1024
+
+/* States of the FMI 2.0 co-simulation state machine; bits, so that a set of them is one number. */
+typedef enum Mode {
+    MODE_INSTANTIATED = 1,
+    MODE_INITIALIZATION = 2,
+    MODE_STEP = 4,
+    MODE_TERMINATED = 8,
+    MODE_ERROR = 16
+} Mode;
+
+#define MODE_ANY (MODE_INSTANTIATED | MODE_INITIALIZATION | MODE_STEP | MODE_TERMINATED | MODE_ERROR)
+#define MODE_READABLE (MODE_INITIALIZATION | MODE_STEP | MODE_TERMINATED | MODE_ERROR)
+#define MODE_SETTABLE (MODE_INSTANTIATED | MODE_INITIALIZATION | MODE_STEP)
+
+/* Everything that a step depends on; copying it copies the instance's state. */
+typedef struct Snapshot {
+    Block block;
+    Mode mode;
+    bool unsettled;
+    int64_t tick; /* samples taken since the start */
+    double start_time;
+    double time; /* end of the last successful step */
+} Snapshot;
+
+typedef struct Component {
+    Snapshot now;
+    fmi2Status last_step;
+    fmi2CallbackLogger logger;
+    fmi2ComponentEnvironment environment;
+    char instance_name[1]; /* as long as it needs, at the end of the allocation */
+} Component;
+
+/* Log an error and return it. */
+static fmi2Status fail(const Component *component, const char *format, ...)
+{
+    if (component->logger != NULL) {
+        char message[MESSAGE_SIZE];
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(message, sizeof message, format, arguments);
+        va_end(arguments);
+        component->logger(
+            component->environment, component->instance_name, fmi2Error, "logStatusError", "%s", message);
+    }
+    return fmi2Error;
+}
+
+static const char *mode_name(Mode mode)
+{
+    switch (mode) {
+        case MODE_INSTANTIATED: return "before initialisation";
+        case MODE_INITIALIZATION: return "during initialisation";
+        case MODE_STEP: return "between steps";
+        case MODE_TERMINATED: return "after termination";
+        case MODE_ERROR: return "after an error";
+    }
+    return "in an unknown state";
+}
+
+/* fmi2OK where the function may be called now. */
+static fmi2Status check_mode(const Component *component, const char *function, int allowed)
+{
+    if (component == NULL) return fmi2Error;
+    if ((component->now.mode & allowed) == 0) {
+        return fail(component, "%s is not allowed %s", function, mode_name(component->now.mode));
+    }
+    return fmi2OK;
+}
+
+/* End the run with the Python line that raises in the Python flavour. */
+static fmi2Status end_with_fault(Component *component, const Fault *fault, const char *where)
+{
+    component->now.mode = MODE_ERROR;
+    return fail(component, "File \"%s\", line %d: %s%s", fault->file, fault->line, fault->what, where);
+}
+
+/* Back to the state right after instantiation. */
+static void restart(Component *component)
+{
+    memset(&component->now, 0, sizeof component->now);
+    component->now.block = STARTS;
+    component->now.mode = MODE_INSTANTIATED;
+    component->now.unsettled = true;
+    component->last_step = fmi2OK;
+}
+
+/* Run the block's initialize from the declared starts of states and outputs. */
+static fmi2Status settle(Component *component)
+{
+    for (size_t i = 0; i < ELEMENT_COUNT; i++) {
+        const Element *element = &ELEMENTS[i];
+        if (element->role == ROLE_OUTPUT || element->role == ROLE_STATE) {
+            const size_t size = element->kind == KIND_BOOLEAN ? sizeof(bool) : sizeof(double);
+            memcpy((char *)&component->now.block + element->offset, (const char *)&STARTS + element->offset, size);
+        }
+    }
+    component->now.tick = 0;
+    model_set_start_time(&component->now.block, component->now.start_time);
+    Fault fault = {NULL, NULL, 0};
+    model_initialize(&component->now.block, &fault);
+    if (fault.what != NULL) return end_with_fault(component, &fault, ", during initialisation");
+    component->now.unsettled = false;
+    return fmi2OK;
+}
+
+/* Advance from t to t + h; a sampled block steps at its sample instants only. */
+static fmi2Status advance(Component *component, double t, double h)
+{
+    Snapshot *now = &component->now;
+    const double period = model_sample_period(&now->block);
+    char h_text[REPR_SIZE];
+    char other_text[REPR_SIZE];
+    if (period > 0.0) {
+        const double margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * fabs(t + h);
+        const double due = now->start_time + (double)(now->tick + 1) * period;
+        if (t + h < due - margin) return fmi2OK;
+        if (t + h >= due + period - margin) {
+            now->mode = MODE_ERROR;
+            return fail(component,
+                "StepError: communication step %s s holds more than one sample of sample_period %s s; "
+                "use a communication step no longer than the period, or a longer period",
+                python_repr(h, h_text), python_repr(period, other_text));
+        }
+        now->tick += 1;
+    }
+    Fault fault = {NULL, NULL, 0};
+    model_step(&now->block, &fault, t, h);
+    if (fault.what != NULL) {
+        char where[2 * REPR_SIZE + 40];
+        snprintf(where, sizeof where, ", in the step from t = %s s over h = %s s", python_repr(t, other_text),
+            python_repr(h, h_text));
+        return end_with_fault(component, &fault, where);
+    }
+    return fmi2OK;
+}
+
+#endif

@@ -1,0 +1,183 @@
+"""A block's kernel after analysis: its functions with the types of all they contain.
+
+A function is analysed once per combination of list sizes that it is called with, so every list
+has a known size and most indices are proven right before anything runs.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+from dataclasses import dataclass, field
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from ..block import Block
+from .kernel_source import Source
+from .subset_table import RULES, MathFunction, Rule
+
+
+class Scalar(Enum):
+    """Type of one number; int has 64 bits in C."""
+
+    FLOAT = "float"
+    INT = "int"
+    BOOL = "bool"
+
+    def __str__(self) -> str:
+        return self.value
+
+
+FLOAT, INT, BOOL = Scalar.FLOAT, Scalar.INT, Scalar.BOOL
+
+
+@dataclass(frozen=True)
+class List:
+    """Type of a list that is never rebound."""
+
+    element: Scalar
+    size: int
+
+    def __str__(self) -> str:
+        return f"list of {self.size} {self.element}s"
+
+
+Type = Scalar | List
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A float, int, bool or tuple of one of these, named in a module and never changed."""
+
+    module: str
+    name: str
+    value: Any
+
+
+@dataclass(frozen=True)
+class MathCall:
+    """Call of a function of `math`."""
+
+    name: str
+    function: MathFunction
+
+
+@dataclass(frozen=True)
+class BuiltinCall:
+    """Call of abs, float, int or len."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class KernelCall:
+    """Call of another function of the kernel."""
+
+    callee: Function
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Smallest and largest value that an int can have."""
+
+    low: int
+    high: int
+
+    def join(self, other: Interval) -> Interval:
+        return Interval(min(self.low, other.low), max(self.high, other.high))
+
+    def within(self, other: Interval) -> bool:
+        return other.low <= self.low and self.high <= other.high
+
+
+@dataclass(frozen=True)
+class Violation:
+    """One thing that a kernel says and the subset does not have."""
+
+    file: Path
+    line: int
+    what: str
+    remedy: str
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}: {self.what}; {self.remedy}"
+
+
+@dataclass(eq=False)
+class Function:
+    """A function of the kernel for given list sizes, and what the analyses found out about it."""
+
+    source: Source
+    block_class: type[Block]
+    parameters: dict[str, Type]
+    returns: Scalar | None
+    locals: dict[str, Type] = field(default_factory=dict)
+    types: dict[ast.expr, Type | None] = field(default_factory=dict)
+    calls: dict[ast.Call, MathCall | BuiltinCall | KernelCall] = field(default_factory=dict)
+    constants: dict[ast.expr, Constant] = field(default_factory=dict)
+    # kernel_ranges
+    ranges: dict[str, Interval] = field(default_factory=dict)
+    parameter_ranges: dict[str, Interval] = field(default_factory=dict)
+    unproven: set[ast.AST] = field(default_factory=set)
+    # kernel_effects
+    changed_lists: set[str] = field(default_factory=set)
+    changes_block: bool = False
+    can_fault: bool = False
+    hoisted: set[ast.expr] = field(default_factory=set)
+
+    @property
+    def is_method(self) -> bool:
+        return self.source.owner is not None
+
+    @property
+    def name(self) -> str:
+        return self.source.qualified_name
+
+    @property
+    def changes_anything(self) -> bool:
+        return self.changes_block or bool(self.changed_lists)
+
+    def callees(self) -> list[Function]:
+        """The kernel functions that this one calls."""
+        return [call.callee for call in self.calls.values() if isinstance(call, KernelCall)]
+
+
+@dataclass
+class Kernel:
+    """All functions of a block's kernel, callees before callers, and what is wrong with them."""
+
+    block_class: type[Block]
+    functions: list[Function] = field(default_factory=list)
+    initialize: Function | None = None
+    step: Function | None = None
+    violations: list[Violation] = field(default_factory=list)
+
+    def report(self, source: Source, node: ast.AST, rule: str | Rule, **details: object) -> None:
+        """Add a violation of a rule of the table at a place in the source, once."""
+        self.report_at(source.path, getattr(node, "lineno", source.node.lineno), rule, **details)
+
+    def report_block(self, rule: str) -> None:
+        """Add a violation at the block's class statement."""
+        line = inspect.getsourcelines(self.block_class)[1]
+        self.report_at(Path(inspect.getfile(self.block_class)), line, rule, name=self.block_class.__name__)
+
+    def report_at(self, path: Path, line: int, rule: str | Rule, **details: object) -> None:
+        """Add a violation at a line of a file, once."""
+        found = RULES[rule] if isinstance(rule, str) else rule
+        violation = Violation(path, line, found.what.format(**details), found.remedy.format(**details))
+        if violation not in self.violations:
+            self.violations.append(violation)
+
+
+def is_self_attribute(node: ast.AST) -> bool:
+    """Whether a node reads or writes ``self.name``."""
+    return isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "self"
+
+
+def body_of(node: ast.FunctionDef) -> list[ast.stmt]:
+    """A function's statements without its docstring."""
+    first = node.body[0]
+    if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
+        return node.body[1:]
+    return node.body

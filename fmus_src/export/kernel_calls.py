@@ -1,0 +1,127 @@
+"""What the calls in one kernel function mean, and the types of their values."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import math
+from collections.abc import Callable
+from types import FunctionType
+
+from .kernel import (
+    BOOL,
+    FLOAT,
+    INT,
+    BuiltinCall,
+    Function,
+    Kernel,
+    KernelCall,
+    List,
+    MathCall,
+    Scalar,
+    Type,
+    is_self_attribute,
+)
+from .kernel_expressions import ExpressionTypes
+from .kernel_source import find_global, find_method
+from .subset_table import BUILTIN_FUNCTIONS, MATH_FUNCTIONS, OTHER_FUNCTION, REFUSED_FUNCTIONS, RULES
+
+# Gives the Function for a callee and the types of its arguments; None after a violation in its declaration.
+Resolver = Callable[[FunctionType, type | None, ast.Call, list[Type]], Function | None]
+
+
+class CallTypes(ExpressionTypes):
+    """Resolves calls: of other kernel functions, of `math`, of built-ins."""
+
+    def __init__(self, kernel: Kernel, function: Function, resolve: Resolver, bound: set[str]) -> None:
+        super().__init__(kernel, function, bound)
+        self.resolve = resolve
+
+    def infer_call(self, node: ast.Call) -> Type | None:
+        """Type of a call used as a value; calls without a value are statements."""
+        found = self.call(node)
+        if isinstance(found, Function):
+            if found.returns is None:
+                self.report(node, "number", name="the value", got=f"{found.name}, which returns None")
+            return found.returns
+        return found
+
+    def call(self, node: ast.Call) -> Function | Type | None:
+        """Resolve a call; the callee for a kernel function, else the type of its value."""
+        if node.keywords:
+            self.report(node, "keyword")
+        for argument in node.args:
+            self.infer(argument)
+        name = ast.unparse(node.func)
+        callee, owner = self._callee(node.func)
+        if isinstance(callee, FunctionType):
+            types = [self.function.types[argument] for argument in node.args]
+            if node.keywords or None in types:
+                return None
+            function = self.resolve(callee, owner, node, types)  # type: ignore[arg-type]
+            if function is not None:
+                self.function.calls[node] = KernelCall(function)
+            return function
+        if callee in BUILTIN_FUNCTIONS:
+            return self._builtin(node, name)
+        if isinstance(callee, str) and callee in MATH_FUNCTIONS:
+            self.function.calls[node] = MathCall(callee, MATH_FUNCTIONS[callee])
+            self._count(node, name, MATH_FUNCTIONS[callee].arguments)
+            to_int = MATH_FUNCTIONS[callee].returns == "int"
+            for argument in node.args:
+                got = self.function.types[argument]
+                if got not in (FLOAT, None) and (got is not INT or to_int):
+                    self.report(argument, "number", name=name, got=got)
+            return Scalar(MATH_FUNCTIONS[callee].returns)
+        short = name.split(".")[-1]
+        self.report(node, RULES["function"], name=name, remedy=REFUSED_FUNCTIONS.get(short, OTHER_FUNCTION))
+        return None
+
+    def _callee(self, node: ast.expr) -> tuple[FunctionType | str | None, type | None]:
+        """What a call means: a Python function with its class, or the name of an allowed built-in or math function."""
+        source = self.function.source
+        if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
+            found = find_global(source.function, node.id)
+            if isinstance(found, FunctionType):
+                return found, None
+            if found is None and hasattr(builtins, node.id):
+                return node.id if node.id in BUILTIN_FUNCTIONS else None, None
+            is_math = found is not None and getattr(math, getattr(found, "__name__", ""), None) is found
+            return (found.__name__ if is_math else None), None
+        if not isinstance(node, ast.Attribute):
+            return None, None
+        if source.owner is not None:
+            after = source.owner if is_super(node.value) else None
+            if is_self_attribute(node) or after is not None:
+                return find_method(self.function.block_class, node.attr, after) or (None, None)
+        module = self._module(node.value)
+        if module is math:
+            return node.attr, None
+        found = getattr(module, node.attr, None) if module else None
+        return (found if isinstance(found, FunctionType) else None), None
+
+    def _builtin(self, node: ast.Call, name: str) -> Type | None:
+        self.function.calls[node] = BuiltinCall(name)
+        if not self._count(node, name, 1):
+            return None
+        argument = self.function.types[node.args[0]]
+        if name == "len":
+            if argument is not None and not isinstance(argument, List):
+                self.report(node, "argument type", name=name, expected="a list", argument="its argument", got=argument)
+            return INT
+        if argument is not None and (isinstance(argument, List) or (name == "abs" and argument is BOOL)):
+            self.report(node, "number", name=name, got=argument)
+            return None
+        if name == "abs":
+            return argument
+        return FLOAT if name == "float" else INT
+
+    def _count(self, node: ast.Call, name: str, expected: int) -> bool:
+        if len(node.args) != expected:
+            self.report(node, "argument count", name=name, expected=expected, got=len(node.args))
+        return len(node.args) == expected
+
+
+def is_super(node: ast.expr) -> bool:
+    """Whether a node is ``super()``."""
+    return isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "super" and not node.args

@@ -1,0 +1,162 @@
+"""What each kernel function changes and how it can fail, and the order that both demand in C.
+
+C leaves open in which order the operands of an expression are evaluated. Where two of them can
+fail differently, the first is hoisted: put in a variable of its own, and checked, before the
+statement. Arguments that can fail are always hoisted, so that no function runs on them.
+"""
+
+from __future__ import annotations
+
+import ast
+
+from .kernel import FLOAT, INT, BuiltinCall, Function, Kernel, KernelCall, List, MathCall, is_self_attribute
+from .kernel_expressions import is_read_only
+
+Outcomes = frozenset[tuple[int, object]]  # (line, what ends the call there)
+NO_OUTCOME: Outcomes = frozenset()
+ZERO_DIVISION = "ZeroDivisionError"
+
+
+def find_effects(kernel: Kernel) -> None:
+    """Find effects callees first; report changes and failures whose order cannot be kept."""
+    for function in kernel.functions:
+        effects = _Effects(kernel, function)
+        for statement in ast.walk(function.source.node):
+            if isinstance(statement, ast.stmt):
+                effects.statement(statement)
+
+
+def is_nonzero_constant(function: Function, node: ast.expr) -> bool:
+    """Whether a divisor is a literal or a module constant other than zero."""
+    if isinstance(node, ast.Constant):
+        return bool(node.value)
+    return node in function.constants and bool(function.constants[node].value)
+
+
+def own_outcome(function: Function, node: ast.expr) -> Outcomes:
+    """How an expression can end the call by itself, its operands left aside."""
+    line = node.lineno
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div | ast.FloorDiv | ast.Mod):
+        if function.types[node] is INT:
+            return frozenset({(line, id(node))}) if node in function.unproven else NO_OUTCOME
+        if is_nonzero_constant(function, node.right):
+            return NO_OUTCOME
+        return frozenset({(line, (ZERO_DIVISION, type(node.op)))})
+    if isinstance(node, ast.Call):
+        call = function.calls.get(node)
+        if isinstance(call, KernelCall):
+            return frozenset({(line, id(node))}) if call.callee.can_fault else NO_OUTCOME
+        if isinstance(call, MathCall) and call.function.faults:
+            faults = call.function.faults
+            return frozenset({(line, faults[0] if len(faults) == 1 else id(node))})
+        if isinstance(call, BuiltinCall) and call.name == "int" and function.types[node.args[0]] is FLOAT:
+            return frozenset({(line, id(node))})
+    if node in function.unproven:
+        return frozenset({(line, "IndexError" if isinstance(node, ast.Subscript) else "OverflowError of an int")})
+    return NO_OUTCOME
+
+
+class _Effects:
+    """Effects of one function, statement by statement."""
+
+    def __init__(self, kernel: Kernel, function: Function) -> None:
+        self.kernel = kernel
+        self.function = function
+
+    def statement(self, node: ast.stmt) -> None:
+        """Take in one statement, without those inside it."""
+        whole: ast.expr | None = None
+        outcomes = NO_OUTCOME
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+            self._changes(target.value if isinstance(target, ast.Subscript) else target)
+            whole = node.value
+            outcomes = self._value(node.value)
+            if isinstance(target, ast.Subscript):
+                outcomes |= self.visit(target, False)
+        elif isinstance(node, ast.Expr | ast.Return) and node.value is not None:
+            whole = node.value
+            outcomes = self.visit(node.value, False)
+        elif isinstance(node, ast.If | ast.While):
+            outcomes = self.visit(node.test, False)
+        elif isinstance(node, ast.For) and isinstance(node.iter, ast.Call):
+            outcomes = self._in_order(node.iter.args, False)
+        if outcomes:
+            self.function.can_fault = True
+        self._calls(node, whole)
+
+    def _value(self, node: ast.expr) -> Outcomes:
+        """A value to be assigned, or the elements of a new list."""
+        if isinstance(node, ast.List):
+            return self._in_order(node.elts, False)
+        if isinstance(node, ast.BinOp) and isinstance(node.left, ast.List):
+            return self.visit(node.left.elts[0], False)
+        return self.visit(node, False)
+
+    def _changes(self, holder: ast.expr) -> None:
+        """Take in that a variable of the block, or the elements of a list, are assigned."""
+        if is_self_attribute(holder):
+            self.function.changes_block = True
+        elif isinstance(holder, ast.Name) and isinstance(self.function.parameters.get(holder.id), List):
+            self.function.changed_lists.add(holder.id)
+
+    def _calls(self, node: ast.stmt, whole: ast.expr | None) -> None:
+        """Pass on what called functions change; they may do so only as a whole right-hand side or statement."""
+        parts = [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr)]
+        for part in (inner for child in parts for inner in ast.walk(child)):
+            call = self.function.calls.get(part) if isinstance(part, ast.Call) else None
+            if not isinstance(part, ast.Call) or not isinstance(call, KernelCall):
+                continue
+            callee = call.callee
+            if callee.changes_anything and part is not whole:
+                self.kernel.report(self.function.source, part, "changes inside expression", name=callee.name)
+            self.function.changes_block |= callee.changes_block
+            for name, argument in zip(callee.parameters, part.args, strict=True):
+                if name in callee.changed_lists:
+                    if is_read_only(self.function, argument):
+                        self.kernel.report(self.function.source, argument, "read-only", name=ast.unparse(argument))
+                    self._changes(argument)
+
+    def visit(self, node: ast.expr, conditional: bool) -> Outcomes:
+        """How an expression can end the call; marks what is to be hoisted in it."""
+        if isinstance(node, ast.BoolOp):
+            outcomes = self.visit(node.values[0], conditional)
+            for value in node.values[1:]:
+                outcomes |= self.visit(value, True)
+            return outcomes
+        if isinstance(node, ast.IfExp):
+            outcomes = self.visit(node.test, conditional)
+            return outcomes | self.visit(node.body, True) | self.visit(node.orelse, True)
+        inside = self._in_order(
+            operands(node),
+            conditional,
+            always=isinstance(self.function.calls.get(node), KernelCall),  # type: ignore[call-overload]
+        )
+        return inside | own_outcome(self.function, node)
+
+    def _in_order(self, nodes: list[ast.expr], conditional: bool, always: bool = False) -> Outcomes:
+        """Operands evaluated from left to right; those that must not wait for later ones are hoisted."""
+        found = [self.visit(node, conditional) for node in nodes]
+        for position, node in enumerate(nodes):
+            mine = found[position]
+            later = [other for other in found[position + 1 :] if other and len(mine | other) > 1]
+            if mine and (always or later):
+                self.function.hoisted.add(node)
+                if conditional:
+                    self.kernel.report(self.function.source, node, "conditional order")
+        return frozenset().union(*found)
+
+
+def operands(node: ast.expr) -> list[ast.expr]:
+    """The operands of an expression in Python's order of evaluation."""
+    if isinstance(node, ast.BinOp):
+        return [node.left, node.right]
+    if isinstance(node, ast.UnaryOp):
+        return [node.operand]
+    if isinstance(node, ast.Compare):
+        return [node.left, *node.comparators]
+    if isinstance(node, ast.Call):
+        return list(node.args)
+    if isinstance(node, ast.Subscript):
+        return [node.slice]
+    return []

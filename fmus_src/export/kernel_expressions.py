@@ -1,0 +1,213 @@
+"""Types of the expressions in one kernel function, and refusal of those outside the subset."""
+
+from __future__ import annotations
+
+import ast
+import math
+from types import ModuleType
+from typing import Any
+
+from ..block import Input, Parameter, Variable
+from .kernel import (
+    BOOL,
+    FLOAT,
+    INT,
+    Constant,
+    Function,
+    Kernel,
+    List,
+    Scalar,
+    Type,
+    is_self_attribute,
+)
+from .kernel_source import find_global, origin_of_constant
+from .subset_table import (
+    COMPARISONS,
+    EXPRESSIONS,
+    MATH_CONSTANTS,
+    OPERATORS,
+    OTHER_SYNTAX,
+    REFUSED_SYNTAX,
+    Rule,
+)
+
+SCALARS = {float: FLOAT, int: INT, bool: BOOL}
+INT64_MAX = 2**63 - 1
+
+
+class ExpressionTypes:
+    """Infers types bottom-up; a type of None means unknown because of a violation already reported."""
+
+    def __init__(self, kernel: Kernel, function: Function, bound: set[str]) -> None:
+        self.kernel = kernel
+        self.function = function
+        self.bound = bound  # names that are local to the function
+
+    def report(self, node: ast.AST, rule: str | Rule, **details: object) -> None:
+        self.kernel.report(self.function.source, node, rule, **details)
+
+    def refuse_syntax(self, node: ast.AST) -> None:
+        """Report a piece of syntax with the table's remedy."""
+        self.report(node, REFUSED_SYNTAX.get(type(node), OTHER_SYNTAX), name=type(node).__name__)
+
+    def infer(self, node: ast.expr) -> Type | None:
+        """The type of an expression; every part's type is kept in the function."""
+        if isinstance(node, EXPRESSIONS):
+            found = getattr(self, f"infer_{type(node).__name__.lower()}")(node)
+        else:
+            self.refuse_syntax(node)
+            found = None
+        self.function.types[node] = found
+        return found
+
+    def infer_number(self, node: ast.expr, name: str) -> Scalar | None:
+        """Type of an operand that must be a float or an int."""
+        found = self.infer(node)
+        if found in (FLOAT, INT):
+            return found  # type: ignore[return-value]
+        if found is not None:
+            self.report(node, "number", name=name, got=found)
+        return None
+
+    def infer_condition(self, node: ast.expr) -> None:
+        """Check an operand that must be a bool."""
+        found = self.infer(node)
+        if found not in (BOOL, None):
+            self.report(node, "condition", got=found)
+
+    def infer_constant(self, node: ast.Constant) -> Type | None:
+        found = SCALARS.get(type(node.value))
+        if found is None:
+            self.report(node, "string")
+        elif found is INT and node.value > INT64_MAX:  # type: ignore[operator]
+            self.report(node, "int literal")
+        return found
+
+    def infer_name(self, node: ast.Name) -> Type | None:
+        if node.id in self.function.parameters:
+            return self.function.parameters[node.id]
+        if node.id in self.bound:
+            return self.function.locals.get(node.id)  # unknown: kernel_flow reports it as unbound
+        module = origin_of_constant(self.function.source.function, node.id)
+        return self._constant(node, module, node.id, find_global(self.function.source.function, node.id))
+
+    def infer_attribute(self, node: ast.Attribute) -> Type | None:
+        if is_self_attribute(node) and self.function.is_method:
+            variable = self.function.block_class.variables.get(node.attr)
+            if variable is None:
+                self.report(node, "undeclared", name=node.attr)
+                return None
+            return type_of_variable(variable)
+        module = self._module(node.value)
+        if module is math and node.attr in MATH_CONSTANTS:
+            return self._constant(node, "math", node.attr, MATH_CONSTANTS[node.attr])
+        if module is not None and module is not math:
+            return self._constant(node, module.__name__, node.attr, getattr(module, node.attr, None))
+        self.report(node, "unknown name", name=ast.unparse(node))
+        return None
+
+    def _module(self, node: ast.expr) -> ModuleType | None:
+        """The module that a name means, if it means one."""
+        if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
+            found = find_global(self.function.source.function, node.id)
+            return found if isinstance(found, ModuleType) else None
+        return None
+
+    def _constant(self, node: ast.expr, module: str, name: str, value: Any) -> Type | None:
+        elements = value if isinstance(value, tuple) else (value,)
+        kinds = {type(element) for element in elements}
+        if len(kinds) != 1 or not kinds <= set(SCALARS):
+            self.report(node, "unknown name", name=ast.unparse(node))
+            return None
+        self.function.constants[node] = Constant(module, name, value)
+        scalar = SCALARS[kinds.pop()]
+        return List(scalar, len(elements)) if isinstance(value, tuple) else scalar
+
+    def infer_subscript(self, node: ast.Subscript) -> Type | None:
+        container = self.infer(node.value)
+        if isinstance(node.slice, ast.Slice | ast.Tuple):
+            self.refuse_syntax(node.slice)
+            return None
+        index = self.infer(node.slice)
+        if index not in (INT, None):
+            self.report(node, "argument type", name="an index", expected=INT, argument="its value", got=index)
+        if isinstance(container, List):
+            return container.element
+        if container is not None:
+            self.report(node, "number", name="an index", got=container)
+        return None
+
+    def infer_binop(self, node: ast.BinOp) -> Type | None:
+        if not isinstance(node.op, OPERATORS):
+            self.refuse_syntax_at(node, node.op)
+            return None
+        if isinstance(node.left, ast.List) or isinstance(node.right, ast.List):
+            self.refuse_syntax(node.left if isinstance(node.left, ast.List) else node.right)
+            return None
+        return self.combine(node, node.op, node.left, node.right)
+
+    def combine(self, node: ast.AST, operator: ast.operator, left: ast.expr, right: ast.expr) -> Type | None:
+        """Type of ``left operator right``."""
+        name = f"operator {type(operator).__name__}"
+        kinds = self.infer_number(left, name), self.infer_number(right, name)
+        if None in kinds:
+            return None
+        if isinstance(operator, ast.Div) or FLOAT in kinds:
+            return FLOAT
+        return INT
+
+    def refuse_syntax_at(self, node: ast.AST, part: ast.AST) -> None:
+        """Report an operator, which has no line of its own, at the expression around it."""
+        self.report(node, REFUSED_SYNTAX.get(type(part), OTHER_SYNTAX), name=type(part).__name__)
+
+    def infer_unaryop(self, node: ast.UnaryOp) -> Type | None:
+        if isinstance(node.op, ast.Not):
+            self.infer_condition(node.operand)
+            return BOOL
+        if isinstance(node.op, ast.USub | ast.UAdd):
+            return self.infer_number(node.operand, "a sign")
+        self.refuse_syntax_at(node, node.op)
+        return None
+
+    def infer_boolop(self, node: ast.BoolOp) -> Type | None:
+        for value in node.values:
+            self.infer_condition(value)
+        return BOOL
+
+    def infer_compare(self, node: ast.Compare) -> Type | None:
+        if len(node.ops) > 1:
+            self.report(node, "chained comparison")
+            return BOOL
+        left, right = self.infer(node.left), self.infer(node.comparators[0])
+        if not isinstance(node.ops[0], COMPARISONS):
+            self.refuse_syntax_at(node, node.ops[0])
+        elif left is not None and right is not None:
+            numbers = left in (FLOAT, INT) and right in (FLOAT, INT)
+            bools = left is BOOL and right is BOOL and isinstance(node.ops[0], ast.Eq | ast.NotEq)
+            if not numbers and not bools:
+                self.report(node, "comparison", left=left, right=right)
+        return BOOL
+
+    def infer_ifexp(self, node: ast.IfExp) -> Type | None:
+        self.infer_condition(node.test)
+        left, right = self.infer(node.body), self.infer(node.orelse)
+        if left is None or right is None:
+            return None
+        if left is not right or isinstance(left, List):
+            self.report(node, "branches", left=left, right=right)
+            return None
+        return left
+
+
+def type_of_variable(variable: Variable) -> Type:
+    """Type of a declared variable."""
+    scalar = SCALARS[type(variable.elements[0])]
+    return List(scalar, variable.size) if variable.is_vector else scalar
+
+
+def is_read_only(function: Function, node: ast.expr) -> bool:
+    """Whether a list or scalar belongs to an input, a parameter or a constant."""
+    if is_self_attribute(node):
+        assert isinstance(node, ast.Attribute)
+        return isinstance(function.block_class.variables.get(node.attr), Input | Parameter)
+    return node in function.constants

@@ -1,0 +1,204 @@
+"""Ranges of the ints in a kernel: which indices and sums are proven right before anything runs.
+
+What is not proven is checked at run time. Ranges hold for the whole run of a function, whatever
+the order of its statements; those of arguments cover every call.
+"""
+
+from __future__ import annotations
+
+import ast
+
+from .kernel import INT, BuiltinCall, Function, Interval, Kernel, KernelCall, List, is_self_attribute
+from .kernel_expressions import is_read_only
+from .kernel_statements import range_step
+
+INT64 = Interval(-(2**63), 2**63 - 1)
+INT32 = Interval(-(2**31), 2**31 - 1)  # FMI Integers, hence inputs and parameters
+EXACT = Interval(-(2**53), 2**53)  # ints that a double holds exactly
+ROUNDS_BEFORE_WIDENING = 4
+
+
+def find_ranges(kernel: Kernel) -> None:
+    """Find ranges callers first, so that those of arguments are known; report what can never be right."""
+    for function in reversed(kernel.functions):
+        ranges = _Ranges(kernel, function)
+        ranges.settle()
+        ranges.judge()
+
+
+class _Ranges:
+    """Ranges of one function's variables and expressions."""
+
+    def __init__(self, kernel: Kernel, function: Function) -> None:
+        self.kernel = kernel
+        self.function = function
+        function.ranges = dict(function.parameter_ranges)
+        self.loops = _loops_of_reads(function)
+
+    def settle(self) -> None:
+        """Join all that is assigned to each variable until nothing changes any more."""
+        binding = (ast.For, ast.Assign, ast.AnnAssign)
+        parts = [part for part in ast.walk(self.function.source.node) if isinstance(part, binding)]
+        parts.sort(key=lambda part: (part.lineno, part.col_offset))  # a variable's first value comes first
+        rounds = 0
+        changed = True
+        while changed:
+            rounds += 1
+            changed = False
+            for node in parts:
+                for name, found in self._assigned(node):
+                    before = self.function.ranges.get(name, found)
+                    after = before.join(found)
+                    if after != before and rounds > ROUNDS_BEFORE_WIDENING:
+                        after = INT64
+                    if after != self.function.ranges.get(name):
+                        self.function.ranges[name] = after
+                        changed = True
+
+    def _assigned(self, node: ast.AST) -> list[tuple[str, Interval]]:
+        """Ints that a statement assigns to variables, with their ranges."""
+        if isinstance(node, ast.For) and isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Call):
+            return [(node.target.id, self.loop_range(node.iter))]
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
+            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+            if isinstance(target, ast.Name) and self.function.types.get(node.value) is INT:
+                return [(target.id, self.of(node.value))]
+        return []
+
+    def loop_range(self, call: ast.Call) -> Interval:
+        """Values that a loop variable takes."""
+        bounds = [self.of(argument) for argument in call.args[:2]]
+        first = bounds[0] if len(bounds) == 2 else Interval(0, 0)
+        stop = bounds[-1]
+        if range_step(call) > 0:
+            return Interval(first.low, max(first.low, stop.high - 1))
+        return Interval(min(first.high, stop.low + 1), first.high)
+
+    def of(self, node: ast.expr) -> Interval:
+        """The range of an int expression."""
+        return _clamp(self.unbounded(node))
+
+    def unbounded(self, node: ast.expr) -> Interval:
+        """The range before it is cut to 64 bits."""
+        if isinstance(node, ast.Constant) and isinstance(node.value, int):
+            return Interval(int(node.value), int(node.value))
+        if node in self.function.constants and not isinstance(self.function.constants[node].value, tuple):
+            value = self.function.constants[node].value
+            return Interval(int(value), int(value))
+        if node in self.loops:
+            return self.loop_range(self.loops[node])
+        if isinstance(node, ast.Name):
+            return self.function.ranges.get(node.id, INT64)
+        holder = node.value if isinstance(node, ast.Subscript) else node
+        if is_self_attribute(holder):
+            return INT32 if is_read_only(self.function, holder) else INT64
+        if isinstance(node, ast.UnaryOp):
+            inner = self.of(node.operand)
+            return Interval(-inner.high, -inner.low) if isinstance(node.op, ast.USub) else inner
+        if isinstance(node, ast.BinOp):
+            return _combine(node.op, self.of(node.left), self.of(node.right))
+        if isinstance(node, ast.IfExp):
+            return self.of(node.body).join(self.of(node.orelse))
+        if isinstance(node, ast.Call):
+            return self._of_call(node)
+        return INT64
+
+    def _of_call(self, node: ast.Call) -> Interval:
+        call = self.function.calls.get(node)
+        if isinstance(call, BuiltinCall):
+            argument = self.function.types[node.args[0]]
+            if call.name == "len" and isinstance(argument, List):
+                return Interval(argument.size, argument.size)
+            if argument is INT:
+                inner = self.of(node.args[0])
+                if call.name == "abs":
+                    low = 0 if inner.low <= 0 <= inner.high else min(abs(inner.low), abs(inner.high))
+                    return Interval(low, max(abs(inner.low), abs(inner.high)))
+                return inner
+        return INT64
+
+    def judge(self) -> None:
+        """Keep what needs a check at run time, report what is wrong for certain, pass ranges on to callees."""
+        function = self.function
+        for node, kind in list(function.types.items()):
+            if isinstance(node, ast.Subscript) and isinstance(function.types.get(node.value), List):
+                self._judge_index(node)
+            computed = kind is INT and isinstance(node, ast.BinOp | ast.UnaryOp | ast.Call)
+            if computed and not self.unbounded(node).within(INT64):
+                function.unproven.add(node)
+            if isinstance(node, ast.Compare):
+                self._judge_mixed(node, "compared")
+            elif isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div):
+                self._judge_mixed(node, "divided")
+        for node, call in function.calls.items():
+            if isinstance(call, KernelCall):
+                self._pass_on(call.callee, node.args)
+
+    def _judge_index(self, node: ast.Subscript) -> None:
+        container = self.function.types[node.value]
+        assert isinstance(container, List)
+        found = self.of(node.slice)
+        if not found.within(Interval(0, container.size - 1)):
+            self.function.unproven.add(node)
+        if found.high < -container.size or found.low >= container.size:
+            self.kernel.report(
+                self.function.source,
+                node,
+                "index",
+                index=ast.unparse(node.slice),
+                name=ast.unparse(node.value),
+                size=container.size,
+            )
+
+    def _judge_mixed(self, node: ast.Compare | ast.BinOp, use: str) -> None:
+        """Python compares an int with a float, and divides ints, without rounding the int first; C rounds it."""
+        operands = [node.left, node.right if isinstance(node, ast.BinOp) else node.comparators[0]]
+        kinds = [self.function.types.get(operand) for operand in operands]
+        exact = all(
+            self.of(operand).within(EXACT) for operand, kind in zip(operands, kinds, strict=True) if kind is INT
+        )
+        both_ints = kinds[0] is INT and kinds[1] is INT
+        matters = both_ints if isinstance(node, ast.BinOp) else INT in kinds and not both_ints
+        if matters and not exact:
+            self.kernel.report(self.function.source, node, "wide int", use=use)
+
+    def _pass_on(self, callee: Function, arguments: list[ast.expr]) -> None:
+        for (name, kind), argument in zip(callee.parameters.items(), arguments, strict=True):
+            if kind is INT:
+                found = self.of(argument)
+                callee.parameter_ranges[name] = callee.parameter_ranges.get(name, found).join(found)
+
+
+def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:
+    """For each read of a loop's variable inside the loop, where nothing else assigns it there: the loop's range."""
+    found: dict[ast.expr, ast.Call] = {}
+    loops = [node for node in ast.walk(function.source.node) if isinstance(node, ast.For)]
+    for loop in loops:  # outer loops first, so that inner ones overwrite them
+        if isinstance(loop.target, ast.Name) and isinstance(loop.iter, ast.Call):
+            name = loop.target.id
+            uses = [part for child in loop.body for part in ast.walk(child)]
+            named = [part for part in uses if isinstance(part, ast.Name) and part.id == name]
+            if all(isinstance(part.ctx, ast.Load) for part in named):
+                found |= dict.fromkeys(named, loop.iter)
+    return found
+
+
+def _clamp(found: Interval) -> Interval:
+    """Values beyond 64 bits end the call, so no variable ever holds them."""
+    return Interval(min(max(found.low, INT64.low), INT64.high), max(min(found.high, INT64.high), INT64.low))
+
+
+def _combine(operator: ast.operator, left: Interval, right: Interval) -> Interval:
+    if isinstance(operator, ast.Add):
+        return Interval(left.low + right.low, left.high + right.high)
+    if isinstance(operator, ast.Sub):
+        return Interval(left.low - right.high, left.high - right.low)
+    if isinstance(operator, ast.Mult):
+        corners = [a * b for a in (left.low, left.high) for b in (right.low, right.high)]
+        return Interval(min(corners), max(corners))
+    if isinstance(operator, ast.FloorDiv) and right.low > 0:
+        corners = [a // b for a in (left.low, left.high) for b in (right.low, right.high)]
+        return Interval(min(corners), max(corners))
+    if isinstance(operator, ast.Mod) and right.low > 0:
+        return Interval(0, right.high - 1)
+    return Interval(-(2**63), 2**63)  # // and % by what may be 0, or -1: checked at run time

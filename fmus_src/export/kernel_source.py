@@ -1,0 +1,137 @@
+"""Where a kernel function's source is: its file, its tree, its comments."""
+
+from __future__ import annotations
+
+import ast
+import copy
+import io
+import tokenize
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from types import FunctionType, ModuleType
+from typing import Any
+
+PACKAGE_ROOT = Path(__file__).resolve().parents[1]
+
+
+@dataclass(frozen=True)
+class Source:
+    """One Python function of a kernel; ``owner`` is the class that defines a method."""
+
+    function: FunctionType
+    owner: type | None
+    path: Path
+    node: ast.FunctionDef
+
+    @property
+    def name(self) -> str:
+        return self.node.name
+
+    @property
+    def module(self) -> str:
+        """Full name of the module, as ``fmus_src.mathlib.vectors``."""
+        return self.function.__module__
+
+    @property
+    def qualified_name(self) -> str:
+        """``quadratic_time`` or ``TerminalGuidance.follow``."""
+        return f"{self.owner.__name__}.{self.name}" if self.owner else self.name
+
+
+def source_of(function: FunctionType, owner: type | None) -> Source | None:
+    """The source of a function, or None where its file cannot be read or does not contain it."""
+    path = Path(function.__code__.co_filename)
+    try:
+        tree = _tree(path)
+    except (OSError, SyntaxError):
+        return None
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef) and node.name == function.__name__:
+            first_line = min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+            if first_line == function.__code__.co_firstlineno:
+                return Source(function, owner, path, node)
+    return None
+
+
+def find_method(block_class: type, name: str, after: type | None = None) -> tuple[FunctionType, type] | None:
+    """The method that ``self.name`` means for a block class, or ``super().name`` inside class ``after``."""
+    order = list(block_class.__mro__)
+    if after is not None:
+        order = order[order.index(after) + 1 :]
+    for owner in order:
+        if name in vars(owner):
+            found = vars(owner)[name]
+            return (found, owner) if isinstance(found, FunctionType) else None
+    return None
+
+
+def find_global(function: FunctionType, name: str) -> Any:
+    """What a global name means in a function's module; None where it means nothing."""
+    return function.__globals__.get(name)
+
+
+def origin_of_constant(function: FunctionType, name: str) -> str:
+    """Full name of the module that defines a constant which the function's module may only import."""
+    tree = _tree(Path(function.__code__.co_filename))
+    for node in tree.body:
+        if isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                if (alias.asname or alias.name) == name:
+                    return _absolute(node, function.__globals__)
+    return function.__module__
+
+
+def module_file(module: ModuleType) -> Path:
+    """The file that a module was loaded from."""
+    return Path(module.__file__ or "")
+
+
+def label(path: Path) -> str:
+    """A file's name as it stands in C comments and fault messages; the same on every machine."""
+    resolved = path.resolve()
+    if resolved.is_relative_to(PACKAGE_ROOT):
+        return resolved.relative_to(PACKAGE_ROOT.parent).as_posix()
+    return resolved.name
+
+
+def comments_of(path: Path) -> dict[int, str]:
+    """Comments that stand on a line of their own, by line number, without the ``#``."""
+    return _comments(path.read_text(encoding="utf-8"))
+
+
+@cache
+def _comments(text: str) -> dict[int, str]:
+    found = {}
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT and token.line.strip() == token.string:
+            found[token.start[0]] = token.string.lstrip("# ").replace("*/", "* /")
+    return found
+
+
+def _tree(path: Path) -> ast.Module:
+    """A file's tree; one per content, since functions are told apart by their nodes."""
+    return _parsed(path.read_text(encoding="utf-8"))
+
+
+@cache
+def _parsed(text: str) -> ast.Module:
+    return ast.fix_missing_locations(_Normalise().visit(ast.parse(text)))
+
+
+class _Normalise(ast.NodeTransformer):
+    """Writes ``x += y`` as ``x = x + y``, which means the same for what a kernel may change."""
+
+    def visit_AugAssign(self, node: ast.AugAssign) -> ast.Assign:
+        reading = copy.deepcopy(node.target)
+        reading.ctx = ast.Load()
+        combined = ast.copy_location(ast.BinOp(reading, node.op, node.value), node)
+        return ast.copy_location(ast.Assign([node.target], combined), node)
+
+
+def _absolute(node: ast.ImportFrom, module_globals: dict[str, Any]) -> str:
+    if node.level == 0:
+        return node.module or ""
+    package = str(module_globals["__package__"]).split(".")
+    base = package[: len(package) - (node.level - 1)]
+    return ".".join([*base, node.module] if node.module else base)

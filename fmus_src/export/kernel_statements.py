@@ -1,0 +1,194 @@
+"""The statements of one kernel function: checked, with the types of the variables they assign."""
+
+from __future__ import annotations
+
+import ast
+
+from .kernel import INT, Function, Kernel, List, Scalar, Type, is_self_attribute
+from .kernel_calls import CallTypes, Resolver
+from .kernel_expressions import is_read_only
+from .subset_table import STATEMENTS
+
+
+def local_names(node: ast.FunctionDef) -> set[str]:
+    """Names that a function assigns, which makes them local throughout it."""
+    return {part.id for part in ast.walk(node) if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)}
+
+
+class StatementTypes(CallTypes):
+    """Checks the statements of one function and infers the types of its variables."""
+
+    def __init__(self, kernel: Kernel, function: Function, resolve: Resolver) -> None:
+        super().__init__(kernel, function, resolve, local_names(function.source.node))
+
+    def block(self, statements: list[ast.stmt]) -> None:
+        for statement in statements:
+            if isinstance(statement, STATEMENTS):
+                getattr(self, f"check_{type(statement).__name__.lower()}")(statement)
+            else:
+                self.refuse_syntax(statement)
+
+    def check_pass(self, node: ast.Pass) -> None:
+        """Nothing to check."""
+
+    check_break = check_pass
+    check_continue = check_pass
+
+    def check_expr(self, node: ast.Expr) -> None:
+        if isinstance(node.value, ast.Call):
+            found = self.call(node.value)
+            if not isinstance(found, Function) and found is not None:
+                self.report(node, "no effect")
+        elif isinstance(node.value, ast.Constant):
+            self.report(node, "no effect")
+        else:
+            self.infer(node.value)
+            self.report(node, "no effect")
+
+    def check_assign(self, node: ast.Assign) -> None:
+        if len(node.targets) > 1 or isinstance(node.targets[0], ast.Tuple | ast.List):
+            self.report(node, "one target")
+        else:
+            self.assign(node, node.targets[0], node.value)
+
+    def check_annassign(self, node: ast.AnnAssign) -> None:
+        if node.value is None:
+            self.report(node, "no effect")
+        else:
+            self.assign(node, node.target, node.value)
+
+    def assign(self, node: ast.stmt, target: ast.expr, value: ast.expr) -> None:
+        """Check ``target = value``, which also declares a local list."""
+        if is_list_binding(value):
+            self.bind_list(node, target, value)
+            return
+        found = self.infer(value)
+        if isinstance(found, List):
+            name = ast.unparse(target)
+            self.report(node, "list shared" if name in self.bound else "list rebound", name=name)
+            return
+        self.store(target, found)
+
+    def store(self, target: ast.expr, found: Type | None) -> None:
+        """Check that a scalar of the given type can go to a target."""
+        if isinstance(target, ast.Name):
+            expected = self.function.parameters.get(target.id) or self.function.locals.get(target.id)
+            if expected is None and found is not None:
+                self.function.locals[target.id] = found
+        elif isinstance(target, ast.Subscript):
+            expected = self.infer(target)
+            if is_read_only(self.function, target.value):
+                self.report(target, "read-only", name=ast.unparse(target.value))
+        elif is_self_attribute(target) and self.function.is_method:
+            expected = self.infer(target)
+            if is_read_only(self.function, target):
+                self.report(target, "read-only", name=ast.unparse(target))
+        else:
+            self.report(target, "target")
+            return
+        if isinstance(expected, List):
+            self.report(target, "list rebound", name=ast.unparse(target))
+        elif expected is not None and found is not None and found is not expected:
+            self.report(target, "type change", name=ast.unparse(target), before=expected, after=found)
+
+    def bind_list(self, node: ast.stmt, target: ast.expr, value: ast.expr) -> None:
+        """Check ``name = [0.0] * n`` or ``name = [a, b, c]``."""
+        if not isinstance(target, ast.Name) or target.id in self.function.parameters:
+            self.report(node, "list rebound", name=ast.unparse(target))
+            return
+        if isinstance(value, ast.BinOp):
+            assert isinstance(value.left, ast.List)
+            items = value.left.elts
+            size = self.fixed_size(value.right)
+            if size is None or size < 1 or len(items) != 1:
+                self.report(node, "list size", name=target.id)
+                return
+        else:
+            assert isinstance(value, ast.List)
+            items = value.elts
+            size = len(items)
+        kinds = {self.infer(item) for item in items}
+        if None in kinds:
+            return
+        if len(kinds) != 1 or not isinstance(next(iter(kinds)), Scalar):
+            detail = f"a list of {' and '.join(sorted(map(str, kinds)))}" if kinds else "an empty list"
+            self.report(node, "list literal", detail=detail)
+            return
+        if any(isinstance(part, ast.Name) and part.id == target.id for item in items for part in ast.walk(item)):
+            self.report(node, "list replaces itself", name=target.id)
+        found = List(kinds.pop(), size)  # type: ignore[arg-type]
+        before = self.function.locals.setdefault(target.id, found)
+        if before != found:
+            self.report(node, "type change", name=target.id, before=before, after=found)
+        self.function.types[value] = found
+
+    def fixed_size(self, node: ast.expr) -> int | None:
+        """Value of an int literal, an int constant or a length, for the size of a list."""
+        if self.infer(node) is not INT:
+            return None
+        if isinstance(node, ast.Constant):
+            return node.value if isinstance(node.value, int) else None
+        if node in self.function.constants:
+            return self.function.constants[node].value
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "len":
+            found = self.function.types[node.args[0]]
+            return found.size if isinstance(found, List) else None
+        return None
+
+    def check_if(self, node: ast.If) -> None:
+        self.infer_condition(node.test)
+        self.block(node.body)
+        self.block(node.orelse)
+
+    def check_while(self, node: ast.While) -> None:
+        self.infer_condition(node.test)
+        self.block(node.body)
+        if node.orelse:
+            self.report(node, "loop else")
+
+    def check_for(self, node: ast.For) -> None:
+        call = node.iter
+        if not isinstance(call, ast.Call) or not is_range(call) or not isinstance(node.target, ast.Name):
+            self.report(node, "for range")
+        else:
+            for argument in call.args:
+                found = self.infer(argument)
+                if found not in (INT, None):
+                    self.report(argument, "argument type", name="range", expected=INT, argument="a bound", got=found)
+            if len(call.args) == 3 and not range_step(call):
+                self.report(call, "range step")
+            self.store(node.target, INT)
+        self.block(node.body)
+        if node.orelse:
+            self.report(node, "loop else")
+
+    def check_return(self, node: ast.Return) -> None:
+        found = self.infer(node.value) if node.value is not None else None
+        if node.value is not None and found is None:
+            return
+        if found is not self.function.returns:
+            self.report(node, "return value", got=found, expected=self.function.returns)
+
+
+def is_list_binding(value: ast.expr) -> bool:
+    """Whether an expression makes a list: ``[a, b]`` or ``[a] * n``."""
+    return isinstance(value, ast.List) or (
+        isinstance(value, ast.BinOp) and isinstance(value.op, ast.Mult) and isinstance(value.left, ast.List)
+    )
+
+
+def is_range(call: ast.Call) -> bool:
+    """Whether a call is ``range`` with one to three arguments."""
+    named = isinstance(call.func, ast.Name) and call.func.id == "range"
+    return named and not call.keywords and 1 <= len(call.args) <= 3
+
+
+def range_step(call: ast.Call) -> int:
+    """The step of a range call; 0 where it is not a literal."""
+    if len(call.args) < 3:
+        return 1
+    node = call.args[2]
+    sign = 1
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        node, sign = node.operand, -1
+    return sign * node.value if isinstance(node, ast.Constant) and type(node.value) is int else 0

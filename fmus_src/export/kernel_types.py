@@ -1,0 +1,129 @@
+"""From a block class to its kernel: the functions it reaches, with the types of all they contain."""
+
+from __future__ import annotations
+
+import ast
+from types import FunctionType
+
+from ..block import Block
+from .kernel import BOOL, FLOAT, INT, Function, Kernel, List, Scalar, Type, body_of
+from .kernel_source import Source, find_method, source_of
+from .kernel_statements import StatementTypes
+
+ANNOTATIONS = {"float": FLOAT, "int": INT, "bool": BOOL}
+
+
+def typed_kernel(block_class: type[Block]) -> Kernel:
+    """The functions that `initialize` and `step` of a block reach, with types; violations are collected."""
+    kernel = Kernel(block_class)
+    finder = _Finder(kernel)
+    if not block_class.variables:
+        kernel.report_block("no variables")
+    for name, types in (("initialize", []), ("step", [FLOAT, FLOAT])):
+        found = find_method(block_class, name)
+        if found is None or (name, found[1]) == ("step", Block):
+            kernel.report_block(f"no {name}")
+        else:
+            setattr(kernel, name, finder.find(*found, None, None, types))
+    return kernel
+
+
+class _Finder:
+    """Makes one Function per Python function and combination of list types."""
+
+    def __init__(self, kernel: Kernel) -> None:
+        self.kernel = kernel
+        self.known: dict[tuple, Function | None] = {}
+        self.under_way: list[tuple] = []
+
+    def find(
+        self,
+        function: FunctionType,
+        owner: type | None,
+        caller: Function | None,
+        call: ast.Call | None,
+        types: list,
+    ) -> Function | None:
+        """The Function for arguments of the given types; None after a violation."""
+        source = source_of(function, owner)
+        if source is None:
+            if caller is not None and call is not None:
+                self.kernel.report(caller.source, call, "no source", name=function.__name__)
+            return None
+        parameters = self._parameters(source, caller, call, types)
+        if parameters is None:
+            return None
+        key = (function, owner, tuple(found for found in parameters.values() if isinstance(found, List)))
+        if key in self.under_way:
+            self.kernel.report(source, source.node, "recursion", name=source.name)
+            return None
+        if key not in self.known:
+            self.under_way.append(key)
+            self.known[key] = self._analyse(
+                Function(source, self.kernel.block_class, parameters, self._returns(source))
+            )
+            self.under_way.pop()
+        return self.known[key]
+
+    def _analyse(self, function: Function) -> Function:
+        def resolve(callee: FunctionType, owner: type | None, call: ast.Call, types: list[Type]) -> Function | None:
+            return self.find(callee, owner, function, call, types)
+
+        StatementTypes(self.kernel, function, resolve).block(body_of(function.source.node))
+        self.kernel.functions.append(function)
+        return function
+
+    def _parameters(
+        self, source: Source, caller: Function | None, call: ast.Call | None, types: list
+    ) -> dict[str, Type] | None:
+        """Declared arguments with their types; those of lists come from the call."""
+        node = source.node
+        place: tuple[Source, ast.AST] = (source, node) if caller is None or call is None else (caller.source, call)
+        if node.decorator_list:
+            self.kernel.report(source, node, "decorator", name=source.name)
+            return None
+        arguments = node.args
+        names = list(arguments.args)
+        odd = arguments.vararg or arguments.kwarg or arguments.kwonlyargs or arguments.posonlyargs or arguments.defaults
+        if odd or (source.owner is not None and (not names or names[0].arg != "self")):
+            self.kernel.report(source, node, "signature", name=source.name, detail="its arguments are not plain names")
+            return None
+        if source.owner is not None:
+            names = names[1:]
+        if len(names) != len(types):
+            self.kernel.report(*place, "argument count", name=source.name, expected=len(names), got=len(types))
+            return None
+        parameters: dict[str, Type] = {}
+        for argument, given in zip(names, types, strict=True):
+            declared = _annotation(argument.annotation)
+            if declared is None:
+                detail = f"argument {argument.arg} is declared as none of float, int, bool, list"
+                self.kernel.report(source, argument, "signature", name=source.name, detail=detail)
+                return None
+            fits = isinstance(given, List) if declared == "list" else given is declared
+            if not fits:
+                self.kernel.report(
+                    *place, "argument type", name=source.name, expected=declared, argument=argument.arg, got=given
+                )
+                return None
+            parameters[argument.arg] = given
+        return parameters
+
+    def _returns(self, source: Source) -> Scalar | None:
+        annotation = source.node.returns
+        if isinstance(annotation, ast.Constant) and annotation.value is None:
+            return None
+        found = _annotation(annotation)
+        if not isinstance(found, Scalar):
+            self.kernel.report(source, source.node, "return type", name=source.name)
+            return None
+        return found
+
+
+def _annotation(node: ast.expr | None) -> Scalar | str | None:
+    """``float``, ``int``, ``bool`` as Scalar, ``list`` and ``list[...]`` as "list"."""
+    if isinstance(node, ast.Subscript):
+        node = node.value
+    if not isinstance(node, ast.Name):
+        return None
+    return "list" if node.id == "list" else ANNOTATIONS.get(node.id)

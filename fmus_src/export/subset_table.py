@@ -1,0 +1,231 @@
+"""The subset of Python that kernels are written in: what is allowed, and what to write instead of the rest.
+
+Kernels are `initialize`, `step` and every method and function they reach. They run as plain
+Python and are translated to C99 with results equal to the last bit, so the subset holds what
+means the same in both languages.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Why something is refused, and what to write instead."""
+
+    what: str
+    remedy: str
+
+
+@dataclass(frozen=True)
+class MathFunction:
+    """A function of `math` whose CPython and C results have equal bits.
+
+    ``faults`` are the exceptions that CPython raises on floats; without any, the C function is
+    called as it is, otherwise through its checked form in kernel_math.h. ``returns`` is a type
+    of the subset.
+    """
+
+    arguments: int
+    faults: tuple[str, ...] = ()
+    returns: str = "float"
+
+
+DOMAIN = ("ValueError",)
+RANGE = ("OverflowError",)
+
+# hypot, gamma, lgamma, fsum, dist and erf are missing on purpose: CPython has its own, C libraries differ.
+MATH_FUNCTIONS: dict[str, MathFunction] = {
+    "sin": MathFunction(1, DOMAIN),
+    "cos": MathFunction(1, DOMAIN),
+    "tan": MathFunction(1, DOMAIN),
+    "asin": MathFunction(1, DOMAIN),
+    "acos": MathFunction(1, DOMAIN),
+    "atan": MathFunction(1),
+    "atan2": MathFunction(2),
+    "sinh": MathFunction(1, RANGE),
+    "cosh": MathFunction(1, RANGE),
+    "tanh": MathFunction(1),
+    "exp": MathFunction(1, RANGE),
+    "exp2": MathFunction(1, RANGE),
+    "expm1": MathFunction(1, RANGE),
+    "log": MathFunction(1, DOMAIN),
+    "log2": MathFunction(1, DOMAIN),
+    "log10": MathFunction(1, DOMAIN),
+    "log1p": MathFunction(1, DOMAIN),
+    "pow": MathFunction(2, DOMAIN + RANGE),
+    "sqrt": MathFunction(1, DOMAIN),
+    "cbrt": MathFunction(1),
+    "fabs": MathFunction(1),
+    "fmod": MathFunction(2, DOMAIN),
+    "copysign": MathFunction(2),
+    "floor": MathFunction(1, DOMAIN + RANGE, returns="int"),
+    "ceil": MathFunction(1, DOMAIN + RANGE, returns="int"),
+    "isfinite": MathFunction(1, returns="bool"),
+    "isnan": MathFunction(1, returns="bool"),
+}
+
+MATH_CONSTANTS: dict[str, float] = {"pi": math.pi, "tau": math.tau, "e": math.e, "inf": math.inf}
+
+BUILTIN_FUNCTIONS = ("abs", "float", "int", "len")  # and range, in a for statement
+
+# Augmented assignment (x += y) is read as x = x + y.
+STATEMENTS: tuple[type[ast.stmt], ...] = (
+    ast.AnnAssign,
+    ast.Assign,
+    ast.Break,
+    ast.Continue,
+    ast.Expr,
+    ast.For,
+    ast.If,
+    ast.Pass,
+    ast.Return,
+    ast.While,
+)
+
+EXPRESSIONS: tuple[type[ast.expr], ...] = (
+    ast.Attribute,
+    ast.BinOp,
+    ast.BoolOp,
+    ast.Call,
+    ast.Compare,
+    ast.Constant,
+    ast.IfExp,
+    ast.Name,
+    ast.Subscript,
+    ast.UnaryOp,
+)
+
+OPERATORS: tuple[type[ast.operator], ...] = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod)
+COMPARISONS: tuple[type[ast.cmpop], ...] = (ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq)
+
+_PLAIN_LOOP = "write a for loop over range that assigns one element at a time"
+
+REFUSED_SYNTAX: dict[type[ast.AST], Rule] = {
+    ast.Try: Rule("try: exceptions do not exist in a kernel", "test the condition with if before the operation"),
+    ast.Raise: Rule("raise: a kernel cannot raise", "set the Integer output status and return"),
+    ast.Assert: Rule("assert: a kernel cannot raise", "set the Integer output status, or test it in tests/"),
+    ast.With: Rule("with: no objects in a kernel", "compute with floats, ints, bools and fixed lists only"),
+    ast.Import: Rule("import inside a kernel", "import at the top of the module"),
+    ast.ImportFrom: Rule("import inside a kernel", "import at the top of the module"),
+    ast.Global: Rule("global: a kernel's memory is its block", "declare a State on the block"),
+    ast.Nonlocal: Rule("nonlocal: no nested functions", "declare a State on the block, or pass a list"),
+    ast.Delete: Rule("del: nothing is freed in a kernel", "remove the statement"),
+    ast.FunctionDef: Rule("a function inside a function", "move it to the module and pass what it needs"),
+    ast.ClassDef: Rule("a class inside a function", "declare a State on the block"),
+    ast.Lambda: Rule("lambda", "write a function in the module"),
+    ast.Match: Rule("match", "write if and elif"),
+    ast.ListComp: Rule("a list comprehension", _PLAIN_LOOP),
+    ast.GeneratorExp: Rule("a generator expression", _PLAIN_LOOP),
+    ast.SetComp: Rule("a set comprehension", _PLAIN_LOOP),
+    ast.DictComp: Rule("a dict comprehension", _PLAIN_LOOP),
+    ast.Dict: Rule("a dict", "use a list with a fixed meaning per index"),
+    ast.Set: Rule("a set", "use a list of bools"),
+    ast.Tuple: Rule("a tuple in a kernel", "write one statement per value"),
+    ast.List: Rule("a list inside an expression", "give it a name of its own: name = [0.0] * n"),
+    ast.Slice: Rule("a slice", _PLAIN_LOOP),
+    ast.Starred: Rule("a starred argument", "pass every argument by itself"),
+    ast.JoinedStr: Rule("a string", "use an int and name its values as module constants"),
+    ast.NamedExpr: Rule("an assignment inside an expression", "assign in a statement of its own"),
+    ast.Yield: Rule("yield", "keep what is to be remembered in a State"),
+    ast.Await: Rule("await", "remove it"),
+    ast.Pow: Rule("the operator **", "write x * x, or math.pow(x, y)"),
+    ast.MatMult: Rule("the operator @", "write the sums as for loops, or use a function of mathlib"),
+    ast.LShift: Rule("a bit operator", "use *, // and % on ints"),
+    ast.RShift: Rule("a bit operator", "use *, // and % on ints"),
+    ast.BitAnd: Rule("a bit operator", "use `and` on bools; *, // and % on ints"),
+    ast.BitOr: Rule("a bit operator", "use `or` on bools; *, // and % on ints"),
+    ast.BitXor: Rule("a bit operator", "use != on bools; *, // and % on ints"),
+    ast.Invert: Rule("a bit operator", "use `not` on bools"),
+    ast.Is: Rule("`is`", "compare with =="),
+    ast.IsNot: Rule("`is not`", "compare with !="),
+    ast.In: Rule("`in`", "write a for loop with a comparison"),
+    ast.NotIn: Rule("`not in`", "write a for loop with a comparison"),
+}
+
+OTHER_SYNTAX = Rule("{name} is outside the subset", "use the statements and expressions of subset_table.py")
+
+REFUSED_FUNCTIONS: dict[str, str] = {
+    "hypot": "write math.sqrt(x * x + y * y); CPython's own hypot has other bits than C's",
+    "dist": "write math.sqrt of the sum of squares",
+    "fsum": "add in a for loop",
+    "sum": "add in a for loop, starting from 0.0",
+    "min": "write the comparison with if, or mathlib.vectors.clip",
+    "max": "write the comparison with if, or mathlib.vectors.clip",
+    "round": "write math.floor(x + 0.5)",
+    "bool": "write x != 0.0 or n != 0",
+    "divmod": "write // and % apart",
+    "pow": "write math.pow(x, y)",
+    "print": "put the value on an Output",
+    "range": "use range in a for statement only",
+    "list": "declare [0.0] * n and copy in a for loop",
+    "enumerate": "write for i in range(n)",
+    "zip": "write for i in range(n)",
+    "sorted": "write the comparisons",
+    "degrees": "stay in radians; multiply by 180.0 / math.pi where a table needs degrees",
+    "radians": "stay in radians; multiply by math.pi / 180.0 where a table needs degrees",
+}
+
+OTHER_FUNCTION = "use a function listed in subset_table.py, or write one in mathlib"
+
+# What a kernel may not say although each word of it is allowed.
+RULES: dict[str, Rule] = {
+    "no source": Rule("{name}: its source cannot be read", "define it in a .py file"),
+    "no step": Rule("{name} has no step(self, t, h)", "write one; see docs/write_your_own.md"),
+    "no initialize": Rule("{name}: initialize is not a method", "write def initialize(self) -> None"),
+    "no variables": Rule("{name} declares no variables", "declare its inputs, parameters, states and outputs"),
+    "python only": Rule("{name} says python_only", "it has no C form; build its Python flavour"),
+    "decorator": Rule("{name} has a decorator", "write a plain method, or a function in the module"),
+    "signature": Rule("{name}: {detail}", "declare every argument as float, int, bool or list, without defaults"),
+    "return type": Rule(
+        "{name}: no return type of the subset", "declare -> None, float, int or bool; pass a list to be filled"
+    ),
+    "missing return": Rule("{name}: a path ends without return", "return a value at the end"),
+    "return value": Rule("returns {got}, declared {expected}", "return what the declaration says; float(n) widens"),
+    "recursion": Rule("{name} calls itself, directly or through others", "write a for loop with a bound"),
+    "unbound": Rule("{name} may be read before it is assigned", "give it a value before the if or the loop"),
+    "unknown name": Rule(
+        "{name} is no local variable, kernel function or constant of the module",
+        "assign it first, or define it as a float or int constant of the module",
+    ),
+    "undeclared": Rule("self.{name} is not declared", "declare it in the class: {name} = State(...)"),
+    "read-only": Rule("{name} is an input, a parameter or a constant and is changed here", "copy it to a State"),
+    "list rebound": Rule("the list {name} is rebound", "copy element by element: for i in range(n)"),
+    "list shared": Rule("a list is given a second name", "declare [0.0] * n and copy element by element"),
+    "list size": Rule("the list {name} has no fixed size here", "write [0.0] * n with n an int constant"),
+    "list literal": Rule("{detail}", "write a list of floats, of ints or of bools, or [0.0] * n"),
+    "list replaces itself": Rule("a new value of {name} reads the old one", "assign its elements one at a time"),
+    "index": Rule("index {index} is outside {name}, which has {size} elements", "correct the index or the size"),
+    "type change": Rule("{name} is {before} and becomes {after}", "use two variables; start floats from 0.0; float(n)"),
+    "argument type": Rule("{name} takes {expected} for {argument}, got {got}", "float(n) widens an int"),
+    "argument count": Rule("{name} takes {expected} arguments, got {got}", "pass every argument"),
+    "keyword": Rule("an argument passed by name", "pass arguments by position"),
+    "number": Rule("{name} of {got}", "use numbers; bools and lists do not compute"),
+    "condition": Rule("{got} used as a truth value", "compare it: x != 0.0, n != 0"),
+    "comparison": Rule("{left} compared with {right}", "compare numbers with numbers, bools with == or !="),
+    "chained comparison": Rule("a chained comparison", "write a < b and b < c"),
+    "branches": Rule("one value is {left}, the other {right}", "give both the same type; float(n) widens"),
+    "wide int": Rule(
+        "an int that may exceed 2^53 is {use} as a float would be", "convert it first: float(n), which rounds it once"
+    ),
+    "int literal": Rule("an int beyond 64 bits", "write it as a float"),
+    "no effect": Rule("an expression without effect", "assign it, or remove it"),
+    "string": Rule("a string or other constant", "use an int and name its values as module constants"),
+    "function": Rule("{name} is not in the subset", "{remedy}"),
+    "changes inside expression": Rule(
+        "{name} changes its arguments or the block inside a larger expression",
+        "call it in a statement of its own: x = {name}(...)",
+    ),
+    "conditional order": Rule(
+        "this part of an and, or, or if-else expression can fail in more than one way",
+        "assign its parts to variables first, or write nested ifs",
+    ),
+    "one target": Rule("an assignment to several targets", "write one statement per target"),
+    "target": Rule("an assignment to something else than a variable, self.name or an element", "assign one of these"),
+    "for range": Rule("for over something else than range", "write for i in range(n)"),
+    "range step": Rule("the step of range is not a constant", "write a non-zero int literal, or a while loop"),
+    "loop else": Rule("else of a loop", "set a bool in the loop and test it afterwards"),
+}
