@@ -11,7 +11,7 @@ from typing import NoReturn
 
 from analysis.errors import InputError
 
-VERBS = ("list", "validate", "run", "batch", "benchmark")
+VERBS = ("list", "validate", "run", "batch", "benchmark", "export")
 
 
 class Parser(argparse.ArgumentParser):
@@ -40,6 +40,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
+    except OSError as error:  # a file that cannot be read or written
+        print(f"perilune: {error.filename}: {error.strerror}; give another path or mend this one", file=sys.stderr)
+        return 2
 
 
 def run() -> NoReturn:

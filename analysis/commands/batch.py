@@ -15,7 +15,7 @@ from analysis.batch.summary import requirement_values
 from analysis.errors import InputError, suggestion
 from analysis.reports.batch_report import write_batch_report
 
-from .options import add_json, add_system, pair, system_options, write_json
+from .options import add_json, add_system, pair, plain, system_options, write_json
 
 HELP = "fly a campaign: many trials, variants compared on the same draws"
 
@@ -88,10 +88,12 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
         result, found = flyer.replay(variant, trial)
         if options.output is not None:
             result.write(options.output / f"{variant}_{trial:06d}.parquet")
-        document[variant] = {"status": found.status, "success": found.success, "metrics": found.metrics}
+        metrics = {name: plain(value) for name, value in found.metrics.items()}
+        document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
     flyer.close()
     if not write_json({"trial": trial, "variants": document}, options.json):
         for variant, entry in document.items():
-            metrics = ", ".join(f"{name} {value:.6g}" for name, value in entry["metrics"].items())
-            print(f"{variant}: trial {trial}: {entry['status']}, success {entry['success']}: {metrics}")
+            numbers = [(name, "none" if value is None else f"{value:.6g}") for name, value in entry["metrics"].items()]
+            metrics_text = ", ".join(f"{name} {number}" for name, number in numbers)
+            print(f"{variant}: trial {trial}: {entry['status']}, success {entry['success']}: {metrics_text}")
     return 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
 from pathlib import Path
 from typing import Any
@@ -43,10 +44,18 @@ def add_system(parser: argparse.ArgumentParser) -> None:
 
 
 def _seconds(text: str) -> float:
-    value = float(text)
-    if not value == value or value in (float("inf"), float("-inf")):
-        raise argparse.ArgumentTypeError(f"{text} is not a finite number of seconds")
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a finite number of seconds")
     return value
+
+
+def plain(value: float | int | bool) -> float | int | bool | None:
+    """A value as strict JSON can hold it."""
+    return value if abs(value) < float("inf") else None
 
 
 def pair(text: str, option: str, form: str) -> tuple[str, str]:

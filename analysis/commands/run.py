@@ -11,7 +11,7 @@ from analysis.cosim.system import prepare_system
 from analysis.errors import InputError
 from analysis.reports.run_report import write_run_report
 
-from .options import add_json, add_system, system_options, write_json
+from .options import add_json, add_system, plain, system_options, write_json
 
 HELP = "fly a system once"
 OUTPUT_SUFFIXES = (".csv", ".parquet")
@@ -34,7 +34,7 @@ def run(options: argparse.Namespace) -> int:
         result.write(options.output)
     if options.report is not None:
         write_run_report(result, options.report, prepared.archive.name)
-    final = {name: _plain(value) for name, value in result.final().items()}
+    final = {name: plain(value) for name, value in result.final().items()}
     if not write_json(result.summary() | {"final": final}, options.json):
         end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
         print(f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows")
@@ -43,8 +43,3 @@ def run(options: argparse.Namespace) -> int:
         print(f"perilune: {prepared.network.file}: {' '.join(result.message.split())}; {remedy}", file=sys.stderr)
         return 1
     return 0
-
-
-def _plain(value: float | int | bool) -> float | int | bool | None:
-    """A value that strict JSON can hold."""
-    return value if abs(value) < float("inf") else None

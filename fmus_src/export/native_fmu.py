@@ -9,11 +9,10 @@ from pathlib import Path
 import fmpy
 
 from ..block import Block
-from .archive import write_zip
+from .archive import content_guid, write_zip
 from .c_translate import translate
 from .compilers import PLATFORMS, shared_library
 from .model_description import model_description
-from .pythonfmu_fmu import content_guid
 
 HERE = Path(__file__).parent
 WRAPPER_FILES = (

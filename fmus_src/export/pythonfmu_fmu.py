@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import sys
 import tempfile
 from importlib.metadata import version
@@ -11,7 +10,7 @@ from pathlib import Path
 from pythonfmu import FmuBuilder
 
 from ..block import Block
-from .archive import read_zip, write_zip
+from .archive import content_guid, read_zip, write_zip
 from .closure import Closure, closure_of
 from .model_description import model_description
 
@@ -58,15 +57,6 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
     )
     write_zip(path, files)
     return path
-
-
-def content_guid(files: dict[str, bytes]) -> str:
-    """GUID of an FMU: a hash of its files, modelDescription.xml without GUID among them."""
-    digest = hashlib.sha256()
-    for name in sorted(files):
-        digest.update(name.encode() + b"\0" + hashlib.sha256(files[name]).digest())
-    text = digest.hexdigest()
-    return f"{{{text[:8]}-{text[8:12]}-{text[12:16]}-{text[16:20]}-{text[20:32]}}}"
 
 
 def _with_pythonfmu(closure: Closure, script_name: str, script: str) -> dict[str, bytes]:

@@ -14,7 +14,8 @@ class NoisyNavigation(Navigation):
     Between fixes the filter moves with the measured mean specific force, constant gravity and
     white process noise of density process_noise on each axis. Fixes count from the start; the
     first estimate is the truth with errors of first_position_sigma and first_velocity_sigma. A
-    sigma of 0 switches its sensor off; with both off the estimate is the truth. The specific force itself is measured without error. Frame: landing site.
+    sigma of 0 switches its sensor off; with both off the estimate is the truth. The specific force
+    itself is measured without error. Frame: landing site.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2 (discretised white acceleration noise).
     """
 

@@ -1,0 +1,56 @@
+"""Every FMU of the catalogue in FMPy as it comes: valid, and running on its declared starts."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from fmus_src.catalogue import catalogue
+
+BLOCKS = catalogue()
+STEPS = 20
+# In a process of its own, which leaves before pythonfmu's destructors.
+SCRIPT = """
+import json, os, sys
+import numpy as np
+from fmpy import simulate_fmu
+from fmpy.validation import validate_fmu
+
+steps = int(sys.argv[1])
+found = {}
+for path in sys.argv[2:]:
+    rows = simulate_fmu(path, stop_time=0.1 * steps, step_size=0.1, output_interval=0.1)
+    values = np.array([list(row) for row in rows.tolist()])
+    found[path] = [validate_fmu(path), len(rows), bool(np.isfinite(values).all())]
+print(json.dumps(found), flush=True)
+os._exit(0)
+"""
+
+
+@pytest.fixture(scope="module", params=["python", "native"])
+def found(request: pytest.FixtureRequest, fmus: Path) -> dict[str, list]:
+    """What FMPy says of each FMU: problems, rows of its simulation, whether all values are finite."""
+    folder = fmus.with_name(request.param)
+    if request.param == "native" and not folder.is_dir():
+        pytest.skip("native FMUs are not built")
+    names = [name for name, block in BLOCKS.items() if request.param == "python" or not block.python_only]
+    paths = {name: str(folder / f"{name}.fmu") for name in names}
+    command = [sys.executable, "-c", SCRIPT, str(STEPS), *paths.values()]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    answers = json.loads(done.stdout.splitlines()[-1])
+    return {name: answers[path] for name, path in paths.items()}
+
+
+def test_fmpy_finds_no_fault(found: dict[str, list]) -> None:
+    assert {name: problems for name, (problems, _, _) in found.items() if problems} == {}
+
+
+def test_fmpy_simulates_on_declared_starts(found: dict[str, list]) -> None:
+    assert {name: (rows, finite) for name, (_, rows, finite) in found.items()} == dict.fromkeys(
+        found, (STEPS + 1, True)
+    )

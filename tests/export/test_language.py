@@ -1,0 +1,44 @@
+"""Every construct of the subset, and every fault, means the same in C as in Python."""
+
+from __future__ import annotations
+
+import samples
+from comparison import Pair, fly
+from language_blocks import Faults, Language
+
+from fmus_src.catalogue import catalogue
+from fmus_src.export.c_translate import translate
+from fmus_src.export.subset import check
+
+
+def test_blocks_are_in_the_subset() -> None:
+    assert check(Language) == []
+    assert check(Faults) == []
+
+
+def test_every_construct_is_bitwise_equal() -> None:
+    pair = Pair(Language, samples.generator("language"))
+    rows, _ = fly(pair, samples.size(2000))
+    assert len(set(rows)) > 0.9 * len(rows)
+
+
+def test_every_fault_is_at_the_same_line_and_leaves_the_same_values() -> None:
+    pair = Pair(Faults, samples.generator("faults"))
+    pair.wild = True
+    fly(pair, samples.size(4000))
+    lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
+    assert len(lines) >= 24, sorted(lines)
+
+
+def test_generated_source_is_readable() -> None:
+    text = translate(Language, "{guid}")
+    assert "/* a comment that C keeps */" in text
+    assert "typedef struct Language {" in text
+    assert "double double_;" in text
+    assert "output: int results" in text
+    assert "static double language_blocks_power_sum(" in text
+    assert max(len(line) for line in text.splitlines()) <= 130
+
+
+def test_indices_proven_in_their_own_loop_are_not_checked() -> None:
+    assert "py_index" not in translate(catalogue()["thrust_allocation"], "{guid}")

@@ -1,0 +1,115 @@
+"""The native FMU as an archive: valid, reproducible, cached, free of Python where it runs."""
+
+from __future__ import annotations
+
+import subprocess
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pytest
+from fmpy.validation import validate_fmu
+from native_instance import CACHE
+
+from fmus_src.block import Block
+from fmus_src.catalogue import catalogue
+from fmus_src.export import compilers
+from fmus_src.export.compilers import CompilationFailed, CompilerMissing, local_platform, shared_library
+from fmus_src.export.native_fmu import STANDARD_HEADERS, build_native_fmu
+from fmus_src.runtime import Component
+
+BLOCK = catalogue()["forming_filter"]
+
+
+def built(folder: Path, block: type[Block] = BLOCK, cache: Path = CACHE) -> Path:
+    """The FMU of a block for the local platform."""
+    platform = local_platform()
+    assert platform is not None
+    return build_native_fmu(block, folder / f"{block.fmu_name}.fmu", platforms=[platform], cache=cache)
+
+
+@pytest.mark.parametrize("block", list(catalogue().values()), ids=lambda block: block.fmu_name)
+def test_fmu_is_valid_and_runs_on_its_declared_starts(block: type[Block], tmp_path: Path) -> None:
+    if block.python_only:
+        pytest.skip("has no C form")
+    path = built(tmp_path, block)
+    assert validate_fmu(str(path)) == []
+    fmpy.simulate_fmu(str(path), stop_time=3 * block.default_step, output_interval=block.default_step)
+
+
+def test_two_builds_are_byte_identical(tmp_path: Path) -> None:
+    first = built(tmp_path / "a", cache=tmp_path / "cache a").read_bytes()
+    second = built(tmp_path / "b", cache=tmp_path / "cache b").read_bytes()
+    assert first == second
+
+
+def test_portable_builds_for_linux_and_windows_are_byte_identical(tmp_path: Path) -> None:
+    pytest.importorskip("ziglang")
+    paths = [
+        build_native_fmu(BLOCK, tmp_path / name / "a.fmu", cache=tmp_path / name, portable=True) for name in ("a", "b")
+    ]
+    assert paths[0].read_bytes() == paths[1].read_bytes()
+    with zipfile.ZipFile(paths[0]) as archive:
+        assert archive.read("binaries/win64/forming_filter.dll").startswith(b"MZ")
+        assert b"GLIBC_2.29" not in archive.read("binaries/linux64/forming_filter.so")
+
+
+def test_unchanged_block_is_not_compiled_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = built(tmp_path / "a", cache=tmp_path / "cache").read_bytes()
+
+    def refuse(*_: object) -> bytes:
+        raise AssertionError("compiled again")
+
+    monkeypatch.setattr(compilers, "_compile", refuse)
+    assert built(tmp_path / "b", cache=tmp_path / "cache").read_bytes() == first
+
+
+def test_missing_compiler_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(compilers.shutil, "which", lambda _: None)
+    monkeypatch.setattr(compilers.importlib.util, "find_spec", lambda _: None)
+    with pytest.raises(CompilerMissing, match="pip install ziglang"):
+        built(tmp_path, cache=tmp_path / "cache")
+
+
+def test_compiler_errors_are_passed_on(tmp_path: Path) -> None:
+    platform = local_platform()
+    assert platform is not None
+    with pytest.raises(CompilationFailed, match="broken"):
+        shared_library({"broken.c": b"this is not C"}, "broken.c", platform, tmp_path)
+    with pytest.raises(ValueError, match="give one of linux64"):
+        shared_library({}, "broken.c", "amiga", tmp_path)
+
+
+def test_sources_compile_without_warnings_by_themselves(tmp_path: Path) -> None:
+    with zipfile.ZipFile(built(tmp_path)) as archive:
+        sources = [name for name in archive.namelist() if name.startswith("sources/")]
+        archive.extractall(tmp_path, sources)
+    command = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-c", "-o", "out.o", "forming_filter.c"]
+    subprocess.run(command, cwd=tmp_path / "sources", check=True)
+    assert b"2-Clause BSD License" in (tmp_path / "sources" / STANDARD_HEADERS[0]).read_bytes()
+
+
+def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
+    if local_platform() != "linux64":
+        pytest.skip("the program loads the FMU with dlopen")
+    path = built(tmp_path)
+    with zipfile.ZipFile(path) as archive:
+        archive.extractall(tmp_path)
+    library = tmp_path / "binaries" / "linux64" / "forming_filter.so"
+    needed = subprocess.run(["ldd", library], capture_output=True, text=True, check=True).stdout
+    names = {line.split()[0].split("/")[-1].split(".")[0] for line in needed.splitlines()}
+    assert names <= {"linux-vdso", "libc", "libm", "ld-linux-x86-64"}
+    program = tmp_path / "step_fmu"
+    source = Path(__file__).with_name("step_fmu.c")
+    subprocess.run(["cc", "-I", tmp_path / "sources", "-o", program, source, "-ldl"], check=True)
+    component = Component(BLOCK)
+    references = [i for i, (_, key) in enumerate(component.slots) if key in ("disturbance", "disturbance_rate")]
+    guid = fmpy.read_model_description(str(path)).guid
+    arguments = [str(library), guid, "0.25", "20", *map(str, references)]
+    printed = subprocess.run([program, *arguments], capture_output=True, text=True, check=True).stdout
+    component.start()
+    for n, line in enumerate(printed.splitlines()):
+        if n > 0:
+            component.do_step((n - 1) * 0.25, 0.25)
+        assert [float(word) for word in line.split()] == [n * 0.25, *component.get(references)]
+    assert n == 20

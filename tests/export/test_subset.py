@@ -1,0 +1,170 @@
+"""The subset of Python for kernels: every block is in it; every rule refuses with file, line and remedy."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import warnings
+from pathlib import Path
+
+import bad_kernels
+import pytest
+
+from fmus_src.block import Block, Output
+from fmus_src.catalogue import catalogue
+from fmus_src.export.subset import SubsetError, analysed_kernel, check
+from fmus_src.export.subset_table import REFUSED_FUNCTIONS, REFUSED_SYNTAX, RULES, Rule
+
+TEMPLATE = '''import math
+from fmus_src.block import Block, Input, Output, Parameter, State
+
+
+def helper(value: float) -> float:
+    return 2.0 * value
+
+
+{functions}
+
+
+class Bad(Block):
+    """A block that breaks one rule."""
+
+    x = Input(0.0, description="x")
+    k = Input(1, description="k")
+    u = Input([0.0] * 3, description="u")
+    p = Parameter(1.0, description="p")
+    y = Output(0.0, description="y")
+    n = State(0, description="n")
+    flag = State(False, description="flag")
+    v = State([0.0] * 3, description="v")
+
+    def bump(self) -> float:
+        self.n = self.n + 1
+        return 1.0
+
+    def step(self, t: float, h: float) -> None:
+        {step}
+'''
+
+
+def block_of(folder: Path, step: str, functions: str = "") -> tuple[type[Block], Path]:
+    """A block with the given body of step, from a file of its own."""
+    file = folder / "bad.py"
+    file.write_text(TEMPLATE.format(step=step.replace("\n", "\n        "), functions=functions), encoding="utf-8")
+    spec = importlib.util.spec_from_file_location(f"bad_{abs(hash((step, functions)))}", file)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SyntaxWarning)  # `is` with a literal
+        spec.loader.exec_module(module)
+    return module.Bad, file
+
+
+def refusal(folder: Path, rule: Rule, step: str, functions: str = "") -> None:
+    """Assert that a kernel is refused by a rule, at the marked line, with the rule's remedy."""
+    block, file = block_of(folder, step, functions)
+    line = next(n for n, text in enumerate(file.read_text().splitlines(), 1) if "# here" in text)
+    found = [violation for violation in check(block) if violation.line == line]
+    assert found, [str(violation) for violation in check(block)]
+    fixed = rule.remedy.split("{")[0]
+    assert any(violation.file == file and violation.remedy.startswith(fixed) for violation in found), found
+    assert all(str(violation).startswith(f"{file}:{line}: ") for violation in found)
+
+
+@pytest.mark.parametrize("block", list(catalogue().values()), ids=lambda block: block.fmu_name)
+def test_every_block_is_in_the_subset(block: type[Block]) -> None:
+    if not block.python_only:
+        assert check(block) == []
+
+
+@pytest.mark.parametrize("rule", bad_kernels.STEPS)
+def test_rule_refuses_statement(rule: str, tmp_path: Path) -> None:
+    refusal(tmp_path, RULES[rule], bad_kernels.STEPS[rule])
+
+
+@pytest.mark.parametrize("rule", bad_kernels.FUNCTIONS)
+def test_rule_refuses_function(rule: str, tmp_path: Path) -> None:
+    functions, step = bad_kernels.FUNCTIONS[rule]
+    refusal(tmp_path, RULES[rule], step, functions)
+
+
+@pytest.mark.parametrize("name", sorted(set(bad_kernels.SYNTAX) - {"Nonlocal"}))
+def test_syntax_is_refused(name: str, tmp_path: Path) -> None:
+    refusal(tmp_path, REFUSED_SYNTAX[getattr(ast, name)], bad_kernels.SYNTAX[name])
+
+
+@pytest.mark.parametrize("name", REFUSED_FUNCTIONS)
+def test_function_is_refused_with_its_remedy(name: str, tmp_path: Path) -> None:
+    in_math = name in ("hypot", "dist", "fsum", "degrees", "radians")
+    step = f"self.y = {'math.' if in_math else ''}{name}(self.x)  # here"
+    refusal(tmp_path, Rule("", REFUSED_FUNCTIONS[name]), step)
+
+
+def test_every_rule_has_a_bad_kernel() -> None:
+    elsewhere = {"no initialize", "no step", "no variables", "python only"}  # the tests below
+    assert set(bad_kernels.STEPS) | set(bad_kernels.FUNCTIONS) | elsewhere == set(RULES)
+    unreachable = {"Await", "Nonlocal"}  # only inside an async function, or a nested one, which is refused itself
+    assert set(bad_kernels.SYNTAX) | unreachable == {node.__name__ for node in REFUSED_SYNTAX}
+
+
+class WithoutStep(Block):
+    """A block that forgets its step."""
+
+    y = Output(0.0, description="y")
+
+
+class WithoutVariables(Block):
+    """A block that declares nothing."""
+
+    def step(self, t: float, h: float) -> None:
+        pass
+
+
+class PythonOnly(Block):
+    """A block that uses a library."""
+
+    python_only = True
+    requires = ("filterpy",)
+
+
+def test_missing_step_is_refused() -> None:
+    (violation,) = check(WithoutStep)
+    assert "WithoutStep has no step" in violation.what
+    assert violation.remedy.startswith("write one")
+    assert violation.file == Path(__file__)
+
+
+class InitializeIsNoMethod(Block):
+    """A block whose initialize is something else."""
+
+    y = Output(0.0, description="y")
+    initialize = staticmethod(print)
+
+    def step(self, t: float, h: float) -> None:
+        self.y = t
+
+
+def test_initialize_that_is_no_method_is_refused() -> None:
+    (violation,) = check(InitializeIsNoMethod)
+    assert violation.remedy == "write def initialize(self) -> None"
+
+
+def test_block_without_variables_is_refused() -> None:
+    (violation,) = check(WithoutVariables)
+    assert violation.what == "WithoutVariables declares no variables"
+
+
+def test_python_only_block_is_refused() -> None:
+    (violation,) = check(PythonOnly)
+    assert violation.file == Path(__file__)
+    assert violation.remedy == RULES["python only"].remedy
+    with pytest.raises(SubsetError, match=r"test_subset\.py:\d+: PythonOnly says python_only"):
+        analysed_kernel(PythonOnly)
+
+
+def test_changes_through_calls_are_seen(tmp_path: Path) -> None:
+    functions = "def clear(values: list) -> None:\n    for i in range(3):\n        values[i] = 0.0\n"
+    block, _ = block_of(tmp_path, "clear(self.v)", functions)
+    assert check(block) == []
+    refusal(tmp_path, RULES["read-only"], "clear(self.u)  # here", functions)
