@@ -1,0 +1,1 @@
+"""Reports: self-contained HTML pages and figures, the same bytes for the same result."""

@@ -1,0 +1,75 @@
+"""How numbers and units look on a page: SI inside, degrees and superscripts on screen."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+RADIANS = re.compile(r"rad(/s[23]?)?")
+POWER = re.compile(r"(?<=[A-Za-z])(-?\d)")
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+MINUS = "\N{MINUS SIGN}"
+NONE = "\N{EN DASH}"
+
+
+def shown_unit(unit: str | None) -> str:
+    """A unit as it is shown: ``m/s2`` is m/s², radians (per second) are degrees, ``1`` and None are nothing."""
+    if unit is None or unit == "1":
+        return ""
+    if RADIANS.fullmatch(unit):
+        unit = unit.replace("rad", "deg")
+    return POWER.sub(lambda power: power.group(1).translate(SUPERSCRIPTS), unit).replace(".", "·")
+
+
+def shown_factor(unit: str | None) -> float:
+    """What a value in ``unit`` is multiplied by to be shown in `shown_unit`."""
+    return math.degrees(1.0) if unit is not None and RADIANS.fullmatch(unit) else 1.0
+
+
+def labelled(name: str, unit: str | None) -> str:
+    """An axis label: ``name, unit``, or the name alone where there is no unit."""
+    shown = shown_unit(unit)
+    return f"{name}, {shown}" if shown else name
+
+
+def number(value: Any, digits: int = 4) -> str:
+    """A number with so many significant digits; None, which could not be had, is a dash."""
+    if value is None:
+        return NONE
+    if isinstance(value, bool | str):
+        return str(value).lower() if isinstance(value, bool) else value
+    if isinstance(value, int):
+        return str(value).replace("-", MINUS)
+    if not math.isfinite(value):
+        return {math.inf: "∞", -math.inf: f"{MINUS}∞"}.get(value, "not a number")
+    text = f"{value + 0.0:.{digits}g}"
+    if "e" in text:
+        mantissa, exponent = text.split("e")
+        if mantissa == "1":
+            return f"10{str(int(exponent)).translate(SUPERSCRIPTS)}"
+        return f"{mantissa}·10{str(int(exponent)).translate(SUPERSCRIPTS)}".replace("-", MINUS)
+    return text.replace("-", MINUS)
+
+
+def in_shown_unit(value: Any, unit: str | None) -> Any:
+    """A value in ``unit`` in the unit that is shown; Integers, Booleans and None stay as they are."""
+    factor = shown_factor(unit)
+    return value if factor == 1.0 or value is None or isinstance(value, bool | str) else value * factor
+
+
+def tick(value: float, _: int = 0) -> str:
+    """A tick label: plain digits, a proper minus, no offset to be added in the head."""
+    text = f"{value:.10g}"
+    if text.endswith("00000") and abs(value) >= 1e6:
+        text = f"{value:.6g}"
+    return number(value, 6) if "e" in text else text.replace("-", MINUS)
+
+
+def log_tick(value: float, _: int = 0) -> str:
+    """A tick label of a logarithmic axis: plain digits near 1, powers of ten beyond."""
+    if 1e-2 <= value < 1e4:
+        return tick(value)
+    mantissa, exponent = f"{value:.0e}".split("e")
+    power = f"10{str(int(exponent)).translate(SUPERSCRIPTS)}"
+    return power if mantissa == "1" else f"{mantissa}·{power}"

@@ -1,0 +1,57 @@
+"""Figures as SVG elements inside a page, the same bytes every time."""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import Any
+
+import matplotlib
+from lxml import etree
+from markupsafe import Markup
+from matplotlib.figure import Figure
+
+from .style import WIDTH
+
+SVG = "{http://www.w3.org/2000/svg}"
+XLINK_HREF = "{http://www.w3.org/1999/xlink}href"
+REFERENCE = re.compile(r"url\(#([^)]+)\)")
+
+
+def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
+    """A figure as an SVG document without date or version; ``name`` salts its identifiers."""
+    buffer = io.BytesIO()
+    settings: Any = {"svg.hashsalt": name, "svg.fonttype": "path" if text_as_paths else "none"}
+    with matplotlib.rc_context(settings):
+        figure.savefig(buffer, format="svg", dpi=200, metadata={"Date": None, "Creator": None})
+    return buffer.getvalue()
+
+
+def inline_svg(figure: Figure, name: str, description: str) -> Markup:
+    """A figure as an <svg> element for a page.
+
+    Every id is prefixed with ``name``, which must differ between the figures of a page;
+    ``description`` is what a screen reader says. Text stays text: it can be searched and copied.
+    """
+    root = etree.fromstring(svg_bytes(figure, name, text_as_paths=False), etree.XMLParser(resolve_entities=False))
+    for unwanted in (*root.iter(f"{SVG}metadata"), *root.iter(f"{SVG}style")):
+        parent = unwanted.getparent()
+        assert parent is not None  # neither is the root
+        parent.remove(unwanted)
+    for element in root.iter():
+        if not isinstance(element.tag, str):
+            continue
+        for key, value in element.attrib.items():
+            if key == "id":
+                element.set(key, f"{name}-{value}")
+            elif key == XLINK_HREF and value.startswith("#"):
+                element.set(key, f"#{name}-{value[1:]}")
+            elif "url(#" in value:
+                element.set(key, REFERENCE.sub(rf"url(#{name}-\1)", value))
+    etree.strip_tags(root, etree.Comment)
+    del root.attrib["width"], root.attrib["height"]
+    root.set("role", "img")
+    root.set("aria-label", description)
+    root.set("class", "figure")
+    root.set("style", f"max-width: {100.0 * figure.get_figwidth() / WIDTH:.0f}%")
+    return Markup(etree.tostring(root, encoding="unicode"))

@@ -1,0 +1,47 @@
+"""What every page must satisfy."""
+
+import re
+
+from lxml import html
+
+FETCHING = ("src", "srcset", "href", "{http://www.w3.org/1999/xlink}href", "xlink:href", "poster", "action")
+
+
+def parse(text):
+    """The page as a tree; no id is used twice."""
+    assert text.startswith("<!DOCTYPE html>")
+    root = html.document_fromstring(text)
+    ids = root.xpath("//@id")
+    assert len(ids) == len(set(ids))
+    return root
+
+
+def assert_self_contained(text):
+    """Nothing is fetched: references stay in the page, links are to neighbouring files."""
+    root = parse(text)
+    for element in root.iter():
+        if not isinstance(element.tag, str):
+            continue
+        assert element.tag not in ("script", "iframe", "object", "embed")
+        for key in FETCHING:
+            value = element.get(key)
+            if value is not None:
+                local_link = element.tag == "a" and re.fullmatch(r"[\w.]+", value)
+                assert value.startswith(("#", "data:")) or local_link, f"{element.tag} {key}={value}"
+    assert "@import" not in text
+    ids = set(root.xpath("//@id"))
+    for reference in re.findall(r"url\(([^)]*)\)", text):
+        assert reference.startswith("#"), reference
+        assert reference[1:] in ids, reference
+    for reference in root.xpath("//*[local-name()='use']/@*[contains(name(), 'href')]"):
+        assert reference[1:] in ids, reference
+
+
+def data_values(text):
+    """The exact numbers of a page: value attributes of its data elements."""
+    return parse(text).xpath("//data/@value")
+
+
+def text_of(text):
+    """The words of a page, spaces made single."""
+    return " ".join(parse(text).text_content().split())
