@@ -12,19 +12,19 @@ from analysis.cosim.simulation import Simulation
 
 from .metrics import evaluate_metrics, succeeded
 from .plan import BatchPlan, VariantNames, variant_names
+from .trials import Trials
 
 
 @dataclass
 class TrialResult:
-    """One row of the results' table, and what the campaign records beside it."""
+    """What one trial came to."""
 
-    trial: int
     status: str
     message: str
     success: bool
     end_time: float
     metrics: dict[str, float]
-    final: dict[str, float | int | bool]
+    final: dict[str, float]
     traces: dict[str, np.ndarray] | None
 
 
@@ -46,9 +46,20 @@ class Flyer:
             self._ready[variant] = Simulation(prepared, varied=names.varied, wanted=wanted), names
         return self._ready[variant]
 
-    def fly(self, variant: str, trials: range) -> list[TrialResult]:
+    def fly(self, variant: str, trials: range) -> Trials:
         """Fly some trials of one variant, in order."""
-        return [self.fly_one(variant, trial) for trial in trials]
+        found = [self.fly_one(variant, trial) for trial in trials]
+        numbers = list(zip(trials, found, strict=True))
+        return Trials(
+            statuses=[row.status for row in found],
+            success=np.array([row.success for row in found]),
+            metrics={name: np.array([row.metrics[name] for row in found]) for name in found[0].metrics},
+            trial=np.array(trials),
+            end_time=np.array([row.end_time for row in found]),
+            messages={trial: row.message for trial, row in numbers if row.message},
+            final={name: np.array([row.final[name] for row in found]) for name in found[0].final},
+            traces={trial: row.traces for trial, row in numbers if row.traces is not None},
+        )
 
     def fly_one(self, variant: str, trial: int) -> TrialResult:
         """Fly one trial; the result does not depend on what was flown before."""
@@ -72,15 +83,13 @@ class Flyer:
             constants = names.constants | self.plan.draws.row(trial)
             metrics = evaluate_metrics(campaign.metrics, result.time, result.signals, constants)
             success = succeeded(campaign.success, metrics)
-        final = result.final()
         return TrialResult(
-            trial=trial,
             status=trial_status(result, names.statuses),
             message=result.message,
             success=success,
             end_time=float(result.time[-1]) if result.time.size else float("nan"),
             metrics=metrics,
-            final={name: final[name] for name in campaign.record.final if name in final},
+            final={name: _last(result.signals[name]) for name in campaign.record.final},
             traces=self._traces(result, success),
         )
 
@@ -99,6 +108,11 @@ class Flyer:
         for simulation, _ in self._ready.values():
             simulation.close()
         self._ready = {}
+
+
+def _last(values: np.ndarray) -> float:
+    """The last of a signal's values; NaN where the flight has none."""
+    return float(values[-1]) if values.size else float("nan")
 
 
 def trial_status(result: Flight, statuses: list[str]) -> str:

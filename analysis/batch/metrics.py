@@ -77,7 +77,12 @@ def evaluate_metrics(
     parameters (``component.variable``) to their values. Names are looked up in the record first.
     """
     values: ChainMap = ChainMap({TIME: times}, dict(record), dict(constants))
-    return {metric.name: evaluate_metric(metric, times, values) for metric in metrics}
+    last: ChainMap = ChainMap({TIME: times[-1:]}, {name: rows[-1:] for name, rows in record.items()}, dict(constants))
+    found = {}
+    for metric in metrics:
+        ends = metric.reduction == "final" and metric.window is None  # needs no other row
+        found[metric.name] = evaluate_metric(metric, times[-1:] if ends else times, last if ends else values)
+    return found
 
 
 def succeeded(success: Expression, metrics: Mapping[str, float]) -> bool:

@@ -8,9 +8,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
+
 from analysis.cosim.archive import open_system
 from analysis.cosim.system import PreparedSystem, SystemOptions, prepare_system
-from analysis.errors import InputError
+from analysis.errors import InputError, suggestion
 
 from .campaign import Campaign, Variant
 from .campaign_file import parse_campaign
@@ -92,8 +94,36 @@ def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
     _ = plan.draws
     systems = {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
     for prepared in systems.values():
-        variant_names(plan, prepared)
+        for name in variant_names(plan, prepared).varied:
+            _check_varied(plan, prepared, name)
     return systems
+
+
+def _check_varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> None:
+    """Refuse a draw for what is no parameter, or with a value that the parameter cannot have."""
+    known: list[str] = []
+    for component, fmu in prepared.network.fmus.items():
+        known += [
+            f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in ("parameter", "input")
+        ]
+    if name not in known:
+        raise InputError(plan.campaign.file, name, "no such parameter in the system", suggestion(name, known))
+    if name not in plan.draws.columns:  # seed or stream
+        return
+    values = np.asarray(plan.draws.columns[name], dtype=float)
+    component = max((part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len)
+    variable = prepared.network.fmus[component].variables[name.removeprefix(f"{component}.")]
+    if variable.type == "String":
+        raise InputError(plan.campaign.file, name, "a String cannot be drawn", "draw numbers only")
+    if variable.type != "Real" and np.any(values != np.round(values)):
+        raise InputError(plan.campaign.file, name, f"drawn values are not whole, it is {variable.type}", "use a choice")
+    low, high = (
+        limit if bound is None else float(bound) for bound, limit in ((variable.min, -np.inf), (variable.max, np.inf))
+    )
+    outside = np.flatnonzero((values < low) | (values > high))
+    if outside.size:
+        problem = f"{values[outside[0]]:g} in trial {outside[0]} is outside {low:g} to {high:g}"
+        raise InputError(plan.campaign.file, name, problem, "draw values that the parameter can have")
 
 
 @dataclass(frozen=True)
@@ -114,12 +144,20 @@ def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
     signals: list[str] = []
     constants: dict[str, float] = {}
     for name in sorted(needed):
-        if name in prepared.network.nodes or _is_output(prepared, name):
+        if _is_signal(prepared, name) or _is_output(prepared, name):
             signals.append(name)
         else:
             constants[name] = _constant(plan, prepared, name)
     statuses = [f"{name}.status" for name in prepared.network.fmus if _is_output(prepared, f"{name}.status")]
     return VariantNames(sorted(plan.parameters(prepared, 0)), signals, statuses, constants)
+
+
+def _is_signal(prepared: PreparedSystem, name: str) -> bool:
+    """Whether a connector's value comes from a connection or is a system's input."""
+    node = prepared.network.nodes.get(name)
+    if node is None or node.kind in ("parameter", "calculatedParameter"):
+        return False
+    return name in prepared.network.driver or name in prepared.settings.nodes
 
 
 def _is_output(prepared: PreparedSystem, name: str) -> bool:

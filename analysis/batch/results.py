@@ -11,9 +11,9 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from .flyer import TrialResult
 from .plan import BatchPlan
-from .summary import TrialColumns, summarise, summary_text
+from .summary import summarise, summary_text
+from .trials import Trials
 
 
 @dataclass
@@ -21,33 +21,28 @@ class BatchResult:
     """All trials of all variants, in order of trial within each variant."""
 
     plan: BatchPlan
-    trials: dict[str, list[TrialResult]]
+    trials: dict[str, Trials]
     summary: dict[str, Any]
     provenance: dict[str, Any]
 
     def table(self) -> pyarrow.Table:
-        """A row per variant and trial: variant, trial, draws, final values, metrics, status, success."""
-        columns: dict[str, list] = {
-            "variant": [],
-            "trial": [],
-            "status": [],
-            "success": [],
-            "message": [],
-            "end_time": [],
+        """A row per variant and trial: variant, trial, status, draws, final values, metrics."""
+        found = list(self.trials.values())
+        rows = sum(len(part.trial) for part in found)
+        arrays: dict[str, Any] = {
+            "variant": [name for name, part in self.trials.items() for _ in part.trial],
+            "trial": np.concatenate([part.trial for part in found]),
+            "status": [status for part in found for status in part.statuses],
+            "success": np.concatenate([part.success for part in found]),
+            "message": [part.messages.get(int(trial), "") for part in found for trial in part.trial],
+            "end_time": np.concatenate([part.end_time for part in found]),
         }
-        draws = self.plan.draws.columns
-        metrics = [metric.name for metric in self.plan.campaign.metrics]
-        finals = self.plan.campaign.record.final
-        drawn = {name: np.concatenate([values] * len(self.trials)) for name, values in draws.items()}
-        rows = [(variant, row) for variant, found in self.trials.items() for row in found]
-        for variant, row in rows:
-            for name, value in zip(
-                columns, (variant, row.trial, row.status, row.success, row.message, row.end_time), strict=True
-            ):
-                columns[name].append(value)
-        arrays: dict[str, Any] = {**columns, **{f"draw.{name}": values for name, values in drawn.items()}}
-        arrays |= {f"final.{name}": [row.final.get(name) for _, row in rows] for name in finals}
-        arrays |= {f"metric.{name}": [row.metrics[name] for _, row in rows] for name in metrics}
+        for name, values in self.plan.draws.columns.items():
+            arrays[f"draw.{name}"] = np.resize(values, rows)  # the same for every variant
+        for name in found[0].final:
+            arrays[f"final.{name}"] = np.concatenate([part.final[name] for part in found])
+        for name in found[0].metrics:
+            arrays[f"metric.{name}"] = np.concatenate([part.metrics[name] for part in found])
         table = pyarrow.table(arrays)
         return table.replace_schema_metadata({"perilune": json.dumps(self.provenance)})
 
@@ -66,23 +61,12 @@ class BatchResult:
         text = json.dumps(self.document(), indent=1, allow_nan=False)
         (folder / "summary.json").write_text(text + "\n", encoding="utf-8")
         for variant, found in self.trials.items():
-            for row in found:
-                if row.traces is not None:
-                    path = folder / "traces" / variant / f"{row.trial:06d}.parquet"
-                    path.parent.mkdir(parents=True, exist_ok=True)
-                    pyarrow.parquet.write_table(pyarrow.table(row.traces), path)
+            for trial, traces in found.traces.items():
+                path = folder / "traces" / variant / f"{trial:06d}.parquet"
+                path.parent.mkdir(parents=True, exist_ok=True)
+                pyarrow.parquet.write_table(pyarrow.table(traces), path)
 
 
-def make_result(plan: BatchPlan, trials: dict[str, list[TrialResult]], provenance: dict[str, Any]) -> BatchResult:
-    """Put trials in order and summarise them."""
-    ordered = {name: sorted(found, key=lambda row: row.trial) for name, found in trials.items()}
-    names = [metric.name for metric in plan.campaign.metrics]
-    columns = {
-        variant: TrialColumns(
-            statuses=[row.status for row in found],
-            success=np.array([row.success for row in found]),
-            metrics={name: np.array([row.metrics[name] for row in found]) for name in names},
-        )
-        for variant, found in ordered.items()
-    }
-    return BatchResult(plan, ordered, summarise(columns, plan.campaign.metrics), provenance)
+def make_result(plan: BatchPlan, trials: dict[str, Trials], provenance: dict[str, Any]) -> BatchResult:
+    """The result with its summary; ``trials`` by variant, each in order of trial."""
+    return BatchResult(plan, trials, summarise(trials, plan.campaign.metrics), provenance)

@@ -13,9 +13,9 @@ from tqdm import tqdm
 
 from analysis.errors import InputError
 
-from .flyer import TrialResult
 from .plan import BatchPlan, check_plan
 from .results import BatchResult, make_result
+from .trials import Trials, joined
 from .workers import fly_all, tasks_of
 
 
@@ -33,13 +33,13 @@ def run_batch(plan: BatchPlan, *, workers: int | None = None, output: Path | Non
     if output is not None:
         write_draws(plan, output)
     tasks = tasks_of(plan, count)
-    trials: dict[str, list[TrialResult]] = {variant.name: [] for variant in plan.campaign.variants()}
+    trials: dict[str, list[Trials]] = {variant.name: [] for variant in plan.campaign.variants()}
     total = plan.campaign.trials * len(trials)
     with tqdm(total=total, unit="trial", disable=None, leave=False) as progress:
         for variant, found in fly_all(plan, tasks, min(count, len(tasks)), native):
-            trials[variant] += found
-            progress.update(len(found))
-    result = make_result(plan, trials, provenance(plan, systems))
+            trials[variant].append(found)
+            progress.update(len(found.trial))
+    result = make_result(plan, {name: joined(parts) for name, parts in trials.items()}, provenance(plan, systems))
     if output is not None:
         result.write(output)
     return result

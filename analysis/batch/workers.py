@@ -11,8 +11,9 @@ from typing import Any
 
 from loky import ProcessPoolExecutor
 
-from .flyer import Flyer, TrialResult
+from .flyer import Flyer
 from .plan import BatchPlan
+from .trials import Trials
 
 Task = tuple[str, range]
 _local = threading.local()
@@ -26,7 +27,7 @@ def tasks_of(plan: BatchPlan, workers: int) -> list[Task]:
     return [(variant.name, piece) for piece in pieces for variant in plan.campaign.variants()]
 
 
-def fly_all(plan: BatchPlan, tasks: list[Task], workers: int, native: bool) -> Iterator[tuple[str, list[TrialResult]]]:
+def fly_all(plan: BatchPlan, tasks: list[Task], workers: int, native: bool) -> Iterator[tuple[str, Trials]]:
     """Fly every task, yielding results as they come, in any order.
 
     Python FMUs hold the interpreter lock, so they get a process per worker; native ones
@@ -61,6 +62,6 @@ def _start_process(plan: BatchPlan) -> None:
     _start(plan)
 
 
-def _fly(variant: str, trials: range) -> list[TrialResult]:
+def _fly(variant: str, trials: range) -> Trials:
     flyer: Any = _local.flyer
     return flyer.fly(variant, trials)

@@ -24,7 +24,7 @@ TAIL = 0.01  # on it, this share of the smallest values may lie left of the axis
 
 def metric_values(result: BatchResult, metric: str) -> dict[str, np.ndarray]:
     """A metric by variant, one value per trial, nan and inf included."""
-    return {name: np.array([row.metrics[metric] for row in found]) for name, found in result.trials.items()}
+    return {name: found.metrics[metric] for name, found in result.trials.items()}
 
 
 def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:

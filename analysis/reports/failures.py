@@ -18,7 +18,7 @@ MANY = 3000  # points of a panel from which on they are stored as an image, not 
 
 def successes(result: BatchResult, variant: str) -> np.ndarray:
     """Whether each trial of a variant was a success."""
-    return np.array([row.success for row in result.trials[variant]], dtype=bool)
+    return result.trials[variant].success
 
 
 def telling_scores(result: BatchResult, variant: str) -> dict[str, float]:

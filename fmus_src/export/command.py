@@ -32,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--portable", action="store_true", help="compile with zig, against an old C library")
     options = parser.parse_args(arguments)
-    flavours = FLAVOURS if options.flavour == "all" else (options.flavour,)
+    flavours: tuple[str, ...] = FLAVOURS if options.flavour == "all" else (options.flavour,)
     platforms = options.platform or available_platforms()
     if not platforms and "native" in flavours:
         flavours = tuple(flavour for flavour in flavours if flavour != "native")

@@ -5,10 +5,10 @@ import tomllib
 import numpy as np
 
 from analysis.batch.campaign_file import parse_campaign
-from analysis.batch.flyer import TrialResult
 from analysis.batch.plan import BatchPlan
 from analysis.batch.results import BatchResult, make_result
 from analysis.batch.toml_table import Table
+from analysis.batch.trials import Trials
 from analysis.cosim.results import Result
 from analysis.cosim.system import SystemOptions
 
@@ -91,19 +91,16 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
     campaign = parse_campaign(Table(tomllib.loads(HEAD.format(trials=trials) + text), "test.toml"))
     names = [metric.name for metric in campaign.metrics]
     found = {
-        variant: [
-            TrialResult(
-                trial=k,
-                status="finished" if good else "stop_time (ship.status 2)",
-                message="",
-                success=good,
-                end_time=1.0,
-                metrics=dict(zip(names, values, strict=False)),
-                final={},
-                traces=None,
-            )
-            for k, (good, *values) in enumerate(rows)
-        ]
+        variant: Trials(
+            statuses=["finished" if row[0] else "stop_time (ship.status 2)" for row in rows],
+            success=np.array([row[0] for row in rows]),
+            metrics={name: np.array([row[1 + k] for row in rows]) for k, name in enumerate(names)},
+            trial=np.arange(trials),
+            end_time=np.ones(trials),
+            messages={},
+            final={},
+            traces={},
+        )
         for variant, rows in outcomes.items()
     }
     provenance = {

@@ -68,7 +68,7 @@ def test_failures_at_both_ends_are_told_by_the_draw_that_causes_them(result):
 
 
 def test_scatter_counts_its_points(result):
-    failed = sum(not row.success for row in result.trials["shaky"])
+    failed = sum(not good for good in result.trials["shaky"].success)
     figure = failures_figure(result)
     assert f"{failed} failures" in figure
     assert f"{40 - failed} successes" in figure

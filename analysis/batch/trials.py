@@ -1,0 +1,41 @@
+"""Trials that were flown, as columns: what every trial of a variant came to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from .summary import TrialColumns
+
+
+@dataclass(frozen=True)
+class Trials(TrialColumns):
+    """Trials of one variant, an entry per trial in every column.
+
+    ``trial`` are their numbers, ``end_time`` is in s, ``messages`` explain failed flights,
+    ``final`` and ``traces`` (by trial) are what the campaign records beside the metrics.
+    """
+
+    trial: np.ndarray
+    end_time: np.ndarray
+    messages: dict[int, str]
+    final: dict[str, np.ndarray]
+    traces: dict[int, dict[str, np.ndarray]]
+
+
+def joined(parts: Iterable[Trials]) -> Trials:
+    """Parts of one variant, in any order, as one in order of trial."""
+    ordered = sorted(parts, key=lambda part: int(part.trial[0]))
+    first = ordered[0]
+    return Trials(
+        statuses=[status for part in ordered for status in part.statuses],
+        success=np.concatenate([part.success for part in ordered]),
+        metrics={name: np.concatenate([part.metrics[name] for part in ordered]) for name in first.metrics},
+        trial=np.concatenate([part.trial for part in ordered]),
+        end_time=np.concatenate([part.end_time for part in ordered]),
+        messages={trial: text for part in ordered for trial, text in part.messages.items()},
+        final={name: np.concatenate([part.final[name] for part in ordered]) for name in first.final},
+        traces={trial: traces for part in ordered for trial, traces in part.traces.items()},
+    )
