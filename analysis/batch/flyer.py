@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from analysis.cosim.fmu import LOADING
 from analysis.cosim.results import Flight, Result
 from analysis.cosim.simulation import Simulation
 
@@ -39,11 +40,12 @@ class Flyer:
     def simulation(self, variant: str) -> tuple[Simulation, VariantNames]:
         """The simulation of a variant, made at its first use."""
         if variant not in self._ready:
-            prepared = self.plan.prepare(self.variants[variant])
-            names = variant_names(self.plan, prepared)
-            everything = self.plan.campaign.record.traces != "none"
-            wanted = None if everything else {*names.signals, *names.statuses}
-            self._ready[variant] = Simulation(prepared, varied=names.varied, wanted=wanted), names
+            with LOADING:
+                prepared = self.plan.prepare(self.variants[variant])
+                names = variant_names(self.plan, prepared)
+                everything = self.plan.campaign.record.traces != "none"
+                wanted = None if everything else {*names.signals, *names.statuses}
+                self._ready[variant] = Simulation(prepared, varied=names.varied, wanted=wanted), names
         return self._ready[variant]
 
     def fly(self, variant: str, trials: range) -> Trials:

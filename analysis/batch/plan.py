@@ -140,12 +140,17 @@ def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
     """Names that a variant's simulation needs. Raises InputError for one that does not exist."""
     campaign = plan.campaign
     needed = names_needed(campaign.metrics, plan.draws.columns)
-    needed |= set(campaign.record.final) | set(campaign.record.signals)
+    recorded = {*campaign.record.final, *campaign.record.signals}
+    needed |= recorded
     signals: list[str] = []
     constants: dict[str, float] = {}
     for name in sorted(needed):
         if _is_signal(prepared, name) or _is_output(prepared, name):
             signals.append(name)
+        elif name in recorded:
+            raise InputError(
+                campaign.file, f"record: {name}", "not a signal of the system", "record outputs and inputs"
+            )
         else:
             constants[name] = _constant(plan, prepared, name)
     statuses = [f"{name}.status" for name in prepared.network.fmus if _is_output(prepared, f"{name}.status")]

@@ -219,10 +219,10 @@ def _pass_parameters(network: Network, settings: Settings) -> None:
         chain = [network.driver[node.name]]
         while chain[-1].source.name in network.driver:
             chain.append(network.driver[chain[-1].source.name])
-        origin = chain[-1].source
-        if origin.name in settings.nodes:
-            value = settings.nodes[origin.name]
-            for link in reversed(chain):
+        given = [position for position, link in enumerate(chain) if link.source.name in settings.nodes]
+        if given:  # the outermost value wins
+            value = settings.nodes[chain[given[-1]].source.name]
+            for link in reversed(chain[: given[-1] + 1]):
                 value = _passed(network, link, value)
             kind = {"Real": float, "Boolean": bool}.get(node.type_name or "", int)
             settings.variables[node.component or "", node.variable] = kind(value)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import hashlib
 import io
 import itertools
 import shutil
 import tempfile
+import threading
 import weakref
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -115,6 +117,9 @@ class Instance:
 # fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
 _logs: dict[str, list[str]] = {}
 _instances = itertools.count(1)
+# fmpy changes the process's working directory while it loads a library: whoever does so, or reads
+# files by relative path beside threads that do, holds this.
+LOADING = threading.RLock()
 
 
 def _log(_environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
@@ -135,12 +140,13 @@ def instantiate(fmu: Fmu, name: str) -> Instance:
     unique = f"{name}#{next(_instances)}"
     _logs[unique] = []
     try:
-        slave = fmi2.FMU2Slave(
-            guid=fmu.description.guid,
-            unzipDirectory=str(fmu.folder),
-            modelIdentifier=fmu.description.coSimulation.modelIdentifier,
-            instanceName=unique,
-        )
+        with LOADING, contextlib.chdir(Path.cwd()):  # back also when loading fails
+            slave = fmi2.FMU2Slave(
+                guid=fmu.description.guid,
+                unzipDirectory=str(fmu.folder),
+                modelIdentifier=fmu.description.coSimulation.modelIdentifier,
+                instanceName=unique,
+            )
         slave.instantiate(callbacks=_callbacks, loggingOn=True)
     except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate
         log = " | ".join([str(error), *_logs.pop(unique)])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -18,9 +18,10 @@ class InstructionList:
     """Collects instructions.
 
     ``ranges`` [component][get or set function 0..5] and ``parameter_ranges`` [component][type]
-    are (first, count) of slots and parameters. ``connections`` [component] lists the instruction
-    code of each connection that feeds a component, in order; the last entry is for system
-    connectors. Connections and ``fault_slots`` are numbered as in the program's arrays.
+    are (first, count) of slots and parameters. ``connections`` [component] lists, for each
+    connection that feeds a component, in order, its instruction code and the component that its
+    value comes from (-1: a system's constant input); the last entry is for system connectors.
+    Connections and ``fault_slots`` are numbered as in the program's arrays.
     """
 
     def __init__(
@@ -28,7 +29,7 @@ class InstructionList:
         instances: Sequence[Instance],
         ranges: np.ndarray,
         parameter_ranges: np.ndarray,
-        connections: Sequence[Sequence[int]],
+        connections: Sequence[Sequence[tuple[int, int]]],
         fault_slots: Sequence[int],
     ) -> None:
         self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
@@ -41,30 +42,35 @@ class InstructionList:
     def call(self, code: int, component: int, function: int, piece: Sequence[int] = (0, 0)) -> None:
         """A call of an FMI function on a piece of slots or parameters."""
         instance, addresses = self.instances[component]
-        self.rows.append([code, addresses[function], instance, int(piece[0]), int(piece[1]), component, function, 0])
+        self.rows.append([code, addresses[function], instance, int(piece[0]), int(piece[1]), component, function])
 
-    def connect(self, group: int) -> None:
-        """Values over the connections that feed a component; group -1: system connectors."""
+    def connect(self, group: int, known: Collection[int] | None = None) -> None:
+        """Values over the connections that feed a component; group -1: system connectors.
+
+        With ``known`` only those whose value comes from one of these components.
+        """
         group %= len(self.connections)
-        first = sum(len(codes) for codes in self.connections[:group])
-        for code, run in itertools.groupby(self.connections[group]):
+        first = sum(len(connections) for connections in self.connections[:group])
+        ready = [(code, known is None or origin in known) for code, origin in self.connections[group]]
+        for (code, is_ready), run in itertools.groupby(ready):
             count = len(list(run))
-            self.rows.append([code, 0, 0, first, count, group, 0, 0])
+            if is_ready:
+                self.rows.append([code, 0, 0, first, count, group, 0])
             first += count
 
-    def inject(self, piece: Sequence[int], at_end: bool) -> None:
+    def inject(self, piece: Sequence[int]) -> None:
         """The faults on a piece of slots."""
         for number, slot in enumerate(self.fault_slots):
             if piece[0] <= slot < piece[0] + piece[1]:
-                self.rows.append([loop.INJECT, 0, 0, number, 1, 0, 0, int(at_end)])
+                self.rows.append([loop.INJECT, 0, 0, number, 1, 0, 0])
 
-    def set(self, component: int, at_end: bool) -> None:
-        """Inputs of a component."""
-        self.connect(component)
+    def set(self, component: int, known: Collection[int] | None = None) -> None:
+        """Inputs of a component; those whose source is not ``known`` keep their start values."""
+        self.connect(component, known)
         for function in (FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"]):
             piece = self.ranges[component, function]
             if piece[1]:
-                self.inject(piece, at_end)
+                self.inject(piece)
                 code = loop.SET_REAL if function == FUNCTION["SetReal"] else loop.SET_WHOLE
                 self.call(code, component, function, piece)
 
@@ -75,7 +81,7 @@ class InstructionList:
             if piece[1]:
                 code = loop.GET_REAL if function == FUNCTION["GetReal"] else loop.GET_WHOLE
                 self.call(code, component, function, piece)
-                self.inject(piece, at_end=True)
+                self.inject(piece)
 
     def step(self, component: int) -> None:
         self.call(loop.STEP, component, FUNCTION["DoStep"])
@@ -86,7 +92,11 @@ class InstructionList:
             self.call(loop.MODE, component, FUNCTION["Reset"])
 
     def initialise(self, order: Sequence[int]) -> None:
-        """Parameters, initialisation mode, one exchange in ``order`` that settles the start."""
+        """Parameters, initialisation mode, one exchange in ``order`` that settles the start.
+
+        Who comes before its sources is given the declared start values, on which what it sends on
+        does not depend.
+        """
         for component in range(len(self.instances)):
             for kind, function in enumerate((FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"])):
                 if self.parameter_ranges[component, kind, 1]:
@@ -94,35 +104,39 @@ class InstructionList:
                     self.call(code, component, function, self.parameter_ranges[component, kind])
             self.call(loop.SETUP, component, FUNCTION["SetupExperiment"])
             self.call(loop.MODE, component, FUNCTION["EnterInitializationMode"])
+        known = {-1}
         for component in order:
-            self.set(component, at_end=True)
+            self.set(component, known)
             self.get(component)
+            known.add(component)
         for component in range(len(self.instances)):
             self.call(loop.MODE, component, FUNCTION["ExitInitializationMode"])
-        self.connect(-1)
+        for component in range(len(self.instances)):
+            self.get(component)  # again: there are FMUs that compute outputs only when they leave initialisation
 
     def sequential(self, sources_first: Sequence[int], followers: Sequence[int]) -> None:
-        """Sources with inputs of t_n, all stepped, then all read; followers one by one at t_(n+1)."""
+        """Sources, which have the inputs of t_n, all stepped, then all read; followers one by one at t_(n+1)."""
         for component in sources_first:
-            self.set(component, at_end=False)
             self.step(component)
         for component in sources_first:
             self.get(component)
         for component in followers:
-            self.set(component, at_end=True)
+            self.set(component)
             self.step(component)
             self.get(component)
-        self.connect(-1)
 
     def jacobi(self) -> None:
-        """All set from the last exchange, all stepped, all read."""
+        """All stepped, then all read."""
         components = range(len(self.instances))
-        for component in components:
-            self.set(component, at_end=False)
         for component in components:
             self.step(component)
         for component in components:
             self.get(component)
+
+    def hand_over(self, components: Sequence[int]) -> None:
+        """The end of every communication point, the first one too: inputs for the next step, system connectors."""
+        for component in components:
+            self.set(component)
         self.connect(-1)
 
 
@@ -133,12 +147,14 @@ def write_instructions(
     index = {name: position for position, name in enumerate(names)}
     instructions.reset()
     reset_end = len(instructions.rows)
+    sources = [index[name] for name in schedule.sources_first]
+    set_ahead = range(len(names)) if algorithm == "jacobi" else sources
     instructions.initialise([index[name] for name in schedule.initial_order])
+    instructions.hand_over(set_ahead)
     initial_end = len(instructions.rows)
     if algorithm == "jacobi":
         instructions.jacobi()
     else:
-        instructions.sequential(
-            [index[name] for name in schedule.sources_first], [index[name] for name in schedule.followers]
-        )
+        instructions.sequential(sources, [index[name] for name in schedule.followers])
+    instructions.hand_over(set_ahead)
     return np.array(instructions.rows, dtype=np.int64).reshape(-1, loop.COLUMNS), reset_end, initial_end

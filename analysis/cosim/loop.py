@@ -12,7 +12,8 @@ crosses a call, which costs more than the FMI calls themselves.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from types import FunctionType
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -22,10 +23,10 @@ from .fmi_calls import change_mode, do_step, exchange, setup_experiment
 # Instruction codes.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP = range(9)
 PARAMETERS, WHOLE_PARAMETERS, SETUP, MODE = range(9, 13)
-# Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; AT_END is 1
-# where the values belong to the end of the step; FUNCTION numbers FUNCTION_NAMES.
-CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION, AT_END = range(8)
-COLUMNS = 8
+# Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; FUNCTION
+# numbers FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
+CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
+COLUMNS = 7
 FUNCTION_NAMES = (
     "fmi2SetReal",
     "fmi2GetReal",
@@ -49,11 +50,11 @@ FMI_WARNING = 1
 class Program(NamedTuple):
     """A system as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
 
-    instructions: np.ndarray  # int64 [i, 8]
+    instructions: np.ndarray  # int64 [i, 7]
     reset_end: int  # instructions before this one reset the FMUs; a fresh instance skips them
     initial_end: int  # instructions before this one initialise, the others make a step
     reference: np.ndarray  # uint32 [s], value references
-    initial: np.ndarray  # float64 [s], values before anything is exchanged
+    initial: np.ndarray  # float64 [s], before anything is exchanged: starts of inputs, NaN for what is yet to come
     parameter_reference: np.ndarray  # uint32 [p]
     source: np.ndarray  # int64 [c], slots
     target: np.ndarray  # int64 [c], slots
@@ -123,7 +124,7 @@ def _fly(  # type: ignore[no-untyped-def]
                 finite = True
                 for slot in range(first, first + count):
                     finite &= abs(values[slot]) < np.inf
-                if not finite:
+                if not finite and status <= FMI_WARNING:
                     slot = first
                     while abs(values[slot]) < np.inf:
                         slot += 1
@@ -156,10 +157,9 @@ def _fly(  # type: ignore[no-untyped-def]
                         outcome[1] = source[c]
                         return rows
             elif code == INJECT:
-                now = after if instructions[k, AT_END] else time
                 for f in range(first, first + count):
                     slot = fault_slot[f]
-                    if not fault_window[f, 0] <= now < fault_window[f, 1]:
+                    if not fault_window[f, 0] <= after < fault_window[f, 1]:
                         continue
                     if fault_kind[f] == OVERRIDE:
                         values[slot] = fault_value[f]
@@ -198,6 +198,13 @@ def _fly(  # type: ignore[no-untyped-def]
         last_instruction = instructions.shape[0]
 
 
+def _under_another_name(function: Any, name: str) -> FunctionType:
+    """A copy for another compilation: numba's cache tells functions apart by name, not by options."""
+    copy = FunctionType(function.__code__.replace(co_name=name, co_qualname=name), globals(), name)
+    copy.__qualname__ = name
+    return copy
+
+
 # For Python FMUs, which need the interpreter lock at every call, and for native ones, which run without.
 fly_locked = njit(cache=True)(_fly)
-fly_unlocked = njit(cache=True, nogil=True)(_fly)
+fly_unlocked = njit(cache=True, nogil=True)(_under_another_name(_fly, "_fly_unlocked"))

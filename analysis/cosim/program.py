@@ -16,7 +16,7 @@ from .faults import Fault
 from .fmu import Instance
 from .instructions import InstructionList, write_instructions
 from .network import Link, Network, Node
-from .schedule import Schedule
+from .schedule import Schedule, origin
 from .transformations import IDENTITY
 
 EXCHANGES = loop.FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
@@ -180,13 +180,13 @@ class _Builder:
         firsts = np.cumsum([0, *(len(table) for table in tables)])
         flat = [entry for table in tables for entry in table]
         finished = self.network.nodes.get("finished")
-        has_finish = finished is not None and finished.component is None and finished.kind == "output"
+        has_finish = finished is not None and finished.kind == "output" and "finished" in self.slots
         fault_slots = [self._fault_slot(fault) for fault in self.faults]
         collected = InstructionList(
             [instances[name] for name in self.names],
             self.ranges,
             self.parameter_ranges,
-            [[_connection_code(link) for link in group] for group in groups],
+            [[(_connection_code(link), self._origin(link)) for link in group] for group in groups],
             fault_slots,
         )
         instructions, reset_end, initial_end = write_instructions(collected, self.names, schedule, algorithm)
@@ -201,7 +201,9 @@ class _Builder:
             target=np.array([self.slots[link.target.name] for link in links], dtype=np.int64),
             factor=np.array([link.transformation.factor for link in links], dtype=np.float64),
             offset=np.array([link.transformation.offset for link in links], dtype=np.float64),
-            table=np.array([(first, len(table)) for first, table in zip(firsts, tables, strict=False)], dtype=np.int64),
+            table=np.array(
+                [(first, len(table)) for first, table in zip(firsts, tables, strict=False)], dtype=np.int64
+            ).reshape(-1, 2),
             table_from=np.array([entry[0] for entry in flat], dtype=np.float64),
             table_to=np.array([entry[1] for entry in flat], dtype=np.float64),
             finished_slot=self.slots["finished"] if has_finish else -1,
@@ -210,6 +212,11 @@ class _Builder:
             fault_window=np.array([fault.window for fault in self.faults], dtype=np.float64).reshape(-1, 2),
             fault_value=np.array([fault.value for fault in self.faults], dtype=np.float64),
         )
+
+    def _origin(self, link: Link) -> int:
+        """Number of the component that a link's value comes from, -1 for a system's constant input."""
+        component = origin(self.network, link).component
+        return -1 if component is None else self.names.index(component)
 
     def _fault_slot(self, fault: Fault) -> int:
         if fault.name not in self.slots or "." not in fault.name:

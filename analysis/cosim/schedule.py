@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Collection
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
 from analysis.errors import InputError
 
-from .network import Link, Network
+from .network import Link, Network, Node
+
+Edge = tuple[Node, Node]  # an output, and the input of another component that its value reaches
 
 
 @dataclass
@@ -46,34 +49,45 @@ def make_schedule(network: Network, no_feedthrough: Collection[str] = ()) -> Sch
         (start, link.target)
         for link in network.driver.values()
         if link.target.component in followers and not link.is_parameter
-        for start in [_origin(network, link)]
+        for start in [origin(network, link)]
         if start.component in followers
     ]
-    late: list[str] = []
+    late: list[Edge] = []
     while True:
-        graph: dict[str, set[str]] = {name: set() for name in followers}
-        for start, end in edges:
-            graph[end.component or ""].add(start.component or "")
         try:
-            order = list(TopologicalSorter(graph).static_order())
+            order = _order(followers, edges)
             break
         except CycleError as error:
-            cycle: list[str] = list(reversed(error.args[1]))
-            broken = _breakable(cycle, edges, direct)
+            broken = _breakable(error.args[1], edges, direct)
             if broken is None:
                 raise InputError(
                     network.file,
-                    " -> ".join(cycle),
+                    " -> ".join(error.args[1]),
                     "these FMUs wait for each other in one communication point",
                     "declare their output dependencies",
                 ) from None
             edges.remove(broken)
-            late.append(f"{broken[0].name} -> {broken[1].name}")
+            late.append(broken)
+    for edge in list(late):  # a later one may have opened the same cycle
+        with contextlib.suppress(CycleError):
+            order = _order(followers, [*edges, edge])
+            edges.append(edge)
+            late.remove(edge)
     # Once more for every late connection: at the start all outputs settle, which the variables' order allows.
-    return Schedule(sources, order, [*sources, *order * (len(late) + 1)], late)
+    return Schedule(
+        sources, order, [*sources, *order * (len(late) + 1)], [f"{start.name} -> {end.name}" for start, end in late]
+    )
 
 
-def _origin(network: Network, link: Link):  # type: ignore[no-untyped-def]
+def _order(followers: Collection[str], edges: Collection[Edge]) -> list[str]:
+    """The followers, each behind those it reads; raises CycleError."""
+    graph: dict[str, set[str]] = {name: set() for name in followers}
+    for start, end in edges:
+        graph[end.component or ""].add(start.component or "")
+    return list(TopologicalSorter(graph).static_order())
+
+
+def origin(network: Network, link: Link) -> Node:
     """The component's output, or the undriven connector, that a link's value comes from."""
     start = link.source
     while start.component is None and start.name in network.driver:
@@ -96,12 +110,12 @@ def _check_loops(network: Network, direct: dict[str, dict[str, set[str]]]) -> No
         raise InputError(
             network.file,
             "algebraic loop",
-            " -> ".join(reversed(error.args[1])),
+            " -> ".join(error.args[1]),
             "break it with an FMU whose output does not depend directly on its input (or --no-feedthrough COMPONENT)",
         ) from None
 
 
-def _breakable(cycle, edges, direct):  # type: ignore[no-untyped-def]
+def _breakable(cycle: list[str], edges: Collection[Edge], direct: dict[str, dict[str, set[str]]]) -> Edge | None:
     """A connection into a component of the cycle on which nothing it sends along the cycle depends."""
     for position in range(len(cycle) - 1):
         before, here = cycle[position], cycle[position + 1]

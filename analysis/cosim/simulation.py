@@ -130,8 +130,13 @@ class Simulation:
         prepared = self.prepared
         rows = prepared.steps // every + 2
         if self._record.shape[0] < rows:
-            self._record = np.empty((rows, self._recorded.size))
-            self._times = np.empty(rows)
+            try:
+                self._record = np.empty((rows, self._recorded.size))
+                self._times = np.empty(rows)
+            except MemoryError as error:
+                problem = f"{rows} rows do not fit into memory"
+                remedy = "give a longer step or an earlier --stop-time"
+                raise InputError("--step", f"{prepared.step:g}", problem, remedy) from error
         reset = not self._fresh
         if self.layout.strings:
             reset = self._set_strings(reset)

@@ -1,0 +1,30 @@
+"""Whether contestants arrive where this project's loop does: a time counts only for the same flight."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from .contestant import Contestant, Values
+
+TOLERANCE = 1e-9
+
+
+def difference(values: Values, reference: Values) -> float:
+    """Largest difference, relative to the reference or to 1 where that is larger."""
+    return max(abs(values[name] - expected) / max(1.0, abs(expected)) for name, expected in reference.items())
+
+
+def strangers(contestants: Iterable[Contestant], final: Mapping[str, Values]) -> dict[str, str]:
+    """Contestants that flew elsewhere than ours by the same algorithm, with the reason."""
+    by_name = {each.name: each for each in contestants}
+    ours = {
+        (each.flavour, each.algorithm): final[each.name]
+        for each in by_name.values()
+        if each.is_ours and each.name in final
+    }
+    found: dict[str, str] = {}
+    for name, values in final.items():
+        reference = ours.get((by_name[name].flavour, by_name[name].algorithm))
+        if reference is not None and not difference(values, reference) <= TOLERANCE:
+            found[name] = f"its values at the end differ from ours by {difference(values, reference):.2g}"
+    return found

@@ -1,0 +1,35 @@
+"""What the numbers were measured on and with."""
+
+from __future__ import annotations
+
+import os
+import platform
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+PACKAGES = ("perilune", "fmpy", "pythonfmu", "libcosimpy", "fmu-manipulation-toolbox", "numba", "numpy")
+
+
+def machine() -> dict[str, str | int]:
+    """Processor, how many of them this process may use, operating system."""
+    return {"processor": _processor(), "processors": len(os.sched_getaffinity(0)), "system": platform.platform()}
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python, of this package and of the peers; "not installed" for those that are not."""
+    found = {"python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            found[package] = "not installed"
+    return found
+
+
+def _processor() -> str:
+    path = Path("/proc/cpuinfo")
+    if path.is_file():
+        for line in path.read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    return platform.processor() or platform.machine()

@@ -1,0 +1,124 @@
+"""Runs the contestants in turn and works out what a step costs each of them."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from analysis.cosim.archive import system_names
+from analysis.errors import InputError, suggestion
+from analysis.places import BUILD, SYSTEMS
+from fmus_src.export.ssp_package import pack_system
+
+from .agreement import strangers
+from .contestant import Unavailable, Values
+from .contestants import CONTESTANTS, OURS
+from .course import Course
+from .machine import machine, versions
+from .times import Times
+from .trials import trials_per_second
+from .worker import Worker, WorkerError
+
+
+def run_benchmark(system: str = "lunar_terminal_guidance", steps: int = 2500, repeats: int = 5) -> dict[str, Any]:
+    """Time a communication step of every contestant; ``system`` is a name under ssp_systems.
+
+    Each contestant has a process of its own; in every repeat each flies one step and then
+    ``steps`` steps, and the difference is what the steps cost, without reading, instantiation
+    and initialisation, which are given apart. Raises InputError.
+    """
+    if steps < 2 or repeats < 1:
+        raise InputError("benchmark", f"{steps} steps, {repeats} repeats", "too few", "give 2 and 1 at least")
+    if system not in system_names():
+        raise InputError("benchmark", system, "no such system", suggestion(system, system_names()))
+    unavailable: dict[str, str] = {}
+    trials: dict[str, dict[str, float]] = {}
+    with tempfile.TemporaryDirectory(prefix="perilune_benchmark_") as folder:
+        archives = _pack(system, Path(folder), unavailable)
+        step = Course(next(iter(archives.values()))).prepared.step
+        with _workers(archives, unavailable) as workers:
+            times = _fly_in_turn(workers, steps, repeats, unavailable)
+        for flavour, archive in archives.items():
+            if OURS[flavour] in times:
+                try:
+                    trials[flavour] = trials_per_second(archive, times[OURS[flavour]].step() * steps)
+                except (Unavailable, WorkerError) as reason:
+                    unavailable[f"trials per second, {flavour} FMUs"] = str(reason)
+    flavours = {each.name: each.flavour for each in CONTESTANTS}
+    return {
+        "system": system,
+        "step": step,
+        "steps": steps,
+        "repeats": repeats,
+        "microseconds_per_step": {name: 1e6 * each.step() for name, each in times.items()},
+        "median_microseconds_per_step": {name: 1e6 * each.middle() for name, each in times.items()},
+        "milliseconds_to_start": {name: 1e3 * each.start() for name, each in times.items()},
+        "ratios": {
+            name: each.ratio(times[OURS[flavours[name]]])
+            for name, each in times.items()
+            if OURS[flavours[name]] in times
+        },
+        "trials_per_second": trials,
+        "unavailable": unavailable,
+        "what": {each.name: each.what for each in CONTESTANTS},
+        "machine": machine(),
+        "versions": versions(),
+    }
+
+
+def _pack(system: str, folder: Path, unavailable: dict[str, str]) -> dict[str, Path]:
+    """The system with the FMUs of each flavour that is built; reasons go to ``unavailable``."""
+    archives: dict[str, Path] = {}
+    for flavour in OURS:
+        try:
+            archives[flavour] = pack_system(SYSTEMS / system, [BUILD / "fmus" / flavour], folder / flavour)
+        except ValueError as error:
+            unavailable |= {each.name: str(error) for each in CONTESTANTS if each.flavour == flavour}
+    if not archives:
+        raise InputError("benchmark", str(BUILD / "fmus"), f"not all FMUs of {system} are built", "run build_fmus.py")
+    return archives
+
+
+@contextmanager
+def _workers(archives: dict[str, Path], unavailable: dict[str, str]) -> Iterator[dict[str, Worker]]:
+    """A worker for every contestant that can fly; the others' reasons go to ``unavailable``."""
+    with ExitStack() as stack:
+        workers: dict[str, Worker] = {}
+        for contestant in CONTESTANTS:
+            if contestant.flavour in archives:
+                try:
+                    worker = Worker(contestant.name, archives[contestant.flavour])
+                except (Unavailable, WorkerError) as reason:
+                    unavailable[contestant.name] = str(reason)
+                else:
+                    workers[contestant.name] = stack.enter_context(worker)
+        yield workers
+
+
+def _fly_in_turn(workers: dict[str, Worker], steps: int, repeats: int, unavailable: dict[str, str]) -> dict[str, Times]:
+    """Times of every contestant; a first round, not counted, warms up and compares the values at the end."""
+    final: dict[str, Values] = {}
+    times = {name: Times(steps) for name in workers}
+    with tqdm(total=(repeats + 1) * len(workers), unit="run", disable=None, leave=False) as progress:
+        for repeat in range(repeats + 1):
+            for name, worker in workers.items():
+                progress.update()
+                if name in unavailable:
+                    continue
+                try:
+                    short, long = worker.ask(steps=1), worker.ask(steps=steps)
+                except (Unavailable, WorkerError) as reason:
+                    unavailable[name] = str(reason)
+                    continue
+                if repeat == 0:
+                    final[name] = long["values"]
+                else:
+                    times[name].add(short["seconds"], long["seconds"])
+            if repeat == 0:
+                unavailable |= strangers(CONTESTANTS, final)
+    return {name: each for name, each in times.items() if name not in unavailable}

@@ -1,0 +1,38 @@
+"""What a contestant's flights took, and what follows for one step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from statistics import median
+
+
+@dataclass
+class Times:
+    """Times of flights of one step and of ``steps`` steps (s), an entry of each per repeat."""
+
+    steps: int
+    short: list[float] = field(default_factory=list)
+    long: list[float] = field(default_factory=list)
+
+    def add(self, short: float, long: float) -> None:
+        self.short.append(short)
+        self.long.append(long)
+
+    def step(self) -> float:
+        """Time per step (s), from the fastest flight of either length."""
+        return (min(self.long) - min(self.short)) / (self.steps - 1)
+
+    def middle(self) -> float:
+        """Time per step (s), median over the repeats."""
+        return median(self._each())
+
+    def start(self) -> float:
+        """Time from the files or instances at hand to the first step (s)."""
+        return max(0.0, min(self.short) - self.step())
+
+    def ratio(self, other: Times) -> float:
+        """Time per step over that of another, run beside it: median over the repeats, pair by pair."""
+        return median(mine / its for mine, its in zip(self._each(), other._each(), strict=True))
+
+    def _each(self) -> list[float]:
+        return [(long - short) / (self.steps - 1) for short, long in zip(self.short, self.long, strict=True)]

@@ -1,0 +1,99 @@
+"""What all tests share: built FMUs, tiny FMUs, and an end of the process that keeps its exit status."""
+
+from __future__ import annotations
+
+import atexit
+import fcntl
+import os
+import sys
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from analysis.places import BUILD, built_fmu
+from fmus_src.catalogue import catalogue
+from fmus_src.export.closure import closure_of
+from fmus_src.export.command import main as build_fmus
+
+sys.path.insert(0, str(Path(__file__).parent))  # for `from cosim.builders import ...` in every folder
+
+_status: list[int] = []
+
+
+def _leave() -> None:
+    """Leave before the destructors of pythonfmu's library, which can crash a process that used it."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    if _status:
+        os._exit(_status[-1])
+
+
+# Handlers run last in, first out: this one, registered before any test is imported, runs after all others.
+atexit.register(_leave)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
+    _status.append(int(exitstatus))
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line("markers", "slow: takes minutes; run with PERILUNE_SLOW_TESTS=1")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    if os.environ.get("PERILUNE_SLOW_TESTS") != "1":
+        for item in items:
+            if item.get_closest_marker("slow"):
+                item.add_marker(pytest.mark.skip(reason="slow: set PERILUNE_SLOW_TESTS=1"))
+
+
+@contextmanager
+def one_process_at_a_time(lock: Path) -> Iterator[None]:
+    """Workers of pytest-xdist take turns."""
+    lock.parent.mkdir(parents=True, exist_ok=True)
+    with lock.open("w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
+
+def _is_current(name: str, package: str) -> bool:
+    path = built_fmu(name, "python")
+    if not path.is_file():
+        return False
+    with zipfile.ZipFile(path) as archive:
+        return any(f"/{package}/" in entry for entry in archive.namelist())
+
+
+@pytest.fixture(scope="session")
+def fmus() -> Path:
+    """The folder of this repository's Python FMUs, built if they are missing or of older sources."""
+    with one_process_at_a_time(BUILD / ".lock"):
+        blocks = catalogue()
+        if not all(_is_current(name, closure_of(block).package) for name, block in blocks.items()):
+            assert build_fmus([]) == 0
+    return built_fmu("x", "python").parent
+
+
+@pytest.fixture(scope="session")
+def tiny_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The tiny FMUs of cosim/builders.py in folders `python` and `native`, built once per test run."""
+    from cosim.builders import build_tiny_fmus
+
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "tiny_fmus"
+    with one_process_at_a_time(folder.with_name("tiny_fmus.lock")):
+        if not folder.is_dir():
+            partial = folder.with_name("tiny_fmus.part")
+            build_tiny_fmus(partial)
+            partial.rename(folder)
+    return folder
+
+
+@pytest.fixture(params=["python", "native"])
+def tiny(request: pytest.FixtureRequest, tiny_folder: Path) -> Path:
+    """The tiny FMUs, in either flavour."""
+    return tiny_folder / request.param
