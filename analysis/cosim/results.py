@@ -79,7 +79,8 @@ class Result(Flight):
         if path.suffix == ".parquet":
             pyarrow.parquet.write_table(self.table(), path)
         else:
-            options = pyarrow.csv.WriteOptions(quoting_style="needed")
+            plain = not any(mark in name for name in self.signals for mark in ',"')
+            options = pyarrow.csv.WriteOptions(quoting_header="none" if plain else "needed")
             pyarrow.csv.write_csv(self.table(), path, options)
             units = {"time": "s"} | {name: unit for name, unit in self.units.items() if unit}
             text = json.dumps(self.summary() | {"units": units}, indent=1)
