@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Collection, Sequence
 
 import numpy as np
@@ -19,8 +18,9 @@ class InstructionList:
 
     ``ranges`` [component][get or set function 0..5] and ``parameter_ranges`` [component][type]
     are (first, count) of slots and parameters. ``connections`` [component] lists, for each
-    connection that feeds a component, in order, its instruction code and the component that its
-    value comes from (-1: a system's constant input); the last entry is for system connectors.
+    connection that feeds a component, in order, its instruction code, the component that its value
+    comes from (-1: a system's constant input), source and target slot; the last entry is for
+    system connectors.
     Connections and ``fault_slots`` are numbered as in the program's arrays.
     """
 
@@ -29,7 +29,7 @@ class InstructionList:
         instances: Sequence[Instance],
         ranges: np.ndarray,
         parameter_ranges: np.ndarray,
-        connections: Sequence[Sequence[tuple[int, int]]],
+        connections: Sequence[Sequence[tuple[int, int, int, int]]],
         fault_slots: Sequence[int],
     ) -> None:
         self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
@@ -51,12 +51,22 @@ class InstructionList:
         """
         group %= len(self.connections)
         first = sum(len(connections) for connections in self.connections[:group])
-        ready = [(code, known is None or origin in known) for code, origin in self.connections[group]]
-        for (code, is_ready), run in itertools.groupby(ready):
-            count = len(list(run))
-            if is_ready:
-                self.rows.append([code, 0, 0, first, count, group, 0])
-            first += count
+        run: list[int] = []
+        for number, (code, origin, source, target) in enumerate(self.connections[group], first):
+            if known is not None and origin not in known:
+                run = []
+            elif code == loop.COPY:
+                # neighbouring slots copied to neighbouring slots are one instruction
+                if run and (source, target) == (run[1] + run[4], run[3] + run[4]):
+                    run[4] += 1
+                else:
+                    run = [code, source, 0, target, 1, group, 0]
+                    self.rows.append(run)
+            elif run and run[0] == code:
+                run[4] += 1
+            else:
+                run = [code, 0, 0, number, 1, group, 0]
+                self.rows.append(run)
 
     def inject(self, piece: Sequence[int]) -> None:
         """The faults on a piece of slots."""
@@ -157,4 +167,4 @@ def write_instructions(
     else:
         instructions.sequential(sources, [index[name] for name in schedule.followers])
     instructions.hand_over(set_ahead)
-    return np.array(instructions.rows, dtype=np.int64).reshape(-1, loop.COLUMNS), reset_end, initial_end
+    return np.array(instructions.rows, dtype=np.uint64).reshape(-1, loop.COLUMNS), reset_end, initial_end

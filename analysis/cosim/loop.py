@@ -23,7 +23,8 @@ from .fmi_calls import change_mode, do_step, exchange, setup_experiment
 # Instruction codes.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP = range(9)
 PARAMETERS, WHOLE_PARAMETERS, SETUP, MODE = range(9, 13)
-# Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; FUNCTION
+# Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; a COPY has its first
+# target slot in FIRST and its first source slot in ADDRESS; FUNCTION
 # numbers FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
@@ -50,7 +51,7 @@ FMI_WARNING = 1
 class Program(NamedTuple):
     """A system as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
 
-    instructions: np.ndarray  # int64 [i, 7]
+    instructions: np.ndarray  # uint64 [i, 7]; unsigned, since numba would look out for negative indices
     reset_end: int  # instructions before this one reset the FMUs; a fresh instance skips them
     initial_end: int  # instructions before this one initialise, the others make a step
     reference: np.ndarray  # uint32 [s], value references
@@ -99,12 +100,14 @@ def _fly(  # type: ignore[no-untyped-def]
     frozen[:] = np.nan
     outcome[:] = 0
     stop = start + steps * step
-    first_instruction = 0 if reset else program.reset_end
-    last_instruction = program.initial_end
+    first_instruction = np.uint64(0 if reset else program.reset_end)
+    last_instruction = np.uint64(program.initial_end)
     rows = 0
     n = -1  # the initialisation
+    to_record = 0
+    after = start
     while True:
-        time = start + max(n, 0) * step
+        time = after
         after = start + (n + 1) * step
         outcome[4] = n + 1
         for k in range(first_instruction, last_instruction):
@@ -115,8 +118,8 @@ def _fly(  # type: ignore[no-untyped-def]
             count = instructions[k, COUNT]
             status = np.int32(0)
             if code == COPY:
-                for c in range(first, first + count):
-                    values[target[c]] = values[source[c]]
+                for i in range(count):
+                    values[first + i] = values[address + i]
             elif code == SET_REAL:
                 status = exchange(address, instance, reference, values, first, count)
             elif code == GET_REAL:
@@ -125,12 +128,11 @@ def _fly(  # type: ignore[no-untyped-def]
                 for slot in range(first, first + count):
                     finite &= abs(values[slot]) < np.inf
                 if not finite and status <= FMI_WARNING:
-                    slot = first
-                    while abs(values[slot]) < np.inf:
-                        slot += 1
-                    outcome[0] = NONFINITE
-                    outcome[1] = slot
-                    return rows
+                    for slot in range(first, first + count):
+                        if not abs(values[slot]) < np.inf:
+                            outcome[0] = NONFINITE
+                            outcome[1] = slot
+                            return rows
             elif code == STEP:
                 status = do_step(address, instance, time, step)
             elif code == GET_WHOLE:
@@ -158,17 +160,17 @@ def _fly(  # type: ignore[no-untyped-def]
                         return rows
             elif code == INJECT:
                 for f in range(first, first + count):
-                    slot = fault_slot[f]
+                    faulty = fault_slot[f]
                     if not fault_window[f, 0] <= after < fault_window[f, 1]:
                         continue
                     if fault_kind[f] == OVERRIDE:
-                        values[slot] = fault_value[f]
+                        values[faulty] = fault_value[f]
                     elif fault_kind[f] == BIAS:
-                        values[slot] += fault_value[f]
+                        values[faulty] += fault_value[f]
                     else:
                         if np.isnan(frozen[f]):
-                            frozen[f] = values[slot]
-                        values[slot] = frozen[f]
+                            frozen[f] = values[faulty]
+                        values[faulty] = frozen[f]
             elif code == PARAMETERS:
                 status = exchange(address, instance, parameter_reference, parameters, first, count)
             elif code == WHOLE_PARAMETERS:
@@ -186,16 +188,18 @@ def _fly(  # type: ignore[no-untyped-def]
         n += 1
         finished = program.finished_slot >= 0 and values[program.finished_slot] != 0.0
         last = finished or n == steps
-        if last or n % stride == 0:
+        if last or to_record == 0:
+            to_record = stride
             times[rows] = after
             for c in range(recorded.size):
                 record[rows, c] = values[recorded[c]]
             rows += 1
+        to_record -= 1
         if last:
             outcome[0] = FINISHED if finished else STOP_TIME
             return rows
-        first_instruction = program.initial_end
-        last_instruction = instructions.shape[0]
+        first_instruction = np.uint64(program.initial_end)
+        last_instruction = np.uint64(instructions.shape[0])
 
 
 def _under_another_name(function: Any, name: str) -> FunctionType:

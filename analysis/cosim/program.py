@@ -186,7 +186,7 @@ class _Builder:
             [instances[name] for name in self.names],
             self.ranges,
             self.parameter_ranges,
-            [[(_connection_code(link), self._origin(link)) for link in group] for group in groups],
+            [[self._connection(link) for link in group] for group in groups],
             fault_slots,
         )
         instructions, reset_end, initial_end = write_instructions(collected, self.names, schedule, algorithm)
@@ -213,10 +213,11 @@ class _Builder:
             fault_value=np.array([fault.value for fault in self.faults], dtype=np.float64),
         )
 
-    def _origin(self, link: Link) -> int:
-        """Number of the component that a link's value comes from, -1 for a system's constant input."""
+    def _connection(self, link: Link) -> tuple[int, int, int, int]:
+        """What `InstructionList` needs to know of a connection."""
         component = origin(self.network, link).component
-        return -1 if component is None else self.names.index(component)
+        number = -1 if component is None else self.names.index(component)
+        return _connection_code(link), number, self.slots[link.source.name], self.slots[link.target.name]
 
     def _fault_slot(self, fault: Fault) -> int:
         if fault.name not in self.slots or "." not in fault.name:
