@@ -21,9 +21,9 @@ class Contestant:
 
     ``flavour`` says which FMUs it flies, ``what`` describes it in one sentence, ``algorithm`` is
     the one of ours whose values it must reproduce (None: it has an order of its own that none of
-    ours has). ``prepare`` makes ready whatever outlasts a flight and returns a function that
-    flies a number of steps from the start and gives the values of ``course.names`` at the end;
-    it raises `Unavailable`.
+    ours has), ``exact`` whether to the last bit. ``prepare`` makes ready whatever outlasts a
+    flight and returns a function that flies a number of steps from the start and gives the values
+    of ``course.names`` at the end; it raises `Unavailable`.
     """
 
     name: str
@@ -31,6 +31,7 @@ class Contestant:
     what: str
     algorithm: str | None
     prepare: Callable[[Course], Fly]
+    exact: bool = False
 
     @property
     def is_ours(self) -> bool:

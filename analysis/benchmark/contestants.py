@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from . import fmpy_calls, fmpy_ssp, fmucontainer, libcosim, perilune_loop
+from . import fmpy_calls, fmpy_ssp, fmucontainer, fused_limit, libcosim, perilune_loop
 from .contestant import Contestant
 
 WAYS = (
@@ -72,6 +72,14 @@ def _native(way: Contestant) -> Contestant:
     return Contestant(name, "native", way.what, way.algorithm, way.prepare)
 
 
-CONTESTANTS = WAYS + tuple(_native(way) for way in WAYS)
+FUSED = Contestant(
+    "fused_limit",
+    "native",
+    "the blocks of the native FMUs fused into one compiled function without FMI: what the loop could cost at best",
+    "sequential",
+    fused_limit.prepare,
+    exact=True,
+)
+CONTESTANTS = (*WAYS, *(_native(way) for way in WAYS), FUSED)
 # What the others are compared with, by flavour.
 OURS = {"python": "perilune_python", "native": "perilune_native"}

@@ -20,8 +20,9 @@ from .contestant import Unavailable, Values
 from .contestants import CONTESTANTS, OURS
 from .course import Course
 from .machine import machine, versions
+from .promises import promised_ratios
 from .times import Times
-from .trials import trials_per_second
+from .trials import ROUNDS, trials_per_second
 from .worker import Worker, WorkerError
 
 
@@ -40,19 +41,21 @@ def run_benchmark(system: str = "lunar_terminal_guidance", steps: int = 2500, re
     trials: dict[str, dict[str, float]] = {}
     with tempfile.TemporaryDirectory(prefix="perilune_benchmark_") as folder:
         archives = _pack(system, Path(folder), unavailable)
-        step = Course(next(iter(archives.values()))).prepared.step
+        prepared = Course(next(iter(archives.values()))).prepared
         with _workers(archives, unavailable) as workers:
             times = _fly_in_turn(workers, steps, repeats, unavailable)
         for flavour, archive in archives.items():
             if OURS[flavour] in times:
                 try:
-                    trials[flavour] = trials_per_second(archive, times[OURS[flavour]].step() * steps)
+                    trials[flavour] = trials_per_second(
+                        archive, times[OURS[flavour]].step() * prepared.steps, min(ROUNDS, repeats)
+                    )
                 except (Unavailable, WorkerError) as reason:
                     unavailable[f"trials per second, {flavour} FMUs"] = str(reason)
     flavours = {each.name: each.flavour for each in CONTESTANTS}
     return {
         "system": system,
-        "step": step,
+        "step": prepared.step,
         "steps": steps,
         "repeats": repeats,
         "microseconds_per_step": {name: 1e6 * each.step() for name, each in times.items()},
@@ -63,6 +66,7 @@ def run_benchmark(system: str = "lunar_terminal_guidance", steps: int = 2500, re
             for name, each in times.items()
             if OURS[flavours[name]] in times
         },
+        "promised_ratios": promised_ratios(times, trials),
         "trials_per_second": trials,
         "unavailable": unavailable,
         "what": {each.name: each.what for each in CONTESTANTS},

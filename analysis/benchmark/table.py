@@ -25,6 +25,9 @@ def benchmark_text(document: dict[str, Any]) -> str:
             ratio = f"{document['ratios'][name]:9.3g}" if name in document["ratios"] else f"{'':9}"
             lines.append(f"  {name:32}{best[name]:12.3g}{middle:9.3g}{ratio}{start:13.3g}")
     lines += ["", "ratio: time per step over that of our loop on the same FMUs, median of paired runs", ""]
+    for name, ratio in document["promised_ratios"].items():
+        lines.append(f"{name:50}{ratio:8.4g}")
+    lines += [""]
     for flavour, rates in document["trials_per_second"].items():
         text = ", ".join(f"{rate:.4g} with {workers}" for workers, rate in rates.items())
         lines.append(f"trials per second, {flavour} FMUs, by workers: {text}")

@@ -17,16 +17,16 @@ SECONDS = 4.0  # about how long a batch flies
 ROUNDS = 3
 
 
-def trials_per_second(ssp: Path, flight: float) -> dict[str, float]:
+def trials_per_second(ssp: Path, flight: float, rounds: int = ROUNDS) -> dict[str, float]:
     """Trials of the campaign per second by number of workers; ``flight`` is about how long one takes (s).
 
-    A short batch and a long one are timed, each a few times: the difference of the fastest ones
+    A short batch and a long one are timed, each ``rounds`` times: the difference of the fastest ones
     leaves out the start of the workers. Raises `Unavailable` and `WorkerError`.
     """
     sizes = {workers: (4 * workers, 4 * workers + max(20, round(workers * SECONDS / flight))) for workers in WORKERS}
     best: dict[tuple[int, int], float] = {}
     with Worker("batch", ssp) as worker:
-        for _ in range(ROUNDS):
+        for _ in range(rounds):
             for workers, lengths in sizes.items():
                 for trials in lengths:
                     seconds = worker.ask(trials=trials, workers=workers)["seconds"]

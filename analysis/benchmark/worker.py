@@ -5,6 +5,7 @@ Run as a module it answers one line of JSON per line of JSON; `Worker` is the ot
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import subprocess
@@ -19,7 +20,9 @@ from analysis.errors import InputError
 
 from .contestant import Fly, Unavailable
 
-TURN = 0.1  # s; flights are repeated until this much time has passed
+# Flights are repeated until there are so many and so much time has passed: some take long to start, and unevenly.
+FLIGHTS = 3
+TURN = 0.1  # s
 
 
 class WorkerError(Exception):
@@ -75,13 +78,14 @@ def _turn(fly: Fly, steps: int) -> dict[str, Any]:
     """Fly for a turn; the time of its fastest flight (s) and the values at the end."""
     end = time.perf_counter() + TURN
     best = float("inf")
-    while True:
+    for flight in itertools.count(1):
         begin = time.perf_counter()
         values = fly(steps)
         now = time.perf_counter()
         best = min(best, now - begin)
-        if now > end:
-            return {"seconds": best, "values": values}
+        if flight >= FLIGHTS and now > end:
+            break
+    return {"seconds": best, "values": values}
 
 
 def _serve(answer: Callable[[dict[str, Any]], None], name: str, ssp: Path) -> None:
