@@ -118,20 +118,24 @@ def _by_file(functions: list[Function]) -> list[Function]:
 
 
 def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
-    """What the wrapper needs to know: GUID, declared starts, and one row per value reference."""
+    """What the wrapper needs to know: GUID, declared starts, and two tables by value reference."""
     starts = Lines()
     starts.open("static const Block STARTS = {")
     elements = Lines()
     elements.open("static const Element ELEMENTS[] = {")
+    element_names = []
     for name, variable in block_class.variables.items():
         values = ", ".join(map(literal, variable.elements))
         starts.add(f".{identifier(name)} = {f'{{{values}}}' if variable.is_vector else values},")
         kind, role = KINDS[type(variable.elements[0])], ROLES[variable.causality]
         for position, element_name in enumerate(variable.element_names()):
             member = identifier(name) + (f"[{position}]" if variable.is_vector else "")
-            elements.add(f'{{"{element_name}", {kind}, {role}, offsetof(Block, {member})}},')
+            elements.add(f"{{offsetof(Block, {member}), {kind} | {role}}},")
+            element_names.append(f'"{element_name}"')
     starts.close("};")
     elements.close("};")
+    names = Lines()
+    names.add(f"static const char *const NAMES[] = {{{', '.join(element_names)}}};")
     return "\n".join(
         [
             "/* ---- for the FMI wrapper ---- */",
@@ -147,6 +151,9 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
             "",
             "/* In order of value references. */",
             *elements.text,
+            "",
+            "/* For messages. */",
+            *names.text,
             "",
         ]
     )

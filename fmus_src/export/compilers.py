@@ -83,7 +83,10 @@ def available_platforms() -> list[str]:
 @cache
 def _identity(command: tuple[str, ...]) -> str:
     """Command and version of a compiler, as part of the cache's key."""
-    version = subprocess.run([*command, "--version"], capture_output=True, text=True, check=False).stdout
+    with tempfile.TemporaryDirectory() as folder:  # zig leaves a file behind where it runs
+        version = subprocess.run(
+            [*command, "--version"], capture_output=True, text=True, check=False, cwd=folder
+        ).stdout
     return " ".join(command[1:] if command[0] == sys.executable else command) + version
 
 

@@ -4,16 +4,27 @@
 
 #include "kernel_math.h"
 
-typedef enum Kind { KIND_REAL, KIND_INTEGER, KIND_BOOLEAN } Kind;
+/* What an element is and when it may be set; bits, so that one test covers a whole list of elements. */
+typedef enum Trait {
+    KIND_REAL = 1,    /* double in the block's struct */
+    KIND_INTEGER = 2, /* int64_t */
+    KIND_BOOLEAN = 4, /* bool */
+    KIND_ANY = KIND_REAL | KIND_INTEGER | KIND_BOOLEAN,
+    SET_BEFORE_STEPS = 8,
+    SET_BETWEEN_STEPS = 16,
+    COMPUTED = 32
+} Trait;
 
-typedef enum Role { ROLE_PARAMETER, ROLE_INPUT, ROLE_OUTPUT, ROLE_STATE } Role;
+#define ROLE_PARAMETER SET_BEFORE_STEPS
+#define ROLE_INPUT (SET_BEFORE_STEPS | SET_BETWEEN_STEPS)
+#define ROLE_OUTPUT COMPUTED
+#define ROLE_STATE COMPUTED
 
-/* One scalar, or one element of a vector. Value references number these in order. */
+/* One scalar, or one element of a vector. Value references number these in order. Eight bytes each:
+ * every call that gets or sets reads them. Their names, for messages only, are in a table apart. */
 typedef struct Element {
-    const char *name;
-    Kind kind; /* double, int64_t or bool in the block's struct */
-    Role role;
-    size_t offset; /* in the block's struct */
+    uint32_t offset; /* in the block's struct */
+    uint32_t traits;
 } Element;
 
 #endif

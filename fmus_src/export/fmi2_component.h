@@ -16,7 +16,15 @@
 #include "fmi2Functions.h"
 #include "fmi2_python_repr.h"
 
-#define ELEMENT_COUNT (sizeof ELEMENTS / sizeof ELEMENTS[0])
+/* This copy of fmi2Functions.h adds no prefix to the names of functions, so ask its macros to do so. */
+#ifdef FMI2_FUNCTION_PREFIX
+#undef fmi2FullName
+#define fmi2FullName(name) WITH_PREFIX(FMI2_FUNCTION_PREFIX, name)
+#define WITH_PREFIX(prefix, name) JOINED(prefix, name)
+#define JOINED(prefix, name) prefix##name
+#endif
+
+#define ELEMENT_COUNT (sizeof NAMES / sizeof NAMES[0])
 #define MESSAGE_SIZE 1024
 
 /* States of the FMI 2.0 co-simulation state machine; bits, so that a set of them is one number. */
@@ -34,12 +42,12 @@ typedef enum Mode {
 
 /* Everything that a step depends on; copying it copies the instance's state. */
 typedef struct Snapshot {
-    Block block;
     Mode mode;
     bool unsettled;
     int64_t tick; /* samples taken since the start */
     double start_time;
     double time; /* end of the last successful step */
+    Block block;
 } Snapshot;
 
 typedef struct Component {
@@ -51,7 +59,7 @@ typedef struct Component {
 } Component;
 
 /* Log an error and return it. */
-static fmi2Status fail(const Component *component, const char *format, ...)
+static COLD fmi2Status fail(const Component *component, const char *format, ...)
 {
     if (component->logger != NULL) {
         char message[MESSAGE_SIZE];
@@ -78,7 +86,7 @@ static const char *mode_name(Mode mode)
 }
 
 /* fmi2OK where the function may be called now. */
-static fmi2Status check_mode(const Component *component, const char *function, int allowed)
+static inline fmi2Status check_mode(const Component *component, const char *function, int allowed)
 {
     if (component == NULL) return fmi2Error;
     if ((component->now.mode & allowed) == 0) {
@@ -88,7 +96,7 @@ static fmi2Status check_mode(const Component *component, const char *function, i
 }
 
 /* End the run with the Python line that raises in the Python flavour. */
-static fmi2Status end_with_fault(Component *component, const Fault *fault, const char *where)
+static COLD fmi2Status end_with_fault(Component *component, const Fault *fault, const char *where)
 {
     component->now.mode = MODE_ERROR;
     return fail(component, "File \"%s\", line %d: %s%s", fault->file, fault->line, fault->what, where);
@@ -104,15 +112,23 @@ static void restart(Component *component)
     component->last_step = fmi2OK;
 }
 
+/* An element from one block to another. */
+static void copy_element(Block *to, const Block *from, const Element *element)
+{
+    void *target = (char *)to + element->offset;
+    const void *source = (const char *)from + element->offset;
+    switch (element->traits & KIND_ANY) {
+        case KIND_REAL: *(double *)target = *(const double *)source; break;
+        case KIND_INTEGER: *(int64_t *)target = *(const int64_t *)source; break;
+        case KIND_BOOLEAN: *(bool *)target = *(const bool *)source; break;
+    }
+}
+
 /* Run the block's initialize from the declared starts of states and outputs. */
 static fmi2Status settle(Component *component)
 {
     for (size_t i = 0; i < ELEMENT_COUNT; i++) {
-        const Element *element = &ELEMENTS[i];
-        if (element->role == ROLE_OUTPUT || element->role == ROLE_STATE) {
-            const size_t size = element->kind == KIND_BOOLEAN ? sizeof(bool) : sizeof(double);
-            memcpy((char *)&component->now.block + element->offset, (const char *)&STARTS + element->offset, size);
-        }
+        if (ELEMENTS[i].traits & COMPUTED) copy_element(&component->now.block, &STARTS, &ELEMENTS[i]);
     }
     component->now.tick = 0;
     model_set_start_time(&component->now.block, component->now.start_time);
@@ -123,35 +139,42 @@ static fmi2Status settle(Component *component)
     return fmi2OK;
 }
 
+static COLD fmi2Status refuse_step(Component *component, double h, double period)
+{
+    char h_text[REPR_SIZE];
+    char period_text[REPR_SIZE];
+    component->now.mode = MODE_ERROR;
+    return fail(component,
+        "StepError: communication step %s s holds more than one sample of sample_period %s s; "
+        "use a communication step no longer than the period, or a longer period",
+        python_repr(h, h_text), python_repr(period, period_text));
+}
+
+static COLD fmi2Status end_step_with_fault(Component *component, const Fault *fault, double t, double h)
+{
+    char t_text[REPR_SIZE];
+    char h_text[REPR_SIZE];
+    char where[2 * REPR_SIZE + 40];
+    snprintf(where, sizeof where, ", in the step from t = %s s over h = %s s", python_repr(t, t_text),
+        python_repr(h, h_text));
+    return end_with_fault(component, fault, where);
+}
+
 /* Advance from t to t + h; a sampled block steps at its sample instants only. */
 static fmi2Status advance(Component *component, double t, double h)
 {
     Snapshot *now = &component->now;
     const double period = model_sample_period(&now->block);
-    char h_text[REPR_SIZE];
-    char other_text[REPR_SIZE];
     if (period > 0.0) {
         const double margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * fabs(t + h);
         const double due = now->start_time + (double)(now->tick + 1) * period;
         if (t + h < due - margin) return fmi2OK;
-        if (t + h >= due + period - margin) {
-            now->mode = MODE_ERROR;
-            return fail(component,
-                "StepError: communication step %s s holds more than one sample of sample_period %s s; "
-                "use a communication step no longer than the period, or a longer period",
-                python_repr(h, h_text), python_repr(period, other_text));
-        }
+        if (t + h >= due + period - margin) return refuse_step(component, h, period);
         now->tick += 1;
     }
     Fault fault = {NULL, NULL, 0};
     model_step(&now->block, &fault, t, h);
-    if (fault.what != NULL) {
-        char where[2 * REPR_SIZE + 40];
-        snprintf(where, sizeof where, ", in the step from t = %s s over h = %s s", python_repr(t, other_text),
-            python_repr(h, h_text));
-        return end_with_fault(component, &fault, where);
-    }
-    return fmi2OK;
+    return fault.what == NULL ? fmi2OK : end_step_with_fault(component, &fault, t, h);
 }
 
 #endif

@@ -10,6 +10,7 @@
 #define HEADER_WORDS 6
 #define WORD_COUNT (HEADER_WORDS + ELEMENT_COUNT)
 #define WORD_SIZE sizeof(int64_t)
+#define LAST_TICK (INT64_C(1) << 53) /* beyond, the time of a sample is no exact product */
 
 /* What fmi2FMUstate points to. */
 typedef struct SavedState {
@@ -127,7 +128,7 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate given, fmi2Byte b
     next = put_double(next, snapshot->time);
     for (size_t i = 0; i < ELEMENT_COUNT; i++) {
         const void *value = (const char *)&snapshot->block + ELEMENTS[i].offset;
-        switch (ELEMENTS[i].kind) {
+        switch (ELEMENTS[i].traits & KIND_ANY) {
             case KIND_REAL: next = put_double(next, *(const double *)value); break;
             case KIND_INTEGER: next = put_int(next, *(const int64_t *)value); break;
             case KIND_BOOLEAN: next = put_int(next, *(const bool *)value); break;
@@ -142,13 +143,20 @@ static bool is_mode(int64_t value)
         || value == MODE_TERMINATED || value == MODE_ERROR;
 }
 
+/* Whether the header is one that fmi2SerializeFMUstate writes for this FMU. */
+static bool is_header(const fmi2Byte *bytes)
+{
+    const int64_t tick = int_at(bytes, 3);
+    return (uint64_t)int_at(bytes, 0) == model_hash() && is_mode(int_at(bytes, 1)) && tick >= 0 && tick <= LAST_TICK;
+}
+
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *place)
 {
     Component *component = c;
     const fmi2Status status = check_mode(component, "fmi2DeSerializeFMUstate", MODE_ANY);
     if (status != fmi2OK) return status;
     if (bytes == NULL || place == NULL) return fail(component, "fmi2DeSerializeFMUstate: an argument is NULL");
-    if (size != WORD_COUNT * WORD_SIZE || (uint64_t)int_at(bytes, 0) != model_hash() || !is_mode(int_at(bytes, 1))) {
+    if (size != WORD_COUNT * WORD_SIZE || !is_header(bytes)) {
         return fail(component, "fmi2DeSerializeFMUstate: the bytes are not a state of this FMU");
     }
     SavedState *state = state_space(place);
@@ -163,7 +171,7 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size
     for (size_t i = 0; i < ELEMENT_COUNT; i++) {
         void *value = (char *)&snapshot->block + ELEMENTS[i].offset;
         const size_t word = HEADER_WORDS + i;
-        switch (ELEMENTS[i].kind) {
+        switch (ELEMENTS[i].traits & KIND_ANY) {
             case KIND_REAL: *(double *)value = double_at(bytes, word); break;
             case KIND_INTEGER: *(int64_t *)value = int_at(bytes, word); break;
             case KIND_BOOLEAN: *(bool *)value = int_at(bytes, word) != 0; break;

@@ -2,86 +2,95 @@
 #ifndef FMI2_VALUES_H
 #define FMI2_VALUES_H
 
-static const char *kind_name(Kind kind)
+static const char *kind_name(uint32_t kind)
 {
     return kind == KIND_REAL ? "Real" : kind == KIND_INTEGER ? "Integer" : "Boolean";
 }
 
-/* fmi2OK where all references name variables of the kind. */
-static fmi2Status check_references(const Component *component, const char *function, Kind kind,
-    const fmi2ValueReference references[], size_t count, const void *values)
+/* Log why an element that lacks some of the traits is refused, and return fmi2Error. */
+static COLD fmi2Status refuse(
+    const Component *component, const char *function, uint32_t traits, fmi2ValueReference reference)
 {
-    if (count > 0 && (references == NULL || values == NULL)) {
-        return fail(component, "%s: %s is NULL", function, references == NULL ? "vr" : "value");
+    if (reference >= ELEMENT_COUNT) {
+        return fail(component, "%s: there is no variable with value reference %u", function, reference);
     }
-    for (size_t i = 0; i < count; i++) {
-        const fmi2ValueReference reference = references[i];
-        if (reference >= ELEMENT_COUNT) {
-            return fail(component, "%s: there is no variable with value reference %u", function, reference);
-        }
-        if (ELEMENTS[reference].kind != kind) {
-            return fail(component, "%s: %s is of type %s", function, ELEMENTS[reference].name,
-                kind_name(ELEMENTS[reference].kind));
-        }
+    const Element element = ELEMENTS[reference];
+    const char *name = NAMES[reference];
+    if ((element.traits & traits & KIND_ANY) == 0) {
+        return fail(component, "%s: %s is of type %s", function, name, kind_name(element.traits & KIND_ANY));
     }
-    return fmi2OK;
+    if (element.traits & COMPUTED) return fail(component, "%s: %s is computed and cannot be set", function, name);
+    return fail(component, "%s: %s is a parameter, fixed after initialisation", function, name);
 }
 
-static fmi2Status prepare_get(Component *component, const char *function, Kind kind,
-    const fmi2ValueReference references[], size_t count, const void *values)
+static COLD fmi2Status refuse_null(const Component *component, const char *function, const void *references)
 {
-    fmi2Status status = check_mode(component, function, MODE_READABLE);
-    if (status == fmi2OK) status = check_references(component, function, kind, references, count, values);
-    if (status == fmi2OK && component->now.unsettled && component->now.mode == MODE_INITIALIZATION) {
-        status = settle(component);
-    }
-    return status;
+    return fail(component, "%s: %s is NULL", function, references == NULL ? "vr" : "value");
 }
 
-static fmi2Status prepare_set(Component *component, const char *function, Kind kind,
-    const fmi2ValueReference references[], size_t count, const void *values)
+static inline bool has_traits(fmi2ValueReference reference, uint32_t traits)
 {
-    fmi2Status status = check_mode(component, function, MODE_SETTABLE);
-    if (status == fmi2OK) status = check_references(component, function, kind, references, count, values);
+    return reference < ELEMENT_COUNT && (ELEMENTS[reference].traits & traits) == traits;
+}
+
+/* fmi2OK where values may be read now, settled if initialisation is under way. */
+static inline fmi2Status prepare_get(
+    Component *component, const char *function, const fmi2ValueReference references[], size_t count, const void *values)
+{
+    const fmi2Status status = check_mode(component, function, MODE_READABLE);
     if (status != fmi2OK) return status;
-    for (size_t i = 0; i < count; i++) {
-        const Element *element = &ELEMENTS[references[i]];
-        if (element->role == ROLE_OUTPUT || element->role == ROLE_STATE) {
-            return fail(component, "%s: %s is computed and cannot be set", function, element->name);
-        }
-        if (element->role == ROLE_PARAMETER && component->now.mode == MODE_STEP) {
-            return fail(component, "%s: %s is a parameter, fixed after initialisation", function, element->name);
-        }
-    }
-    if (component->now.mode != MODE_STEP) component->now.unsettled = true;
+    if (count > 0 && (references == NULL || values == NULL)) return refuse_null(component, function, references);
+    if (component->now.unsettled && component->now.mode == MODE_INITIALIZATION) return settle(component);
     return fmi2OK;
 }
 
-static void *element_of(Component *component, fmi2ValueReference reference)
+/* fmi2OK where all the referenced elements may be set now: a wrong one leaves the others as they are. */
+static inline fmi2Status prepare_set(Component *component, const char *function, Trait kind,
+    const fmi2ValueReference references[], size_t count, const void *values)
+{
+    const fmi2Status status = check_mode(component, function, MODE_SETTABLE);
+    if (status != fmi2OK) return status;
+    if (count > 0 && (references == NULL || values == NULL)) return refuse_null(component, function, references);
+    const bool stepping = component->now.mode == MODE_STEP;
+    const uint32_t traits = kind | (stepping ? SET_BETWEEN_STEPS : SET_BEFORE_STEPS);
+    for (size_t i = 0; i < count; i++) {
+        if (!has_traits(references[i], traits)) return refuse(component, function, traits, references[i]);
+    }
+    if (!stepping) component->now.unsettled = true;
+    return fmi2OK;
+}
+
+static inline void *element_of(Component *component, fmi2ValueReference reference)
 {
     return (char *)&component->now.block + ELEMENTS[reference].offset;
 }
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Real value[])
 {
-    const fmi2Status status = prepare_get(c, "fmi2GetReal", KIND_REAL, vr, nvr, value);
+    const fmi2Status status = prepare_get(c, "fmi2GetReal", vr, nvr, value);
     if (status != fmi2OK) return status;
-    for (size_t i = 0; i < nvr; i++) value[i] = *(const double *)element_of(c, vr[i]);
+    for (size_t i = 0; i < nvr; i++) {
+        if (!has_traits(vr[i], KIND_REAL)) return refuse(c, "fmi2GetReal", KIND_REAL, vr[i]);
+        value[i] = *(const double *)element_of(c, vr[i]);
+    }
     return fmi2OK;
+}
+
+/* A block's ints are wider than FMI's. */
+static COLD fmi2Status refuse_wide(Component *component, fmi2ValueReference reference, int64_t wide)
+{
+    component->now.mode = MODE_ERROR;
+    return fail(component, "OverflowError: %s = %" PRId64 " exceeds an FMI Integer's 32 bits", NAMES[reference], wide);
 }
 
 fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer value[])
 {
-    Component *component = c;
-    const fmi2Status status = prepare_get(c, "fmi2GetInteger", KIND_INTEGER, vr, nvr, value);
+    const fmi2Status status = prepare_get(c, "fmi2GetInteger", vr, nvr, value);
     if (status != fmi2OK) return status;
     for (size_t i = 0; i < nvr; i++) {
+        if (!has_traits(vr[i], KIND_INTEGER)) return refuse(c, "fmi2GetInteger", KIND_INTEGER, vr[i]);
         const int64_t wide = *(const int64_t *)element_of(c, vr[i]);
-        if (wide < INT32_MIN || wide > INT32_MAX) {
-            component->now.mode = MODE_ERROR;
-            return fail(component, "OverflowError: %s = %" PRId64 " exceeds an FMI Integer's 32 bits",
-                ELEMENTS[vr[i]].name, wide);
-        }
+        if (wide < INT32_MIN || wide > INT32_MAX) return refuse_wide(c, vr[i], wide);
         value[i] = (fmi2Integer)wide;
     }
     return fmi2OK;
@@ -89,9 +98,12 @@ fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t
 
 fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean value[])
 {
-    const fmi2Status status = prepare_get(c, "fmi2GetBoolean", KIND_BOOLEAN, vr, nvr, value);
+    const fmi2Status status = prepare_get(c, "fmi2GetBoolean", vr, nvr, value);
     if (status != fmi2OK) return status;
-    for (size_t i = 0; i < nvr; i++) value[i] = *(const bool *)element_of(c, vr[i]) ? fmi2True : fmi2False;
+    for (size_t i = 0; i < nvr; i++) {
+        if (!has_traits(vr[i], KIND_BOOLEAN)) return refuse(c, "fmi2GetBoolean", KIND_BOOLEAN, vr[i]);
+        value[i] = *(const bool *)element_of(c, vr[i]) ? fmi2True : fmi2False;
+    }
     return fmi2OK;
 }
 

@@ -1,6 +1,6 @@
 /* FMI 2.0 for co-simulation around one block.
  *
- * Included at the end of the block's own C file, which defines Block, STARTS, ELEMENTS, MODEL_GUID,
+ * Included at the end of the block's own C file, which defines Block, STARTS, ELEMENTS, NAMES, MODEL_GUID,
  * the tolerances of sampling, and model_initialize, model_step, model_sample_period and
  * model_set_start_time. Nothing is global: instances are independent of one another and may run
  * in different threads.

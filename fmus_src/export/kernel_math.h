@@ -29,12 +29,28 @@ typedef struct Fault {
 #define INT_TOO_WIDE "OverflowError: int beyond 64 bits"
 #define INDEX_ERROR "IndexError: list index out of range"
 
+/* A function that only failing calls reach: compilers keep it, and the way to it, out of the usual path. */
+#if defined(__GNUC__)
+#define COLD __attribute__((cold, noinline))
+#else
+#define COLD
+#endif
+
+/* Exact functions as one instruction each, where -fno-builtin would leave calls of the C library. */
+#if defined(__GNUC__)
+#undef fabs
+#define fabs(x) __builtin_fabs(x)
+#define EXACT_SQRT(x) __builtin_sqrt(x)
+#else
+#define EXACT_SQRT(x) sqrt(x)
+#endif
+
 static const double MATH_PI = 3.141592653589793;
 static const double MATH_TAU = 6.283185307179586;
 static const double MATH_E = 2.718281828459045;
 static const double MATH_INF = INFINITY;
 
-static inline void set_fault(Fault *fault, const char *file, int line, const char *what)
+static COLD void set_fault(Fault *fault, const char *file, int line, const char *what)
 {
     if (fault->what == NULL) {
         fault->what = what;
@@ -102,6 +118,7 @@ static inline double py_float_floor_divide(Fault *fault, const char *file, int l
 static inline double checked_result(
     Fault *fault, const char *file, int line, double result, bool from_nan, bool from_finite, const char *if_infinite)
 {
+    if (isfinite(result)) return result; /* the usual case, with one test */
     if (isnan(result) && !from_nan) {
         set_fault(fault, file, line, DOMAIN_ERROR);
     } else if (isinf(result) && from_finite) {
@@ -121,7 +138,6 @@ CHECKED_FUNCTION(cos, DOMAIN_ERROR)
 CHECKED_FUNCTION(tan, DOMAIN_ERROR)
 CHECKED_FUNCTION(asin, DOMAIN_ERROR)
 CHECKED_FUNCTION(acos, DOMAIN_ERROR)
-CHECKED_FUNCTION(sqrt, DOMAIN_ERROR)
 CHECKED_FUNCTION(log, DOMAIN_ERROR)
 CHECKED_FUNCTION(log2, DOMAIN_ERROR)
 CHECKED_FUNCTION(log10, DOMAIN_ERROR)
@@ -131,6 +147,15 @@ CHECKED_FUNCTION(exp2, RANGE_ERROR)
 CHECKED_FUNCTION(expm1, RANGE_ERROR)
 CHECKED_FUNCTION(sinh, RANGE_ERROR)
 CHECKED_FUNCTION(cosh, RANGE_ERROR)
+
+static inline double py_sqrt(Fault *fault, const char *file, int line, double x)
+{
+    if (x < 0.0) {
+        set_fault(fault, file, line, DOMAIN_ERROR);
+        return 0.0;
+    }
+    return EXACT_SQRT(x);
+}
 
 static inline double py_pow(Fault *fault, const char *file, int line, double x, double y)
 {
@@ -149,11 +174,7 @@ static inline double py_fmod(Fault *fault, const char *file, int line, double x,
 /* float(math.floor(x)) and the like, which Python computes through an int: whole is floor(x), ceil(x) or trunc(x). */
 static inline double py_whole_float(Fault *fault, const char *file, int line, double whole)
 {
-    if (isnan(whole)) {
-        set_fault(fault, file, line, INT_FROM_NAN);
-    } else if (isinf(whole)) {
-        set_fault(fault, file, line, INT_FROM_INFINITY);
-    }
+    if (!isfinite(whole)) set_fault(fault, file, line, isnan(whole) ? INT_FROM_NAN : INT_FROM_INFINITY);
     return whole + 0.0; /* an int has no -0 */
 }
 

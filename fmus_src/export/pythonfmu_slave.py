@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import linecache
 import sys
 import traceback
 from typing import Any, ClassVar
@@ -12,6 +13,15 @@ from pythonfmu.enums import Fmi2Status
 
 from ..block import Block
 from ..runtime import Component
+
+
+def keep_source(package: str) -> None:
+    """Keep the source lines of a package for tracebacks, which outlive the folder it was imported from."""
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None) if name.startswith(f"{package}.") else None
+        if file is not None and file not in linecache.cache:
+            lines = linecache.getlines(file)
+            linecache.cache[file] = (sum(map(len, lines)), None, lines, file)  # no date: never checked again
 
 
 class BlockSlave(Fmi2Slave):
@@ -27,6 +37,7 @@ class BlockSlave(Fmi2Slave):
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__(**keywords)
+        keep_source(__package__.partition(".")[0])
         self.modelName = self.block_class.fmu_name
         self.component = Component(self.block_class)
         self.get_real = self.get_integer = self.get_boolean = self.get_values

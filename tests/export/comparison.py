@@ -60,10 +60,10 @@ def draw(
 class Pair:
     """One block in both forms, given the same calls."""
 
-    def __init__(self, block: type[Block], random: Random) -> None:
+    def __init__(self, block: type[Block], random: Random, native: NativeInstance | None = None) -> None:
         self.block = block
         self.random = random
-        self.native = NativeInstance(block)
+        self.native = native or NativeInstance(block)
         self.references = {
             kind: [
                 (reference, variable, position)

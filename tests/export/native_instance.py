@@ -40,23 +40,31 @@ def load(sources: dict[str, bytes], main: str, portable: bool = False) -> ctypes
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         file = Path(folder) / f"library{PLATFORMS[platform].extension}"
         file.write_bytes(text)
-        return ctypes.CDLL(str(file))
+        return opened(file)
+
+
+def opened(file: Path) -> ctypes.CDLL:
+    """The library of an FMU."""
+    dll = ctypes.CDLL(str(file))
+    if hasattr(dll, "fmi2Instantiate"):
+        dll.fmi2Instantiate.restype = c_void_p
+    return dll
 
 
 @cache
 def library(block_class: type[Block]) -> ctypes.CDLL:
     """The loaded library of a block."""
-    dll = load(native_sources(block_class, GUID), f"{block_class.fmu_name}.c")
-    dll.fmi2Instantiate.restype = c_void_p
-    return dll
+    return load(native_sources(block_class, GUID), f"{block_class.fmu_name}.c")
 
 
 class NativeInstance:
-    """One instance; errors leave their messages in ``log``."""
+    """One instance, by default of a library compiled here; errors leave their messages in ``log``."""
 
-    def __init__(self, block_class: type[Block], guid: str = GUID, name: str = "instance") -> None:
+    def __init__(
+        self, block_class: type[Block], guid: str = GUID, name: str = "instance", dll: ctypes.CDLL | None = None
+    ) -> None:
         self.log: list[str] = []
-        self.dll = library(block_class)
+        self.dll = dll or library(block_class)
         self.logger = LOGGER(lambda *arguments: self.log.append(arguments[5].decode()))
         self.callbacks = Callbacks(self.logger)
         self.handle = c_void_p(

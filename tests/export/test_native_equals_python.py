@@ -18,7 +18,7 @@ def test_bitwise_equal_over_random_inputs(block: type[Block]) -> None:
     pair = Pair(block, samples.generator(block.fmu_name))
     rows, flights = fly(pair, STEPS)
     pair.native.free()
-    assert len(set(rows)) > 0.5 * STEPS, "most rows repeat earlier ones: the comparison says little"
+    assert len(set(rows)) > 0.3 * STEPS, "most rows repeat earlier ones: the comparison says little"
     assert len(pair.faults) < 0.5 * flights, f"most flights end in a fault: {pair.faults[0]}"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import zipfile
 from pathlib import Path
@@ -14,8 +15,9 @@ from native_instance import CACHE
 from fmus_src.block import Block
 from fmus_src.catalogue import catalogue
 from fmus_src.export import compilers
+from fmus_src.export.c_names import WRAPPER_NAMES
 from fmus_src.export.compilers import CompilationFailed, CompilerMissing, local_platform, shared_library
-from fmus_src.export.native_fmu import STANDARD_HEADERS, build_native_fmu
+from fmus_src.export.native_fmu import HERE, STANDARD_HEADERS, WRAPPER_FILES, build_native_fmu
 from fmus_src.runtime import Component
 
 BLOCK = catalogue()["forming_filter"]
@@ -113,3 +115,12 @@ def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
             component.do_step((n - 1) * 0.25, 0.25)
         assert [float(word) for word in line.split()] == [n * 0.25, *component.get(references)]
     assert n == 20
+
+
+def test_every_name_of_the_wrapper_is_kept_from_blocks() -> None:
+    text = "".join((HERE / name).read_text(encoding="utf-8") for name in WRAPPER_FILES)
+    types = re.findall(r"^typedef (?:struct|enum|union) (\w+)", text, re.MULTILINE)
+    functions = re.findall(r"^static (?:[\w *]+?)\b(\w+)\(", text, re.MULTILINE)
+    declared = {"Block", "model_initialize", "model_step", "model_sample_period", "model_set_start_time"}
+    found = {name for name in types + functions if not name.startswith("py_")} | declared
+    assert found == WRAPPER_NAMES

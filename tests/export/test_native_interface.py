@@ -212,6 +212,16 @@ def test_wrong_references_and_types_are_refused(walk: NativeInstance) -> None:
     assert "gain is a parameter, fixed after initialisation" in walk.log[-1]
 
 
+@pytest.mark.parametrize("wrong", ["gain", "total", "k", "nothing"])
+def test_a_wrong_reference_leaves_the_right_ones_unset(walk: NativeInstance, wrong: str) -> None:
+    walk.enter()
+    walk.start()
+    before = walk.get(ALL)
+    references = (c_uint * 2)(REFERENCE["x"], REFERENCE.get(wrong, 2**32 - 1))
+    assert walk.call("fmi2SetReal", references, c_size_t(2), (c_double * 2)(5.0, 6.0)) == ERROR
+    assert walk.get(ALL) == before
+
+
 def test_calls_out_of_order_are_refused(walk: NativeInstance) -> None:
     assert walk.do_step(0.0, 0.1) == ERROR
     assert walk.start() == ERROR

@@ -1,0 +1,89 @@
+"""A native FMU compiled again from its own sources/, as for another platform: the bits of Python, whoever compiles."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.util
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pytest
+import samples
+from comparison import Pair, fly
+from native_instance import CACHE, LOGGER, Callbacks, NativeInstance, opened
+
+from fmus_src.block import Block
+from fmus_src.catalogue import catalogue
+from fmus_src.export.compilers import local_platform
+from fmus_src.export.native_fmu import build_native_fmu
+
+BLOCKS = [block for block in catalogue().values() if not block.python_only]
+STEPS = samples.size(200)
+# The flags of docs/use_elsewhere.md; bits do not depend on the optimisation level.
+FLAGS = ["-std=c99", "-ffp-contract=off", "-fno-builtin", "-fPIC", "-shared"]
+COMPILERS = {
+    "cc -O0": ["cc", "-O0"],
+    "cc -O3": ["cc", "-O3"],
+    "zig -O2": [sys.executable, "-m", "ziglang", "cc", "-O2"],
+}
+
+
+@pytest.fixture(scope="session")
+def unpacked(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The FMUs of all blocks, unpacked."""
+    folder = tmp_path_factory.mktemp("unpacked")
+    platform = local_platform()
+    assert platform is not None
+    for block in BLOCKS:
+        path = build_native_fmu(block, folder / f"{block.fmu_name}.fmu", platforms=[platform], cache=CACHE)
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder / block.fmu_name)
+    return folder
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)
+def test_compiled_from_its_own_sources_it_has_the_bits_of_python(
+    block: type[Block], compiler: str, unpacked: Path, tmp_path: Path
+) -> None:
+    if compiler.startswith("cc") and shutil.which("cc") is None:
+        pytest.skip("no system cc")
+    if compiler.startswith("zig") and importlib.util.find_spec("ziglang") is None:
+        pytest.skip("ziglang is not installed")
+    fmu = unpacked / block.fmu_name
+    description = fmpy.read_model_description(str(fmu))
+    sources = [file for configuration in description.buildConfigurations for file in configuration.sourceFileSets]
+    main = [name for source in sources for name in source.sourceFiles]
+    assert main == [f"{block.fmu_name}.c"]
+    library = tmp_path / "own.so"
+    subprocess.run([*COMPILERS[compiler], *FLAGS, "-o", library, *main, "-lm"], cwd=fmu / "sources", check=True)
+    native = NativeInstance(block, guid=description.guid, dll=opened(library))
+    pair = Pair(block, samples.generator(f"{block.fmu_name} {compiler}"), native)
+    rows, _ = fly(pair, STEPS)
+    assert len(rows) == STEPS
+    native.free()
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="no system cc")
+def test_with_prefixes_two_fmus_go_into_one_program(unpacked: Path, tmp_path: Path) -> None:
+    names = ["forming_filter", "flat_moon_lander"]
+    for name in names:
+        command = ["cc", *FLAGS, f"-DFMI2_FUNCTION_PREFIX={name}_", "-c", "-o", tmp_path / f"{name}.o", f"{name}.c"]
+        subprocess.run(command, cwd=unpacked / name / "sources", check=True)
+    subprocess.run(
+        ["cc", "-shared", "-o", "both.so", *[f"{name}.o" for name in names], "-lm"], cwd=tmp_path, check=True
+    )
+    both = ctypes.CDLL(str(tmp_path / "both.so"))
+    callbacks = Callbacks(LOGGER())
+    for name in names:
+        instantiate = both[f"{name}_fmi2Instantiate"]
+        instantiate.restype = ctypes.c_void_p
+        for other in names:
+            guid = fmpy.read_model_description(str(unpacked / other)).guid.encode()
+            handle = instantiate(b"one", 1, guid, None, ctypes.byref(callbacks), 0, 0)
+            assert bool(handle) == (name == other)
+            both[f"{name}_fmi2FreeInstance"](ctypes.c_void_p(handle))
