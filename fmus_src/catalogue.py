@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
-from .block import Block
+from .block import Block, DeclarationError
 
 HERE = Path(__file__).parent
 KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
@@ -57,7 +57,9 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
     try:
         spec.loader.exec_module(module)
     except Exception as error:  # whatever the user's file raises is reported as one line
-        raise ValueError(f"{path}: importing it failed: {type(error).__name__}: {error}") from error
+        # Python 3.11 wraps what a declaration raises
+        reason = error.__cause__ if isinstance(error.__cause__, DeclarationError) else error
+        raise ValueError(f"{path}: importing it failed: {type(reason).__name__}: {reason}") from error
     found = blocks_of(module)
     if not found:
         raise ValueError(f"{path}: defines no block; derive a class from fmus_src.block.Block or an interface of it")

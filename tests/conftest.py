@@ -70,10 +70,11 @@ def _is_current(name: str, package: str) -> bool:
 
 @pytest.fixture(scope="session")
 def fmus() -> Path:
-    """The folder of this repository's Python FMUs, built if they are missing or of older sources."""
+    """The folder of this repository's Python FMUs, built with the native ones if missing or of older sources."""
     with one_process_at_a_time(BUILD / ".lock"):
         blocks = catalogue()
-        if not all(_is_current(name, closure_of(block).package) for name, block in blocks.items()):
+        native = all(built_fmu(name, "native").is_file() for name, block in blocks.items() if not block.python_only)
+        if not native or not all(_is_current(name, closure_of(block).package) for name, block in blocks.items()):
             assert build_fmus([]) == 0
     return built_fmu("x", "python").parent
 

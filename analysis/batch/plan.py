@@ -91,7 +91,11 @@ def read_plan(
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
     """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
-    _ = plan.draws
+    try:
+        _ = plan.draws
+    except MemoryError as error:
+        problem = f"the draws of {plan.campaign.trials} trials do not fit into memory"
+        raise InputError(plan.campaign.file, "trials", problem, "give fewer") from error
     systems = {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
     for prepared in systems.values():
         for name in variant_names(plan, prepared).varied:

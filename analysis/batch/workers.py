@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import gc
 import os
 import threading
 from collections.abc import Iterator
@@ -57,9 +58,18 @@ def _start(plan: BatchPlan) -> None:
 
 
 def _start_process(plan: BatchPlan) -> None:
-    # pythonfmu's library can crash in its destructors at the end of a process that used it: leave before them.
-    atexit.register(os._exit, 0)
+    atexit.register(_leave)
     _start(plan)
+
+
+def _leave() -> None:
+    """Remove the unpacked FMUs, then leave: pythonfmu's library can crash in its destructors afterwards."""
+    try:
+        _local.flyer.close()
+        del _local.flyer
+        gc.collect()
+    finally:
+        os._exit(0)
 
 
 def _fly(variant: str, trials: range) -> Trials:

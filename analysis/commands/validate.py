@@ -10,9 +10,10 @@ from typing import Any
 from fmpy.validation import validate_fmu
 
 from analysis.batch.campaign_file import read_campaign
+from analysis.cosim.archive import DEFAULT_VARIANT, open_system
 from analysis.cosim.fmu import load_fmu
 from analysis.cosim.parameter_sets import read_parameter_file
-from analysis.cosim.system import prepare_system
+from analysis.cosim.system import SystemOptions, prepare_system
 from analysis.errors import InputError
 
 from .options import add_json, write_json
@@ -55,9 +56,11 @@ def _check(path: str) -> dict[str, Any]:
         elif path.endswith(".toml"):
             read_campaign(Path(path))
         else:
-            prepared = prepare_system(path)
-            notes += prepared.network.notes
-            notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
+            variants = [None, *(name for name in open_system(path).variants() if name != DEFAULT_VARIANT)]
+            for variant in variants:
+                prepared = prepare_system(path, SystemOptions(variant=variant))
+                notes += prepared.network.notes
+                notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
     except InputError as error:
         problems.append(str(error))
     return {"path": path, "problems": problems, "notes": notes}

@@ -18,6 +18,8 @@ from analysis.errors import InputError, suggestion
 from analysis.places import ROOT, SYSTEMS, built_fmu
 from fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
 
+DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
+
 # what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
 UNREADABLE = (
     zipfile.BadZipFile,
@@ -67,11 +69,15 @@ class SystemArchive:
             )
         return path.read_bytes(), str(path)
 
+    def variants(self) -> list[str]:
+        """Names of the archive's SSDs, the default one included."""
+        return sorted(name.removesuffix(".ssd") for name in self.files if name.endswith(".ssd") and "/" not in name)
+
     def description_name(self, variant: str | None) -> str:
         """Archive name of the SSD: the default one or a variant's."""
         name = DESCRIPTION if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
         if name not in self.files:
-            variants = sorted(entry.removesuffix(".ssd") for entry in self.files if entry.endswith(".ssd"))
+            variants = self.variants()
             if variant is None:
                 raise InputError(
                     self.label, DESCRIPTION, "not found", f"add it (SSDs here: {', '.join(variants) or 'none'})"
@@ -147,4 +153,6 @@ def system_names() -> list[str]:
 def _folder(path: Path) -> SystemArchive:
     path = path.resolve()
     label = path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else str(path)
+    if not any(path.glob("*.ssd")):  # before the folder is searched, which may be a large one
+        raise InputError(label, DESCRIPTION, "not found", "give a folder with an SSD in it, or add one")
     return SystemArchive(path.name, label, path, system_files(path))

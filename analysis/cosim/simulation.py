@@ -133,7 +133,7 @@ class Simulation:
             try:
                 self._record = np.empty((rows, self._recorded.size))
                 self._times = np.empty(rows)
-            except MemoryError as error:
+            except (MemoryError, ValueError) as error:  # the latter where numpy cannot even count them
                 problem = f"{rows} rows do not fit into memory"
                 remedy = "give a longer step or an earlier --stop-time"
                 raise InputError("--step", f"{prepared.step:g}", problem, remedy) from error

@@ -142,7 +142,7 @@ def _times(network: Network, options: SystemOptions) -> tuple[float, float, int]
     if stop is None:
         raise InputError(network.file, "DefaultExperiment", "no stopTime", "give --stop-time SECONDS")
     duration = stop - description.start_time
-    steps = round(duration / step) if 0.0 <= duration < float("inf") else -1
+    steps = round(duration / step) if 0.0 <= duration / step < float("inf") else -1
     if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
         raise InputError(
             "--stop-time",

@@ -235,6 +235,18 @@ FLAVOURS = ("python", "native")
 FLAVOURS = ("python", "native")
 
 
+FLAVOURS = ("python", "native")
+
+
+FLAVOURS = ("python", "native")
+
+
+FLAVOURS = ("python", "native")
+
+
+FLAVOURS = ("python", "native")
+
+
 def build_tiny_fmus(folder: Path) -> None:
     """Build the FMUs above into ``folder``/FLAVOUR, with retouched ones beside them."""
     folder.mkdir(parents=True)

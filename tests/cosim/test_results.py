@@ -30,7 +30,7 @@ TYPES = {"ramp.y": "double", "ramp.flag": "bool", "ramp.count": "int32", "source
 
 
 def test_parquet_comes_back_with_units_and_provenance(flight, tmp_path):
-    path, result = flight
+    _, result = flight
     result.write(tmp_path / "new" / "flight.parquet")
     table = pyarrow.parquet.read_table(tmp_path / "new" / "flight.parquet")
     assert table.column_names == ["time", *result.signals]

@@ -1,0 +1,116 @@
+"""`perilune batch`: exit status, requirements, replay, files and JSON.
+
+Truth: `perilune.batch` with the same options; the exit status promised: 0 when it ran, whatever its
+success rate, 1 when a requirement is not met, 2 for wrong input.
+"""
+
+import json
+
+import pyarrow.parquet
+import pytest
+
+import perilune
+from analysis.cli import main
+
+SYSTEM = "lunar_terminal_guidance"
+SMALL = ["batch", SYSTEM, "--campaign", "paper", "--trials", "10", "--workers", "1"]
+pytestmark = pytest.mark.usefixtures("fmus")
+
+
+def test_exits_0_whatever_the_success_rate(capsys):
+    assert main([*SMALL, "--compare", "guidance=astar_guidance", "--set", "plant.gravity=3"]) == 0
+    captured = capsys.readouterr()
+    assert "astar_guidance" in captured.out
+    assert captured.err == ""
+
+
+@pytest.mark.parametrize(
+    ("requirement", "status"),
+    [
+        ("analytic_guidance.success_rate >= 0.99", 0),
+        ("analytic_guidance.metrics.position_error.max < 1e-9", 1),
+        ("astar_guidance.success_rate > analytic_guidance.success_rate", 1),
+    ],
+)
+def test_requirements(capsys, requirement, status):
+    assert main([*SMALL, "--require", "analytic_guidance.trials == 10", "--require", requirement]) == status
+    error = capsys.readouterr().err
+    assert error == (f"perilune: --require: {requirement}: not met\n" if status else "")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--require", "analytic.success_rate > 1"], "--require: analytic.success_rate: no such number"),
+        (["--require", "1 +"], "--require: 1 +"),
+        (["--compare", "guidance"], "--compare: guidance: not of the form SLOT=A,B,C"),
+        (["--compare", "guidance=no_such_guidance"], "no such FMU is built"),
+        (["--replay", "10"], "--replay: 10: no such trial; give 0 to 9"),
+        (["--replay", "-1"], "--replay: -1: no such trial"),
+        (["--workers", "0"], "--workers: 0"),
+        (["--seed", "-4"], "seed: -4"),
+        (["--campaign", "none"], "--campaign: no none"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_wrong_input(capsys, options, words):
+    assert main([*SMALL, *options]) == 2
+    error = capsys.readouterr().err
+    assert words in error
+    assert error.count("\n") == 1
+    assert error.startswith("perilune: ")
+
+
+def test_files_and_json(tmp_path, capsys):
+    options = ["--seed", "9", "--compare", "guidance=analytic_guidance,analytic_exact_guidance", "--json", "-"]
+    assert main([*SMALL, *options, "--output", str(tmp_path / "out"), "--report", str(tmp_path / "page.html")]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert list(found["variants"]) == ["analytic_guidance", "analytic_exact_guidance"]
+    assert found == json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
+        "draws.parquet",
+        "summary.json",
+        "trials.parquet",
+    ]
+    compare = {"guidance": ["analytic_guidance", "analytic_exact_guidance"]}
+    expected = perilune.batch(SYSTEM, "paper", trials=10, seed=9, compare=compare, workers=1).table()
+    assert pyarrow.parquet.read_table(tmp_path / "out" / "trials.parquet").equals(expected)
+    assert (tmp_path / "page.html").read_text().lower().startswith("<!doctype html")
+
+
+def test_replay_writes_the_whole_flight(tmp_path, capsys):
+    whole = perilune.batch(SYSTEM, "noisy", trials=10, workers=1).table().to_pylist()
+    command = ["batch", SYSTEM, "--campaign", "noisy", "--trials", "10", "--replay", "3"]
+    assert main([*command, "--output", str(tmp_path), "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["trial"] == 3
+    for row in (row for row in whole if row["trial"] == 3):
+        variant = row["variant"]
+        entry = found["variants"][variant]
+        assert (entry["status"], entry["success"]) == (row["status"], row["success"])
+        table = pyarrow.parquet.read_table(tmp_path / f"{variant}_000003.parquet")
+        assert table["plant.position[1]"][-1].as_py() == row["final.plant.position[1]"]
+        assert table["time"][-1].as_py() == row["end_time"]
+        for name, value in entry["metrics"].items():
+            assert value == row[f"metric.{name}"]
+
+
+def test_replay_of_a_flight_without_metrics_is_still_json(capsys):
+    """A trial that fails has metrics that are not numbers; strict JSON has null for them."""
+    failing = ["--compare", "guidance=analytic_guidance", "--set", "guidance.sample_period=0.04", "--replay", "0"]
+    assert main([*SMALL, *failing, "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)["variants"]["analytic_guidance"]
+    assert (found["status"], found["success"]) == ("failed", False)
+    assert set(found["metrics"].values()) == {None}
+    assert main([*SMALL, *failing]) == 0
+    assert "position_error none" in capsys.readouterr().out
+
+
+def test_a_batch_in_which_all_fail_is_reported_not_crashed(tmp_path, capsys):
+    failing = ["--compare", "guidance=analytic_guidance", "--set", "guidance.sample_period=0.04"]
+    assert main([*SMALL, *failing, "--output", str(tmp_path), "--report", str(tmp_path / "r.html"), "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)["variants"]["analytic_guidance"]
+    assert found["statuses"] == {"failed": 10}
+    assert found["metrics"]["position_error"]["mean"] is None
+    messages = pyarrow.parquet.read_table(tmp_path / "trials.parquet")["message"].to_pylist()
+    assert all("sample_period" in text for text in messages)

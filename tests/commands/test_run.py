@@ -1,0 +1,59 @@
+"""`perilune run`: files, JSON, exit status, against the Python API's flight.
+
+Truth: `perilune.simulate` with the same options; Python's json and csv modules.
+"""
+
+import csv
+import json
+
+import pytest
+
+import perilune
+from analysis.cli import main
+
+SYSTEM = "lunar_terminal_guidance"
+pytestmark = pytest.mark.usefixtures("fmus")
+
+
+def test_writes_what_the_api_returns(tmp_path, capsys):
+    output, report = tmp_path / "new" / "flight.csv", tmp_path / "new" / "flight.html"
+    options = ["--use", "guidance=astar_modified_guidance", "--set", "plant.initial_position[2]=3000", "--step", "0.5"]
+    assert main(["run", SYSTEM, *options, "--output", str(output), "--report", str(report), "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    expected = perilune.simulate(
+        SYSTEM, use={"guidance": "astar_modified_guidance"}, set={"plant.initial_position[2]": 3000}, step=0.5
+    )
+    assert found["status"] == expected.status == "finished"
+    assert found["final"] == expected.final()
+    assert found["parameters"]["plant.initial_position[2]"] == 3000.0
+    assert found["system_sha256"] == expected.provenance["system_sha256"]
+    with output.open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["plant.position[3]"]) for row in rows] == expected["plant.position[3]"].tolist()
+    assert report.read_text().lower().startswith("<!doctype html")
+
+
+def test_says_how_it_ended(capsys):
+    assert main(["run", SYSTEM]) == 0
+    captured = capsys.readouterr()
+    assert captured.out == f"{SYSTEM}: finished at t = 207.2 s, 2073 rows\n"
+    assert captured.err == ""
+    assert main(["run", SYSTEM, "--stop-time", "2"]) == 0
+    assert capsys.readouterr().out == f"{SYSTEM}: stop_time at t = 2 s, 21 rows\n"
+
+
+def test_json_to_a_file_and_talk_to_the_terminal(tmp_path, capsys):
+    assert main(["run", SYSTEM, "--stop-time", "1", "--json", str(tmp_path / "a" / "run.json")]) == 0
+    assert "stop_time" in capsys.readouterr().out
+    assert json.loads((tmp_path / "a" / "run.json").read_text())["rows"] == 11
+
+
+def test_packed_and_unpacked_fly_alike(tmp_path):
+    from analysis.places import BUILD
+
+    finals = []
+    for system in (SYSTEM, BUILD / "ssp" / f"{SYSTEM}.ssp"):
+        target = tmp_path / "x.json"
+        assert main(["run", str(system), "--parameters", "noisy.ssv", "--stop-time", "30", "--json", str(target)]) == 0
+        finals.append(json.loads(target.read_text())["final"])
+    assert finals[0] == finals[1]

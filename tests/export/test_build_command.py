@@ -1,0 +1,89 @@
+"""build_fmus.py on blocks from outside: what it builds flies, what it cannot build it says in one line.
+
+Truth: the exit statuses 0 (built), 2 (wrong input); flights of what was built, known in advance.
+"""
+
+import pytest
+from cosim.builders import BLOCKS, component, document, fly, pack, system
+
+from fmus_src.export.command import main
+
+GUIDANCE = '''
+from fmus_src.interfaces.terminal_guidance import GOOD, TerminalGuidance
+
+
+class StraightUp(TerminalGuidance):
+    """Thrusts upwards for ten seconds."""
+
+    def solve(self) -> None:
+        self.status = GOOD
+        self.thrust_acceleration = 2.0
+        self.time_to_go = 1e6
+'''
+
+
+@pytest.fixture
+def built(tmp_path, capsys):
+    def run(text, *options, name="mine.py"):
+        (tmp_path / name).write_text(text)
+        status = main(["--blocks", str(tmp_path / name), "--output", str(tmp_path / "out"), *options])
+        captured = capsys.readouterr()
+        return status, captured.out, captured.err
+
+    return run
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.parametrize("flavour", ["python", "native"])
+def test_a_guidance_from_outside_flies_in_the_slot(built, tmp_path, flavour):
+    import perilune
+
+    status, _, error = built(GUIDANCE, "--flavour", flavour)
+    assert (status, error) == (0, "")
+    path = tmp_path / "out" / "fmus" / flavour / "straight_up.fmu"
+    result = perilune.simulate("lunar_terminal_guidance", use={"guidance": str(path)}, stop_time=5.0)
+    assert result["plant.velocity[3]"][-1] == pytest.approx(-47.4802098 + (2.0 - 1.62) * 5.0, rel=1e-9)
+
+
+def test_blocks_of_one_file_in_any_name(built, tmp_path):
+    status, _, error = built(BLOCKS, "--flavour", "python", name="my blocks-2.py")
+    assert (status, error) == (0, "")
+    folder = tmp_path / "out" / "fmus" / "python"
+    assert {path.stem for path in folder.iterdir()} >= {"ramp", "gain", "delay"}
+    path = pack(tmp_path / "s.ssp", folder, document(system(component("ramp", "ramp", "output y Real m"))))
+    assert fly(path)["ramp.y"].tolist() == [1.0, 1.5, 2.0, 2.5, 3.0]
+
+
+HEAD = "from fmus_src.block import Block, Output, Parameter\n"
+WRONG = {
+    "no Python": ("def", "mine.py: importing it failed: SyntaxError"),
+    "no block": ("x = 1\n", "mine.py: defines no block"),
+    "no docstring": (HEAD + "class A(Block):\n    pass\n", "write a docstring"),
+    "import that cannot be packed": (
+        HEAD + 'import lxml\nclass A(Block):\n    """A."""\n    y = Output(0.0, unit="1", description="y")\n'
+        "    def step(self, t: float, h: float) -> None:\n        self.y = 1.0\n",
+        "import of lxml: not packed",
+    ),
+    "raises": ("raise RuntimeError('100 %')\n", "importing it failed: RuntimeError: 100 %"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_wrong_files(built, name):
+    text, words = WRONG[name]
+    status, output, error = built(text, "--flavour", "python")
+    assert (status, output) == (2, "")
+    assert words in error
+    assert error.startswith("build_fmus.py: ")
+    assert error.count("\n") == 1
+
+
+def test_a_declaration_error_is_shown(built):
+    text = HEAD + 'class A(Block):\n    """A."""\n    y = Output(0.0, unit="ell", description="y")\n'
+    assert "unit 'ell' is not in fmus_src/units.py" in built(text, "--flavour", "python")[2]
+
+
+def test_a_file_that_is_not_there(tmp_path, capsys):
+    assert main(["--blocks", str(tmp_path / "gone.py"), "--output", str(tmp_path / "out")]) == 2
+    assert "gone.py: not a Python file" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()

@@ -1,0 +1,277 @@
+"""Python FMUs as files and in flight: same bytes from same sources, own code for ever, safe to use twice.
+
+Truth: bytes; a constant changed in a copy of the sources; a process that cannot import the
+repository; the plain Python object, stepped beside the FMU.
+"""
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from cosim.builders import component, document, fly, pack, system
+
+from analysis.cosim.fmu import instantiate, load_fmu
+from analysis.places import ROOT
+from fmus_src.catalogue import catalogue
+from fmus_src.export.command import main
+from fmus_src.export.pythonfmu_fmu import build_python_fmu
+from fmus_src.plants.flat_moon_lander import FlatMoonLander
+from fmus_src.runtime import Component
+
+
+def run(code, *arguments, cwd=ROOT, isolated=False):
+    command = [sys.executable, "-I" if isolated else "-B", "-c", code, *map(str, arguments)]
+    return subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False, timeout=300)
+
+
+BUILD_ALL = """
+import sys
+from pathlib import Path
+from fmus_src.catalogue import catalogue
+from fmus_src.export.command import main
+from fmus_src.export.pythonfmu_fmu import build_python_fmu
+for name, block in catalogue().items():
+    build_python_fmu(block, Path(sys.argv[1]) / f"{name}.fmu")
+"""
+
+
+def test_builds_in_two_processes_are_the_same_bytes(fmus, tmp_path):
+    done = run(f"import os; os.environ['PYTHONHASHSEED']='7'\n{BUILD_ALL}", tmp_path / "again")
+    assert done.returncode == 0, done.stderr
+    for name in catalogue():
+        first, second = (folder / f"{name}.fmu" for folder in (fmus, tmp_path / "again"))
+        digests = [hashlib.sha256(path.read_bytes()).hexdigest() for path in (first, second)]
+        assert digests[0] == digests[1], name
+
+
+def test_building_leaves_no_trace_in_the_process(tmp_path):
+    before = (list(sys.path), set(sys.modules))
+    build_python_fmu(FlatMoonLander, tmp_path / "plant.fmu")
+    assert list(sys.path) == before[0]
+    assert not {name for name in set(sys.modules) - before[1] if "perilune_" in name or "flat_moon" in name}
+    assert [path.name for path in tmp_path.iterdir()] == ["plant.fmu"]
+
+
+def changed_sources(folder):
+    """A copy of the sources in which gravity starts at another value, and thrust pushes twice as hard."""
+    shutil.copytree(ROOT / "fmus_src", folder / "fmus_src", ignore=shutil.ignore_patterns("__pycache__"))
+    plant = folder / "fmus_src" / "plants" / "flat_moon_lander.py"
+    text = plant.read_text()
+    changed = text.replace("scale = self.thrust / self.mass / length", "scale = 2.0 * self.thrust / self.mass / length")
+    assert changed != text
+    plant.write_text(changed)
+    return folder
+
+
+def test_an_fmu_keeps_the_code_it_was_built_with(fmus, tmp_path):
+    """New sources are imported in a process, old and new FMUs fly there in one system, each its own way."""
+    sources = changed_sources(tmp_path / "newer")
+    done = run(BUILD_ALL, tmp_path / "fmus", cwd=sources)
+    assert done.returncode == 0, done.stderr
+    for name, origin in (("old", fmus), ("new", tmp_path / "fmus")):
+        (tmp_path / "flat").mkdir(exist_ok=True)
+        shutil.copy(origin / "flat_moon_lander.fmu", tmp_path / "flat" / f"{name}.fmu")
+    plants = "".join(f'<ssd:Connector name="{axis}" kind="output"/>' for axis in ("velocity[1]", "velocity[3]", "mass"))
+    elements = [
+        component(name, name).replace("</ssd:Component>", f"<ssd:Connectors>{plants}</ssd:Connectors></ssd:Component>")
+        for name in ("old", "new")
+    ]
+    path = pack(tmp_path / "both.ssp", tmp_path / "flat", document(system(*elements), stop=10.0, step=0.5))
+    code = (
+        "import json, os, sys\n"
+        "import fmus_src.plants.flat_moon_lander as newer\n"
+        "assert '2.0 * self.thrust' in open(newer.__file__).read()\n"
+        f"sys.path.append({str(ROOT)!r})\n"
+        "import perilune\n"
+        "push = {'thrust': 940.0, 'burn_duration': 1e9, 'thrust_direction[3]': 1.0}\n"
+        "values = {f'{plant}.{name}': value for plant in ('old', 'new') for name, value in push.items()}\n"
+        "flight = perilune.simulate(sys.argv[1], set=values)\n"
+        "print(json.dumps({name: flight[f'{name}.velocity[3]'].tolist() for name in ('old', 'new')}))\n"
+        "sys.stdout.flush(); os._exit(0)\n"
+    )
+    done = run(code, path, cwd=sources)
+    assert done.returncode == 0, done.stderr
+    speeds = json.loads(done.stdout)
+    time = 0.5 * np.arange(21)
+    np.testing.assert_allclose(speeds["old"], (1.0 - 1.62) * time, rtol=1e-12)
+    np.testing.assert_allclose(speeds["new"], (2.0 - 1.62) * time, rtol=1e-12)
+
+
+AWAY = """
+import sys, os
+assert not any(path == "" or path.endswith("main") for path in sys.path), sys.path
+import fmpy
+for name in ("fmus_src", "analysis", "perilune"):
+    try:
+        __import__(name)
+    except ImportError:
+        continue
+    raise SystemExit(f"{name} can be imported")
+result = fmpy.simulate_fmu(sys.argv[1], stop_time=1.0, output=["velocity[3]"])
+assert abs(result["velocity[3]"][-1] - float(sys.argv[2])) < 1e-12, result
+sys.stdout.write("flown"); sys.stdout.flush(); os._exit(0)
+"""
+
+
+@pytest.mark.parametrize("flavour", ["python", "native"])
+def test_runs_where_the_repository_cannot_be_imported(fmus, tmp_path, flavour):
+    """With -I, from elsewhere; the finder of the editable installation is taken out too."""
+    unhook = "import sys\nsys.meta_path[:] = [f for f in sys.meta_path if 'editable' not in repr(f).lower()]\n"
+    unhook += f"sys.path[:] = [p for p in sys.path if p != {str(ROOT)!r} and 'editable' not in p]\n"
+    block = Component(FlatMoonLander)
+    block.start()
+    step = 0.1
+    for n in range(10):
+        block.do_step(n * step, step)
+    done = run(
+        unhook + AWAY,
+        fmus.parent / flavour / "flat_moon_lander.fmu",
+        block.block.velocity[2],
+        cwd=tmp_path,
+        isolated=True,
+    )
+    assert (done.returncode, done.stdout) == (0, "flown"), done.stderr
+
+
+BUILD_AND_FLY = """
+import os, sys
+from pathlib import Path
+import perilune
+from fmus_src.export.pythonfmu_fmu import build_python_fmu
+from fmus_src.plants.flat_moon_lander import FlatMoonLander
+for k in range(8):
+    for _ in range(3):
+        perilune.simulate("lunar_terminal_guidance", flavour="python", stop_time=0.2)
+    build_python_fmu(FlatMoonLander, Path(sys.argv[1]) / "plant.fmu")
+sys.stdout.write("flown"); sys.stdout.flush(); os._exit(0)
+"""
+
+
+@pytest.mark.usefixtures("fmus")
+def test_building_between_flights_harms_no_fmu_that_is_loaded(tmp_path):
+    """The builder once took away the references that keep the scripts of loaded FMUs alive."""
+    done = run(BUILD_AND_FLY, tmp_path)
+    assert (done.returncode, done.stdout) == (0, "flown"), done.stderr
+
+
+@pytest.mark.parametrize("flavour", ["python", "native"])
+def test_instances_come_and_go(fmus, flavour):
+    path = fmus.parent / flavour / "noisy_navigation.fmu"
+    fmu = load_fmu(path.read_bytes(), str(path))
+    other = load_fmu(path.read_bytes(), str(path))
+    for _ in range(20):
+        pair = [instantiate(fmu, "a"), instantiate(other, "a")]
+        for instance in pair:
+            instance.slave.setupExperiment(startTime=0.0)
+            instance.slave.enterInitializationMode()
+            instance.slave.exitInitializationMode()
+            instance.slave.doStep(0.0, 0.1)
+        for instance in pair:
+            instance.slave.terminate()
+            instance.free()
+
+
+def test_an_exception_in_a_step_comes_with_its_traceback(tiny_folder, tmp_path):
+    body = system(component("trouble", "trouble", "output y Real m"))
+    path = pack(tmp_path / "s.ssp", tiny_folder / "python", document(body))
+    result = fly(path, set={"trouble.kind": 1})
+    assert result.status == "failed"
+    assert "fmi2DoStep returned discard" in result.message
+    for words in ("Traceback", "ZeroDivisionError", "self.y = self.y / 0.0", "tiny_blocks.py"):
+        assert words in result.message, result.message
+    result = fly(path, set={"trouble.kind": 4})  # the module was imported from a folder that is gone by now
+    for words in ("Traceback", "ZeroDivisionError", "in initialize", "self.y = 1.0 / 0.0"):
+        assert words in result.message, result.message
+
+
+PERCENT = '''
+from fmus_src.block import Block, Output
+
+
+class Percent(Block):
+    """Raises with a printf format in its message."""
+
+    python_only = True
+    y = Output(0.0, unit="1", description="nothing")
+
+    def step(self, t: float, h: float) -> None:
+        raise ValueError("100 %s %n of 50 % \\u00e9")
+'''
+
+
+def test_messages_are_not_read_as_formats(tmp_path):
+    (tmp_path / "percent.py").write_text(PERCENT)
+    assert main(["--blocks", str(tmp_path / "percent.py"), "--output", str(tmp_path), "--flavour", "python"]) == 0
+    path = pack(tmp_path / "s.ssp", tmp_path / "fmus" / "python", document(system(component("p", "percent"))))
+    result = fly(path)
+    assert "100 %s %n of 50 %" in result.message
+
+
+FLIGHT = """
+import sys
+from analysis.cli import run
+sys.argv[1:] = sys.argv[1:] or ["run", "lunar_terminal_guidance", "--flavour", "python", "--stop-time", "2"]
+run()
+"""
+
+
+def statuses(count):
+    found = [run(FLIGHT) for _ in range(count)]
+    return {(done.returncode, done.stderr) for done in found}
+
+
+@pytest.mark.usefixtures("fmus")
+def test_exit_status_is_right():
+    assert statuses(20) == {(0, "")}
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("fmus")
+def test_exit_status_is_right_100_times():
+    assert statuses(100) == {(0, "")}
+
+
+BATCH = "batch lunar_terminal_guidance --campaign paper --trials 6 --flavour python --workers"
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.parametrize("words", ["", f"{BATCH} 1", f"{BATCH} 2"], ids=["run", "batch", "batch in processes"])
+def test_unpacked_files_are_gone_afterwards(tmp_path, words):
+    done = subprocess.run(
+        [sys.executable, "-c", FLIGHT, *words.split()],
+        cwd=ROOT,
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert [path.name for path in tmp_path.iterdir() if path.name.startswith("perilune")] == []
+
+
+def test_the_fmu_steps_as_the_plain_object(fmus):
+    path = fmus / "flat_moon_lander.fmu"
+    fmu = load_fmu(path.read_bytes(), str(path))
+    block = Component(FlatMoonLander)
+    instance = instantiate(fmu, "plant")
+    slave = instance.slave
+    reals = [v.valueReference for v in fmu.variables.values() if v.type == "Real" and v.causality == "output"]
+    inputs = [v.valueReference for v in fmu.variables.values() if v.causality == "input"]
+    slave.setupExperiment(startTime=0.0)
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    block.start()
+    source = np.random.default_rng(4)
+    for n in range(50):
+        values = source.uniform(0.1, 3.0, len(inputs)).tolist()
+        slave.setReal(inputs, values)
+        block.set(inputs, values)
+        slave.doStep(n * 0.1, 0.1)
+        block.do_step(n * 0.1, 0.1)
+        assert slave.getReal(reals) == block.get(reals)
+    instance.free()
