@@ -1,0 +1,76 @@
+"""What runs in a worker's process: one line of JSON answered per line of JSON, until the input ends."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import os
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from analysis.errors import InputError
+
+from .contestant import Fly, Unavailable
+from .contestants import CONTESTANTS
+from .course import Course
+from .trials import fly_batch
+
+# Flights are repeated until there are so many and so much time has passed: some take long to start, and unevenly.
+FLIGHTS = 3
+TURN = 0.1  # s
+
+
+def _turn(fly: Fly, steps: int) -> dict[str, Any]:
+    """Fly for a turn; the time of its fastest flight (s) and the values at the end."""
+    end = time.perf_counter() + TURN
+    best = float("inf")
+    for flight in itertools.count(1):
+        begin = time.perf_counter()
+        values = fly(steps)
+        now = time.perf_counter()
+        best = min(best, now - begin)
+        if flight >= FLIGHTS and now > end:
+            break
+    return {"seconds": best, "values": values}
+
+
+def _serve(answer: Callable[[dict[str, Any]], None], name: str, ssp: Path) -> None:
+    if name == "batch":
+        answer({})
+        for line in sys.stdin:
+            answer({"seconds": fly_batch(ssp, **json.loads(line))})
+        return
+    contestant = next(each for each in CONTESTANTS if each.name == name)
+    fly = contestant.prepare(Course(ssp))
+    answer({})
+    for line in sys.stdin:
+        answer(_turn(fly, json.loads(line)["steps"]))
+
+
+def main() -> None:
+    """Serve the contestant named on the command line until the input ends."""
+    # libraries print: what they say goes to the error stream, the answers go where it would have gone
+    with os.fdopen(os.dup(1), "w") as output:
+        os.dup2(2, 1)
+
+        def answer(message: dict[str, Any]) -> None:
+            output.write(json.dumps(message) + "\n")
+            output.flush()
+
+        status = 0
+        try:
+            _serve(answer, sys.argv[1], Path(sys.argv[2]))
+        except (Unavailable, InputError) as reason:
+            answer({"unavailable": str(reason)})
+        except Exception as error:  # a peer may raise anything; the benchmark goes on without it
+            answer({"failed": f"{type(error).__name__}: {error}"})
+            status = 1
+    sys.stderr.flush()
+    os._exit(status)  # pythonfmu's library can crash in its destructors
+
+
+if __name__ == "__main__":
+    main()
