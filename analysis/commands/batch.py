@@ -7,11 +7,13 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from analysis.batch.expressions import Expression
 from analysis.batch.flyer import Flyer
 from analysis.batch.plan import BatchPlan, check_plan, read_plan
 from analysis.batch.runner import run_batch
-from analysis.batch.summary import requirement_values
+from analysis.batch.summary import TrialColumns, requirement_values, summarise
 from analysis.errors import InputError, suggestion
 from analysis.reports.batch_report import write_batch_report
 
@@ -58,22 +60,31 @@ def run(options: argparse.Namespace) -> int:
     )
     if options.replay is not None:
         return _replay(plan, options)
+    _check_requirements(plan, requirements)
     result = run_batch(plan, workers=options.workers, output=options.output)
     if options.report is not None:
         write_batch_report(result, options.report, result.provenance["system"])
     if not write_json(result.document(), options.json):
         print(result.text())
     values = requirement_values(result.summary)
-    failed = []
-    for requirement in requirements:
-        unknown = sorted(requirement.names - set(values))
-        if unknown:
-            raise InputError("--require", unknown[0], "no such number in the summary", suggestion(unknown[0], values))
-        if not requirement.evaluate(values):
-            failed.append(requirement.text)
+    # a status that no trial had is not in the summary: it counts 0
+    values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
+    failed = [requirement.text for requirement in requirements if not requirement.evaluate(values)]
     for text in failed:
         print(f"perilune: --require: {text}: not met", file=sys.stderr)
     return 1 if failed else 0
+
+
+def _check_requirements(plan: BatchPlan, requirements: list[Expression]) -> None:
+    """Refuse requirements on numbers that the summary will not have, before anything flies."""
+    nothing = np.full(1, np.nan)
+    blank = TrialColumns([""], np.zeros(1, dtype=bool), {metric.name: nothing for metric in plan.campaign.metrics})
+    variants = [variant.name for variant in plan.campaign.variants()]
+    known = requirement_values(summarise(dict.fromkeys(variants, blank), plan.campaign.metrics))
+    for requirement in requirements:
+        for name in sorted(requirement.names - set(known)):
+            if not any(name.startswith(f"{variant}.statuses.") for variant in variants):
+                raise InputError("--require", name, "no such number in the summary", suggestion(name, known))
 
 
 def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
