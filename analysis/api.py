@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from analysis.cosim.parameter_sets import ParameterValue
 from analysis.cosim.results import Result
 from analysis.cosim.simulation import Simulation
 from analysis.cosim.system import SystemOptions, prepare_system
+from analysis.errors import InputError, suggestion
 
 
 def simulate(
@@ -69,4 +71,10 @@ def _options(
     settings: Mapping[str, ParameterValue] | None,
     options: Mapping[str, Any],
 ) -> SystemOptions:
+    if isinstance(parameters, str):
+        raise InputError("parameters", parameters, "one name where a list is meant", f'give ["{parameters}"]')
+    known = [field.name for field in fields(SystemOptions)]
+    for name in options:
+        if name not in known:
+            raise InputError("options", name, "no such option", suggestion(name, known))
     return SystemOptions(use=dict(use or {}), parameters=tuple(parameters), set=dict(settings or {}), **options)

@@ -7,7 +7,7 @@ import importlib
 import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from analysis.errors import InputError
 
@@ -15,7 +15,10 @@ VERBS = ("list", "validate", "run", "batch", "benchmark", "export")
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse with errors on one line."""
+    """argparse with errors on one line and options in full."""
+
+    def __init__(self, **keywords: Any) -> None:
+        super().__init__(**keywords, allow_abbrev=False)
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message}; see {self.prog} --help\n")
@@ -41,7 +44,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except OSError as error:  # a file that cannot be read or written
-        print(f"perilune: {error.filename}: {error.strerror}; give another path or mend this one", file=sys.stderr)
+        reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        print(f"perilune: {reason}; give another path or mend this one", file=sys.stderr)
         return 2
 
 

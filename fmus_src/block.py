@@ -186,7 +186,12 @@ class Block:
         for name, value in parameters.items():
             if not isinstance(self.variables.get(name), Parameter | Input):
                 raise TypeError(f"{self.fmu_name} has no parameter or input {name!r}")
-            if isinstance(value, list | tuple):
+            variable = self.variables[name]
+            count = len(value) if isinstance(value, list | tuple) else None
+            if count != (variable.size if variable.is_vector else None):
+                wanted = f"a list of {variable.size}" if variable.is_vector else "a single value"
+                raise TypeError(f"{self.fmu_name}.{name}: give {wanted}")
+            if variable.is_vector:
                 getattr(self, name)[:] = value
             else:
                 setattr(self, name, value)

@@ -77,6 +77,11 @@ class Campaign:
     def __post_init__(self) -> None:
         if self.trials < 1:
             raise InputError(self.file, "trials", f"{self.trials} trial(s)", "give 1 or more")
+        for slot, fmus in self.compare.items():
+            if not fmus or len(set(fmus)) != len(fmus) or "" in fmus:
+                raise InputError(
+                    self.file, f"compare {slot}", f"{', '.join(fmus)}: empty or repeated", "name each FMU once"
+                )
         if self.seed < 0:
             raise InputError(self.file, "seed", f"{self.seed} is negative", "give a seed >= 0")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -25,12 +26,14 @@ from .toml_table import Table
 class BatchPlan:
     """What a batch flies; small enough to be sent to every worker.
 
-    ``options`` are the user's system options, which win over the campaign's own.
+    ``options`` are the user's system options, which come after the campaign's own and win; draws
+    win over parameter sets. ``campaign_sha256`` is that of the campaign's file.
     """
 
     system: str
     campaign: Campaign
     options: SystemOptions
+    campaign_sha256: str = ""
 
     @cached_property
     def draws(self) -> DrawTable:
@@ -86,7 +89,7 @@ def read_plan(
         changes["seed"] = seed
     if compare is not None:
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
-    return BatchPlan(str(system), replace(read, **changes), options)
+    return BatchPlan(str(system), replace(read, **changes), options, hashlib.sha256(data).hexdigest())
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
@@ -96,11 +99,22 @@ def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
     except MemoryError as error:
         problem = f"the draws of {plan.campaign.trials} trials do not fit into memory"
         raise InputError(plan.campaign.file, "trials", problem, "give fewer") from error
+    _refuse_conflicts(plan)
     systems = {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
     for prepared in systems.values():
         for name in variant_names(plan, prepared).varied:
             _check_varied(plan, prepared, name)
     return systems
+
+
+def _refuse_conflicts(plan: BatchPlan) -> None:
+    """Refuse options that the campaign would overrule: FMUs of a compared slot, values that are drawn."""
+    for slot in plan.campaign.compare:
+        if slot in plan.options.use:
+            raise InputError("--use", slot, "the campaign compares FMUs in this slot", f"give --compare {slot}=A,B")
+    for name in plan.options.set:
+        if name in plan.draws.columns or name.endswith((".seed", ".stream")):
+            raise InputError("--set", name, "the campaign draws it in every trial", "change the campaign, or --seed")
 
 
 def _check_varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import contextlib
 import gc
 import os
 import threading
@@ -18,6 +19,7 @@ from .trials import Trials
 
 Task = tuple[str, range]
 _local = threading.local()
+_flyers: list[Flyer] = []  # of this process's threads
 
 
 def tasks_of(plan: BatchPlan, workers: int) -> list[Task]:
@@ -47,7 +49,8 @@ def fly_all(plan: BatchPlan, tasks: list[Task], workers: int, native: bool) -> I
         executor = ThreadPoolExecutor(workers, initializer=_start, initargs=(plan,))
     else:
         executor = ProcessPoolExecutor(workers, initializer=_start_process, initargs=(plan,))
-    with executor:
+    with contextlib.ExitStack() as ending, executor:
+        ending.callback(_close_threads, plan)
         futures: dict[Future, str] = {executor.submit(_fly, *task): task[0] for task in tasks}
         for future in as_completed(futures):
             yield futures.pop(future), future.result()
@@ -55,6 +58,14 @@ def fly_all(plan: BatchPlan, tasks: list[Task], workers: int, native: bool) -> I
 
 def _start(plan: BatchPlan) -> None:
     _local.flyer = Flyer(plan)
+    _flyers.append(_local.flyer)
+
+
+def _close_threads(plan: BatchPlan) -> None:
+    """Free what the threads of a batch have instantiated; processes free their own."""
+    for flyer in [flyer for flyer in _flyers if flyer.plan is plan]:
+        flyer.close()
+        _flyers.remove(flyer)
 
 
 def _start_process(plan: BatchPlan) -> None:

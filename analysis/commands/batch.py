@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from analysis.batch.summary import TrialColumns, requirement_values, summarise
 from analysis.errors import InputError, suggestion
 from analysis.reports.batch_report import write_batch_report
 
-from .options import add_json, add_system, pair, plain, system_options, write_json
+from .options import add_json, add_system, pairs, plain, system_options, write_json
 
 HELP = "fly a campaign: many trials, variants compared on the same draws"
 
@@ -47,8 +48,8 @@ def add(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     compare = None
     if options.compare is not None:
-        pairs = [pair(text, "--compare", "SLOT=A,B,C") for text in options.compare]
-        compare = {slot: [name.strip() for name in names.split(",")] for slot, names in pairs}
+        found = pairs(options.compare, "--compare", "SLOT=A,B,C")
+        compare = {slot: [name.strip() for name in names.split(",")] for slot, names in found.items()}
     requirements = [Expression(text, ("--require", text)) for text in options.require]
     plan = read_plan(
         options.system,
@@ -59,6 +60,9 @@ def run(options: argparse.Namespace) -> int:
         compare=compare,
     )
     if options.replay is not None:
+        for name in ("require", "report"):
+            if getattr(options, name):
+                raise InputError("--replay", f"--{name}", "does not go with a replay", "leave one of them out")
         return _replay(plan, options)
     _check_requirements(plan, requirements)
     result = run_batch(plan, workers=options.workers, output=options.output)
@@ -66,13 +70,23 @@ def run(options: argparse.Namespace) -> int:
         write_batch_report(result, options.report, result.provenance["system"])
     if not write_json(result.document(), options.json):
         print(result.text())
+    for variant, trials in result.trials.items():
+        for trial, message in list(trials.messages.items())[:1]:
+            print(
+                f"perilune: {variant}: {len(trials.messages)} flights failed; trial {trial}: {message}", file=sys.stderr
+            )
     values = requirement_values(result.summary)
     # a status that no trial had is not in the summary: it counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
-    failed = [requirement.text for requirement in requirements if not requirement.evaluate(values)]
+    failed = [requirement.text for requirement in requirements if not _met(requirement, values)]
     for text in failed:
         print(f"perilune: --require: {text}: not met", file=sys.stderr)
     return 1 if failed else 0
+
+
+def _met(requirement: Expression, values: Mapping[str, float]) -> bool:
+    """Whether a requirement holds; one on a number that could not be had does not."""
+    return all(np.isfinite(values[name]) for name in requirement.names) and bool(requirement.evaluate(values))
 
 
 def _check_requirements(plan: BatchPlan, requirements: list[Expression]) -> None:
@@ -101,7 +115,6 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
             result.write(options.output / f"{variant}_{trial:06d}.parquet")
         metrics = {name: plain(value) for name, value in found.metrics.items()}
         document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
-    flyer.close()
     if not write_json({"trial": trial, "variants": document}, options.json):
         for variant, entry in document.items():
             numbers = [(name, "none" if value is None else f"{value:.6g}") for name, value in entry["metrics"].items()]

@@ -6,9 +6,8 @@ import argparse
 import tempfile
 from pathlib import Path
 
-from lxml import etree
-
 from analysis.cosim.archive import SystemArchive, open_system, system_names
+from analysis.cosim.documents import parse_xml
 from analysis.cosim.system import FLAVOURS
 from analysis.errors import InputError, suggestion
 from fmus_src.block import Block
@@ -42,7 +41,9 @@ def run(options: argparse.Namespace) -> int:
     if not is_fmu and options.name not in system_names() and not Path(options.name).is_dir():
         known = [*blocks, *system_names()]
         raise InputError("export", options.name, "neither an FMU nor a system", suggestion(options.name, known))
-    platforms = options.platform or available_platforms()
+    if options.platform and options.flavour == "python":
+        raise InputError("--platform", options.platform[0], "Python FMUs have no platform to choose", "leave it out")
+    platforms = [] if options.flavour == "python" else options.platform or available_platforms()
     path = options.output or Path(f"{Path(options.name).name}.{'fmu' if is_fmu else 'ssp'}")
     try:
         if is_fmu:
@@ -79,7 +80,7 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for entry in [entry for entry in archive.files if entry.endswith(".ssd")]:
-            root = etree.fromstring(archive.read(entry, entry))
+            root = parse_xml(archive.read(entry, entry), f"{archive.label}/{entry}")
             for component in root.iter(f"{{{SSD_NAMESPACE}}}Component"):
                 source = component.get("source", "")
                 fmu = Path(source).stem
@@ -88,6 +89,6 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
         try:
             packed = pack_system(archive.path, [folder], folder / "packed")
         except ValueError as error:
-            raise InputError(archive.label, "export", str(error), "see the message") from error
+            raise InputError(archive.label, "export", str(error), "add the FMU or a block of its name") from error
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(packed.read_bytes())

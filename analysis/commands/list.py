@@ -10,6 +10,7 @@ from fmpy import read_model_description
 
 from analysis.cosim.archive import SystemArchive, open_system, system_names
 from analysis.places import BUILD
+from fmus_src.block import Block
 from fmus_src.catalogue import catalogue
 from fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 
@@ -47,10 +48,16 @@ def _system(archive: SystemArchive) -> dict[str, list[str]]:
     }
 
 
+def _interface(block: type[Block]) -> str | None:
+    """The interface that makes a block swappable: the class right below Block; None without one."""
+    base = block.__mro__[block.__mro__.index(Block) - 1]
+    return base.__name__ if base is not block else None
+
+
 def _fmus() -> dict[str, dict[str, Any]]:
     """FMUs of this repository and those built from elsewhere, by name."""
     found: dict[str, dict[str, Any]] = {
-        name: {"interface": block.__mro__[1].__name__, "description": block.summary(), "built": []}
+        name: {"interface": _interface(block), "description": block.summary(), "built": []}
         for name, block in catalogue().items()
     }
     for path in sorted(BUILD.glob("fmus/*/*.fmu")):

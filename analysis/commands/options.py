@@ -6,6 +6,7 @@ import argparse
 import json
 import math
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -66,12 +67,23 @@ def pair(text: str, option: str, form: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
+def pairs(texts: Sequence[str], option: str, form: str) -> dict[str, str]:
+    """``NAME=VALUE`` of a repeated option by name; a name given twice is refused."""
+    found: dict[str, str] = {}
+    for text in texts:
+        name, value = pair(text, option, form)
+        if name in found:
+            raise InputError(option, text, f"{name} is given twice", "give it once")
+        found[name] = value
+    return found
+
+
 def system_options(options: argparse.Namespace) -> SystemOptions:
     """The system options of a parsed command line."""
     return SystemOptions(
-        use=dict(pair(text, "--use", "SLOT=FMU") for text in options.use),
+        use=pairs(options.use, "--use", "SLOT=FMU"),
         parameters=tuple(options.parameters),
-        set=dict(pair(text, "--set", "COMPONENT.VARIABLE=VALUE") for text in options.set),
+        set=pairs(options.set, "--set", "COMPONENT.VARIABLE=VALUE"),
         step=options.step,
         stop_time=options.stop_time,
         algorithm=options.algorithm,

@@ -44,9 +44,9 @@ class SystemArchive:
     path: Path
     files: Mapping[str, Path | bytes]
 
-    def read(self, name: str, element: str, base: str = "") -> bytes:
-        """Content of a file the description refers to; ``base`` is the folder of the reference."""
-        return self._content(posixpath.normpath(posixpath.join(base, name.removeprefix("./"))), element)
+    def read(self, name: str, element: str) -> bytes:
+        """Content of a file the description refers to, at ``element``."""
+        return self._content(posixpath.normpath(name), element)
 
     def _content(self, name: str, element: str) -> bytes:
         if name not in self.files:

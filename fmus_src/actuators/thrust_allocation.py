@@ -15,8 +15,9 @@ class ThrustAllocation(Allocation):
     Thrust is mass times demand, kept within its limits, scaled by a constant random error and
     delayed by a first-order lag (exact for a demand held over the step; the output is the value
     at the communication point, held by the plant, which adds half a step of delay). With a slew
-    limit the direction turns towards the demanded one by at most slew_rate_limit; it starts
-    aligned. All limits are off by default. Frame: landing site.
+    limit the direction turns towards the demanded one by at most slew_rate_limit, as a mean over
+    each step and no more than 1.5 rad in one; it starts aligned and at rest. All limits are off by
+    default. Frame: landing site.
     """
 
     minimum_thrust = Parameter(0.0, unit="N", minimum=0.0, description="least thrust while burning")
@@ -41,6 +42,9 @@ class ThrustAllocation(Allocation):
         self.command_thrust()
         self.thrust = self.commanded_thrust
         self.pass_direction()
+        if self.slew_rate_limit > 0.0:
+            for i in range(3):
+                self.thrust_direction_rate[i] = 0.0
 
     def command_thrust(self) -> None:
         """Set commanded_thrust (N) from the demand."""

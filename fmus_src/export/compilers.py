@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -106,7 +107,7 @@ def shared_library(
     if not cached.is_file():
         library = _compile(command, sources, main, Path(main).stem + PLATFORMS[platform].extension)
         cache.mkdir(parents=True, exist_ok=True)
-        partial = cached.with_name(f".{cached.name}.{os.getpid()}.part")
+        partial = cached.with_name(f".{cached.name}.{os.getpid()}.{threading.get_ident()}.part")
         partial.write_bytes(library)
         partial.replace(cached)
     return cached.read_bytes()

@@ -34,7 +34,7 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
     """Build the pythonfmu FMU of a block at ``path``; two builds are byte-identical.
 
     The FMU holds the block's import closure under a package name with its content's hash, and
-    needs Python, numpy and what the block ``requires`` where it runs. Raises `ClosureError`.
+    needs Python and what the block ``requires`` where it runs. Raises `ClosureError`.
     """
     closure = closure_of(block_class)
     script_name = f"{block_class.fmu_name}_{closure.digest[:16]}"

@@ -42,3 +42,5 @@ class AstarModifiedGuidance(AstarProgramme):
                     acceleration = 2.0 * norm(b) / (time * time)
                     if acceleration > 0.0:
                         self.point(a, b, time, acceleration)
+                    else:
+                        self.status = NO_SOLUTION

@@ -11,7 +11,8 @@ class AstarProgramme(TerminalGuidance, interface=True):
     """Linear pitch and yaw programmes of method A*, for a given time-to-go and thrust acceleration.
 
     In the method's own axes (x forward, y up, z right) the thrust acceleration is
-    W (cos th cos psi, sin th cos psi, -sin psi); its angles are not the analytic method's.
+    W (cos th cos psi, sin th cos psi, -sin psi); its angles are not the analytic method's. Assumes
+    that thrust has a forward component along x: arcsines cannot express another.
     An arcsine argument above 1 is clamped and counted: in the original arithmetic it turned the
     state complex. The angle's rate is then all but infinite. A programme that turns by more than
     a radian within a guidance cycle cannot be put as a direction and its rate; its mean over the

@@ -1,4 +1,4 @@
-"""Method A* made to work everywhere: time-to-go from the cubic, thrust from |a0|."""
+"""Method A* made to work all over the published box: time-to-go from the cubic, thrust from |a0|."""
 
 from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION
 from ..mathlib.terminal import cubic_time, impulse_and_miss
@@ -7,7 +7,7 @@ from .astar_programme import AstarProgramme
 
 
 class AstarRobustGuidance(AstarProgramme):
-    """Terminal guidance by method A* with a time-to-go that always exists.
+    """Terminal guidance by method A* with a time-to-go that exists all over the published box.
 
     Time-to-go solves |A| T = 2 |B| and the thrust acceleration is |a0| = 2 |A T - 3 B|/T^2, with
     which no arcsine argument exceeds 1. The last command burns for the time_to_go that is left.

@@ -117,6 +117,8 @@ class TerminalGuidance(Block, interface=True):
         self.judge()
         if self.status >= NOT_CONVERGED:
             self.time_to_go = left
+            if not self.started:
+                self.time_to_go = 0.0
         elif self.time_to_go > 0.0:
             self.command_time = time
         if self.started and self.terminal_step == 1:

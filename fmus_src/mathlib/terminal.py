@@ -20,9 +20,11 @@ def impulse_and_miss(dr: list, v: list, dv: list, g: float, time_to_go: float, a
 
 
 def quadratic_time(dr: list, v: list, dv: list, g: float) -> float:
-    """Time-to-go (s) from |A| T = 2 |B| without its cubic term; 0 where there is none.
+    """Time-to-go (s) from |A| T = 2 |B| without its cubic term, on the published branch.
 
-    A negative discriminant counts as 0, which happens in the last steps.
+    0 where there is none. The branch is that of fast approaches, a2 < 0; for slow or hovering
+    starts above the target (a2 > 0) it gives a negative time. A negative discriminant counts as
+    0, which happens in the last steps.
     """
     speed = norm(v)
     gain = norm(dv)

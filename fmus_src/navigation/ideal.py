@@ -7,7 +7,6 @@ class IdealNavigation(Navigation):
     """Ideal navigation: the estimate is the truth. Frame: landing site."""
 
     def initialize(self) -> None:
-        self.sample_count = 0
         self.measure()
 
     def measure(self) -> None:

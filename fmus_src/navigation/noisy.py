@@ -12,7 +12,8 @@ class NoisyNavigation(Navigation):
     """Position and velocity fixes with white errors at their own rates, filtered by a six-state Kalman filter.
 
     Between fixes the filter moves with the measured mean specific force, constant gravity and
-    white process noise of density process_noise on each axis. Fixes count from the start; the
+    white process noise of density process_noise on each axis. Fixes count from the start, at most
+    one of each kind at a communication point: assumes steps no longer than both periods. The
     first estimate is the truth with errors of first_position_sigma and first_velocity_sigma. A
     sigma of 0 switches its sensor off; with both off the estimate is the truth. The specific force
     itself is measured without error. Frame: landing site.

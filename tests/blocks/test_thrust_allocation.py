@@ -59,7 +59,8 @@ def test_start_is_settled_on_the_first_command():
     block = allocation(thrust_lag=3.0, slew_rate_limit=0.01, demanded_direction_rate=RATE)
     assert block.thrust == MASS * 4.8
     assert block.thrust_direction == DEMAND
-    assert block.thrust_direction_rate == RATE
+    assert block.thrust_direction_rate == [0.0, 0.0, 0.0]  # at rest: the demanded rate may be above the limit
+    assert allocation(demanded_direction_rate=RATE).thrust_direction_rate == RATE
 
 
 @pytest.mark.parametrize(
