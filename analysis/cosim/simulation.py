@@ -227,6 +227,13 @@ class Simulation:
             "parameters": values,
             "start_time": prepared.start,
             "step": prepared.step,
+            "stop_time": prepared.start + prepared.steps * prepared.step,
+            "variant": prepared.options.variant,
+            "no_feedthrough": list(prepared.options.no_feedthrough),
+            "faults": [
+                f"{fault.name} {fault.kind} {fault.value!r} from {fault.start!r} to {fault.stop!r} s"
+                for fault in self._faults
+            ],
             "algorithm": prepared.options.algorithm,
             "perilune": version("perilune"),
         }

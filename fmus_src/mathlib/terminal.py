@@ -41,7 +41,11 @@ def quadratic_time(dr: list, v: list, dv: list, g: float) -> float:
 
 
 def cubic_time(dr: list, v: list, dv: list, vt: list, g: float) -> float:
-    """Time-to-go (s) from |A| T = 2 |B| in full, by Newton from the quadratic root; 0 where there is none."""
+    """Time-to-go (s) from |A| T = 2 |B| in full, by Newton from the quadratic root; 0 where that has none.
+
+    Eight iterations, which settle everywhere in the published box; where they lead to a time that
+    is not positive, outside of it, the quadratic root is returned.
+    """
     start = quadratic_time(dr, v, dv, g)
     if start <= 0.0:
         return 0.0
