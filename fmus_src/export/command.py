@@ -77,4 +77,8 @@ def _build(flavour: str, blocks: dict[str, type[Block]], output: Path, platforms
 
 
 def _blocks_of(path: Path) -> dict[str, type[Block]]:
-    return {block.fmu_name: block for block in blocks_in_file(path)}
+    """The blocks of a file by FMU name; a name of the repository's own is refused, not overwritten."""
+    found = {block.fmu_name: block for block in blocks_in_file(path)}
+    for name in sorted(set(found) & set(catalogue())):
+        raise ValueError(f"{path}: {found[name].__name__}: {name} is an FMU of this repository; rename the class")
+    return found

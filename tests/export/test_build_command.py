@@ -87,3 +87,10 @@ def test_a_file_that_is_not_there(tmp_path, capsys):
     assert main(["--blocks", str(tmp_path / "gone.py"), "--output", str(tmp_path / "out")]) == 2
     assert "gone.py: not a Python file" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
+
+
+def test_a_name_of_the_repository_is_not_overwritten(built):
+    text = HEAD + 'class FormingFilter(Block):\n    """A."""\n    y = Output(0.0, description="y")\n'
+    status, _, message = built(text, "--flavour", "python")
+    assert status == 2
+    assert "forming_filter is an FMU of this repository; rename the class" in message
