@@ -26,7 +26,8 @@ class Variable:
 
     ``start`` fixes type and size: a float, int or bool, or a list of equal ones. ``unit`` is a
     key of `fmus_src.units.UNITS`; ``minimum``, ``maximum`` and ``nominal`` hold per element;
-    ``frame`` names the frame that a vector's components refer to.
+    ``frame`` names the frame that a vector's components refer to. ``columns`` makes the list a
+    matrix in row order, whose elements are named by row and column.
     """
 
     causality: ClassVar[str]
@@ -41,6 +42,7 @@ class Variable:
         minimum: float | None = None,
         maximum: float | None = None,
         nominal: float | None = None,
+        columns: int | None = None,
     ) -> None:
         self.start: Value = list(start) if isinstance(start, list | tuple) else start
         self.unit = unit
@@ -49,6 +51,7 @@ class Variable:
         self.minimum = minimum
         self.maximum = maximum
         self.nominal = nominal
+        self.columns = columns
         self.name = ""
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -57,6 +60,8 @@ class Variable:
         kinds = {type(value) for value in self.elements}
         if len(kinds) != 1 or not kinds <= set(TYPE_NAMES):
             raise DeclarationError(f"{where}: start must be one float, int or bool, or a list of one of these")
+        if self.columns is not None and (not self.is_vector or self.columns < 1 or self.size % self.columns):
+            raise DeclarationError(f"{where}: {self.size} elements do not make rows of {self.columns}")
         if self.unit is not None and self.unit not in UNITS:
             raise DeclarationError(f"{where}: unit {self.unit!r} is not in fmus_src/units.py; add it there")
         if not self.description:
@@ -87,9 +92,12 @@ class Variable:
         return TYPE_NAMES[type(self.elements[0])]
 
     def element_names(self) -> list[str]:
-        """FMI names of the elements: ``name``, or ``name[1]``, ``name[2]``, ... for vectors."""
+        """FMI names of the elements: ``name``; ``name[1]``, ``name[2]``, ...; or ``name[1,1]``, ``name[1,2]``, ..."""
         if not self.is_vector:
             return [self.name]
+        if self.columns is not None:
+            places = [divmod(index, self.columns) for index in range(self.size)]
+            return [f"{self.name}[{row + 1},{column + 1}]" for row, column in places]
         return [f"{self.name}[{index + 1}]" for index in range(self.size)]
 
     def with_start(self, start: Any) -> Any:

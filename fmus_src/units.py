@@ -9,6 +9,7 @@ UNITS: dict[str, dict[str, int]] = {
     "1": {},
     "rad": {"rad": 1},
     "rad/s": {"rad": 1, "s": -1},
+    "rad/s2": {"rad": 1, "s": -2},
     "1/s": {"s": -1},
     "s": {"s": 1},
     "m": {"m": 1},
@@ -24,4 +25,5 @@ UNITS: dict[str, dict[str, int]] = {
     "N": {"kg": 1, "m": 1, "s": -2},
     "N.m": {"kg": 1, "m": 2, "s": -2},
     "N.m.s": {"kg": 1, "m": 2, "s": -1},
+    "N.s": {"kg": 1, "m": 1, "s": -1},
 }

@@ -8,6 +8,10 @@ from ..mathlib.rng import normal, seed_streams
 from ..mathlib.rotation import turn_towards
 from ..mathlib.vectors import clip, copy3, norm
 
+GOOD = 0
+LIMITED = 1
+CONTRADICTORY = 2
+
 
 class ThrustAllocation(Allocation):
     """Engine thrust and attitude for a demanded thrust acceleration and direction.
@@ -17,7 +21,13 @@ class ThrustAllocation(Allocation):
     at the communication point, held by the plant, which adds half a step of delay). With a slew
     limit the direction turns towards the demanded one by at most slew_rate_limit, as a mean over
     each step and no more than 1.5 rad in one; it starts aligned and at rest. All limits are off by
-    default. Frame: landing site.
+    default. A minimum_thrust above maximum_thrust is status 2 all along; thrust then keeps the maximum.
+
+    What comes after this block may lag as well. thrust_lead ends the burn that much earlier, at the
+    earliest where it begins: a first-order lag of that size leaves as much impulse behind its
+    cut-off, so that a burn from settled thrust gives the demanded impulse. direction_lead commands the
+    direction of that much later, which a first-order response follows without delay where the direction
+    turns steadily. Frame: landing site.
     """
 
     minimum_thrust = Parameter(0.0, unit="N", minimum=0.0, description="least thrust while burning")
@@ -29,6 +39,8 @@ class ThrustAllocation(Allocation):
     thrust_error = Parameter(
         0.0, unit="1", minimum=0.0, description="relative error of thrust, 1 sigma, constant over a flight"
     )
+    thrust_lead = Parameter(0.0, unit="s", minimum=0.0, description="the burn ends so much earlier than demanded")
+    direction_lead = Parameter(0.0, unit="s", minimum=0.0, description="the direction is that of so much later")
     seed = Parameter(1, minimum=0, description="random numbers: seed")
     stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
     generator = State([0.0] * 6, description="random number generator")
@@ -55,24 +67,35 @@ class ThrustAllocation(Allocation):
                 allowed = self.minimum_thrust
             if self.maximum_thrust > 0.0:
                 allowed = clip(allowed, 0.0, self.maximum_thrust)
-        self.status = 0
+        self.status = GOOD
         if allowed != demanded:
-            self.status = 1
+            self.status = LIMITED
+        if self.maximum_thrust > 0.0 and self.minimum_thrust > self.maximum_thrust:
+            self.status = CONTRADICTORY
         self.commanded_thrust = allowed * self.thrust_factor
 
+    def duration(self) -> float:
+        """How long to thrust from demand_time on (s)."""
+        shortened = self.demanded_duration - self.thrust_lead
+        if self.thrust_lead > 0.0 and shortened < 0.0:
+            shortened = 0.0
+        return shortened
+
     def pass_direction(self) -> None:
-        """Direction and timing as demanded."""
+        """Direction and timing as demanded, with their leads."""
         copy3(self.thrust_direction, self.demanded_direction)
         copy3(self.thrust_direction_rate, self.demanded_direction_rate)
-        self.command_time = self.demand_time
-        self.burn_duration = self.demanded_duration
+        # counted from earlier, the direction is further on at any time
+        self.command_time = self.demand_time - self.direction_lead
+        self.burn_duration = self.duration() + self.direction_lead
 
     def slew(self, time: float, h: float) -> None:
         """Follow the demanded direction within the slew limit, from the direction flown over the last h (s)."""
         goal = [0.0] * 3
         now = [0.0] * 3
+        since = time + h - (self.demand_time - self.direction_lead)
         for i in range(3):
-            goal[i] = self.demanded_direction[i] + self.demanded_direction_rate[i] * (time + h - self.demand_time)
+            goal[i] = self.demanded_direction[i] + self.demanded_direction_rate[i] * since
             now[i] = self.thrust_direction[i] + self.thrust_direction_rate[i] * (time - self.command_time)
         goal_length = norm(goal)
         now_length = norm(now)
@@ -83,15 +106,15 @@ class ThrustAllocation(Allocation):
         copy3(ahead, now)
         # a direction and its rate cannot express a turn of 90 deg or more in one step
         left = turn_towards(ahead, goal, clip(self.slew_rate_limit * h, 0.0, 1.5))
-        if left > 0.0:
-            self.status = 1
+        if left > 0.0 and self.status == GOOD:
+            self.status = LIMITED
         cosine = now[0] * ahead[0] + now[1] * ahead[1] + now[2] * ahead[2]
         for i in range(3):
             self.thrust_direction[i] = now[i]
             # now + rate h is parallel to ahead, and the rate is perpendicular to now
             self.thrust_direction_rate[i] = (ahead[i] / cosine - now[i]) / h
         self.command_time = time
-        self.burn_duration = self.demand_time + self.demanded_duration - time
+        self.burn_duration = self.demand_time + self.duration() - time
 
     def step(self, t: float, h: float) -> None:
         held = self.commanded_thrust

@@ -20,7 +20,7 @@ class AstarProgramme(TerminalGuidance, interface=True):
     of it. Source: Fomichev and Li 2017, method A*.
     """
 
-    clamp_count = Output(0, direct=True, description="arcsine arguments clamped so far")
+    clamp_count = Output(0, direct=True, description="arcsine arguments clamped so far, in repeated solves too")
 
     def angle(self, sine: float) -> float:
         """Arcsine, clamped and counted outside [-1, 1] (1e-12 allowed for rounding)."""

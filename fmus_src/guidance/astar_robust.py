@@ -1,17 +1,23 @@
-"""Method A* made to work all over the published box: time-to-go from the cubic, thrust from |a0|."""
+"""Method A* made to work for every start: time-to-go from the cubic or the least effort, thrust from |a0|."""
 
-from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION
-from ..mathlib.terminal import cubic_time, impulse_and_miss
+from ..interfaces.terminal_guidance import GOOD
+from ..mathlib.terminal import impulse_and_miss, linear_thrust
 from ..mathlib.vectors import norm
 from .astar_programme import AstarProgramme
+from .certain_time import CertainTime
+
+FORWARD = 0.05  # least part of the thrust along x that the arcsines are trusted with; 0.07 in the published box
 
 
-class AstarRobustGuidance(AstarProgramme):
-    """Terminal guidance by method A* with a time-to-go that exists all over the published box.
+class AstarRobustGuidance(AstarProgramme, CertainTime):
+    """Terminal guidance by method A* with a time-to-go that exists for every start.
 
     Time-to-go solves |A| T = 2 |B| and the thrust acceleration is |a0| = 2 |A T - 3 B|/T^2, with
     which no arcsine argument exceeds 1. The last command burns for the time_to_go that is left.
-    Source: Fomichev and Li 2017, method A*; both changes are ours, see docs/lunar_terminal_guidance.md.
+    Starts that do not brake fly with the least effort instead: see CertainTime, also for its
+    limits. There, and where thrust has too small a part along x for the arcsines to express, the
+    direction and its rate come from a0 + a1 t itself.
+    Source: Fomichev and Li 2017, method A*; the changes are ours, see docs/lunar_terminal_guidance.md.
     """
 
     terminal_step = AstarProgramme.terminal_step.with_start(1)
@@ -20,7 +26,7 @@ class AstarRobustGuidance(AstarProgramme):
         dr = [0.0] * 3
         dv = [0.0] * 3
         self.remaining(dr, dv)
-        time = cubic_time(dr, self.velocity, dv, self.target_velocity, self.gravity)
+        time = self.time_left(dr, dv)
         self.time_to_go = time
         self.status = GOOD
         if time > 0.0:
@@ -30,8 +36,10 @@ class AstarRobustGuidance(AstarProgramme):
             p = [0.0] * 3
             for i in range(3):
                 p[i] = 3.0 * b[i] - a[i] * time
-            acceleration = 2.0 * norm(p) / (time * time)
-            if acceleration > 0.0:
-                self.point(a, b, time, acceleration)
+            size = norm(p)
+            if self.least_effort or p[0] <= FORWARD * size:
+                self.thrust_acceleration = linear_thrust(
+                    a, b, time, self.burn_span(time), self.thrust_direction, self.thrust_direction_rate
+                )
             else:
-                self.status = NO_SOLUTION
+                self.point(a, b, time, 2.0 * size / (time * time))

@@ -26,4 +26,10 @@ class Allocation(Block, interface=True):
     )
     command_time = Output(0.0, unit="s", direct=True, description="time that direction and duration count from")
     burn_duration = Output(0.0, unit="s", direct=True, description="how long to thrust from command_time on")
-    status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 limited by thrust or slew rate")
+    status = Output(
+        0,
+        minimum=0,
+        maximum=2,
+        direct=True,
+        description="0 good, 1 limited by thrust or slew rate, 2 the limits contradict each other",
+    )

@@ -1,6 +1,7 @@
 """The slot of terminal guidance: bring the vehicle to a position and velocity at time_to_go."""
 
 from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.gravity import central_gravity
 
 GOOD = 0
 CLAMPED = 1
@@ -10,6 +11,9 @@ UNLIMITED = 1e9  # s; longer than any flight
 ROUNDING = 1e-9  # of a cycle, allowed for in times of communication points
 # Cycles; a last burn is never a sliver of one, in which small misses would ask for a large thrust.
 LAST_BURN = 1.5
+# Solves at the start at most, until time-to-go and the gravity corrected over it agree to SETTLED of it.
+SETTLING = 20
+SETTLED = 1e-10
 
 
 class TerminalGuidance(Block, interface=True):
@@ -20,6 +24,12 @@ class TerminalGuidance(Block, interface=True):
     position and velocity; this class samples it, ends the flight and times the last burn.
     A solve that is good with time_to_go <= 0 says that time is up and leaves the command. With
     status not converged or no solution the last command is held and time_to_go counts down.
+
+    With gravity_correction, `remaining` gives what is to gain in constant gravity for the central
+    field's pull to be met: with g linear in time from g0 here to gT at the target, the pull adds
+    T (g0 + gT)/2 to the velocity and T^2 (g0/3 + gT/6) to the position. T is the time_to_go of the
+    cycle before less the cycle, counted down while a command is held; at the start, and until a
+    first command is found, `solve` is repeated until T agrees with itself.
     """
 
     target_position = Parameter([0.0, 0.0, 2000.0], unit="m", frame="landing site", description="where to arrive")
@@ -27,12 +37,27 @@ class TerminalGuidance(Block, interface=True):
         [0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity to arrive with"
     )
     gravity = Parameter(1.62, unit="m/s2", minimum=0.0, description="gravity, constant, along -z")
+    gravity_correction = Parameter(
+        False, description="aim with a central field's gravity, linear in time between here and the target"
+    )
+    gravitational_parameter = Parameter(
+        4.9028e12, unit="m3/s2", minimum=0.0, description="of the Moon, for gravity_correction"
+    )
+    moon_radius = Parameter(
+        1.7374e6, unit="m", minimum=1.0, description="from the Moon's centre, which is straight below, to the site"
+    )
     sample_period = Parameter(0.0, unit="s", minimum=0.0, description="guidance cycle; 0: every communication point")
     terminal_step = Parameter(
         0,
         minimum=0,
         maximum=1,
         description="0 stop: finished when time_to_go < cycle; 1 exact: burn the last 0.5 to 1.5 cycles to the end",
+    )
+    last_burn = Parameter(
+        0.0,
+        unit="s",
+        minimum=0.0,
+        description="with exact: the last command is held for so long, which keeps noise of navigation out of it",
     )
     position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated position")
     velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated velocity")
@@ -62,6 +87,9 @@ class TerminalGuidance(Block, interface=True):
     cycle = State(0.0, unit="s", description="time to the next sample; 0 until the first step")
     started = State(False, description="a command with time left has been given")
     start_time = State(0.0, unit="s", description="start of the flight")
+    expected_time = State(
+        0.0, unit="s", description="time_to_go of the cycle before less the cycle; 0 or less: not known"
+    )
 
     def solve(self) -> None:
         """Set the command, time_to_go and status from position and velocity."""
@@ -71,14 +99,37 @@ class TerminalGuidance(Block, interface=True):
         for i in range(3):
             dr[i] = self.target_position[i] - self.position[i]
             dv[i] = self.target_velocity[i] - self.velocity[i]
+        if self.gravity_correction and self.expected_time > 0.0:
+            time = self.expected_time
+            here = [0.0] * 3
+            there = [0.0] * 3
+            central_gravity(self.position, self.moon_radius, self.gravitational_parameter, here)
+            central_gravity(self.target_position, self.moon_radius, self.gravitational_parameter, there)
+            for i in range(3):
+                dv[i] = dv[i] - time * 0.5 * (here[i] + there[i])
+                dr[i] = dr[i] - time * time * (here[i] / 3.0 + there[i] / 6.0)
+            dv[2] = dv[2] - time * self.gravity
+            dr[2] = dr[2] - 0.5 * time * time * self.gravity
+
+    def aim(self) -> None:
+        """Solve; with gravity_correction again where the time to correct over was not known."""
+        self.solve()
+        if self.gravity_correction and not self.started:
+            for _ in range(SETTLING):
+                time = self.time_to_go
+                change = abs(time - self.expected_time)
+                if self.status < NOT_CONVERGED and time > 0.0 and change > SETTLED * time:
+                    self.expected_time = time
+                    self.solve()
 
     def initialize(self) -> None:
         self.command_time = self.start_time
         self.cycle = self.sample_period
-        self.solve()
+        self.aim()
         self.judge()
         if self.status >= NOT_CONVERGED:
             self.time_to_go = 0.0
+            self.thrust_acceleration = 0.0
         elif self.terminal_step == 1:
             self.burn_duration = self.time_to_go
 
@@ -95,12 +146,19 @@ class TerminalGuidance(Block, interface=True):
             if self.cycle <= 0.0:
                 self.cycle = h
             burn_left = self.command_time + self.burn_duration - t - h
-            if self.terminal_step == 0 or not self.started or burn_left > (LAST_BURN - 1.0) * self.cycle:
+            if self.terminal_step == 0 or not self.started or burn_left > self.held_time() - self.cycle:
                 self.follow(t + h)
             elif burn_left > self.cycle * ROUNDING:
                 self.time_to_go = burn_left
             else:
                 self.finish(t + h)
+
+    def held_time(self) -> float:
+        """How long the last command is held at most (s)."""
+        held = LAST_BURN * self.cycle
+        if self.last_burn > held:
+            held = self.last_burn
+        return held
 
     def finish(self, time: float) -> None:
         """End the flight at ``time`` (s)."""
@@ -113,17 +171,19 @@ class TerminalGuidance(Block, interface=True):
     def follow(self, time: float) -> None:
         """Command for the sample at ``time`` (s), or the end, or the last burn."""
         left = self.time_to_go - self.cycle
-        self.solve()
+        self.expected_time = left
+        self.aim()
         self.judge()
         if self.status >= NOT_CONVERGED:
             self.time_to_go = left
             if not self.started:
                 self.time_to_go = 0.0
+                self.thrust_acceleration = 0.0
         elif self.time_to_go > 0.0:
             self.command_time = time
         if self.started and self.terminal_step == 1:
             self.burn_duration = UNLIMITED
-            if self.time_to_go <= LAST_BURN * self.cycle:
+            if self.time_to_go <= self.held_time():
                 # from command_time on, which is earlier where the last command is held
                 self.burn_duration = time - self.command_time + self.time_to_go
         elif self.started and self.time_to_go < self.cycle:

@@ -1,8 +1,10 @@
-"""Rotation of unit vectors. Kernel functions; no frame implied."""
+"""Rotations from one direction to another. Kernel functions; no frame implied."""
 
 import math
 
-from .vectors import clip, dot, norm
+from .vectors import clip, cross, dot, norm
+
+ALIGNED = 1e-12  # sine below which two directions count as parallel
 
 
 def turn_towards(direction: list, goal: list, largest: float) -> float:
@@ -37,3 +39,27 @@ def turn_towards(direction: list, goal: list, largest: float) -> float:
     for i in range(3):
         direction[i] = direction[i] / length
     return angle - largest
+
+
+def rotation_between(start: list, goal: list, axis: list) -> float:
+    """axis[3] (unit) and the angle (rad, returned) of the shortest rotation from one direction to another.
+
+    Parallel directions turn about an axis perpendicular to them. Neither may have length 0.
+    """
+    size = norm(start) * norm(goal)
+    cross(start, goal, axis)
+    sine = norm(axis) / size
+    angle = math.atan2(sine, dot(start, goal) / size)
+    if sine < ALIGNED:
+        k = 0
+        for i in range(3):
+            if abs(start[i]) < abs(start[k]):
+                k = i
+        along = start[k] / dot(start, start)
+        for i in range(3):
+            axis[i] = -along * start[i]
+        axis[k] = axis[k] + 1.0
+    length = norm(axis)
+    for i in range(3):
+        axis[i] = axis[i] / length
+    return angle

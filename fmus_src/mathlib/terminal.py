@@ -7,7 +7,8 @@ Source: Fomichev and Li 2017, with the corrections of docs/lunar_terminal_guidan
 
 import math
 
-from .vectors import norm
+from .polynomial import LARGEST, evaluate, first_crossing, positive_roots, quadratic_roots
+from .vectors import dot, norm
 
 
 def impulse_and_miss(dr: list, v: list, dv: list, g: float, time_to_go: float, a: list, b: list) -> None:
@@ -40,31 +41,113 @@ def quadratic_time(dr: list, v: list, dv: list, g: float) -> float:
     return (-a3 - math.sqrt(discriminant)) / (2.0 * a2)
 
 
-def cubic_time(dr: list, v: list, dv: list, vt: list, g: float) -> float:
-    """Time-to-go (s) from |A| T = 2 |B| in full, by Newton from the quadratic root; 0 where that has none.
+def cubic_time(dr: list, v: list, dv: list, g: float) -> float:
+    """Time-to-go (s) from |A| T = 2 |B| in full, on the published branch; 0 where that has none.
 
-    Eight iterations, which settle everywhere in the published box; where they lead to a time that
-    is not positive, outside of it, the quadratic root is returned.
+    |A| T - 2 |B| begins below 0. The first root, where it rises through 0, is a thrust that turns
+    round on the way: A T = -2 B on a line, 5 W one way to 7 W the other. The branch is the second,
+    where it falls through 0, with A T = 2 B on a line. There is none at rest, receding or slow
+    above the target, nor always where errors of knowledge have grown as large as the way left.
     """
-    start = quadratic_time(dr, v, dv, g)
-    if start <= 0.0:
+    c = [0.0] * 5
+    c[0] = -4.0 * dot(dr, dr)
+    c[1] = 8.0 * dot(dr, v)
+    c[2] = dot(dv, dv) - 4.0 * (dot(v, v) + g * dr[2])
+    c[3] = 2.0 * g * (dv[2] + 2.0 * v[2])
+    turning = [0.0] * 2
+    turnings = quadratic_roots(c[1], 2.0 * c[2], 3.0 * c[3], turning)
+    peak = 0.0
+    high = LARGEST
+    for k in range(turnings):
+        if 3.0 * c[3] * turning[k] + c[2] < 0.0:
+            peak = turning[k]
+        elif peak > 0.0:
+            high = turning[k]
+    if not (peak > 0.0 and peak < LARGEST):
         return 0.0
-    speed = norm(v)
-    gain = norm(dv)
-    distance = norm(dr)
-    c3 = 2.0 * g * (vt[2] + v[2])
-    c2 = gain * gain - 4.0 * (speed * speed + g * dr[2])
-    c1 = 8.0 * (dr[0] * v[0] + dr[1] * v[1] + dr[2] * v[2])
-    c0 = -4.0 * distance * distance
-    time = start
-    change = time
-    for _ in range(8):
-        if abs(change) > 1e-12 * time:
-            value = ((c3 * time + c2) * time + c1) * time + c0
-            slope = (3.0 * c3 * time + 2.0 * c2) * time + c1
-            if slope != 0.0:
-                change = value / slope
-                time = time - change
-    if time <= 0.0:
-        return start
-    return time
+    height = evaluate(c, peak)
+    if not height > 0.0:
+        return 0.0
+    # from where the parabola at the peak falls through 0
+    guess = peak + math.sqrt(-height / (3.0 * c[3] * peak + c[2]))
+    return first_crossing(c, peak, high, guess)
+
+
+def steady(dr: list, v: list, dv: list, g: float, time: float) -> bool:
+    """Whether a thrust that meets |A| T = 2 |B| with ``time`` (s) does not turn round: A.B > 0."""
+    a = [0.0] * 3
+    b = [0.0] * 3
+    impulse_and_miss(dr, v, dv, g, time, a, b)
+    return dot(a, b) > 0.0
+
+
+def effort_slope(dr: list, v: list, dv: list, g: float, c: list) -> None:
+    """T^4 dJ/dT as a polynomial c of T, where J is the time integral of |a0 + a1 t|^2.
+
+    J = (|A T|^2 + 3 |A T - 2 B|^2)/T^3, and A T - 2 B = (dV + 2 V) T - 2 dr.
+    """
+    s = [0.0] * 3
+    for i in range(3):
+        s[i] = dv[i] + 2.0 * v[i]
+    c[0] = -36.0 * dot(dr, dr)
+    c[1] = 24.0 * dot(dr, s)
+    c[2] = -(dot(dv, dv) + 3.0 * dot(s, s))
+    c[3] = 0.0
+    c[4] = g * g
+
+
+def effort_rises(dr: list, v: list, dv: list, g: float, time: float) -> bool:
+    """Whether the integral of |a0 + a1 t|^2 would be larger for a flight longer than ``time`` (s)."""
+    c = [0.0] * 5
+    effort_slope(dr, v, dv, g, c)
+    return evaluate(c, time) > 0.0
+
+
+def least_effort_time(dr: list, v: list, dv: list, g: float) -> float:
+    """Time-to-go (s) that makes the integral of |a0 + a1 t|^2 least (the first minimum), 0 where there is none.
+
+    With g > 0 and dr other than 0 it exists: hovering a height h above or below the target, or
+    beside it at that distance, it is sqrt(6 h/g).
+    Source: D'Souza 1997, with a velocity at the target.
+    """
+    c = [0.0] * 5
+    effort_slope(dr, v, dv, g, c)
+    slope = [0.0] * 5
+    bend = [0.0] * 4
+    turning = [0.0] * 4
+    roots = [0.0] * 4
+    for i in range(4):
+        slope[i] = (i + 1.0) * c[i + 1]
+    bends = quadratic_roots(slope[1], 2.0 * slope[2], 3.0 * slope[3], bend)
+    turnings = positive_roots(slope, bend, bends, turning)
+    count = positive_roots(c, turning, turnings, roots)
+    if count == 0:
+        return 0.0
+    return roots[0]
+
+
+def linear_thrust(a: list, b: list, time: float, span: float, direction: list, rate: list) -> float:
+    """Direction and rate (1/s) of a0 + a1 t at its start; returns its mean size (m/s2) over ``span`` (s).
+
+    The size is that of the mean vector. Where a0 = 0, the direction is that of the mean and its rate 0.
+    """
+    p = [0.0] * 3
+    q = [0.0] * 3
+    mean = [0.0] * 3
+    share = 1.5 * span / time
+    for i in range(3):
+        p[i] = 3.0 * b[i] - a[i] * time
+        q[i] = a[i] * time - 2.0 * b[i]
+        mean[i] = p[i] + share * q[i]
+    length = norm(p)
+    size = norm(mean)
+    if length > 0.0:
+        along = dot(q, p) / (length * length)
+        for i in range(3):
+            direction[i] = p[i] / length
+            rate[i] = 3.0 / time * (q[i] - along * p[i]) / length
+    elif size > 0.0:
+        for i in range(3):
+            direction[i] = mean[i] / size
+            rate[i] = 0.0
+    return 2.0 * size / (time * time)

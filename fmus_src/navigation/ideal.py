@@ -4,7 +4,7 @@ from ..interfaces.navigation import Navigation
 
 
 class IdealNavigation(Navigation):
-    """Ideal navigation: the estimate is the truth. Frame: landing site."""
+    """Ideal navigation: the estimate is the truth, and nothing else of the slot is used. Frame: landing site."""
 
     def initialize(self) -> None:
         self.measure()

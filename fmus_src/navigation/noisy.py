@@ -15,8 +15,9 @@ class NoisyNavigation(Navigation):
     white process noise of density process_noise on each axis. Fixes count from the start, at most
     one of each kind at a communication point: assumes steps no longer than both periods. The
     first estimate is the truth with errors of first_position_sigma and first_velocity_sigma. A
-    sigma of 0 switches its sensor off; with both off the estimate is the truth. The specific force
-    itself is measured without error. Frame: landing site.
+    sigma of 0 switches its sensor off; with both off the estimate is the truth. The slot's inputs
+    for sensor blocks and its central gravity are not used: the sensors are inside, the Moon is flat. The
+    specific force itself is measured without error. Frame: landing site.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2 (discretised white acceleration noise).
     """
 
@@ -29,29 +30,11 @@ class NoisyNavigation(Navigation):
     velocity_sigma = Parameter(
         0.0, unit="m/s", minimum=0.0, description="error of a velocity fix, 1 sigma per axis; 0: none taken"
     )
-    first_position_sigma = Parameter(
-        0.0, unit="m", minimum=0.0, description="first error of position, 1 sigma per axis"
-    )
-    first_velocity_sigma = Parameter(
-        0.0, unit="m/s", minimum=0.0, description="first error of velocity, 1 sigma per axis"
-    )
+    first_position_sigma = Navigation.first_position_sigma.with_start(0.0)
+    first_velocity_sigma = Navigation.first_velocity_sigma.with_start(0.0)
     process_noise = Parameter(1e-6, unit="m2/s3", minimum=0.0, description="density of white acceleration noise")
     seed = Parameter(1, minimum=0, description="random numbers: seed")
     stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    position_estimate_sigma = Output(
-        [0.0, 0.0, 0.0],
-        unit="m",
-        frame="landing site",
-        direct=(),
-        description="filter's own standard deviation of position",
-    )
-    velocity_estimate_sigma = Output(
-        [0.0, 0.0, 0.0],
-        unit="m/s",
-        frame="landing site",
-        direct=(),
-        description="filter's own standard deviation of velocity",
-    )
     innovation_square = Output(
         0.0, unit="1", direct=True, description="normalised innovation squared of the last scalar fix"
     )
@@ -114,6 +97,11 @@ class NoisyNavigation(Navigation):
             self.estimated_velocity[i] = self.estimate[3 + i]
             self.position_estimate_sigma[i] = math.sqrt(self.covariance[7 * i])
             self.velocity_estimate_sigma[i] = math.sqrt(self.covariance[7 * (i + 3)])
+        k = 0
+        for i in range(6):
+            for j in range(i, 6):
+                self.estimate_covariance[k] = self.covariance[6 * i + j]
+                k = k + 1
 
     def pass_truth(self) -> None:
         """The estimate without sensors: the truth."""

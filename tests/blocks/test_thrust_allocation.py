@@ -2,7 +2,9 @@
 
 Truth: mass times acceleration, the exact response of a first-order lag to a staircase (a sum of
 exponentials), scipy rotations for the slew-limited direction, a chi-square interval (99.9 %) for the
-random thrust error. Tolerance 1e-11 relative for thrust, 1e-12 for unit vectors.
+random thrust error. Tolerance 1e-11 relative for thrust, 1e-12 for unit vectors. What the leads are for is
+shown by flying them: the impulse of a burn with a lag is that of one without to 1e-9, the direction of a plant
+with a response that which is demanded, to second order in its rate.
 """
 
 import math
@@ -15,6 +17,7 @@ from scipy import stats
 from scipy.spatial.transform import Rotation
 
 from fmus_src.actuators.thrust_allocation import ThrustAllocation
+from fmus_src.plants.spherical_moon_lander import SphericalMoonLander
 
 MASS = 940.0
 DEMAND = [0.6, 0.0, 0.8]
@@ -215,6 +218,109 @@ def test_slew_counts_the_burn_from_its_own_command_time():
     block.step(0.0, 0.5)
     assert block.command_time == 0.5
     assert block.command_time + block.burn_duration == pytest.approx(5.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("slew", [0.0, 10.0])
+def test_leads_of_zero_change_nothing(slew):
+    """To the bit, negative durations included."""
+    settings_ = {"demanded_direction_rate": RATE, "slew_rate_limit": slew}
+    plain, led = allocation(**settings_), allocation(**settings_, thrust_lead=0.0, direction_lead=0.0)
+    for k in range(5):
+        for block in (plain, led):
+            block.demand_time = 0.3
+            block.demanded_duration = 0.1 - 0.07 * k
+            block.step(0.1 * k, 0.1)
+        assert (plain.command_time, plain.burn_duration) == (led.command_time, led.burn_duration)
+        assert plain.thrust_direction == led.thrust_direction
+        if slew == 0.0:
+            assert (led.command_time, led.burn_duration) == (0.3, 0.1 - 0.07 * k)
+
+
+@pytest.mark.parametrize("slew", [0.0, 10.0])
+@pytest.mark.parametrize(("demanded", "left"), [(7.0, 6.6), (0.4, 0.0), (0.1, 0.0), (1e9, 1e9 - 0.4)])
+def test_thrust_lead_ends_the_burn_earlier_but_not_before_it_begins(slew, demanded, left):
+    block = allocation(thrust_lead=0.4, demand_time=2.0, demanded_duration=demanded, slew_rate_limit=slew)
+    block.step(2.4, 0.1)
+    assert block.command_time + block.burn_duration == pytest.approx(2.0 + left, rel=1e-15)
+
+
+def impulse_after_settling(duration, lead, lag, step):
+    """Impulse (N s) of a plant with a lag from 4 s on, when guidance asks for its thrust for ``duration`` more."""
+    plant = SphericalMoonLander(thrust_lag=lag, direction_response=0.0, slew_rate_limit=0.0)
+    plant.initialize()
+    block = allocation(3.0, thrust_lead=lead, demanded_duration=1e9)
+    before = 0.0
+    for k in range(round(20.0 / step)):
+        time = k * step
+        if abs(time - 4.0) < 1e-9:
+            before = plant.mass
+            block.demand_time = time
+            block.demanded_duration = duration
+            block.step(time - step, step)
+        plant.thrust = 3.0 * MASS
+        plant.thrust_direction[:] = block.thrust_direction
+        plant.command_time, plant.burn_duration = block.command_time, block.burn_duration
+        plant.step(time, step)
+    return plant.specific_impulse * 9.80665 * (before - plant.mass)
+
+
+@pytest.mark.parametrize("duration", [0.1, 1.234, 5.0])
+@pytest.mark.parametrize("lag", [0.05, 0.1])
+def test_thrust_lead_gives_the_impulse_that_a_lag_would_add(duration, lag):
+    thrust = 3.0 * MASS
+    assert impulse_after_settling(duration, 0.0, 0.0, 0.1) == pytest.approx(thrust * duration, rel=1e-9)
+    assert impulse_after_settling(duration, lag, lag, 0.1) == pytest.approx(thrust * duration, rel=1e-9)
+    assert impulse_after_settling(duration, 0.0, lag, 0.1) == pytest.approx(thrust * (duration + lag), rel=1e-9)
+
+
+@given(st.sampled_from([0.0, 0.3, 1.1]), st.sampled_from([0.0, 10.0]), st.integers(-3, 3))
+@settings(max_examples=30, deadline=None)
+def test_direction_lead_commands_the_direction_of_later(lead, slew, tenths):
+    """At the next communication point, for demands of now, earlier and later."""
+    block = allocation(direction_lead=lead, demanded_direction_rate=RATE, slew_rate_limit=slew, demanded_duration=5.0)
+    block.demand_time = 1.0 - 0.1 * tenths
+    block.step(0.9, 0.1)
+    expected = unit(np.add(DEMAND, np.multiply(RATE, 1.1 + lead - block.demand_time)))
+    assert flown(block, 1.1) == pytest.approx(expected, abs=1e-12)
+    assert block.command_time + block.burn_duration == pytest.approx(block.demand_time + 5.0, abs=1e-12)
+
+
+def test_direction_lead_makes_up_for_a_response():
+    """A plant with a response of 0.5 s behind a demand that turns steadily, with the lead and without it."""
+    response, turning = 0.5, 0.02
+    ends = []
+    for lead in (0.0, response):
+        plant = SphericalMoonLander(direction_response=response)
+        plant.initialize()
+        block = allocation(direction_lead=lead)
+        for k in range(100):
+            time = 0.1 * k
+            now = Rotation.from_rotvec([0.0, turning * time, 0.0])
+            block.demanded_direction[:] = now.apply(DEMAND)
+            block.demanded_direction_rate[:] = np.cross([0.0, turning, 0.0], block.demanded_direction)
+            block.demand_time = time
+            block.step(time - 0.1, 0.1)
+            plant.thrust_direction[:] = block.thrust_direction
+            plant.thrust_direction_rate[:] = block.thrust_direction_rate
+            plant.command_time = block.command_time
+            plant.step(time, 0.1)
+        ends.append(angle_between(plant.attitude, Rotation.from_rotvec([0.0, turning * 10.0, 0.0]).apply(DEMAND)))
+    assert ends[0] == pytest.approx(response * turning, rel=1e-3)
+    assert ends[1] < 1e-6
+
+
+@pytest.mark.parametrize("acceleration", [0.0, 0.5, 1.5, 9.0])
+@pytest.mark.parametrize("slew", [0.0, 0.01])
+def test_minimum_above_maximum_is_told_by_the_status(acceleration, slew):
+    block = allocation(acceleration, minimum_thrust=3000.0, maximum_thrust=2000.0, slew_rate_limit=slew)
+    for k in range(3):
+        assert block.status == 2
+        assert block.thrust <= 2000.0
+        block.demanded_direction[:] = [0.0, 1.0, 0.0]
+        block.step(0.1 * k, 0.1)
+    assert allocation(0.5, minimum_thrust=3000.0).status == 1  # no maximum
+    assert allocation(2.0, minimum_thrust=2000.0, maximum_thrust=2000.0).status == 1
+    assert allocation(2000.0 / MASS, minimum_thrust=2000.0, maximum_thrust=2000.0).status == 0
 
 
 def test_declared_starts_alone_run():

@@ -12,6 +12,7 @@ from native_instance import ERROR, OK, NativeInstance
 
 from fmus_src.block import Block, Input, Parameter, Variable
 from fmus_src.export.kernel_source import label
+from fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
 from fmus_src.runtime import Component, StepError
 
 LONGEST_FLIGHT = 120  # steps between resets
@@ -43,6 +44,8 @@ def draw(
         return random.random() < 0.5
     if variable.name == "sample_period":
         return random.choice([0.0, h, h, 2.0 * h])
+    if isinstance(start, int) and variable.columns == SIZE:
+        return draw_operation(random, *divmod(position, SIZE))
     low = -float("inf") if variable.minimum is None else variable.minimum
     high = float("inf") if variable.maximum is None else variable.maximum
     if isinstance(start, int):
@@ -55,6 +58,20 @@ def draw(
     if start == 0.0 or random.random() < 0.3:
         value += random.gauss(0.0, SPREAD.get(variable.unit or "", 1.0))
     return min(max(value, low), high)
+
+
+def draw_operation(random: Random, row: int, column: int) -> int:
+    """An entry of a network operator's matrix, one matrix in ten of which is none."""
+    if random.random() < 0.1 / SIZE**2:
+        return random.choice([4, 22])
+    if row == column:
+        return random.choice(BINARY_OPERATIONS)
+    return random.choice(UNARY_OPERATIONS) if row < column and random.random() < 0.2 else 0
+
+
+def only_switches(block: type[Block]) -> bool:
+    """Whether all that a block computes is Boolean, so that most rows repeat earlier ones."""
+    return all(v.type_name == "Boolean" for v in block.variables.values() if not isinstance(v, Parameter | Input))
 
 
 class Pair:

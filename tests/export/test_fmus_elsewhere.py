@@ -1,4 +1,4 @@
-"""Every FMU of the catalogue in FMPy as it comes: valid, and running on its declared starts."""
+"""Every FMU of the catalogue in FMPy as it comes: valid, and running on its declared starts at the step it proposes."""
 
 from __future__ import annotations
 
@@ -17,13 +17,14 @@ STEPS = 20
 SCRIPT = """
 import json, os, sys
 import numpy as np
-from fmpy import simulate_fmu
+from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
 
 steps = int(sys.argv[1])
 found = {}
 for path in sys.argv[2:]:
-    rows = simulate_fmu(path, stop_time=0.1 * steps, step_size=0.1, output_interval=0.1)
+    step = float(read_model_description(path).defaultExperiment.stepSize)
+    rows = simulate_fmu(path, stop_time=step * steps, step_size=step, output_interval=step)
     values = np.array([list(row) for row in rows.tolist()])
     found[path] = [validate_fmu(path), len(rows), bool(np.isfinite(values).all())]
 print(json.dumps(found), flush=True)

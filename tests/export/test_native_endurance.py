@@ -89,6 +89,7 @@ def test_flights_in_threads_have_the_bits_of_flights_in_turn(block: type[Block])
         instance.free()
         return states
 
+    fly(0)  # compiled before the threads begin: CPython 3.11 cannot parse in several threads at once
     interval = sys.getswitchinterval()
     sys.setswitchinterval(1e-5)  # change threads as often as possible
     try:

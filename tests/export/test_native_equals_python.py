@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 import samples
-from comparison import Pair, fly
+from comparison import Pair, fly, only_switches
 
 from fmus_src.block import Block
 from fmus_src.catalogue import catalogue
@@ -18,7 +18,9 @@ def test_bitwise_equal_over_random_inputs(block: type[Block]) -> None:
     pair = Pair(block, samples.generator(block.fmu_name))
     rows, flights = fly(pair, STEPS)
     pair.native.free()
-    assert len(set(rows)) > 0.3 * STEPS, "most rows repeat earlier ones: the comparison says little"
+    assert only_switches(block) or len(set(rows)) > 0.3 * STEPS, (
+        "most rows repeat earlier ones: the comparison says little"
+    )
     assert len(pair.faults) < 0.5 * flights, f"most flights end in a fault: {pair.faults[0]}"
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 import samples
-from comparison import LONGEST_FLIGHT, bits, draw, elements
+from comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches
 
 from analysis.cosim.fmu import Instance, instantiate, load_fmu
 from fmus_src.block import Block, Input, Parameter
@@ -126,4 +126,4 @@ def test_three_faces_agree(block: type[Block], tmp_path: Path) -> None:
                 break
     for instance in instances:
         instance.free()
-    assert len(rows) > 0.5 * STEPS, "most rows repeat earlier ones: the comparison says little"
+    assert only_switches(block) or len(rows) > 0.5 * STEPS, "most rows repeat earlier ones: the comparison says little"

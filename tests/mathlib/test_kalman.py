@@ -1,8 +1,9 @@
-"""Kalman filter: `fmus_src.mathlib.kalman` against filterpy, random systems of one to nine states.
+"""Kalman filter: `fmus_src.mathlib.kalman` against filterpy, random systems of one to fifteen states.
 
 Truth: `filterpy.kalman.KalmanFilter` with its matrix inverse, and the information form of the update by
 numpy; tolerance 1e-10 of the largest element. The covariance stays symmetric to 1e-12 of its largest
-element and positive over thousands of steps, with nearly perfect measurements too.
+element and positive over thousands of steps, with nearly perfect measurements too. Normalised squares are
+those of `numpy.linalg.solve`.
 """
 
 import numpy as np
@@ -11,7 +12,7 @@ from filterpy.kalman import KalmanFilter
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fmus_src.mathlib.kalman import predict, update
+from fmus_src.mathlib.kalman import correct, innovation_variance, normalised_square, predict, update
 
 
 def random_system(generator, n):
@@ -28,7 +29,7 @@ def assert_close(found, expected, tolerance=1e-10):
     assert np.asarray(found) == pytest.approx(expected, rel=0.0, abs=tolerance * max(1.0, abs(expected).max()))
 
 
-@pytest.mark.parametrize("n", range(1, 10))
+@pytest.mark.parametrize("n", range(1, 16))
 def test_predict_and_scalar_updates_follow_filterpy(n):
     generator = np.random.default_rng(100 + n)
     x, p, f, q = random_system(generator, n)
@@ -48,7 +49,7 @@ def test_predict_and_scalar_updates_follow_filterpy(n):
         assert nis == pytest.approx((reference.y.T @ reference.SI @ reference.y).item(), rel=1e-9)
 
 
-@pytest.mark.parametrize("n", [2, 6, 9])
+@pytest.mark.parametrize("n", [2, 6, 9, 15])
 def test_scalars_one_after_another_equal_one_vector_measurement(n):
     generator = np.random.default_rng(200 + n)
     x, p, _, _ = random_system(generator, n)
@@ -68,7 +69,7 @@ def test_scalars_one_after_another_equal_one_vector_measurement(n):
     assert_close(mine_x, np.linalg.solve(information, np.linalg.solve(p, x) + rows.T @ (z / variances)))
 
 
-@given(st.integers(1, 9), st.integers(0, 2**32 - 1))
+@given(st.integers(1, 15), st.integers(0, 2**32 - 1))
 @settings(max_examples=40, deadline=None)
 def test_update_never_adds_variance_in_any_direction(n, seed):
     generator = np.random.default_rng(seed)
@@ -79,6 +80,42 @@ def test_update_never_adds_variance_in_any_direction(n, seed):
     assert nis >= 0.0
     assert np.linalg.eigvalsh(0.5 * (after + after.T)).min() > 0.0
     assert np.linalg.eigvalsh(p - 0.5 * (after + after.T)).min() > -1e-10 * abs(p).max()
+
+
+@pytest.mark.parametrize("n", [1, 6, 15])
+def test_an_update_in_two_parts_is_the_update(n):
+    generator = np.random.default_rng(300 + n)
+    x, p, _, _ = random_system(generator, n)
+    h = generator.normal(size=n)
+    whole_x, whole_p = x.tolist(), p.ravel().tolist()
+    nis = update(whole_x, whole_p, h.tolist(), 0.3, 2.0, n)
+    ph = [0.0] * n
+    parted_p = p.ravel().tolist()
+    s = innovation_variance(parted_p, h.tolist(), ph, 0.3, n)
+    assert s == pytest.approx(h @ p @ h + 0.3)
+    assert parted_p == p.ravel().tolist()
+    correction = [0.0] * n
+    correct(correction, parted_p, h.tolist(), ph, 2.0 - h @ x, s, 0.3, n)
+    assert_close(x + correction, whole_x)
+    assert_close(parted_p, whole_p)
+    assert (2.0 - h @ x) ** 2 / s == pytest.approx(nis)
+
+
+@given(st.integers(1, 15), st.integers(0, 2**32 - 1))
+@settings(max_examples=40, deadline=None)
+def test_normalised_square_is_that_of_a_solved_system(n, seed):
+    generator = np.random.default_rng(seed)
+    _, p, _, _ = random_system(generator, n)
+    e = generator.normal(size=n)
+    kept = p.ravel().tolist()
+    assert normalised_square(kept, e.tolist(), n) == pytest.approx(e @ np.linalg.solve(p, e), rel=1e-9)
+    assert kept == p.ravel().tolist()
+
+
+def test_normalised_square_says_where_a_matrix_is_not_positive():
+    assert normalised_square([1.0, 2.0, 2.0, 1.0], [1.0, 1.0], 2) == -1.0
+    assert normalised_square([0.0], [0.0], 1) == -1.0
+    assert normalised_square([float("nan")], [0.0], 1) == -1.0
 
 
 def test_nothing_beyond_n_states_is_touched():

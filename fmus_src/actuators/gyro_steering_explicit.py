@@ -1,0 +1,29 @@
+"""Gyro steering by an explicit distribution law."""
+
+from ..block import Parameter
+from ..interfaces.gyro_steering import NEAR_SINGULAR, GyroSteering
+from ..mathlib.gyros import ISOTROPIC_RHO, distributed_rates, robust_rates
+
+
+class GyroSteeringExplicit(GyroSteering):
+    """Gimbal rates of the 2-SPE cluster from the distribution law u - v + rho (u v - 1) = 0, without iteration.
+
+    The torque at the sample instant is exact. With the declared rho no momentum below 1.96 of one rotor's is singular
+    under the law; law_gain leads angles that are off it back to it. Where a divisor of the law
+    falls below least_divisor (|h| > 1.93), the rates are those of the singularity-robust pseudo-inverse: the
+    torque is then approximate and the status 1. Source: Somov 2013; see docs/robot_rendezvous.md.
+    """
+
+    rho = Parameter(ISOTROPIC_RHO, unit="1", minimum=0.0, maximum=0.999, description="bias of the distribution law")
+    law_gain = Parameter(0.2, unit="1/s", minimum=0.0, description="rate at which the law's residual decays")
+    least_divisor = Parameter(0.02, unit="1", minimum=1e-6, description="below it the law is not used")
+
+    def steer(self, angles: list, momentum_rate: list, time: float) -> None:
+        lawful = distributed_rates(
+            angles, momentum_rate, self.rho, self.law_gain, self.least_divisor, self.gimbal_rates
+        )
+        if not lawful:
+            self.status = NEAR_SINGULAR
+            robust_rates(
+                angles, momentum_rate, self.damping, self.damping_threshold, self.swing, time, self.gimbal_rates
+            )

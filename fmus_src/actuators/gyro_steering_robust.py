@@ -1,0 +1,21 @@
+"""Gyro steering by the singularity-robust pseudo-inverse."""
+
+from ..interfaces.gyro_steering import NEAR_SINGULAR, GyroSteering
+from ..mathlib.gyros import robust_rates
+
+
+class GyroSteeringRobust(GyroSteering):
+    """Gimbal rates W A' (A W A' + k E)^-1 h': of all rates that give the torque the smallest, and bounded everywhere.
+
+    The torque is exact while singularity is at least damping_threshold (k = 0); below it rates stay
+    bounded, the torque is approximate and the status 1. swing leads out of singular states. The
+    pseudo-inverse leaves the isotropic angles and does not come back to them. Source: Nakamura and Hanafusa
+    1986; Wie 2005; see docs/robot_rendezvous.md.
+    """
+
+    def steer(self, angles: list, momentum_rate: list, time: float) -> None:
+        measure = robust_rates(
+            angles, momentum_rate, self.damping, self.damping_threshold, self.swing, time, self.gimbal_rates
+        )
+        if measure < self.damping_threshold:
+            self.status = NEAR_SINGULAR

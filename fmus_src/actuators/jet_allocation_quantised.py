@@ -1,0 +1,43 @@
+"""Jet allocation in whole levels of thrust, without torque."""
+
+import math
+
+from ..block import Parameter, State
+from ..interfaces.jet_allocation import SATURATED, TORQUE_LEFT_OUT, JetAllocation
+from ..mathlib.jets import nearest_levels, thrust_of_levels
+from ..mathlib.quaternion import to_body, to_reference
+
+
+class JetAllocationQuantised(JetAllocation):
+    """Thrusts in multiples of thrust_quantum that give a force and no torque at all.
+
+    Such forces are 2 thrust_quantum strength[i] n[i] with integers n that are all even or all odd (0.0577 N n
+    with the declared jets). The nearest attainable neighbour of the wanted force is given, by the least
+    propellant. What it lacks is added to the next command as an impulse in inertial axes (first-order
+    sigma-delta), so that the mean force is the wanted one. A force beyond what is attainable is scaled
+    first, and what that takes off is not carried. A torque command is left out and reported, as is a
+    force that the geometry cannot give. Derivation: docs/robot_rendezvous.md.
+    """
+
+    thrust_quantum = Parameter(0.05, unit="N", minimum=1e-6, description="thrusts are multiples of it")
+    owed_impulse = State([0.0, 0.0, 0.0], unit="N.s", frame="inertial", description="wanted and not given yet")
+
+    def allocate(self) -> None:
+        force = [0.0] * 3
+        levels = [0.0] * 3
+        to_body(self.attitude, self.owed_impulse, force)
+        for i in range(3):
+            if self.wanted_wrench[3 + i] != 0.0 or (self.strength[i] == 0.0 and self.wanted_wrench[i] != 0.0):
+                self.status = TORQUE_LEFT_OUT
+            force[i] = self.wanted_wrench[i] + force[i] / self.translation_period
+        highest = float(math.floor(self.maximum_thrust / self.thrust_quantum + 1e-9))
+        scale = nearest_levels(self.strength, force, self.thrust_quantum, highest, levels)
+        if scale < 1.0:
+            self.status = SATURATED
+        thrust_of_levels(levels, self.thrust_quantum, self.new_thrust)
+        for i in range(3):
+            given = 2.0 * self.thrust_quantum * self.strength[i] * levels[i]
+            force[i] = (scale * force[i] - given) * self.translation_period
+            if self.strength[i] == 0.0:
+                force[i] = 0.0
+        to_reference(self.attitude, force, self.owed_impulse)

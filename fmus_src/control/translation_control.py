@@ -1,0 +1,102 @@
+"""From the error of position and velocity to the force wanted."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.lead import advance_lead, change_lead, lead_output, tustin_lead
+
+LEAD = 0
+GOOD = 0
+NOT_FINITE = 1
+
+
+class TranslationControl(Block):
+    """Force for the jets: the planned acceleration and a correction, once per tick of translation control.
+
+    law 0 (the paper's): force = mass (planned_acceleration - m), m = position_error through a lead compensator
+    gain (lead s + 1)/(lag s + 1), discretised by Tustin's rule at translation_period. law 1: m = w^2 position_error
+    + 2 damping w velocity_error with the natural frequency w. Each law has two designs; the one
+    whose design_period is nearest to translation_period is used. Where the design changes the lead's state
+    is set so that its output does not jump. The force is held until the next tick; a new tick is told
+    by its count, the one at the start counts. Inputs that are not finite leave the force as it is.
+    Frame: inertial. Equations, gains and margins: docs/robot_rendezvous.md.
+    Source: Somov, Butyrin, Somov and Somova, see there.
+    """
+
+    default_step = 0.125
+
+    law = Parameter(1, minimum=0, maximum=1, description="0 lead compensator, 1 position and velocity")
+    mass = Parameter(1000.0, unit="kg", minimum=1e-3, description="of the robot")
+    design_period = Parameter([8.0, 4.0], unit="s", minimum=1e-3, description="translation_period of the two designs")
+    lead_gain = Parameter([1.5625e-4, 6.25e-4], minimum=0.0, description="of the lead at rest, per design, 1/s2")
+    lead_time = Parameter([160.0, 80.0], unit="s", minimum=0.0, description="lead, per design")
+    lag_time = Parameter([13.3, 6.67], unit="s", minimum=0.0, description="lag, per design")
+    natural_frequency = Parameter([0.03, 0.05], unit="rad/s", minimum=0.0, description="of law 1, per design")
+    damping = Parameter([0.9, 0.9], unit="1", minimum=0.0, description="of law 1, per design")
+    position_error = Input([0.0, 0.0, 0.0], unit="m", frame="inertial", description="of the robot from its plan")
+    velocity_error = Input([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="of the robot from its plan")
+    planned_acceleration = Input(
+        [0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="mean over the time in which the force acts"
+    )
+    translation_period = Input(8.0, unit="s", minimum=1e-3, description="to the next tick")
+    translation_count = Input(0, description="ticks so far; a change tells a new one")
+    force_command = Output([0.0, 0.0, 0.0], unit="N", frame="inertial", direct=True, description="wanted force")
+    command_count = Output(0, direct=True, description="forces commanded; a change tells a new one")
+    status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 last inputs not finite, force held")
+    ticks = State(0, description="translation_count of the last tick")
+    lead_state = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="of the lead compensator")
+    last_law = State([0.0, 0.0, 0.0], description="decay, share, direct of the lead at the last tick")
+    started = State(False, description="last_law is set")
+
+    def initialize(self) -> None:
+        self.ticks = self.translation_count
+        self.command()
+
+    def design(self) -> int:
+        """Number of the design for translation_period."""
+        nearest = 0
+        first = abs(self.translation_period - self.design_period[0])
+        second = abs(self.translation_period - self.design_period[1])
+        if second < first:
+            nearest = 1
+        return nearest
+
+    def correction(self, m: list) -> None:
+        """m[3] = what to take off the acceleration (m/s2); moves the lead to the next tick."""
+        k = self.design()
+        if self.law == LEAD:
+            law = [0.0] * 3
+            tustin_lead(self.lead_gain[k], self.lead_time[k], self.lag_time[k], self.translation_period, law)
+            changed = law[0] != self.last_law[0] or law[1] != self.last_law[1] or law[2] != self.last_law[2]
+            if self.started and changed:
+                change_lead(self.last_law, law, self.position_error, self.lead_state)
+            self.started = True
+            for i in range(3):
+                self.last_law[i] = law[i]
+            lead_output(law, self.lead_state, self.position_error, m)
+            advance_lead(law, self.lead_state, self.position_error)
+        else:
+            w = self.natural_frequency[k]
+            for i in range(3):
+                m[i] = w * (w * self.position_error[i] + 2.0 * self.damping[k] * self.velocity_error[i])
+
+    def command(self) -> None:
+        """Command a new force."""
+        for i in range(3):
+            if not (math.isfinite(self.position_error[i]) and math.isfinite(self.velocity_error[i])):
+                self.status = NOT_FINITE
+                return
+            if not math.isfinite(self.planned_acceleration[i]):
+                self.status = NOT_FINITE
+                return
+        m = [0.0] * 3
+        self.status = GOOD
+        self.correction(m)
+        for i in range(3):
+            self.force_command[i] = self.mass * (self.planned_acceleration[i] - m[i])
+        self.command_count = self.command_count + 1
+
+    def step(self, t: float, h: float) -> None:
+        if self.translation_count != self.ticks:
+            self.ticks = self.translation_count
+            self.command()

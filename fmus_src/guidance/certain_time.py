@@ -1,0 +1,57 @@
+"""A time-to-go for every start, shared by the two guidances that have one."""
+
+from ..block import State
+from ..interfaces.terminal_guidance import TerminalGuidance
+from ..mathlib.terminal import cubic_time, effort_rises, least_effort_time, steady
+
+AGREEMENT = 0.05  # of the time; where the two times are this close, a flight of least effort goes over to braking
+# With less than ENDING (s) to go and no root, a least effort of more than CHASE times that would only chase errors
+# of knowledge about the target: time is up.
+ENDING = 5.0
+CHASE = 1.5
+
+
+class CertainTime(TerminalGuidance, interface=True):
+    """Time-to-go from |A| T = 2 |B| where that brakes, that of least effort where it does not.
+
+    |A| T = 2 |B| is for fast approaches, with thrust of about constant size. It has no root, or
+    only one whose thrust turns round, for starts at rest, receding or beside the target, and one
+    far too long for slow approaches, which would hover down. Those fly the thrust acceleration
+    a0 + a1 t whose square has the least integral; its time exists wherever there is gravity and a
+    way to go. Which of the two it is, is decided with the first command; a flight of least effort
+    brakes like the others once both times agree, and one that has lost its root in between takes
+    the least effort meanwhile.
+    Limits: the ground is not known, and a start that is too fast for its distance flies past the
+    target and back, below it if need be; without gravity there is no time for a start at rest.
+    Source: D'Souza 1997, "An optimal guidance law for planetary landing"; the choice is ours.
+    """
+
+    braking = State(False, description="the flight takes its time from |A| T = 2 |B|")
+    least_effort = State(False, description="the last command took the time of least effort")
+
+    def time_left(self, dr: list, dv: list) -> float:
+        """Time-to-go (s) from what is to gain, and with it least_effort; 0 where there is none."""
+        g = self.gravity
+        time = cubic_time(dr, self.velocity, dv, g)
+        least = 0.0
+        if not self.started or self.least_effort or time <= 0.0:
+            least = least_effort_time(dr, self.velocity, dv, g)
+            close = abs(time - least) < AGREEMENT * least
+            suits = time > 0.0 and steady(dr, self.velocity, dv, g, time)
+            brakes = suits and not effort_rises(dr, self.velocity, dv, g, time)
+            if not self.started:
+                self.braking = brakes
+            elif suits and close:
+                self.braking = True
+            self.least_effort = not (self.braking and suits and (brakes or close))
+        if self.least_effort:
+            time = least
+            if self.started and self.expected_time < ENDING and least > CHASE * self.expected_time:
+                time = 0.0
+        return time
+
+    def burn_span(self, time: float) -> float:
+        """How long (s) a command lasts that is given with ``time`` (s) to go."""
+        if time <= self.held_time():
+            return time
+        return self.cycle

@@ -1,0 +1,107 @@
+"""Descent in space by a network operator."""
+
+import math
+
+from ..block import Parameter, State
+from ..interfaces.network_operator_law import NetworkOperatorLaw
+from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, UNLIMITED, TerminalGuidance
+from ..mathlib.gravity import STANDARD_GRAVITY
+from ..mathlib.vectors import dot, norm
+
+LEAST_HORIZONTAL_SPEED = 0.5  # m/s; below it the horizontal direction is held
+
+
+class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
+    """Braking by a network operator, down to the hand-over to another guidance.
+
+    The planar law in the plane of position (from the Moon's centre) and velocity: thrust at its
+    angle from the local vertical, against the horizontal velocity. The flight is over at the first
+    sample with less than handover_speed inside the band of altitudes. The command turns by up to
+    1 rad between samples, so direction rates are 0; cycles of at most 0.1 s are assumed.
+
+    time_to_go is the time to lose all but handover_speed with the present thrust and growing thrust
+    acceleration, gravity and the thrust's tilt left out: within 10 % of the truth in the published
+    descents. It is 0 where the vehicle is slow enough and the altitude is not right yet.
+
+    Of the slot's parameters the law uses the altitude of target_position and moon_radius. It
+    has no place or velocity to meet and no model of gravity, so the rest of target_position,
+    target_velocity, gravity, gravity_correction and gravitational_parameter change nothing; nor do
+    terminal_step and last_burn, since the hand-over is a state to reach and not a burn to time.
+    With a matrix that is no network operator the status is 3 and there is no thrust.
+    Source: Diveev, Pupkov and Sofronova 2013; see docs/lunar_descent_2d.md.
+    """
+
+    target_position = TerminalGuidance.target_position.with_start([0.0, 0.0, 1500.0])
+    specific_impulse = Parameter(319.0, unit="s", minimum=1e-3, description="of the engine, for time_to_go")
+    # 6 m/s is what a hand-over is judged by; navigation does not know the speed better than 0.1 m/s
+    handover_speed = Parameter(5.9, unit="m/s", minimum=0.0, description="finished below it")
+    handover_altitude_low = Parameter(1200.0, unit="m", description="lowest altitude to finish at")
+    handover_altitude_high = Parameter(1800.0, unit="m", description="highest altitude to finish at")
+    final_altitude = State(0.0, unit="m", description="hf, the target's altitude")
+    altitude = State(0.0, unit="m", description="altitude")
+    forward = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal direction of flight")
+
+    def initialize(self) -> None:
+        centred = [0.0] * 3
+        for i in range(3):
+            centred[i] = self.target_position[i]
+        centred[2] = centred[2] + self.moon_radius
+        self.final_altitude = norm(centred) - self.moon_radius
+        self.command_time = self.start_time
+        self.decode_law()
+        self.solve()
+
+    def solve(self) -> None:
+        centred = [0.0] * 3
+        for i in range(3):
+            centred[i] = self.position[i]
+        centred[2] = centred[2] + self.moon_radius
+        radius = norm(centred)
+        if self.edge_count >= 0 and self.mass > 0.0 and radius > 0.0:
+            for i in range(3):
+                centred[i] = centred[i] / radius
+            self.altitude = radius - self.moon_radius
+            self.command_thrust(centred)
+            self.status = GOOD
+        else:
+            self.status = NO_SOLUTION
+
+    def command_thrust(self, up: list) -> None:
+        """Command from the law, with the local vertical ``up``."""
+        vertical_speed = dot(self.velocity, up)
+        horizontal = [0.0] * 3
+        for i in range(3):
+            horizontal[i] = self.velocity[i] - vertical_speed * up[i]
+        horizontal_speed = norm(horizontal)
+        if horizontal_speed >= LEAST_HORIZONTAL_SPEED:
+            for i in range(3):
+                self.forward[i] = horizontal[i] / horizontal_speed
+        self.evaluate_law(-math.atan2(horizontal_speed, vertical_speed), self.altitude, self.final_altitude)
+        angle = self.law_angle()
+        for i in range(3):
+            self.thrust_direction[i] = math.cos(angle) * up[i] - math.sin(angle) * self.forward[i]
+        length = norm(self.thrust_direction)
+        for i in range(3):
+            self.thrust_direction[i] = self.thrust_direction[i] / length
+        self.thrust_acceleration = self.law_thrust() / self.mass
+        self.estimate_time()
+
+    def estimate_time(self) -> None:
+        """time_to_go from the rocket equation."""
+        excess = norm(self.velocity) - self.handover_speed
+        exhaust_speed = STANDARD_GRAVITY * self.specific_impulse
+        self.time_to_go = 0.0
+        if excess > 0.0:
+            self.time_to_go = UNLIMITED
+            if self.thrust_acceleration > 0.0:
+                self.time_to_go = -math.expm1(-excess / exhaust_speed) * exhaust_speed / self.thrust_acceleration
+
+    def step(self, t: float, h: float) -> None:
+        if not self.finished:
+            self.solve()
+            if self.status == GOOD:
+                self.command_time = t + h
+                slow = norm(self.velocity) < self.handover_speed
+                low = self.altitude <= self.handover_altitude_high
+                if slow and low and self.altitude >= self.handover_altitude_low:
+                    self.finish(t + h)

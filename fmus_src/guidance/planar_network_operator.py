@@ -1,0 +1,42 @@
+"""Descent in a plane by a network operator."""
+
+from ..block import Input, Output, Parameter
+from ..interfaces.network_operator_law import NetworkOperatorLaw
+
+BAD_LAW = 1
+
+
+class PlanarNetworkOperator(NetworkOperatorLaw):
+    """Thrust and its angle for a descent in a plane, by a network operator.
+
+    Angles are from the local vertical, with the sign of planar_moon_lander's. With a matrix that is
+    no network operator the thrust is 0 and the status 1. The law has no end of its own: it works
+    down to final_altitude and a few m/s, where another guidance has to take over.
+    Source: Diveev, Pupkov and Sofronova 2013; see docs/lunar_descent_2d.md.
+    """
+
+    final_altitude = Parameter(1500.0, unit="m", description="hf, where to arrive")
+    sample_period = Parameter(0.0, unit="s", minimum=0.0, description="guidance cycle; 0: every communication point")
+    measured_path_angle = Input(-1.6, unit="rad", description="from the local vertical to the velocity, unwrapped")
+    measured_altitude = Input(18148.0, unit="m", description="altitude")
+    thrust_angle = Output(0.0, unit="rad", direct=True, description="from the local vertical to the thrust")
+    thrust = Output(0.0, unit="N", direct=True, description="commanded thrust")
+    status = Output(
+        0, minimum=0, maximum=1, direct=True, description="0 good, 1 the matrix is no network operator: no thrust"
+    )
+
+    def initialize(self) -> None:
+        self.decode_law()
+        if self.edge_count < 0:
+            self.status = BAD_LAW
+        self.command()
+
+    def command(self) -> None:
+        """Thrust and angle for what is measured."""
+        if self.status != BAD_LAW:
+            self.evaluate_law(self.measured_path_angle, self.measured_altitude, self.final_altitude)
+            self.thrust_angle = self.law_angle()
+            self.thrust = self.law_thrust()
+
+    def step(self, t: float, h: float) -> None:
+        self.command()

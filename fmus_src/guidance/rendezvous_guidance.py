@@ -1,0 +1,222 @@
+"""The plan of an approach to a passive rotating object, and the clock of translation control."""
+
+import math
+
+from ..block import Block, Output, Parameter, State
+from ..mathlib.quaternion import from_rotation_vector
+from ..mathlib.rotation import rotation_between
+from ..mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
+
+GOOD = 0
+NO_PLAN = 1
+ROUNDING = 1e-9  # of a period, allowed for in times of communication points
+
+
+class RendezvousGuidance(Block):
+    """Planned motion of a free-flying robot, from rest to holding a place beside a passive rotating object.
+
+    1. Until turn_start: constant acceleration from rest at the origin, body axes inertial. 2. Until turn_end:
+    coast, and turn the camera axis (body x) along the object's spin_axis about the axis perpendicular
+    to both, by a polynomial of degree 6. 3. Until arrival_time: a spline of spline_degree to the place
+    final_distance behind the object's centre along spin_axis, with the object's velocity; accelerations are
+    0 at both ends. 4. Hold that place. The acceleration of phase 1 is the one for which the velocity of
+    phase 3 goes from its first to its last value on a straight line without overshoot. The
+    object moves as target_position and target_velocity say; nothing is measured here. Times count from the start.
+
+    The block is the clock of translation control, too: translation_count grows by one at every tick, at
+    first every slow_period (taken as a whole multiple of fast_period), and from turn_end on at every
+    multiple of fast_period. What is commanded at a tick acts from delay_fraction times the period later until the
+    next command does; planned_acceleration is the mean over that time, the first one from the start on.
+    Phases out of order make no plan: status 1, and the robot is to stay at rest.
+    Frames: inertial; body of the plan. Equations: docs/robot_rendezvous.md.
+    Source: Somov, Butyrin, Somov and Somova, see there.
+    """
+
+    default_step = 0.125
+
+    target_position = Parameter(
+        [469.8463103929542, 171.01007166283436, 0.0],
+        unit="m",
+        frame="inertial",
+        description="the object's centre at the start, as known",
+    )
+    target_velocity = Parameter(
+        [-0.05, 0.05, 0.075], unit="m/s", frame="inertial", description="of the object, as known"
+    )
+    spin_axis = Parameter([-0.608, 0.228, 0.760], unit="1", frame="inertial", description="of the object, any length")
+    turn_start = Parameter(1420.0, unit="s", minimum=0.0, description="end of the acceleration")
+    turn_end = Parameter(1520.0, unit="s", minimum=0.0, description="end of the turn")
+    arrival_time = Parameter(4250.0, unit="s", minimum=0.0, description="end of the spline")
+    final_distance = Parameter(30.0, unit="m", minimum=0.0, description="from the object's centre, against spin_axis")
+    spline_degree = Parameter(5, minimum=5, maximum=6, description="6: without jerk at the end, too")
+    slow_period = Parameter(8.0, unit="s", minimum=1e-3, description="of translation control until turn_end")
+    fast_period = Parameter(4.0, unit="s", minimum=1e-3, description="of translation control from then on")
+    delay_fraction = Parameter(
+        0.25, unit="1", minimum=0.0, maximum=1.0, description="delay of the jets over the period of translation control"
+    )
+    attitude_period = Parameter(0.25, unit="s", minimum=0.0, description="of attitude control")
+    planned_position = Output([0.0, 0.0, 0.0], unit="m", frame="inertial", description="of the robot")
+    planned_velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="of the robot")
+    planned_acceleration = Output(
+        [0.0, 0.0, 0.0],
+        unit="m/s2",
+        frame="inertial",
+        description="mean over the time in which the last tick's force acts",
+    )
+    planned_relative_position = Output(
+        [0.0, 0.0, 0.0], unit="m", frame="inertial", description="from the robot to the object's centre"
+    )
+    planned_quaternion = Output([1.0, 0.0, 0.0, 0.0], unit="1", description="from body to inertial, scalar first")
+    planned_angular_velocity = Output([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="of the plan")
+    planned_angular_acceleration = Output(
+        [0.0, 0.0, 0.0], unit="rad/s2", frame="body", description="of the plan, half an attitude_period later"
+    )
+    phase = Output(1, minimum=1, maximum=4, description="1 accelerate, 2 turn, 3 approach, 4 hold")
+    translation_period = Output(8.0, unit="s", description="of translation control, from the last tick on")
+    translation_count = Output(0, description="ticks of translation control so far; a change tells a new one")
+    status = Output(0, minimum=0, maximum=1, description="0 good, 1 no plan: phases out of order")
+    start_time = State(0.0, unit="s", description="start of the flight")
+    acceleration = State([0.0, 0.0, 0.0], unit="m/s2", frame="inertial", description="of phase 1")
+    splines = State([0.0] * 21, unit="m", frame="inertial", description="coefficients of phase 3, axis by axis")
+    turn_axis = State([0.0, 0.0, 0.0], unit="1", description="of the turn, the same in inertial and body axes")
+    turn_polynomial = State([0.0] * 7, unit="rad", description="coefficients of the angle of the turn")
+    place = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="where to be at arrival_time")
+    next_tick = State(0, description="when translation control ticks next, in fast periods")
+    granted_velocity = State(
+        [0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="planned when the last tick's force ends"
+    )
+
+    def initialize(self) -> None:
+        if not (self.turn_start > 0.0 and self.turn_start < self.turn_end and self.turn_end < self.arrival_time):
+            self.status = NO_PLAN
+        if self.spin_axis[0] == 0.0 and self.spin_axis[1] == 0.0 and self.spin_axis[2] == 0.0:
+            self.status = NO_PLAN
+        if self.status == GOOD:
+            self.make_plan()
+        self.tick(0.0)
+        self.publish(0.0)
+
+    def make_plan(self) -> None:
+        """Acceleration of phase 1, splines of phase 3 and the turn."""
+        camera = [1.0, 0.0, 0.0]
+        axis = [0.0] * 3
+        angle = rotation_between(camera, self.spin_axis, axis)
+        spline(0.0, 0.0, angle, 0.0, self.turn_end - self.turn_start, 6, self.turn_polynomial)
+        spin = math.sqrt(
+            self.spin_axis[0] * self.spin_axis[0]
+            + self.spin_axis[1] * self.spin_axis[1]
+            + self.spin_axis[2] * self.spin_axis[2]
+        )
+        approach = self.arrival_time - self.turn_end
+        # the way per acceleration: phases 1 and 2, and half of phase 3 with the velocity of phase 2
+        reach = self.turn_start * (self.turn_end - 0.5 * self.turn_start + 0.5 * approach)
+        c = [0.0] * 7
+        for i in range(3):
+            self.turn_axis[i] = axis[i]
+            self.place[i] = (
+                self.target_position[i]
+                + self.arrival_time * self.target_velocity[i]
+                - self.final_distance * self.spin_axis[i] / spin
+            )
+            self.acceleration[i] = (self.place[i] - 0.5 * approach * self.target_velocity[i]) / reach
+            coasting = self.acceleration[i] * self.turn_start
+            begin = coasting * (self.turn_end - 0.5 * self.turn_start)
+            spline(begin, coasting, self.place[i], self.target_velocity[i], approach, self.spline_degree, c)
+            for k in range(7):
+                self.splines[7 * i + k] = c[k]
+
+    def move(self, time: float, axis: int) -> float:
+        """Planned velocity (m/s) along an inertial axis; sets the planned position there."""
+        if self.status != GOOD:
+            self.planned_position[axis] = 0.0
+            return 0.0
+        if time <= self.turn_start:
+            self.planned_position[axis] = 0.5 * self.acceleration[axis] * time * time
+            return self.acceleration[axis] * time
+        if time <= self.turn_end:
+            coasting = self.acceleration[axis] * self.turn_start
+            self.planned_position[axis] = coasting * (time - 0.5 * self.turn_start)
+            return coasting
+        if time < self.arrival_time:
+            duration = self.arrival_time - self.turn_end
+            s = (time - self.turn_end) / duration
+            c = [0.0] * 7
+            for k in range(7):
+                c[k] = self.splines[7 * axis + k]
+            self.planned_position[axis] = spline_value(c, s)
+            return spline_rate(c, s, duration)
+        self.planned_position[axis] = self.place[axis] + self.target_velocity[axis] * (time - self.arrival_time)
+        return self.target_velocity[axis]
+
+    def turn(self, time: float) -> None:
+        """Planned attitude, its rate, and its acceleration half a period of attitude control later."""
+        duration = self.turn_end - self.turn_start
+        angle = 0.0
+        rate = 0.0
+        acceleration = 0.0
+        if self.status == GOOD:
+            s = (time - self.turn_start) / duration
+            ahead = s + 0.5 * self.attitude_period / duration
+            if s >= 1.0:
+                angle = spline_value(self.turn_polynomial, 1.0)
+            elif s > 0.0:
+                angle = spline_value(self.turn_polynomial, s)
+                rate = spline_rate(self.turn_polynomial, s, duration)
+            if ahead > 0.0 and ahead < 1.0:
+                acceleration = spline_acceleration(self.turn_polynomial, ahead, duration)
+        rotation = [0.0] * 3
+        for i in range(3):
+            rotation[i] = angle * self.turn_axis[i]
+            self.planned_angular_velocity[i] = rate * self.turn_axis[i]
+            self.planned_angular_acceleration[i] = acceleration * self.turn_axis[i]
+        from_rotation_vector(rotation, self.planned_quaternion)
+
+    def tick(self, time: float) -> None:
+        """A tick of translation control: its period, and what is to be planned for it."""
+        ratio = math.floor(self.slow_period / self.fast_period + 0.5)
+        if ratio < 1:
+            ratio = 1
+        change = math.ceil(self.turn_end / self.fast_period - ROUNDING)
+        self.translation_period = self.fast_period
+        following = self.next_tick + 1
+        if self.next_tick < change:
+            self.translation_period = float(ratio) * self.fast_period
+            following = self.next_tick + ratio
+            if following > change:
+                following = change
+        begin = time + self.delay_fraction * self.translation_period
+        if self.translation_count == 0:
+            begin = time  # nothing acts before the first force, which makes up for it
+        end = (float(following) + self.delay_fraction) * self.fast_period
+        if following < change:
+            end = float(following) * self.fast_period + self.delay_fraction * self.translation_period
+        for i in range(3):
+            self.planned_acceleration[i] = 0.0
+            if end > begin:
+                velocity = self.move(end, i)
+                self.planned_acceleration[i] = (velocity - self.granted_velocity[i]) / (end - begin)
+                self.granted_velocity[i] = velocity
+        self.next_tick = following
+        self.translation_count = self.translation_count + 1
+
+    def publish(self, time: float) -> None:
+        """Put the plan of ``time`` (s) on the outputs."""
+        for i in range(3):
+            velocity = self.move(time, i)
+            self.planned_velocity[i] = velocity
+            target = self.target_position[i] + self.target_velocity[i] * time
+            self.planned_relative_position[i] = target - self.planned_position[i]
+        self.turn(time)
+        self.phase = 4
+        if time < self.turn_start:
+            self.phase = 1
+        elif time < self.turn_end:
+            self.phase = 2
+        elif time < self.arrival_time:
+            self.phase = 3
+
+    def step(self, t: float, h: float) -> None:
+        time = t + h - self.start_time
+        if time >= (float(self.next_tick) - ROUNDING) * self.fast_period:
+            self.tick(float(self.next_tick) * self.fast_period)
+        self.publish(time)

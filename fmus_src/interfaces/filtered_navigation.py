@@ -1,0 +1,244 @@
+"""What Kalman filters around an inertial navigation have in common: everything but the covariance's algebra."""
+
+import math
+
+from ..block import Output, Parameter, State
+from ..mathlib.inertial import sensor_addition
+from ..mathlib.vectors import norm
+from .inertial_navigation import InertialNavigation
+
+GOOD = 0
+REJECTED = 1
+LOCKED_OUT = 2
+NOT_POSITIVE = 3
+
+ALTITUDE = 0
+VELOCITY = 1
+POSITION = 2
+
+
+class FilteredNavigation(InertialNavigation, interface=True):
+    """Inertial navigation whose errors an extended Kalman filter estimates from altitude, velocity and position.
+
+    Fifteen states: errors of position and velocity, and the inertial sensor's bias, scale factors and
+    misalignment, b + diag(k) f + w x f, which are taken off the measured specific force f. With
+    scale_factor_sigma and attitude_sigma 0 nine states are left: position, velocity and bias. Every sigma and random
+    walk of a sensor is an assumption and need not be the sensor's own. Samples are taken in at every communication
+    point, scalar by scalar, altitude first, then velocity, then position. A scalar whose innovation is beyond
+    innovation_gate of its own sigmas is rejected. The filter cannot tell a wrong sensor from
+    a wrong estimate: a sensor whose samples are rejected rejection_limit times in a row is reported by
+    the status and, with reacquire, believed again after the covariance has grown to fit it.
+    Frame: landing site. Equations: docs/lunar_navigation.md.
+    Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.4 and 10.3; Groves 2013, chapter 14.
+    """
+
+    bias_sigma = Parameter(
+        1e-3, unit="m/s2", minimum=0.0, description="inertial sensor: bias at the start, 1 sigma per axis"
+    )
+    scale_factor_sigma = Parameter(
+        3e-4, unit="1", minimum=0.0, description="inertial sensor: scale factor error, 1 sigma per axis, constant"
+    )
+    attitude_sigma = Parameter(
+        0.02 * math.pi / 180.0, unit="rad", minimum=0.0, description="attitude knowledge, 1 sigma per axis, constant"
+    )
+    velocity_random_walk = Parameter(
+        1e-4, minimum=0.0, description="inertial sensor: random walk of velocity, m/s per square root of s"
+    )
+    bias_random_walk = Parameter(
+        0.0, minimum=0.0, description="inertial sensor: random walk of bias, m/s2 per square root of s"
+    )
+    altitude_relative_sigma = Parameter(
+        0.005, unit="1", minimum=0.0, description="error of a measured altitude, part of the altitude"
+    )
+    altitude_sigma = Parameter(1.0, unit="m", minimum=0.0, description="error of a measured altitude, constant part")
+    velocity_relative_sigma = Parameter(
+        0.001, unit="1", minimum=0.0, description="error of a measured velocity per axis, part of the speed"
+    )
+    velocity_sigma = Parameter(
+        0.05, unit="m/s", minimum=0.0, description="error of a measured velocity per axis, constant part"
+    )
+    position_relative_sigma = Parameter(
+        0.0015, unit="1", minimum=0.0, description="error of a measured position per axis, part of the altitude"
+    )
+    position_sigma = Parameter(
+        2.0, unit="m", minimum=0.0, description="error of a measured position per axis, constant part"
+    )
+    innovation_gate = Parameter(
+        5.0, unit="1", minimum=0.0, description="reject scalars beyond so many sigmas of the innovation; 0: none"
+    )
+    rejection_limit = Parameter(5, minimum=1, description="samples of a sensor rejected in a row until status is 2")
+    reacquire = Parameter(False, description="then let the covariance grow to fit the sensor, and believe it")
+    estimated_bias = Output(
+        [0.0, 0.0, 0.0],
+        unit="m/s2",
+        frame="landing site",
+        direct=True,
+        description="constant part of what the inertial sensor adds to the specific force",
+    )
+    innovation_square = Output(
+        0.0, unit="1", direct=True, description="normalised innovation squared of the last scalar, rejected or not"
+    )
+    altitude_innovation_square = Output(
+        0.0, unit="1", direct=True, description="normalised innovation squared of the last altitude, one scalar"
+    )
+    velocity_innovation_square = Output(
+        0.0, unit="1", direct=True, description="normalised innovation squared of the last velocity, three scalars"
+    )
+    position_innovation_square = Output(
+        0.0, unit="1", direct=True, description="normalised innovation squared of the last position, three scalars"
+    )
+    rejected_count = Output(0, direct=True, description="scalars rejected by the gate")
+    status = Output(
+        GOOD,
+        minimum=0,
+        maximum=3,
+        direct=True,
+        description="0 good, 1 a sensor's last sample was rejected, 2 its last rejection_limit, 3 variance negative",
+    )
+    sensor_errors = State([0.0] * 9, description="bias (m/s2), scale factor and misalignment (rad) per axis, estimated")
+    covariance = State([0.0] * 225, description="covariance of the fifteen states, row order, SI")
+    rejected_in_a_row = State([0] * 3, description="samples with a scalar rejected: altitude, velocity, position")
+
+    def predict(self, h: float) -> None:
+        """Predict the covariance h (s) ahead under the specific force."""
+
+    def weigh(self, row: list, ph: list, variance: float) -> float:
+        """Variance of a scalar's innovation; the covariance times the row of 15 in ph."""
+        return 0.0
+
+    def take_in(self, row: list, ph: list, innovation: float, s: float, variance: float, correction: list) -> None:
+        """Update the covariance; correction (15 zeros) = what the innovation adds to the states."""
+
+    def initialize(self) -> None:
+        self.know()
+        for i in range(3):
+            self.covariance[16 * i] = self.first_position_sigma * self.first_position_sigma
+            self.covariance[16 * (i + 3)] = self.first_velocity_sigma * self.first_velocity_sigma
+            self.covariance[16 * (i + 6)] = self.bias_sigma * self.bias_sigma
+            self.covariance[16 * (i + 9)] = self.scale_factor_sigma * self.scale_factor_sigma
+            self.covariance[16 * (i + 12)] = self.attitude_sigma * self.attitude_sigma
+        self.measure()
+        self.publish()
+
+    def compensate(self) -> None:
+        """Take the estimated errors of the inertial sensor off the specific force."""
+        added = [0.0] * 3
+        sensor_addition(self.sensor_errors, self.force, added)
+        for i in range(3):
+            self.force[i] = self.force[i] - added[i]
+
+    def altitude(self, row: list) -> float:
+        """Estimated altitude (m); row[0:3] = its derivative by position."""
+        for i in range(3):
+            row[i] = self.estimated_position[i]
+        row[2] = row[2] + self.moon_radius
+        distance = norm(row)
+        if distance > 0.0:
+            for i in range(3):
+                row[i] = row[i] / distance
+        return distance - self.moon_radius
+
+    def consider(self, sensor: int, row: list, innovation: float, sigma: float) -> float:
+        """Take a scalar in, or reject it; returns its normalised innovation squared."""
+        variance = sigma * sigma
+        ph = [0.0] * 15
+        s = self.weigh(row, ph, variance)
+        if not s > 0.0:
+            return 0.0  # no error in estimate or sensor: nothing to learn
+        square = innovation * innovation / s
+        self.innovation_square = square
+        if self.innovation_gate > 0.0 and not square <= self.innovation_gate * self.innovation_gate:
+            trusted = self.reacquire and self.rejected_in_a_row[sensor] >= self.rejection_limit
+            if not trusted or not math.isfinite(square) or s <= variance:
+                self.rejected_count = self.rejected_count + 1
+                return square
+            growth = (innovation * innovation - variance) / (s - variance)  # makes it a one-sigma innovation
+            for i in range(225):
+                self.covariance[i] = growth * self.covariance[i]
+            s = self.weigh(row, ph, variance)
+        correction = [0.0] * 15
+        self.take_in(row, ph, innovation, s, variance, correction)
+        for i in range(3):
+            self.estimated_position[i] = self.estimated_position[i] + correction[i]
+            self.estimated_velocity[i] = self.estimated_velocity[i] + correction[3 + i]
+        for i in range(9):
+            self.sensor_errors[i] = self.sensor_errors[i] + correction[6 + i]
+        return square
+
+    def note(self, sensor: int, rejected_before: int) -> None:
+        """Count a sample just taken, and whether some of it was rejected."""
+        self.sample_count = self.sample_count + 1
+        if self.rejected_count > rejected_before:
+            self.rejected_in_a_row[sensor] = self.rejected_in_a_row[sensor] + 1
+        else:
+            self.rejected_in_a_row[sensor] = 0
+
+    def measure(self) -> None:
+        """Take the new samples in."""
+        radial = [0.0] * 15
+        before = self.rejected_count
+        if self.altitude_count != self.altitude_taken:
+            self.altitude_taken = self.altitude_count
+            altitude = self.altitude(radial)
+            sigma = self.altitude_relative_sigma * abs(altitude) + self.altitude_sigma
+            innovation = self.measured_altitude - altitude
+            self.altitude_innovation_square = self.consider(ALTITUDE, radial, innovation, sigma)
+            self.note(ALTITUDE, before)
+        before = self.rejected_count
+        if self.velocity_count != self.velocity_taken:
+            self.velocity_taken = self.velocity_count
+            sigma = self.velocity_relative_sigma * norm(self.estimated_velocity) + self.velocity_sigma
+            total = 0.0
+            for i in range(3):
+                row = [0.0] * 15
+                row[3 + i] = 1.0
+                square = self.consider(VELOCITY, row, self.measured_velocity[i] - self.estimated_velocity[i], sigma)
+                total = total + square
+            self.velocity_innovation_square = total
+            self.note(VELOCITY, before)
+        before = self.rejected_count
+        if self.position_count != self.position_taken:
+            self.position_taken = self.position_count
+            altitude = self.altitude(radial)
+            sigma = self.position_relative_sigma * abs(altitude) + self.position_sigma
+            total = 0.0
+            for i in range(3):
+                row = [0.0] * 15
+                row[i] = 1.0
+                square = self.consider(POSITION, row, self.measured_position[i] - self.estimated_position[i], sigma)
+                total = total + square
+            self.position_innovation_square = total
+            self.note(POSITION, before)
+
+    def publish(self) -> None:
+        """Put sigmas, covariance, bias and status on the outputs."""
+        self.status = GOOD
+        for i in range(3):
+            self.estimated_bias[i] = self.sensor_errors[i]
+            if self.rejected_in_a_row[i] >= self.rejection_limit:
+                self.status = LOCKED_OUT
+            elif self.rejected_in_a_row[i] > 0 and self.status == GOOD:
+                self.status = REJECTED
+        k = 0
+        for i in range(6):
+            for j in range(i, 6):
+                self.estimate_covariance[k] = self.covariance[15 * i + j]
+                k = k + 1
+        for i in range(15):
+            if not self.covariance[16 * i] >= 0.0:
+                self.status = NOT_POSITIVE
+        for i in range(3):
+            self.position_estimate_sigma[i] = 0.0
+            self.velocity_estimate_sigma[i] = 0.0
+            if self.covariance[16 * i] > 0.0:
+                self.position_estimate_sigma[i] = math.sqrt(self.covariance[16 * i])
+            if self.covariance[16 * (i + 3)] > 0.0:
+                self.velocity_estimate_sigma[i] = math.sqrt(self.covariance[16 * (i + 3)])
+
+    def step(self, t: float, h: float) -> None:
+        self.sense(h)
+        self.compensate()
+        self.move(h)
+        self.predict(h)
+        self.measure()
+        self.publish()

@@ -1,0 +1,108 @@
+"""The slot of gyro steering: from the torque wanted of the gyro cluster to its gimbal rates."""
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.gyros import ISOTROPIC_ANGLES, singularity_measure
+
+GOOD = 0
+NEAR_SINGULAR = 1
+LIMITED = 2
+NOT_FINITE = 3
+LARGEST = 1e100  # a command beyond it counts as not finite; no kernel overflows below it
+
+
+class GyroSteering(Block, interface=True):
+    """Gimbal rates of four gyros in two pairs (2-SPE) that give a torque at the sample instant.
+
+    torque_command is the torque that the cluster is to exert on the body, -H', in body axes; the body's own
+    rotation, w x H, is not in it. The rates are held until the next sample, while the torque that they give
+    turns with the gimbals; torque_lead puts the instant at which it is exact so much later, and half a
+    sample_period makes it nearly so in the mean. Rates beyond gimbal_rate_limit are scaled together, which
+    keeps the torque's direction. A steering writes `steer`, which sets gimbal_rates and status from the
+    rate of the cluster's momentum that is wanted.
+    Equations: docs/robot_rendezvous.md.
+    """
+
+    default_step = 0.125
+
+    rotor_momentum = Parameter(30.0, unit="N.m.s", minimum=1e-3, description="angular momentum of one rotor")
+    torque_lead = Parameter(
+        0.0, unit="s", minimum=0.0, description="from the sample to the instant at which the torque is exact"
+    )
+    damping = Parameter(0.05, unit="1", minimum=1e-9, description="k of A W A' + k E in a singular state")
+    damping_threshold = Parameter(0.5, unit="1", minimum=0.0, description="singularity below which there is damping")
+    swing = Parameter(
+        0.1,
+        unit="1",
+        minimum=0.0,
+        maximum=0.45,
+        description="what makes E (over 4 s) and W differ from unit matrices",
+    )
+    gimbal_rate_limit = Parameter(1.0, unit="rad/s", minimum=0.0, description="largest gimbal rate; 0: no limit")
+    sample_period = Parameter(0.25, unit="s", minimum=0.0, description="steering cycle; 0: every communication point")
+    torque_command = Input(
+        [0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque wanted of the cluster on the body"
+    )
+    gimbal_angles = Input(ISOTROPIC_ANGLES, unit="rad", description="gimbal angles")
+    gimbal_rates = Output([0.0] * 4, unit="rad/s", direct=True, description="commanded gimbal rates")
+    singularity = Output(
+        1.5396007178390021, unit="1", direct=True, description="root of det(A A'), A = dh/dbeta; 0 in a singular state"
+    )
+    status = Output(
+        0,
+        minimum=0,
+        maximum=3,
+        direct=True,
+        description="0 good, 1 near a singular state of cluster or law, 2 rates limited, 3 command not finite",
+    )
+
+    start_time = State(0.0, unit="s", description="start of the flight")
+
+    def steer(self, angles: list, momentum_rate: list, time: float) -> None:
+        """Set gimbal_rates (rad/s) and status for a rate of the momentum (1/s, in units of one rotor's)."""
+
+    def sample(self, time: float) -> None:
+        """Rates for the torque and angles of ``time`` (s)."""
+        momentum_rate = [0.0] * 3
+        finite = True
+        for i in range(3):
+            momentum_rate[i] = -self.torque_command[i] / self.rotor_momentum
+            if not abs(momentum_rate[i]) < LARGEST:
+                finite = False
+        for i in range(4):
+            if not abs(self.gimbal_angles[i]) < LARGEST:
+                finite = False
+        if finite:
+            self.singularity = singularity_measure(self.gimbal_angles)
+            self.turn(self.gimbal_angles, momentum_rate, time)
+            if self.torque_lead > 0.0:
+                ahead = [0.0] * 4
+                for i in range(4):
+                    ahead[i] = self.gimbal_angles[i] + self.torque_lead * self.gimbal_rates[i]
+                self.turn(ahead, momentum_rate, time)
+        else:
+            self.status = NOT_FINITE
+            for i in range(4):
+                self.gimbal_rates[i] = 0.0
+
+    def turn(self, angles: list, momentum_rate: list, time: float) -> None:
+        """Rates within their limit for gimbal angles (rad)."""
+        self.status = GOOD
+        self.steer(angles, momentum_rate, time)
+        self.limit()
+
+    def limit(self) -> None:
+        """Scale the rates into their limit."""
+        largest = 0.0
+        for i in range(4):
+            if abs(self.gimbal_rates[i]) > largest:
+                largest = abs(self.gimbal_rates[i])
+        if self.gimbal_rate_limit > 0.0 and largest > self.gimbal_rate_limit:
+            self.status = LIMITED
+            for i in range(4):
+                self.gimbal_rates[i] = self.gimbal_rates[i] * (self.gimbal_rate_limit / largest)
+
+    def initialize(self) -> None:
+        self.sample(self.start_time)
+
+    def step(self, t: float, h: float) -> None:
+        self.sample(t + h)

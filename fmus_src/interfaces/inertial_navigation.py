@@ -1,0 +1,76 @@
+"""What navigations that integrate an inertial sensor have in common."""
+
+from ..block import Parameter, State
+from ..mathlib.inertial import dead_reckon
+from ..mathlib.rng import normal, seed_streams
+from .navigation import Navigation
+
+
+class InertialNavigation(Navigation, interface=True):
+    """Dead reckoning from velocity increments under central gravity, from a first knowledge with errors.
+
+    The estimate moves at every communication point. The velocity gained since the last point is
+    the measured increment; between inertial samples it is extrapolated with the last specific force, and
+    the next increment makes up for the difference. The first knowledge is the truth with errors of
+    first_position_sigma and first_velocity_sigma; two blocks with equal seed and stream begin
+    with equal errors. New samples are told by their counts; samples that are there at the start count.
+    Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
+    """
+
+    seed = Parameter(1, minimum=0, description="random numbers: seed")
+    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    force = State([0.0] * 3, unit="m/s2", description="mean specific force of the last step, as assumed")
+    force_before = State([0.0] * 3, unit="m/s2", description="that of the step before")
+    under_way = State(False, description="a step has been taken")
+    last_force = State([0.0] * 3, unit="m/s2", description="measured specific force, for steps without a sample")
+    assumed_increment = State([0.0] * 3, unit="m/s", description="velocity gained without a sample since the last one")
+    since_sample = State(0.0, unit="s", description="time since the last inertial sample")
+    inertial_taken = State(0, description="inertial_count of the last sample taken")
+    altitude_taken = State(0, description="altitude_count of the last sample taken")
+    velocity_taken = State(0, description="velocity_count of the last sample taken")
+    position_taken = State(0, description="position_count of the last sample taken")
+
+    def know(self) -> None:
+        """The first knowledge: truth with errors."""
+        generator = [0.0] * 6
+        seed_streams(generator, self.seed, self.stream)
+        for i in range(3):
+            error = normal(generator)
+            self.estimated_position[i] = self.position[i] + self.first_position_sigma * error
+            error = normal(generator)
+            self.estimated_velocity[i] = self.velocity[i] + self.first_velocity_sigma * error
+        self.inertial_taken = self.inertial_count
+
+    def sense(self, h: float) -> None:
+        """Set force (m/s2) to the mean specific force that was measured over the last h (s), or is extrapolated."""
+        self.since_sample = self.since_sample + h
+        new = self.inertial_count != self.inertial_taken
+        for i in range(3):
+            self.force_before[i] = self.force[i]
+            if new:
+                self.force[i] = (self.velocity_increment[i] - self.assumed_increment[i]) / h
+                self.last_force[i] = self.velocity_increment[i] / self.since_sample
+                self.assumed_increment[i] = 0.0
+            else:
+                self.force[i] = self.last_force[i]
+                self.assumed_increment[i] = self.assumed_increment[i] + h * self.last_force[i]
+        if new:
+            self.inertial_taken = self.inertial_count
+            self.since_sample = 0.0
+            self.sample_count = self.sample_count + 1
+
+    def move(self, h: float) -> None:
+        """Move the estimate by h (s) with the mean specific force."""
+        if not self.under_way:
+            self.under_way = True
+            for i in range(3):
+                self.force_before[i] = self.force[i]
+        dead_reckon(
+            self.estimated_position,
+            self.estimated_velocity,
+            self.force,
+            self.force_before,
+            self.moon_radius,
+            self.gravitational_parameter,
+            h,
+        )

@@ -1,0 +1,127 @@
+"""The slot of jet allocation: from the force and torque wanted to the thrusts of eight jets."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.jets import JETS, jet_strengths, jet_wrench
+from ..mathlib.quaternion import copy4, normalise, to_body
+
+GOOD = 0
+SATURATED = 1
+TORQUE_LEFT_OUT = 2
+NOT_FINITE = 3
+LARGEST = 1e100  # a command beyond it counts as not finite; no kernel overflows below it
+ROUNDING = 1e-9  # s, allowed for in times of communication points
+
+
+class JetAllocation(Block, interface=True):
+    """Shares a force (inertial axes) and a torque (body axes) among eight jets that push only and hold their level.
+
+    A new command is told by a change of command_count; the one at the start counts. It is shared out
+    at once, with the attitude of that moment, and its thrusts are put out after a delay of delay_fraction
+    times translation_period, to be held until those of the next command; before the first they are 0. A
+    command that comes while another waits takes its place. The status is that of the newest command,
+    allocated_force and allocated_torque are what jets as declared give with the thrusts put out.
+
+    An allocation writes `allocate`, which sets new_thrust and status from wanted_wrench. jet_tilt is the angle
+    of the nozzles from the body's xy plane, jet_azimuth their angle from x in it, jet_arm the place of the first jet.
+    Equations: docs/robot_rendezvous.md.
+    """
+
+    default_step = 0.125
+
+    jet_tilt = Parameter(35.25 * math.pi / 180.0, unit="rad", description="nozzles above the body's xy plane")
+    jet_azimuth = Parameter(math.pi / 4.0, unit="rad", description="nozzles from x in the xy plane")
+    jet_arm = Parameter([1.0, 0.7, 0.6], unit="m", frame="body", description="place of the first jet")
+    maximum_thrust = Parameter(0.5, unit="N", minimum=0.0, description="of one jet")
+    delay_fraction = Parameter(
+        0.25, unit="1", minimum=0.0, maximum=1.0, description="delay of the jets over the period of translation control"
+    )
+    force_command = Input([0.0, 0.0, 0.0], unit="N", frame="inertial", description="wanted force")
+    torque_command = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="wanted torque of the jets")
+    quaternion = Input(
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="estimated attitude, from body to inertial, scalar first"
+    )
+    command_count = Input(0, description="commands so far; a change tells a new one")
+    translation_period = Input(8.0, unit="s", minimum=0.001, description="how long the new command is to hold")
+    jet_thrust = Output([0.0] * 8, unit="N", direct=True, description="thrust of each jet, from now on")
+    allocated_force = Output([0.0, 0.0, 0.0], unit="N", frame="body", direct=True, description="force of jet_thrust")
+    allocated_torque = Output(
+        [0.0, 0.0, 0.0], unit="N.m", frame="body", direct=True, description="torque of jet_thrust"
+    )
+    status = Output(
+        0,
+        minimum=0,
+        maximum=3,
+        direct=True,
+        description="0 good, 1 saturated, 2 a torque or what the geometry cannot give left out, 3 command unusable",
+    )
+    start_time = State(0.0, unit="s", description="start of the flight")
+    strength = State([0.0] * 6, description="force (N/N) and torque (N.m/N) of the jets, by rows of signs")
+    attitude = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion, of length one")
+    wanted_wrench = State([0.0] * 6, description="wanted force (N) and torque (N.m), body")
+    new_thrust = State([0.0] * 8, unit="N", description="thrusts of the newest command")
+    waiting = State(False, description="new_thrust has not been put out yet")
+    due_time = State(0.0, unit="s", description="when to put it out")
+    counted = State(0, description="command_count of the newest command")
+
+    def allocate(self) -> None:
+        """Set new_thrust (N) and status from wanted_wrench."""
+
+    def want(self) -> bool:
+        """attitude and wanted_wrench (body) from the command; returns whether it is finite, with an attitude."""
+        finite = self.translation_period > 0.0 and self.translation_period < LARGEST
+        length = 0.0
+        for i in range(4):
+            length = length + abs(self.quaternion[i])
+        if not (length > 0.0 and length < LARGEST):
+            finite = False
+        copy4(self.attitude, self.quaternion)
+        normalise(self.attitude)
+        force = [0.0] * 3
+        to_body(self.attitude, self.force_command, force)
+        for i in range(3):
+            self.wanted_wrench[i] = force[i]
+            self.wanted_wrench[3 + i] = self.torque_command[i]
+        for k in range(6):
+            if not abs(self.wanted_wrench[k]) < LARGEST:
+                finite = False
+        return finite
+
+    def take(self, time: float) -> None:
+        """Share out the command of ``time`` (s)."""
+        self.counted = self.command_count
+        self.waiting = True
+        finite = self.want()
+        if finite:
+            self.status = GOOD
+            self.due_time = time + self.delay_fraction * self.translation_period
+            self.allocate()
+        else:
+            self.status = NOT_FINITE
+            self.due_time = time
+            for p in range(JETS):
+                self.new_thrust[p] = 0.0
+
+    def put_out(self, time: float) -> None:
+        """Put the waiting thrusts out if they are due at ``time`` (s)."""
+        if self.waiting and time >= self.due_time - ROUNDING:
+            self.waiting = False
+            wrench = [0.0] * 6
+            jet_wrench(self.strength, self.new_thrust, wrench)
+            for p in range(JETS):
+                self.jet_thrust[p] = self.new_thrust[p]
+            for i in range(3):
+                self.allocated_force[i] = wrench[i]
+                self.allocated_torque[i] = wrench[3 + i]
+
+    def initialize(self) -> None:
+        jet_strengths(self.jet_tilt, self.jet_azimuth, self.jet_arm, self.strength)
+        self.take(self.start_time)
+        self.put_out(self.start_time)
+
+    def step(self, t: float, h: float) -> None:
+        self.put_out(t + h)  # what is due now, before a new command can take its place
+        if self.command_count != self.counted:
+            self.take(t + h)
+            self.put_out(t + h)

@@ -1,0 +1,87 @@
+"""A descent law given as a network operator: its declarations, and the thrust that it asks for."""
+
+import math
+
+from ..block import Block, Parameter, State
+from ..mathlib.gravity import STANDARD_GRAVITY
+from ..mathlib.network_operator import LARGEST, LOG_LARGEST, MAXIMUM_EDGES, SIZE, SOURCES, decode, evaluate, neutral
+from ..mathlib.vectors import clip
+
+KILOGRAM_FORCE = STANDARD_GRAVITY  # N
+
+# The law that Diveev, Pupkov and Sofronova (2013) found.
+PUBLISHED_MATRIX = (
+    *(0, 0, 0, 0, 0, 0, 1, 23, 0, 0, 0, 0, 0, 0, 0, 0),
+    *(0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 9, 0, 0, 4, 0, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 5, 0, 0, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 11, 0, 0, 0, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0),
+    *(0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 18, 0, 0, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 9, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 3, 0, 0, 0, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 5, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 6, 1, 0, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 6, 18, 0, 3),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 6),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 15),
+    *(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0),
+)
+
+
+class NetworkOperatorLaw(Block, interface=True):
+    """Thrust and its angle from path angle and altitude, by a network operator of 16 nodes.
+
+    Sources: z1 = pi + th, z2 = q1, z3 = (hf - h)/h0, z4 = q2, z5 = th, z6 = q3, with th the angle
+    from the local vertical to the velocity, h the altitude, hf the final and h0 the reference
+    altitude. Outputs: z15, the angle from the local vertical to the thrust (kept in 0 to pi rad),
+    and z16, the thrust above nominal (kgf, kept within thrust_variation).
+    Source: Diveev, Pupkov and Sofronova 2013; see docs/lunar_descent_2d.md.
+    """
+
+    matrix = Parameter(
+        PUBLISHED_MATRIX,
+        columns=SIZE,
+        minimum=0,
+        maximum=23,
+        description="network operator: unary operations above the diagonal, binary ones on it",
+    )
+    q = Parameter([1.50049, 13.54590, 12.96753], unit="1", description="parameters of the law")
+    exp_saturation = Parameter(
+        1, minimum=0, maximum=1, description="exp beyond 1e8 is 0: 1e8; 1: ln 1e8, a slip that the published law needs"
+    )
+    reference_altitude = Parameter(18148.0, unit="m", minimum=1.0, description="h0, which altitudes are scaled by")
+    nominal_thrust = Parameter(4314.926, unit="N", minimum=0.0, description="thrust where z16 is 0 (440 kgf)")
+    thrust_variation = Parameter(784.532, unit="N", minimum=0.0, description="most above or below it (80 kgf)")
+    nodes = State([0.0] * SIZE, description="values of the nodes")
+    edges = State([0] * MAXIMUM_EDGES, description="places of the edges in the matrix, in row order")
+    edge_count = State(0, description="edges in use; -1: the matrix is no network operator")
+
+    def decode_law(self) -> None:
+        """Find the edges, once."""
+        self.edge_count = decode(self.matrix, self.edges)
+
+    def evaluate_law(self, path_angle: float, altitude: float, final_altitude: float) -> None:
+        """The nodes for a path angle (rad) and altitudes (m); the law must be good."""
+        for j in range(SOURCES, SIZE):
+            self.nodes[j] = neutral(self.matrix[(SIZE + 1) * j])
+        self.nodes[0] = math.pi + path_angle
+        self.nodes[1] = self.q[0]
+        self.nodes[2] = (final_altitude - altitude) / self.reference_altitude
+        self.nodes[3] = self.q[1]
+        self.nodes[4] = path_angle
+        self.nodes[5] = self.q[2]
+        exp_saturation = LARGEST
+        if self.exp_saturation == 1:
+            exp_saturation = LOG_LARGEST
+        evaluate(self.matrix, self.edges, self.edge_count, exp_saturation, self.nodes)
+
+    def law_angle(self) -> float:
+        """Angle from the local vertical to the thrust, rad."""
+        return clip(self.nodes[14], 0.0, math.pi)
+
+    def law_thrust(self) -> float:
+        """Thrust, N."""
+        above = clip(KILOGRAM_FORCE * self.nodes[15], -self.thrust_variation, self.thrust_variation)
+        return clip(self.nominal_thrust + above, 0.0, math.inf)

@@ -1,0 +1,203 @@
+"""Four single-gimbal gyros in two pairs of parallel gimbal axes (2-SPE), and how to steer them. Kernel functions.
+
+Momenta are those of the cluster over that of one rotor, in body axes: pair 1 turns about z in the xy
+plane, pair 2 about -y in the xz plane, all gimbal angles (rad) counted from x. The three components leave one
+of the four angles free. With x1 and x2 what each pair has along x, a and b the most that it could
+have beside y and z, u = x1/a and v = x2/b, the distribution law u - v + rho (u v - 1) = 0 takes that
+freedom: the pairs bias each other and stay away from their singular states, which are |pair| = 0 and 2.
+Derivations: docs/robot_rendezvous.md. Source: Somov 2013; Somov, Platonov and Sorokin 2005.
+"""
+
+import math
+
+ISOTROPIC_RHO = 0.9797958971132712  # 2 sqrt(6)/5: the three axes are alike where the momentum is 0
+# acos(1/sqrt(3)) off -x and x: the angles of zero momentum under the law with ISOTROPIC_RHO
+ISOTROPIC_ANGLES = (0.6154797086703873, -0.6154797086703873, 3.7570723622601803, 2.5261129449194057)
+LEAST_SQUARE = 1e-12  # of a and b: nearer to a pair's surface y = 2 or z = 2 counts as on it
+
+
+def cluster_momentum(angles: list, momentum: list) -> None:
+    """momentum[3] of the cluster over that of one rotor."""
+    momentum[0] = math.cos(angles[0]) + math.cos(angles[1]) + math.cos(angles[2]) + math.cos(angles[3])
+    momentum[1] = math.sin(angles[0]) + math.sin(angles[1])
+    momentum[2] = math.sin(angles[2]) + math.sin(angles[3])
+
+
+def cluster_jacobian(angles: list, jacobian: list) -> None:
+    """jacobian[3 x 4] = derivative of the momentum by the gimbal angles, row order."""
+    for i in range(4):
+        jacobian[i] = -math.sin(angles[i])
+    for i in range(2):
+        jacobian[4 + i] = math.cos(angles[i])
+        jacobian[6 + i] = 0.0
+        jacobian[8 + i] = 0.0
+        jacobian[10 + i] = math.cos(angles[2 + i])
+
+
+def nearest_turn(angle: float, reference: float) -> float:
+    """The angle plus whole turns that is nearest to ``reference``."""
+    turns = (reference - angle) / math.tau
+    return angle + math.tau * float(math.floor(turns + 0.5))
+
+
+def distributed_angles(momentum: list, rho: float, angles: list) -> bool:
+    """angles[4] that give a momentum under the distribution law, by whole turns nearest to those in the list.
+
+    Returns whether there are any; if not, the list is left as it is.
+    """
+    a_square = 4.0 - momentum[1] * momentum[1]
+    b_square = 4.0 - momentum[2] * momentum[2]
+    if not (a_square > LEAST_SQUARE and b_square > LEAST_SQUARE):
+        return False
+    a = math.sqrt(a_square)
+    b = math.sqrt(b_square)
+    weight = momentum[0] + b * rho
+    linear = a + b + rho * momentum[0]
+    root = linear * linear - 4.0 * a * rho * weight
+    if not (root >= 0.0 and linear > 0.0):
+        return False
+    u = 2.0 * weight / (linear + math.sqrt(root))
+    if not (abs(u) <= 1.0 and 1.0 - rho * u > 0.0):
+        return False
+    v = (u - rho) / (1.0 - rho * u)
+    pair_angles(u * a, momentum[1], angles, 0)
+    pair_angles(v * b, momentum[2], angles, 2)
+    return True
+
+
+def pair_angles(along: float, across: float, angles: list, first: int) -> None:
+    """Angles first and first + 1 of a pair from its momentum along x and across, nearest to those in the list."""
+    half = 0.5 * math.sqrt(along * along + across * across)
+    if half > 1.0:
+        half = 1.0  # by a rounding error
+    direction = math.atan2(across, along)
+    opening = math.acos(half)
+    angles[first] = nearest_turn(direction + opening, angles[first])
+    angles[first + 1] = nearest_turn(direction - opening, angles[first + 1])
+
+
+def distributed_rates(angles: list, momentum_rate: list, rho: float, gain: float, least: float, rates: list) -> bool:
+    """rates[4] (rad/s) that change the momentum at momentum_rate[3] (1/s) and keep the distribution law.
+
+    The law's residual f is led to 0 by f' = -gain f. Returns False, with rates undefined, where a
+    divisor is less than ``least``: the sines of the angle between the rotors of each pair (1 where they are
+    best to steer), and those of the law, 2 at the isotropic angles.
+    """
+    x1 = math.cos(angles[0]) + math.cos(angles[1])
+    x2 = math.cos(angles[2]) + math.cos(angles[3])
+    y = math.sin(angles[0]) + math.sin(angles[1])
+    z = math.sin(angles[2]) + math.sin(angles[3])
+    a_square = 4.0 - y * y
+    b_square = 4.0 - z * z
+    if not (a_square > LEAST_SQUARE and b_square > LEAST_SQUARE):
+        return False
+    a = math.sqrt(a_square)
+    b = math.sqrt(b_square)
+    u = x1 / a
+    v = x2 / b
+    residual = u - v + rho * (u * v - 1.0)
+    p = 1.0 + rho * v
+    q = 1.0 - rho * u
+    common = a * q + b * p
+    sine_1 = math.sin(angles[1] - angles[0])
+    sine_2 = math.sin(angles[3] - angles[2])
+    if not (abs(sine_1) >= least and abs(sine_2) >= least and abs(common) >= least and least > 0.0):
+        return False
+    # what is left to x1 and x2 where y and z change at constant u and v
+    fall_1 = u * y * momentum_rate[1] / a
+    fall_2 = v * z * momentum_rate[2] / b
+    u_rate = (q * (momentum_rate[0] + fall_1 + fall_2) - b * gain * residual) / common
+    x1_rate = a * u_rate - fall_1
+    x2_rate = momentum_rate[0] - x1_rate
+    rates[0] = (math.cos(angles[1]) * x1_rate + math.sin(angles[1]) * momentum_rate[1]) / sine_1
+    rates[1] = -(math.cos(angles[0]) * x1_rate + math.sin(angles[0]) * momentum_rate[1]) / sine_1
+    rates[2] = (math.cos(angles[3]) * x2_rate + math.sin(angles[3]) * momentum_rate[2]) / sine_2
+    rates[3] = -(math.cos(angles[2]) * x2_rate + math.sin(angles[2]) * momentum_rate[2]) / sine_2
+    return True
+
+
+def singularity_measure(angles: list) -> float:
+    """Square root of det(A A') of the jacobian A: 0 in a singular state, 8/sqrt(27) = 1.54 at the isotropic angles."""
+    jacobian = [0.0] * 12
+    gram = [0.0] * 6
+    cluster_jacobian(angles, jacobian)
+    gram_of(jacobian, 0.0, gram)
+    determinant = determinant_of(gram)
+    if not determinant > 0.0:
+        return 0.0
+    return math.sqrt(determinant)
+
+
+def weight_of(rotor: int, bias: float) -> float:
+    """1 + bias for the first rotor of a pair, 1 - bias for the second."""
+    if rotor % 2 == 0:
+        return 1.0 + bias
+    return 1.0 - bias
+
+
+def gram_of(jacobian: list, bias: float, gram: list) -> None:
+    """gram[6] = A W A' of a 3 x 4 matrix: 11, 22, 33, 23, 13, 12; W is diagonal, of weight_of."""
+    for i in range(6):
+        gram[i] = 0.0
+    for j in range(4):
+        x = jacobian[j]
+        y = jacobian[4 + j]
+        z = jacobian[8 + j]
+        weight = weight_of(j, bias)
+        gram[0] = gram[0] + weight * x * x
+        gram[1] = gram[1] + weight * y * y
+        gram[2] = gram[2] + weight * z * z
+        gram[3] = gram[3] + weight * y * z
+        gram[4] = gram[4] + weight * x * z
+        gram[5] = gram[5] + weight * x * y
+
+
+def determinant_of(m: list) -> float:
+    """Determinant of a symmetric matrix, stored as 11, 22, 33, 23, 13, 12."""
+    return m[0] * (m[1] * m[2] - m[3] * m[3]) - m[5] * (m[5] * m[2] - m[3] * m[4]) + m[4] * (m[5] * m[3] - m[1] * m[4])
+
+
+def robust_rates(
+    angles: list, momentum_rate: list, damping: float, threshold: float, swing: float, time: float, rates: list
+) -> float:
+    """rates[4] (rad/s) = W A' (A W A' + k E)^-1 momentum_rate: bounded everywhere, exact where k = 0.
+
+    k = damping lack^2 with lack = 1 - m/threshold where the singularity measure m is below the
+    threshold, else 0 (Nakamura and Hanafusa 1986). E and W are unit matrices but for elements that lead out of
+    states in which the wanted torque is the one that cannot be given (Wie 2005): E has off-diagonal
+    elements swing sin(pi/2 time + phase), which move the gimbals to and fro, and W = 1 + swing lack for
+    the first rotor of each pair and 1 - swing lack for the second, without which rotors side by side
+    would stay so. A swing below 0.5 keeps both positive definite. Returns m.
+    """
+    jacobian = [0.0] * 12
+    gram = [0.0] * 6
+    cluster_jacobian(angles, jacobian)
+    measure = singularity_measure(angles)
+    bias = 0.0
+    k = 0.0
+    if measure < threshold:
+        lack = 1.0 - measure / threshold
+        bias = swing * lack
+        k = damping * lack * lack
+    gram_of(jacobian, bias, gram)
+    if k > 0.0:
+        for i in range(3):
+            gram[i] = gram[i] + k
+            gram[3 + i] = gram[3 + i] + k * swing * math.sin(0.5 * math.pi * (time + float(i)))
+    determinant = determinant_of(gram)
+    for j in range(4):
+        rates[j] = 0.0
+    if not determinant > 0.0:
+        return measure
+    first = gram[1] * gram[2] - gram[3] * gram[3]
+    second = gram[0] * gram[2] - gram[4] * gram[4]
+    third = gram[0] * gram[1] - gram[5] * gram[5]
+    c23 = gram[4] * gram[5] - gram[0] * gram[3]
+    c13 = gram[5] * gram[3] - gram[1] * gram[4]
+    c12 = gram[3] * gram[4] - gram[2] * gram[5]
+    x = (first * momentum_rate[0] + c12 * momentum_rate[1] + c13 * momentum_rate[2]) / determinant
+    y = (c12 * momentum_rate[0] + second * momentum_rate[1] + c23 * momentum_rate[2]) / determinant
+    z = (c13 * momentum_rate[0] + c23 * momentum_rate[1] + third * momentum_rate[2]) / determinant
+    for j in range(4):
+        rates[j] = weight_of(j, bias) * (jacobian[j] * x + jacobian[4 + j] * y + jacobian[8 + j] * z)
+    return measure

@@ -1,0 +1,267 @@
+"""Attitude and angular velocity, and their errors against the plan: a filter of measured quaternions."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.quaternion import (
+    angle_error,
+    copy4,
+    difference,
+    from_rotation_vector,
+    multiply,
+    normalise,
+    to_body,
+    to_rotation_vector,
+)
+from ..mathlib.rigid_body import total_momentum
+from ..mathlib.tracking import measure_chain, predict_chain
+from ..mathlib.vectors import copy3, cross
+
+MEAN = 0
+GOOD = 0
+NOT_FINITE = 1
+# Inputs that the outputs depend on at once: all but the jets' torque, which is that of the step just past.
+AT_ONCE = (
+    "measured_quaternion",
+    "sample_count",
+    "planned_quaternion",
+    "planned_angular_velocity",
+    "gyro_momentum",
+)
+
+
+class AttitudeFilter(Block):
+    """Error of attitude and angular velocity against the plan, in body axes: 2 e0 e of planned* estimated.
+
+    method 0: the mean of the last mean_samples samples' errors, put out when there are so many; the rate
+    is the difference of the last two means over the time between them.
+    method 1: Kalman filter of attitude, angular velocity and a disturbance, the same for all three axes. Between
+    samples the total angular momentum is conserved but for the torque of the jets: what the gyros gain, which their
+    gimbal angles tell (gyro_momentum), the body loses. jet_torque and jet_force are those of the step just
+    past, so they are read a step late. The disturbance is an angular acceleration that stays; where the jets change,
+    it is taken to change by jet_torque_error times the change of force (about 0.2 m times the
+    relative error of a jet), and process_noise and disturbance_noise are what else happens.
+
+    A sample that is not finite is left out and reported. sample_period is how often the filter looks; new samples
+    are told by their count. Frames: body, quaternions from body to inertial. Equations: docs/robot_rendezvous.md.
+    Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2; Lefferts, Markley and Shuster 1982 (error in body axes).
+    """
+
+    default_step = 0.125
+
+    method = Parameter(1, minimum=0, maximum=1, description="0 mean, 1 Kalman filter")
+    mean_samples = Parameter(2, minimum=1, description="samples in a mean: those in a period of attitude control")
+    inertia = Parameter([812.0, 587.0, 910.0], unit="kg.m2", minimum=1e-3, description="of the robot, about x, y, z")
+    attitude_sigma = Parameter(
+        4.84813681109536e-6, unit="rad", minimum=1e-12, description="error of a sample, 1 sigma per axis"
+    )
+    first_rate_sigma = Parameter(
+        1e-4, unit="rad/s", minimum=0.0, description="error of the planned rate at the start, 1 sigma per axis"
+    )
+    process_noise = Parameter(1e-16, minimum=0.0, description="density of white noise of angular acceleration, rad2/s3")
+    first_disturbance_sigma = Parameter(
+        0.0, unit="rad/s2", minimum=0.0, description="of the disturbance at the start, 1 sigma per axis"
+    )
+    disturbance_noise = Parameter(
+        1e-18, minimum=0.0, description="density of white noise of the disturbance's derivative, rad2/s5"
+    )
+    jet_torque_error = Parameter(
+        1e-4, unit="m", minimum=0.0, description="error of jet_torque per change of jet_force, 1 sigma per axis"
+    )
+    sample_period = Parameter(0.125, unit="s", minimum=0.0, description="between steps; 0: every communication point")
+    measured_quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="measured, body to inertial, scalar first")
+    sample_count = Input(0, description="samples taken by the sensor; a change tells a new one")
+    planned_quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="planned, body to inertial, scalar first")
+    planned_angular_velocity = Input([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="of the plan")
+    gyro_momentum = Input(
+        [0.0, 0.0, 0.0], unit="N.m.s", frame="body", description="of the gyro cluster, from its angles"
+    )
+    jet_torque = Input(
+        [0.0, 0.0, 0.0], unit="N.m", frame="body", description="of the jets since the last communication point"
+    )
+    jet_force = Input(
+        [0.0, 0.0, 0.0], unit="N", frame="body", description="of the jets since the last communication point"
+    )
+    attitude_error = Output(
+        [0.0, 0.0, 0.0],
+        unit="rad",
+        frame="body",
+        direct=AT_ONCE,
+        description="from planned to estimated attitude: axis times sine of the angle",
+    )
+    rate_error = Output(
+        [0.0, 0.0, 0.0],
+        unit="rad/s",
+        frame="body",
+        direct=AT_ONCE,
+        description="estimated angular velocity less the planned one",
+    )
+    quaternion = Output(
+        [1.0, 0.0, 0.0, 0.0],
+        unit="1",
+        direct=AT_ONCE,
+        description="estimated attitude, from body to inertial, scalar first",
+    )
+    disturbance = Output(
+        [0.0, 0.0, 0.0],
+        unit="rad/s2",
+        frame="body",
+        direct=AT_ONCE,
+        description="estimated angular acceleration by neither gyros nor commanded jets",
+    )
+    attitude_error_sigma = Output(
+        0.0, unit="rad", direct=AT_ONCE, description="standard deviation of the estimate, per axis; 0: not known"
+    )
+    rate_error_sigma = Output(
+        0.0, unit="rad/s", direct=AT_ONCE, description="standard deviation of the estimate, per axis; 0: not known"
+    )
+    innovation_square = Output(
+        0.0, unit="1", direct=AT_ONCE, description="normalised innovation squared of the last sample, three components"
+    )
+    samples_taken = Output(0, direct=AT_ONCE, description="samples taken in")
+    status = Output(
+        0, minimum=0, maximum=1, direct=AT_ONCE, description="0 good, 1 last sample not finite and left out"
+    )
+    angular_velocity = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="estimate of the Kalman filter")
+    covariance = State([0.0] * 9, description="of attitude, rate and disturbance, row order, SI")
+    last_time = State(0.0, unit="s", description="time of the last step")
+    start_time = State(0.0, unit="s", description="start of the flight")
+    last_momentum = State([0.0, 0.0, 0.0], unit="N.m.s", frame="body", description="gyro_momentum at the last step")
+    last_force = State([0.0, 0.0, 0.0], unit="N", frame="body", description="jet_force at the last step")
+    counted = State(0, description="sample_count of the last sample")
+    mean_time = State(0.0, unit="s", description="time of the last mean")
+    total = State([0.0, 0.0, 0.0], unit="rad", frame="body", description="sum of the errors since the last mean")
+    summed = State(0, description="number of samples in the sum")
+    means = State(0, description="means put out")
+
+    def initialize(self) -> None:
+        self.last_time = self.start_time
+        self.mean_time = self.start_time
+        copy3(self.last_momentum, self.gyro_momentum)
+        copy3(self.angular_velocity, self.planned_angular_velocity)
+        copy4(self.quaternion, self.planned_quaternion)
+        self.covariance[4] = self.first_rate_sigma * self.first_rate_sigma
+        self.covariance[8] = self.first_disturbance_sigma * self.first_disturbance_sigma
+        self.take_sample()
+        if self.summed > 0:
+            self.put_out_mean(self.start_time)
+        self.publish()
+
+    def widen(self) -> None:
+        """Let a disturbance by the jets be as uncertain as their change of force makes it."""
+        change = 0.0
+        for i in range(3):
+            jump = self.jet_force[i] - self.last_force[i]
+            change = change + jump * jump
+            self.last_force[i] = self.jet_force[i]
+        scale = 3.0 * self.jet_torque_error / (self.inertia[0] + self.inertia[1] + self.inertia[2])
+        self.covariance[8] = self.covariance[8] + scale * scale * change
+
+    def predict(self, h: float) -> None:
+        """Move estimate and covariance by h (s): the total momentum stays in inertial axes but for the jets."""
+        momentum = [0.0] * 3
+        turning = [0.0] * 3
+        rotation = [0.0] * 3
+        impulse = [0.0] * 3
+        turned = [0.0] * 4
+        total_momentum(self.inertia, self.angular_velocity, self.last_momentum, momentum)
+        cross(self.angular_velocity, momentum, turning)
+        for i in range(3):
+            # half of what jets and disturbance give over h, and the angular velocity in the middle
+            impulse[i] = 0.5 * h * (self.jet_torque[i] + self.inertia[i] * self.disturbance[i])
+            taken = 0.5 * (h * turning[i] + self.gyro_momentum[i] - self.last_momentum[i])
+            rotation[i] = h * (self.angular_velocity[i] + (impulse[i] - taken) / self.inertia[i])
+            momentum[i] = momentum[i] + impulse[i]
+        from_rotation_vector(rotation, turned)
+        multiply(self.quaternion, turned, self.quaternion)
+        normalise(self.quaternion)
+        to_body(turned, momentum, momentum)
+        for i in range(3):
+            self.angular_velocity[i] = (momentum[i] + impulse[i] - self.gyro_momentum[i]) / self.inertia[i]
+        self.widen()
+        predict_chain(self.covariance, self.process_noise, self.disturbance_noise, h, 3)
+
+    def take_sample(self) -> None:
+        """Take a new sample in, if it is one."""
+        if self.sample_count == self.counted:
+            return
+        self.counted = self.sample_count
+        for i in range(4):
+            if not math.isfinite(self.measured_quaternion[i]):
+                self.status = NOT_FINITE
+                return
+        self.status = GOOD
+        self.samples_taken = self.samples_taken + 1
+        error = [0.0] * 3
+        if self.method == MEAN:
+            angle_error(self.planned_quaternion, self.measured_quaternion, error)
+            for i in range(3):
+                self.total[i] = self.total[i] + error[i]
+            self.summed = self.summed + 1
+        elif self.samples_taken == 1:
+            copy4(self.quaternion, self.measured_quaternion)
+            normalise(self.quaternion)
+            self.covariance[0] = self.attitude_sigma * self.attitude_sigma
+            for i in range(1, 3):
+                self.covariance[i] = 0.0
+                self.covariance[3 * i] = 0.0
+        else:
+            self.correct()
+
+    def correct(self) -> None:
+        """Take the measured quaternion into the Kalman filter."""
+        gain = [0.0] * 3
+        innovation = [0.0] * 3
+        turned = [0.0] * 4
+        difference(self.quaternion, self.measured_quaternion, turned)
+        to_rotation_vector(turned, innovation)
+        variance = measure_chain(self.covariance, self.attitude_sigma * self.attitude_sigma, gain, 3)
+        square = 0.0
+        for i in range(3):
+            square = square + innovation[i] * innovation[i] / variance
+            self.angular_velocity[i] = self.angular_velocity[i] + gain[1] * innovation[i]
+            self.disturbance[i] = self.disturbance[i] + gain[2] * innovation[i]
+            innovation[i] = gain[0] * innovation[i]
+        self.innovation_square = square
+        from_rotation_vector(innovation, turned)
+        multiply(self.quaternion, turned, self.quaternion)
+        normalise(self.quaternion)
+
+    def put_out_mean(self, time: float) -> None:
+        """Put the mean of the samples since the last one out at ``time`` (s)."""
+        elapsed = time - self.mean_time
+        for i in range(3):
+            mean = self.total[i] / float(self.summed)
+            if self.means > 0 and elapsed > 0.0:
+                self.rate_error[i] = (mean - self.attitude_error[i]) / elapsed
+            self.attitude_error[i] = mean
+            self.total[i] = 0.0
+        self.summed = 0
+        self.means = self.means + 1
+        self.mean_time = time
+
+    def publish(self) -> None:
+        """Put errors and standard deviations on the outputs."""
+        turned = [0.0] * 4
+        if self.method == MEAN:
+            # the attitude is the planned one turned by the error
+            from_rotation_vector(self.attitude_error, turned)
+            multiply(self.planned_quaternion, turned, self.quaternion)
+            return
+        angle_error(self.planned_quaternion, self.quaternion, self.attitude_error)
+        difference(self.planned_quaternion, self.quaternion, turned)
+        to_body(turned, self.planned_angular_velocity, self.rate_error)
+        for i in range(3):
+            self.rate_error[i] = self.angular_velocity[i] - self.rate_error[i]
+        self.attitude_error_sigma = math.sqrt(self.covariance[0])
+        self.rate_error_sigma = math.sqrt(self.covariance[4])
+
+    def step(self, t: float, h: float) -> None:
+        if self.method != MEAN:
+            self.predict(t + h - self.last_time)
+        self.take_sample()
+        if self.summed >= self.mean_samples:
+            self.put_out_mean(t + h)
+        copy3(self.last_momentum, self.gyro_momentum)
+        self.last_time = t + h
+        self.publish()

@@ -1,0 +1,73 @@
+"""Whether an estimate's errors are as large as its covariance says."""
+
+import math
+
+from ..block import Block, Input, Output
+from ..mathlib.kalman import normalised_square
+
+
+class EstimateMonitor(Block):
+    """Estimate monitor: errors of position and velocity over the estimate's own covariance.
+
+    The squared error normalised by the covariance (NEES) is chi-square distributed with six degrees of
+    freedom where errors are normal and the covariance is right. Frame: landing site.
+    Source: Bar-Shalom, Li and Kirubarajan 2001, section 5.4.2.
+    """
+
+    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="true position")
+    velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="true velocity")
+    estimated_position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimate")
+    estimated_velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimate")
+    estimate_covariance = Input(
+        [0.0] * 21,
+        frame="landing site",
+        description="covariance of the error of position and velocity, SI; rows of the upper triangle",
+    )
+    normalised_error_square = Output(
+        0.0,
+        unit="1",
+        direct=True,
+        description="squared error of the six states, normalised; 0 while the covariance is not positive definite",
+    )
+    position_error_ratio = Output(
+        [0.0, 0.0, 0.0],
+        unit="1",
+        frame="landing site",
+        direct=True,
+        description="estimate minus truth over standard deviation; 0 where that is 0",
+    )
+    velocity_error_ratio = Output(
+        [0.0, 0.0, 0.0],
+        unit="1",
+        frame="landing site",
+        direct=True,
+        description="estimate minus truth over standard deviation; 0 where that is 0",
+    )
+
+    def initialize(self) -> None:
+        self.compare()
+
+    def compare(self) -> None:
+        """Compare the estimate with the truth."""
+        error = [0.0] * 6
+        for i in range(3):
+            error[i] = self.estimated_position[i] - self.position[i]
+            error[3 + i] = self.estimated_velocity[i] - self.velocity[i]
+        covariance = [0.0] * 36
+        for i in range(6):
+            for j in range(i, 6):
+                # row i of the upper triangle begins after 6 + 5 + ... elements
+                covariance[6 * j + i] = self.estimate_covariance[6 * i - i * (i - 1) // 2 + j - i]
+        ratio = [0.0] * 6
+        for i in range(6):
+            if covariance[7 * i] > 0.0:
+                ratio[i] = error[i] / math.sqrt(covariance[7 * i])
+        for i in range(3):
+            self.position_error_ratio[i] = ratio[i]
+            self.velocity_error_ratio[i] = ratio[3 + i]
+        self.normalised_error_square = normalised_square(covariance, error, 6)
+        if self.normalised_error_square < 0.0:
+            self.normalised_error_square = 0.0
+
+    def step(self, t: float, h: float) -> None:
+        self.compare()

@@ -1,0 +1,48 @@
+"""Navigation through a Kalman filter of the library filterpy."""
+
+import numpy as np
+from filterpy.kalman import KalmanFilter
+
+from ..interfaces.filtered_navigation import FilteredNavigation
+
+
+class KalmanNavigationFilterpy(FilteredNavigation):
+    """Kalman navigation with filterpy's matrices: kalman_navigation written a second time, in Python only.
+
+    The filter's state is what is still to be added to the estimate, 0 between updates; its matrices are
+    written out in full. States, gate, status and frame: FilteredNavigation.
+    """
+
+    python_only = True
+    requires = ("filterpy", "numpy")
+
+    def filter(self) -> KalmanFilter:
+        """A filter with the covariance; all its memory is in declared states."""
+        made = KalmanFilter(dim_x=15, dim_z=1)
+        made.P = np.reshape(self.covariance, (15, 15))
+        return made
+
+    def predict(self, h: float) -> None:
+        made = self.filter()
+        x, y, z = self.force
+        skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        addition = np.hstack([np.eye(3), np.diag(self.force), -skew])  # w x f = -f x w
+        made.F = np.eye(15)
+        made.F[0:3, 3:6] = h * np.eye(3)
+        made.F[0:3, 6:15] = -0.5 * h * h * addition
+        made.F[3:6, 6:15] = -h * addition
+        noise = np.vstack([0.5 * h * np.eye(3), np.eye(3), np.zeros((9, 3))])
+        made.Q = self.velocity_random_walk**2 * h * noise @ noise.T
+        made.Q[6:9, 6:9] = self.bias_random_walk**2 * h * np.eye(3)
+        made.predict()
+        self.covariance[:] = made.P.ravel().tolist()
+
+    def weigh(self, row: list, ph: list, variance: float) -> float:
+        h = np.array(row)
+        return float(h @ self.filter().P @ h + variance)
+
+    def take_in(self, row: list, ph: list, innovation: float, s: float, variance: float, correction: list) -> None:
+        made = self.filter()
+        made.update(np.array([[innovation]]), R=np.array([[variance]]), H=np.array([row]))
+        self.covariance[:] = made.P.ravel().tolist()
+        correction[:] = made.x.ravel().tolist()

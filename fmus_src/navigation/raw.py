@@ -1,0 +1,51 @@
+"""Navigation without a filter."""
+
+from ..interfaces.inertial_navigation import InertialNavigation
+from ..mathlib.vectors import norm
+
+
+class RawNavigation(InertialNavigation):
+    """Raw navigation: dead reckoning, with the latest fix put in as it is.
+
+    A position fix replaces the position, a velocity fix the velocity; an altitude moves the position
+    along the local vertical to that altitude. Of samples at the same time, the position fix comes last.
+    Sigmas and covariance stay 0: not known. Frame: landing site.
+    """
+
+    def initialize(self) -> None:
+        self.know()
+        self.put_in()
+
+    def put_in(self) -> None:
+        """Put the new samples into the estimate."""
+        if self.altitude_count != self.altitude_taken:
+            self.altitude_taken = self.altitude_count
+            self.sample_count = self.sample_count + 1
+            self.rise_to(self.measured_altitude)
+        if self.velocity_count != self.velocity_taken:
+            self.velocity_taken = self.velocity_count
+            self.sample_count = self.sample_count + 1
+            for i in range(3):
+                self.estimated_velocity[i] = self.measured_velocity[i]
+        if self.position_count != self.position_taken:
+            self.position_taken = self.position_count
+            self.sample_count = self.sample_count + 1
+            for i in range(3):
+                self.estimated_position[i] = self.measured_position[i]
+
+    def rise_to(self, altitude: float) -> None:
+        """Move the position along the local vertical to an altitude (m)."""
+        centred = [0.0] * 3
+        for i in range(3):
+            centred[i] = self.estimated_position[i]
+        centred[2] = centred[2] + self.moon_radius
+        distance = norm(centred)
+        if distance > 0.0:
+            for i in range(3):
+                rise = self.moon_radius + altitude - distance
+                self.estimated_position[i] = self.estimated_position[i] + rise * centred[i] / distance
+
+    def step(self, t: float, h: float) -> None:
+        self.sense(h)
+        self.move(h)
+        self.put_in()

@@ -1,0 +1,75 @@
+"""How well an approach is flown: true motion against the plan."""
+
+from ..block import Block, Input, Output
+from ..mathlib.quaternion import difference, to_rodrigues, to_rotation_vector
+from ..mathlib.vectors import norm
+
+
+class RendezvousMonitor(Block):
+    """Errors of relative position, range and attitude against the plan, and the attitude as Rodrigues parameters.
+
+    position_error is the planned less the true relative position: the robot's distance from its place
+    beside the object. Frames: inertial; body for errors of attitude.
+    """
+
+    default_step = 0.125
+
+    robot_position = Input([0.0, 0.0, 0.0], unit="m", frame="inertial", description="true position of the robot")
+    target_position = Input([0.0, 0.0, 0.0], unit="m", frame="inertial", description="true position of the object")
+    quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="true attitude, body to inertial, scalar first")
+    planned_relative_position = Input(
+        [0.0, 0.0, 0.0], unit="m", frame="inertial", description="from the robot to the object"
+    )
+    planned_quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="planned, body to inertial, scalar first")
+    position_error = Output(
+        [0.0, 0.0, 0.0],
+        unit="m",
+        frame="inertial",
+        direct=("robot_position", "target_position", "planned_relative_position"),
+        description="of the robot from its planned place beside the object",
+    )
+    range = Output(
+        0.0, unit="m", direct=("robot_position", "target_position"), description="from the robot to the object's centre"
+    )
+    range_error = Output(
+        0.0,
+        unit="m",
+        direct=("robot_position", "target_position", "planned_relative_position"),
+        description="range less the planned one",
+    )
+    attitude_error = Output(
+        [0.0, 0.0, 0.0],
+        unit="rad",
+        frame="body",
+        direct=("quaternion", "planned_quaternion"),
+        description="rotation vector from the planned to the true attitude",
+    )
+    attitude_error_angle = Output(
+        0.0, unit="rad", direct=("quaternion", "planned_quaternion"), description="length of attitude_error"
+    )
+    rodrigues = Output(
+        [0.0, 0.0, 0.0],
+        unit="1",
+        direct=("quaternion",),
+        description="modified Rodrigues parameters of the attitude: axis times tan(angle/4)",
+    )
+
+    def initialize(self) -> None:
+        self.compare()
+
+    def compare(self) -> None:
+        """Compare the true motion with the plan."""
+        relative = [0.0] * 3
+        error = [0.0] * 4
+        for i in range(3):
+            relative[i] = self.target_position[i] - self.robot_position[i]
+            self.position_error[i] = self.planned_relative_position[i] - relative[i]
+        self.range = norm(relative)
+        self.range_error = self.range - norm(self.planned_relative_position)
+        difference(self.planned_quaternion, self.quaternion, error)
+        to_rotation_vector(error, self.attitude_error)
+        self.attitude_error_angle = norm(self.attitude_error)
+        to_rodrigues(self.quaternion, self.rodrigues)
+
+    def step(self, t: float, h: float) -> None:
+        self.compare()

@@ -1,0 +1,227 @@
+"""How far the robot is from its plan: a filter of measured relative positions."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.quaternion import copy4, normalise, to_reference
+from ..mathlib.tracking import measure_chain, predict_chain
+from ..mathlib.vectors import copy3, norm
+
+MEAN = 0
+GOOD = 0
+NOT_FINITE = 1
+# Inputs that the outputs depend on at once: all but the force, which is that of the step just past.
+AT_ONCE = (
+    "relative_position",
+    "sample_count",
+    "planned_relative_position",
+    "planned_velocity",
+    "translation_count",
+    "quaternion",
+)
+
+
+class TranslationFilter(Block):
+    """Error of the robot's position and velocity against the plan, as planned minus measured relative position.
+
+    method 0: the mean of the samples since the last tick of translation control, put out at the tick; the
+    velocity is the difference of the last two means over the time between their ticks.
+    method 1: Kalman filter of position and velocity, the same for all three inertial axes. It is moved by the
+    force that the jets are commanded to give (allocated_force is that of the step just past, so it is read a step late)
+    less the planned change of velocity. The force is wrong by force_error of its size, for about
+    force_error_time; process_noise is what else disturbs. A measured range below near_range has near_sigma.
+
+    A sample that is not finite is left out and reported. sample_period is how often the filter looks; new samples
+    are told by their count. Frames: inertial, except for the force. Equations: docs/robot_rendezvous.md.
+    Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2.
+    """
+
+    default_step = 0.125
+
+    method = Parameter(1, minimum=0, maximum=1, description="0 mean since the last tick, 1 Kalman filter")
+    mass = Parameter(1000.0, unit="kg", minimum=1e-3, description="of the robot")
+    far_sigma = Parameter(0.025, unit="m", minimum=1e-9, description="error of a sample far away, 1 sigma per axis")
+    near_sigma = Parameter(0.01, unit="m", minimum=1e-9, description="error of a sample nearby, 1 sigma per axis")
+    near_range = Parameter(300.0, unit="m", minimum=0.0, description="nearby is below this range")
+    first_velocity_sigma = Parameter(
+        0.02, unit="m/s", minimum=0.0, description="error of the velocity at the start, 1 sigma per axis"
+    )
+    process_noise = Parameter(1e-13, unit="m2/s3", minimum=0.0, description="density of white acceleration noise")
+    force_error = Parameter(
+        0.001, unit="1", minimum=0.0, description="error of the commanded force over its size, 1 sigma"
+    )
+    force_error_time = Parameter(10.0, unit="s", minimum=0.0, description="for how long such an error stays the same")
+    sample_period = Parameter(0.125, unit="s", minimum=0.0, description="between steps; 0: every communication point")
+    relative_position = Input(
+        [0.0, 0.0, 0.0], unit="m", frame="inertial", description="measured, from the robot to the object"
+    )
+    sample_count = Input(0, description="samples taken by the sensor; a change tells a new one")
+    planned_relative_position = Input(
+        [0.0, 0.0, 0.0], unit="m", frame="inertial", description="from the robot to the object"
+    )
+    planned_velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="of the robot")
+    translation_count = Input(0, description="ticks of translation control; a change tells a new one")
+    quaternion = Input([1.0, 0.0, 0.0, 0.0], unit="1", description="estimated attitude, body to inertial, scalar first")
+    allocated_force = Input(
+        [0.0, 0.0, 0.0], unit="N", frame="body", description="of the jets since the last communication point"
+    )
+    position_error = Output(
+        [0.0, 0.0, 0.0],
+        unit="m",
+        frame="inertial",
+        direct=AT_ONCE,
+        description="of the robot from its plan",
+    )
+    velocity_error = Output(
+        [0.0, 0.0, 0.0],
+        unit="m/s",
+        frame="inertial",
+        direct=AT_ONCE,
+        description="of the robot from its plan",
+    )
+    position_error_sigma = Output(
+        0.0,
+        unit="m",
+        direct=AT_ONCE,
+        description="standard deviation of the estimate, per axis; 0: not known",
+    )
+    velocity_error_sigma = Output(
+        0.0,
+        unit="m/s",
+        direct=AT_ONCE,
+        description="standard deviation of the estimate, per axis; 0: not known",
+    )
+    innovation_square = Output(
+        0.0,
+        unit="1",
+        direct=AT_ONCE,
+        description="normalised innovation squared of the last sample, three components",
+    )
+    samples_taken = Output(0, direct=AT_ONCE, description="samples taken in")
+    status = Output(
+        0, minimum=0, maximum=1, direct=AT_ONCE, description="0 good, 1 last sample not finite and left out"
+    )
+    covariance = State([0.0] * 4, description="of position and velocity, row order, SI")
+    last_time = State(0.0, unit="s", description="time of the last step")
+    start_time = State(0.0, unit="s", description="start of the flight")
+    last_velocity = State(
+        [0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="planned_velocity at the last step"
+    )
+    last_quaternion = State([1.0, 0.0, 0.0, 0.0], unit="1", description="quaternion at the last step")
+    counted = State(0, description="sample_count of the last sample")
+    ticks = State(0, description="translation_count of the last tick")
+    tick_time = State(0.0, unit="s", description="time of the last mean")
+    total = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="of the samples since the last tick")
+    summed = State(0, description="number of samples in the sum")
+    means = State(0, description="means put out")
+
+    def initialize(self) -> None:
+        self.last_time = self.start_time
+        self.tick_time = self.start_time
+        self.ticks = self.translation_count
+        copy3(self.last_velocity, self.planned_velocity)
+        copy4(self.last_quaternion, self.quaternion)
+        self.covariance[3] = self.first_velocity_sigma * self.first_velocity_sigma
+        self.take_sample()
+        if self.method == MEAN:
+            self.put_out_mean(self.start_time)
+        self.publish()
+
+    def sigma_now(self) -> float:
+        """Standard deviation (m) of a sample as near as the last one."""
+        if norm(self.relative_position) < self.near_range:
+            return self.near_sigma
+        return self.far_sigma
+
+    def predict(self, h: float) -> None:
+        """Move estimate and covariance by h (s)."""
+        middle = [0.0] * 4
+        force = [0.0] * 3
+        for i in range(4):
+            middle[i] = self.last_quaternion[i] + self.quaternion[i]
+        normalise(middle)
+        to_reference(middle, self.allocated_force, force)
+        uncertain = self.force_error * norm(force) / self.mass
+        density = self.process_noise + uncertain * uncertain * self.force_error_time
+        predict_chain(self.covariance, density, 0.0, h, 2)
+        for i in range(3):
+            gained = force[i] / self.mass * h - (self.planned_velocity[i] - self.last_velocity[i])
+            self.position_error[i] = self.position_error[i] + h * (self.velocity_error[i] + 0.5 * gained)
+            self.velocity_error[i] = self.velocity_error[i] + gained
+
+    def take_sample(self) -> None:
+        """Take a new sample in, if it is one."""
+        if self.sample_count == self.counted:
+            return
+        self.counted = self.sample_count
+        error = [0.0] * 3
+        finite = True
+        for i in range(3):
+            error[i] = self.planned_relative_position[i] - self.relative_position[i]
+            if not math.isfinite(error[i]):
+                finite = False
+        if not finite:
+            self.status = NOT_FINITE
+            return
+        self.status = GOOD
+        self.samples_taken = self.samples_taken + 1
+        if self.method == MEAN:
+            for i in range(3):
+                self.total[i] = self.total[i] + error[i]
+            self.summed = self.summed + 1
+        elif self.samples_taken == 1:
+            sigma = self.sigma_now()
+            self.covariance[0] = sigma * sigma
+            self.covariance[1] = 0.0
+            self.covariance[2] = 0.0
+            copy3(self.position_error, error)
+        else:
+            self.correct(error)
+
+    def correct(self, error: list) -> None:
+        """Take a measured position error (m) into the Kalman filter."""
+        gain = [0.0] * 2
+        sigma = self.sigma_now()
+        variance = measure_chain(self.covariance, sigma * sigma, gain, 2)
+        square = 0.0
+        for i in range(3):
+            innovation = error[i] - self.position_error[i]
+            square = square + innovation * innovation / variance
+            self.position_error[i] = self.position_error[i] + gain[0] * innovation
+            self.velocity_error[i] = self.velocity_error[i] + gain[1] * innovation
+        self.innovation_square = square
+
+    def put_out_mean(self, time: float) -> None:
+        """Put the mean since the last tick out at ``time`` (s)."""
+        if self.summed == 0:
+            return
+        elapsed = time - self.tick_time
+        for i in range(3):
+            mean = self.total[i] / float(self.summed)
+            if self.means > 0 and elapsed > 0.0:
+                self.velocity_error[i] = (mean - self.position_error[i]) / elapsed
+            self.position_error[i] = mean
+            self.total[i] = 0.0
+        self.summed = 0
+        self.means = self.means + 1
+        self.tick_time = time
+
+    def publish(self) -> None:
+        """Put the standard deviations on the outputs."""
+        if self.method != MEAN:
+            self.position_error_sigma = math.sqrt(self.covariance[0])
+            self.velocity_error_sigma = math.sqrt(self.covariance[3])
+
+    def step(self, t: float, h: float) -> None:
+        elapsed = t + h - self.last_time
+        if self.method != MEAN:
+            self.predict(elapsed)
+        self.take_sample()
+        if self.translation_count != self.ticks:
+            self.ticks = self.translation_count
+            if self.method == MEAN:
+                self.put_out_mean(t + h)
+        copy3(self.last_velocity, self.planned_velocity)
+        copy4(self.last_quaternion, self.quaternion)
+        self.last_time = t + h
+        self.publish()

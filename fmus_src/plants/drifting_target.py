@@ -1,0 +1,57 @@
+"""A passive object that drifts and spins in deep space."""
+
+import math
+
+from ..block import Block, Output, Parameter, State
+from ..mathlib.quaternion import from_rotation_vector
+from ..mathlib.vectors import norm
+
+
+class DriftingTarget(Block):
+    """Moves uniformly and turns at a constant rate about an axis fixed in its body and in inertial space.
+
+    Exact at any time. Its body axes are the inertial ones at the start; a spin_axis of length 0 means that it
+    does not turn. The paper does not give the rate of the spin. Frame: inertial.
+    Source: Somov, Butyrin, Somov and Somova, see docs/robot_rendezvous.md.
+    """
+
+    default_step = 0.125
+
+    initial_position = Parameter(
+        [500.0 * math.cos(math.pi / 9.0), 500.0 * math.sin(math.pi / 9.0), 0.0],
+        unit="m",
+        frame="inertial",
+        description="centre of mass at the start",
+    )
+    constant_velocity = Parameter([-0.05, 0.05, 0.075], unit="m/s", frame="inertial", description="velocity")
+    spin_axis = Parameter(
+        [-0.608, 0.228, 0.760], unit="1", frame="inertial", description="axis of the spin, of any length"
+    )
+    spin_rate = Parameter(math.pi / 180.0, unit="rad/s", description="angular velocity about it")
+    position = Output([0.0, 0.0, 0.0], unit="m", frame="inertial", description="centre of mass")
+    velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="inertial", description="velocity")
+    quaternion = Output(
+        [1.0, 0.0, 0.0, 0.0], unit="1", description="attitude, from body to inertial, scalar first, not negative"
+    )
+    start_time = State(0.0, unit="s", description="start of the flight")
+
+    def initialize(self) -> None:
+        self.place(0.0)
+
+    def place(self, time: float) -> None:
+        """State ``time`` (s) after the start."""
+        rotation = [0.0] * 3
+        length = norm(self.spin_axis)
+        angle = math.fmod(self.spin_rate * time, math.tau)
+        for i in range(3):
+            self.position[i] = self.initial_position[i] + self.constant_velocity[i] * time
+            self.velocity[i] = self.constant_velocity[i]
+            if length > 0.0:
+                rotation[i] = angle * self.spin_axis[i] / length
+        from_rotation_vector(rotation, self.quaternion)
+        if self.quaternion[0] < 0.0:
+            for i in range(4):
+                self.quaternion[i] = -self.quaternion[i]
+
+    def step(self, t: float, h: float) -> None:
+        self.place(t + h - self.start_time)

@@ -1,0 +1,1 @@
+"""Measurements of the vehicle's motion."""

@@ -1,0 +1,43 @@
+"""Path angle and altitude with relative errors."""
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.rng import seed_streams, uniform
+
+
+class PlanarStateSensor(Block):
+    """Measures path angle and altitude with uniform relative errors, independent from sample to sample.
+
+    measured = true (1 + noise u), u uniform on (-1, 1) and drawn anew for each quantity and sample.
+    Source: Diveev, Pupkov and Sofronova 2013, table 2.
+    """
+
+    default_step = 0.01
+
+    default_step = 0.01
+
+    path_angle_noise = Parameter(0.0, unit="1", minimum=0.0, description="largest relative error of the path angle")
+    altitude_noise = Parameter(0.0, unit="1", minimum=0.0, description="largest relative error of the altitude")
+    sample_period = Parameter(0.01, unit="s", minimum=0.0, description="between samples; 0: every communication point")
+    seed = Parameter(1, minimum=0, description="random numbers: seed")
+    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    path_angle = Input(0.0, unit="rad", description="true angle from the local vertical to the velocity")
+    altitude = Input(0.0, unit="m", description="true altitude")
+    measured_path_angle = Output(0.0, unit="rad", direct=("path_angle",), description="measured path angle")
+    measured_altitude = Output(0.0, unit="m", direct=("altitude",), description="measured altitude")
+    sample_count = Output(0, description="samples taken; tells a new one from a held one")
+    generator = State([0.0] * 6, description="random number generator")
+
+    def initialize(self) -> None:
+        seed_streams(self.generator, self.seed, self.stream)
+        self.measure()
+
+    def measure(self) -> None:
+        """Take a sample."""
+        error = uniform(self.generator)
+        self.measured_path_angle = self.path_angle * (1.0 + self.path_angle_noise * (2.0 * error - 1.0))
+        error = uniform(self.generator)
+        self.measured_altitude = self.altitude * (1.0 + self.altitude_noise * (2.0 * error - 1.0))
+        self.sample_count = self.sample_count + 1
+
+    def step(self, t: float, h: float) -> None:
+        self.measure()

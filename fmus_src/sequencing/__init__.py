@@ -1,0 +1,1 @@
+"""What ends a phase of flight and starts the next."""

@@ -1,0 +1,46 @@
+"""Declarations of variables: names of elements, and inconsistent declarations refused where they stand.
+
+Truth: FMI 2.0, section 2.2.9 (structured naming convention: a[1], a[2,3]), and the rules of `fmus_src.block`.
+"""
+
+import pytest
+
+from fmus_src.block import Block, DeclarationError, Input, Parameter
+
+
+def refusal(**variables):
+    """The message with which a block of these variables is refused."""
+    with pytest.raises((DeclarationError, RuntimeError)) as caught:
+        type("Refused", (Block,), {"__doc__": "A block.", **variables})
+    return str(caught.value.__cause__ or caught.value)
+
+
+def test_elements_of_a_matrix_are_named_by_row_and_column_in_row_order():
+    matrix = Parameter([0] * 6, columns=3, description="two rows of three")
+    assert matrix.element_names() == [f"[{i},{j}]" for i in (1, 2) for j in (1, 2, 3)]
+
+
+def test_elements_of_a_vector_and_a_scalar():
+    class Named(Block):
+        """A block."""
+
+        vector = Input([0.0, 0.0], unit="1", description="a vector")
+        scalar = Input(0.0, unit="1", description="a scalar")
+
+    assert Named.variables["vector"].element_names() == ["vector[1]", "vector[2]"]
+    assert Named.variables["scalar"].element_names() == ["scalar"]
+
+
+@pytest.mark.parametrize("columns", [0, 4, 7])
+def test_columns_that_do_not_divide_the_elements_are_refused(columns):
+    assert "rows" in refusal(matrix=Parameter([0] * 6, columns=columns, description="a matrix"))
+
+
+def test_columns_of_a_scalar_are_refused():
+    assert "rows" in refusal(matrix=Parameter(0, columns=1, description="no matrix"))
+
+
+def test_mixed_types_unknown_units_and_missing_descriptions_are_refused():
+    assert "start must be" in refusal(mixed=Parameter([0, 0.5], description="an int and a float"))
+    assert "fmus_src/units.py" in refusal(speed=Parameter(0.0, unit="furlong/s", description="a speed"))
+    assert "description" in refusal(speed=Parameter(0.0, unit="m/s"))

@@ -1,0 +1,189 @@
+"""The network operator: operations, decoding and evaluation.
+
+Truth: the formulas of the operations in numpy; the same network evaluated from its outputs backwards, node by
+node, with Python's own functions; matrices broken in one place. Tolerance 4 rounding errors for a
+single operation, and equality for the evaluation, which is the same arithmetic in another order of nodes.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fmus_src.mathlib import network_operator as no
+
+LARGE = 1e8
+ROUNDING = 4 * 2.0**-53
+
+# The published formulas where they hold, that is without saturation.
+FORMULAS = {
+    1: lambda z: z,
+    2: lambda z: z**2,
+    3: lambda z: -z,
+    4: lambda z: np.sign(z) * np.sqrt(np.abs(z)),
+    5: lambda z: 1 / z,
+    6: np.exp,
+    7: lambda z: np.log(np.abs(z)),
+    8: lambda z: (1 - np.exp(-z)) / (1 + np.exp(-z)),
+    9: lambda z: float(z >= 0),
+    10: lambda z: 1.0 if z >= 0 else -1.0,
+    11: np.cos,
+    12: np.sin,
+    13: np.arctan,
+    14: lambda z: z**3,
+    15: lambda z: np.sign(z) * np.abs(z) ** (1 / 3),
+    16: lambda z: max(-1.0, min(1.0, z)),
+    17: lambda z: np.sign(z) * np.log(np.abs(z) + 1),
+    18: lambda z: np.sign(z) * (np.exp(np.abs(z)) - 1),
+    19: lambda z: np.sign(z) * np.exp(-np.abs(z)),
+    20: lambda z: z / 2,
+    21: lambda z: 2 * z,
+    23: lambda z: z - z**3,
+}
+# Beyond saturation and at the poles: (operation, argument, value).
+EDGES = [
+    (2, 1e5, LARGE),
+    (2, -1e4, LARGE),
+    (4, 0.0, 0.0),
+    (5, 0.0, LARGE),
+    (5, 1e-8, LARGE),
+    (5, -1e-9, -LARGE),
+    (6, -800.0, 0.0),
+    (7, 0.0, math.log(1e-8)),
+    (8, 1e8, 1.0),
+    (8, -1e8, -1.0),
+    (9, 0.0, 1.0),
+    (10, 0.0, 1.0),
+    (14, 1e3, LARGE),
+    (14, -1e3, -LARGE),
+    (15, 0.0, 0.0),
+    (15, -8.0, -2.0),
+    (16, 1.5, 1.0),
+    (17, 0.0, 0.0),
+    (18, 18.5, LARGE),
+    (18, -1e8, -LARGE),
+    (19, 0.0, 1.0),
+    (19, 1e8, 0.0),
+    (23, 1e3, -LARGE),
+    (23, -1e3, LARGE),
+]
+
+
+def test_the_table_is_complete():
+    assert sorted(FORMULAS) == list(no.UNARY_OPERATIONS)
+    assert [k for k in range(-3, 40) if no.known_unary(k)] == list(no.UNARY_OPERATIONS)
+    assert [k for k in range(-3, 40) if no.known_binary(k)] == list(no.BINARY_OPERATIONS)
+    assert (no.EPSILON, no.LARGEST) == (1e-8, LARGE)
+    assert math.exp(no.LOG_LARGEST) == pytest.approx(LARGE, rel=1e-14)
+
+
+@pytest.mark.parametrize("operation", FORMULAS)
+@given(z=st.floats(-18.0, 18.0).filter(lambda z: abs(z) > 1e-6))
+@settings(max_examples=100, deadline=None)
+def test_unary_operations_are_their_formulas(operation, z):
+    # 1 - exp(-z) and exp|z| - 1 lose what is below one rounding error of 1; so does the log of nearly 1
+    assert no.unary(operation, z, LARGE) == pytest.approx(float(FORMULAS[operation](z)), rel=ROUNDING, abs=ROUNDING)
+
+
+@pytest.mark.parametrize(("operation", "z", "value"), EDGES)
+def test_unary_operations_saturate(operation, z, value):
+    assert no.unary(operation, z, LARGE) == pytest.approx(value, rel=1e-15, abs=1e-300)
+
+
+@pytest.mark.parametrize("saturation", [LARGE, no.LOG_LARGEST])
+def test_exp_saturates_at_either_value(saturation):
+    assert no.unary(6, 18.42, saturation) == math.exp(18.42)
+    assert no.unary(6, 18.43, saturation) == saturation
+    assert no.unary(6, 1e300, saturation) == saturation
+
+
+@pytest.mark.parametrize(("operation", "truth"), [(0, lambda a, b: a + b), (1, lambda a, b: a * b), (2, max), (3, min)])
+@given(a=st.floats(-1e4, 1e4), b=st.floats(-1e4, 1e4))
+@settings(max_examples=60, deadline=None)
+def test_binary_operations(operation, truth, a, b):
+    assert no.binary(operation, a, b) == truth(a, b)
+    assert no.binary(operation, no.neutral(operation), a) == a
+
+
+def test_products_saturate():
+    assert no.binary(1, 1e5, 1e5) == LARGE
+    assert no.binary(1, -1e5, 1e5) == -LARGE
+
+
+# ---- whole networks ----------------------------------------------------------------------------------------
+
+
+def a_network(generator, density=0.3):
+    matrix = np.zeros((16, 16), int)
+    for i in range(16):
+        matrix[i, i] = generator.choice(no.BINARY_OPERATIONS) if i >= 6 else 0
+        for j in range(max(i + 1, 6), 16):
+            if generator.random() < density:
+                matrix[i, j] = generator.choice(no.UNARY_OPERATIONS)
+    return matrix
+
+
+def evaluated(matrix, sources):
+    edges = [0] * no.MAXIMUM_EDGES
+    flat = [int(value) for value in matrix.ravel()]
+    count = no.decode(flat, edges)
+    assert count == np.count_nonzero(np.triu(matrix, 1))
+    nodes = [*sources, *(no.neutral(flat[17 * j]) for j in range(len(sources), 16))]
+    no.evaluate(flat, edges, count, LARGE, nodes)
+    return nodes
+
+
+def backwards(matrix, sources, node):
+    """A node's value from its predecessors' values, recursively."""
+    if node < len(sources):
+        return sources[node]
+    kind = matrix[node, node]
+    value = {0: 0.0, 1: 1.0, 2: -LARGE, 3: LARGE}[kind]
+    for before in range(node):
+        if matrix[before, node]:
+            term = no.unary(int(matrix[before, node]), backwards(matrix, sources, before), LARGE)
+            value = {
+                0: value + term,
+                1: max(-LARGE, min(LARGE, value * term)),
+                2: max(value, term),
+                3: min(value, term),
+            }[kind]
+    return value
+
+
+def test_random_networks_are_evaluated_in_order():
+    generator = np.random.default_rng(1)
+    for _ in range(100):
+        matrix, sources = a_network(generator, 0.2), generator.normal(size=6).tolist()
+        nodes = evaluated(matrix, sources)
+        assert nodes == [backwards(matrix, sources, node) for node in range(16)]
+
+
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    sources=st.lists(st.sampled_from([0.0, -0.0, 1e-12, 1.0, -1.0, math.pi, 1e8, -1e8]), min_size=6, max_size=6),
+)
+@settings(max_examples=200, deadline=None)
+def test_no_network_faults(seed, sources):
+    nodes = evaluated(a_network(np.random.default_rng(seed), 0.8), sources)
+    assert all(math.isfinite(value) for value in nodes)
+
+
+@pytest.mark.parametrize(
+    ("row", "column", "value"),
+    [(0, 1, 22), (2, 5, 24), (0, 15, -1), (1, 0, 1), (15, 14, 3), (8, 8, 4), (15, 15, -1)],
+)
+def test_what_is_no_network_operator_is_told(row, column, value):
+    """Unknown unary operations, entries below the diagonal, unknown binary operations."""
+    matrix = a_network(np.random.default_rng(2))
+    edges = [0] * no.MAXIMUM_EDGES
+    assert no.decode([int(entry) for entry in matrix.ravel()], edges) >= 0
+    matrix[row, column] = value
+    assert no.decode([int(entry) for entry in matrix.ravel()], edges) == -1
+
+
+def test_a_full_matrix_fits():
+    matrix = np.triu(np.ones((16, 16), int))
+    assert no.decode([int(entry) for entry in matrix.ravel()], [0] * no.MAXIMUM_EDGES) == no.MAXIMUM_EDGES
