@@ -1,0 +1,41 @@
+"""perilune synthesize: a search for a control law."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from analysis.synthesis.synthesis import run_synthesis
+from analysis.synthesis.synthesis_file import read_synthesis
+
+from .options import add_json, write_json
+
+HELP = "search for a control law, every candidate flown in its system"
+METHODS = ("network-operator",)
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("method", choices=METHODS, metavar="METHOD", help=f"one of: {', '.join(METHODS)}")
+    parser.add_argument("file", type=Path, metavar="F.toml", help="a campaign with a table [network_operator]")
+    parser.add_argument("--output", type=Path, metavar="DIR", help="write checkpoints, Pareto set and law to a folder")
+    parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
+    parser.add_argument("--workers", type=int, metavar="N", help="laws in flight together; default: one per processor")
+    parser.add_argument("--resume", action="store_true", help="go on from the checkpoint in --output DIR")
+    parser.add_argument(
+        "--evaluations", type=int, metavar="N", help="end with the generation in which N laws have flown"
+    )
+    add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    result = run_synthesis(
+        read_synthesis(options.file),
+        seed=options.seed,
+        workers=options.workers,
+        output=options.output,
+        resume=options.resume,
+        evaluations=options.evaluations,
+    )
+    if not write_json(result.document(), options.json):
+        print(result.text())
+    return 0

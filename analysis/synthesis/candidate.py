@@ -1,0 +1,57 @@
+"""A candidate of the search: its genes, the law they stand for, and what flying it came to."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import NamedTuple
+
+from .gray_code import Coding
+from .law import Matrix
+from .variations import Variation, edges_out, pruned, varied
+
+PARAMETER_NODES = (1, 3, 5)  # the sources q1, q2, q3, counted from 0
+
+
+class Genes(NamedTuple):
+    """The number of a basis, what is varied on it, and the parameters in Gray code."""
+
+    basis: int
+    variations: tuple[Variation, ...]
+    code: int
+
+
+class Phenotype(NamedTuple):
+    """A law as it flies: matrix without what leads nowhere, and parameters."""
+
+    matrix: Matrix
+    q: tuple[float, ...]
+
+    @property
+    def key(self) -> str:
+        """A name that equal laws share: parameters that the matrix does not use do not count."""
+        used = [
+            value if edges_out(self.matrix, node) else None for node, value in zip(PARAMETER_NODES, self.q, strict=True)
+        ]
+        return hashlib.sha256(json.dumps([self.matrix, used]).encode()).hexdigest()[:32]
+
+
+class Evaluation(NamedTuple):
+    """What flying a law came to: sums over the first ``flown`` trials, and how many of these were successes."""
+
+    objectives: tuple[float, ...]
+    successes: int
+    flown: int
+
+
+class Candidate(NamedTuple):
+    """Genes that were tried: the law's key and its evaluation."""
+
+    genes: Genes
+    key: str
+    evaluation: Evaluation
+
+
+def phenotype(genes: Genes, bases: list[Matrix], coding: Coding) -> Phenotype:
+    """The law that genes stand for."""
+    return Phenotype(pruned(varied(bases[genes.basis], genes.variations)), coding.decode(genes.code))

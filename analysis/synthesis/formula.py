@@ -1,0 +1,125 @@
+"""A law in writing: a line for every shared part and for each output, as a reader would put it down."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from .expression_tree import OUTPUT_NUMBERS, Node, expression_tree, nodes_of
+from .law import Law
+from .operations import (
+    ATOM,
+    IDENTITY,
+    MAXIMUM,
+    NEGATIVE,
+    POWER_LEVEL,
+    PRODUCT,
+    PRODUCT_LEVEL,
+    RECIPROCAL,
+    SUM,
+    SUM_LEVEL,
+    UNARY,
+)
+
+LONGEST_INLINE = 40  # characters of a part that is written where it is used
+SOURCE_LEVELS = {"pi + theta": SUM_LEVEL, "(hf - h)/h0": PRODUCT_LEVEL}
+
+
+# operations that name their argument more than once, or between bars
+NEEDS_A_NAME = {
+    number for number, notation in UNARY.items() if notation.formula.count("{z}") > 1 or "|" in notation.formula
+}
+
+
+class Text(NamedTuple):
+    """Part of a formula and how tightly it binds."""
+
+    text: str
+    level: int
+
+    def at(self, level: int) -> str:
+        """The text as it stands where at least ``level`` is needed."""
+        return self.text if self.level >= level else f"({self.text})"
+
+
+def formula(law: Law) -> dict[str, str]:
+    """Right sides by left side, in the order in which they can be computed; the outputs are z15 and z16."""
+    outputs = expression_tree(law.matrix)
+    nodes = nodes_of(outputs)
+    uses = Counter(other.number for node in nodes for _, other in node.terms)
+    named = {other.number for node in nodes for operation, other in node.terms if operation in NEEDS_A_NAME}
+    lines: dict[str, str] = {}
+    known: dict[int, Text] = {}
+    for node in nodes:
+        text = _node(node, known)
+        shared = uses[node.number] > 1 or node.number in named
+        if node.number in OUTPUT_NUMBERS or (
+            not text.text.isidentifier() and (shared or len(text.text) > LONGEST_INLINE)
+        ):
+            lines[f"z{node.number}"] = text.text
+            text = Text(f"z{node.number}", ATOM)
+        known[node.number] = text
+    return lines
+
+
+def formula_text(law: Law) -> str:
+    """The formula for a terminal, the values of its parameters below it."""
+    lines = formula(law)
+    outputs = {f"z{number}": f"u{place}" for place, number in enumerate(OUTPUT_NUMBERS, 1)}
+    text = [
+        f"{outputs.get(name, '')}{' = ' if name in outputs else ''}{name} = {right}" for name, right in lines.items()
+    ]
+    values = [f"q{place} = {value:.10g}" for place, value in enumerate(law.q, 1)]
+    return "\n".join([*text, "", ", ".join(values) + f"; exp saturates {law.exp_saturation}"])
+
+
+def _node(node: Node, known: Mapping[int, Text]) -> Text:
+    parts = [(IDENTITY, Text(node.source, SOURCE_LEVELS.get(node.source, ATOM)))] if node.source is not None else []
+    parts += [(operation, known[other.number]) for operation, other in node.terms]
+    if not parts:
+        return Text({SUM: "0", PRODUCT: "1", MAXIMUM: "-1e8"}.get(node.operation, "1e8"), ATOM)
+    if len(parts) == 1:
+        return _unary(*parts[0])
+    if node.operation == SUM:
+        return _sum(parts)
+    if node.operation == PRODUCT:
+        return _product(parts)
+    name = "max" if node.operation == MAXIMUM else "min"
+    return Text(f"{name}({', '.join(_unary(*part).text for part in parts)})", ATOM)
+
+
+def _unary(operation: int, argument: Text) -> Text:
+    if operation == IDENTITY:
+        return argument
+    notation = UNARY[operation]
+    return Text(notation.formula.format(z=argument.at(notation.argument)), notation.level)
+
+
+def _sum(parts: list[tuple[int, Text]]) -> Text:
+    text = ""
+    for part in parts:
+        term = _unary(*part).text
+        if not text:
+            text = term
+        elif term.startswith("-"):
+            text += f" - {term[1:]}"
+        else:
+            text += f" + {term}"
+    return Text(text, SUM_LEVEL)
+
+
+def _product(parts: list[tuple[int, Text]]) -> Text:
+    negative = False
+    text = ""
+    for operation, argument in parts:
+        if operation == NEGATIVE:
+            negative = not negative
+            factor = argument
+        else:
+            factor = _unary(operation, argument)
+        if operation == RECIPROCAL and text:
+            text += f"/{argument.at(POWER_LEVEL)}"
+        else:
+            text += ("*" if text else "") + factor.at(PRODUCT_LEVEL)
+    return Text(f"-{text}", SUM_LEVEL) if negative else Text(text, PRODUCT_LEVEL)

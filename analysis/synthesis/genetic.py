@@ -1,0 +1,208 @@
+"""The variational genetic algorithm: a population of variations of a basic solution in Pareto's order.
+
+Source: Diveev 2010 and Diveev, Pupkov and Sofronova 2013 for the search over variations, Gray code, parents
+that mate the likelier the fewer dominate them, four children that replace the worst, and the renewal of
+the basis. docs/synthesis.md says where we fill in or depart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .breeding import crossed, mutated, random_genes
+from .candidate import Candidate, Evaluation, Genes, Phenotype, phenotype
+from .evaluator import Bar, Evaluator, Task
+from .law import Matrix
+from .pareto import ParetoOrder, dominated, dominators
+from .search_settings import SearchSettings
+from .variations import NO_VARIATION, varied
+
+BROOD = 16  # couples whose children are evaluated together: fixed, so that workers do not change the result
+
+
+@dataclass
+class SearchState:
+    """All that the search goes on from, apart from its settings."""
+
+    random: np.random.Generator
+    bases: list[Matrix]
+    code: int  # of the basic solution
+    generation: int = 0
+    evaluations: int = 0
+    flights: int = 0
+    population: list[Candidate] = field(default_factory=list)
+    known: dict[str, Evaluation] = field(default_factory=dict)
+    front: list[Candidate] = field(default_factory=list)  # the Pareto set of all that were evaluated
+    champion: Candidate | None = None  # most successes
+    history: list[dict[str, float]] = field(default_factory=list)
+    succeeded: bool = False
+
+
+class Search:
+    """One search; `advance` takes it on until it `is_over`."""
+
+    def __init__(self, settings: SearchSettings, evaluator: Evaluator, state: SearchState) -> None:
+        self.settings = settings
+        self.evaluator = evaluator
+        self.state = state
+        self.coding = settings.coding
+
+    @property
+    def is_over(self) -> bool:
+        return self.state.succeeded or self.state.generation >= self.settings.generations
+
+    def advance(self) -> None:
+        """The first population, or the next generation, which ends early where the search does."""
+        state = self.state
+        if not state.population:
+            self._start()
+        else:
+            left = self.settings.crossovers
+            while left > 0 and not state.succeeded:
+                self._breed(min(left, BROOD))
+                left -= BROOD
+            state.generation += 1
+            if not self.is_over and state.generation % self.settings.renewal == 0:
+                self._renew()
+        self._note()
+
+    def _start(self) -> None:
+        """The first population: the basic solution as coded and, unless that is enough, others around it."""
+        state = self.state
+        basic = Genes(0, (NO_VARIATION,) * self.settings.variations, state.code)
+        state.population = self._evaluated([basic])
+        if not self.is_over:
+            state.population += self._evaluated(self._random(0, state.code, self.settings.population - 1))
+
+    def chosen(self) -> Candidate:
+        """The candidate to hand out: most successes, then the best compromise of the Pareto set."""
+        state = self.state
+        assert state.champion is not None  # there is one from the start on
+        most = state.champion.evaluation.successes
+        order = ParetoOrder(objectives_of(state.front)).order()
+        best = [state.front[place] for place in order if state.front[place].evaluation.successes == most]
+        return best[0] if best else state.champion
+
+    def law(self, candidate: Candidate) -> Phenotype:
+        """The law of a candidate."""
+        return phenotype(candidate.genes, self.state.bases, self.coding)
+
+    def _random(self, basis: int, code: int, count: int) -> list[Genes]:
+        random, bases, variations = self.state.random, self.state.bases, self.settings.variations
+        return [random_genes(random, basis, bases, code, variations, self.coding) for _ in range(count)]
+
+    def _breed(self, couples: int) -> None:
+        """Children of some couples, evaluated together, then let in one after another."""
+        random, settings = self.state.random, self.settings
+        order = ParetoOrder(objectives_of(self.state.population))
+        bar = Bar(order, order.standing(order.objectives[order.worst()]))
+        children: list[Genes] = []
+        for _ in range(couples):
+            pair = random.integers(len(self.state.population), size=2)
+            likely = max((1.0 + settings.crossover * rank) / (1.0 + rank) for rank in order.ranks[pair])
+            if random.random() < likely:
+                first, second = (self.state.population[place].genes for place in pair)
+                children += crossed(random, first, second, self.coding)
+        grown = [self._maybe_mutated(child) for child in children]
+        for candidate in self._evaluated(grown, bar):
+            if not bar.rejects(candidate.evaluation.objectives) and self._let_in(candidate, order):
+                order = ParetoOrder(objectives_of(self.state.population))
+
+    def _maybe_mutated(self, genes: Genes) -> Genes:
+        if self.state.random.random() < self.settings.mutation:
+            return mutated(self.state.random, genes, self.state.bases, self.coding)
+        return genes
+
+    def _let_in(self, candidate: Candidate, order: ParetoOrder) -> bool:
+        """Put a candidate in the place of the worst, unless it is worse or has the objectives of one there."""
+        point = np.array(candidate.evaluation.objectives)
+        worst = order.worst()
+        twin = np.any(np.all(order.objectives == point, axis=1))
+        if twin or order.standing(point) >= order.standing(order.objectives[worst]):
+            return False
+        self.state.population[worst] = candidate
+        return True
+
+    def _renew(self) -> None:
+        """The chosen candidate is the new basis; the elites stay as they are, the others are drawn anew."""
+        state = self.state
+        best = self.chosen().genes
+        state.bases.append(varied(state.bases[best.basis], best.variations))
+        basis = len(state.bases) - 1
+        order = ParetoOrder(objectives_of(state.population)).order()
+        elites = [state.population[place] for place in order[: self.settings.elites]]
+        basic = Genes(basis, (NO_VARIATION,) * self.settings.variations, best.code)
+        others = self._random(basis, best.code, self.settings.population - len(elites) - 1)
+        state.population = elites + self._evaluated([basic, *others])
+
+    def _evaluated(self, genes: Sequence[Genes], bar: Bar | None = None) -> list[Candidate]:
+        """Candidates of genes. Known laws are not flown again, nor on where the bar rejects what is known.
+
+        What the bar rejects leaves no other trace than its evaluation, flown to the end or not, so that
+        rejecting early does not change the search.
+        """
+        state = self.state
+        laws = [phenotype(each, state.bases, self.coding) for each in genes]
+        keys = [law.key for law in laws]
+        nothing = Evaluation((0.0,) * self.evaluator.objectives, 0, 0)
+        tasks: dict[str, Task] = {}
+        for key, law in zip(keys, laws, strict=True):
+            known = state.known.get(key, nothing)
+            rejected = known.flown > 0 and bar is not None and bar.rejects(known.objectives)
+            if known.flown < self.evaluator.trials and not rejected:
+                tasks[key] = Task(law, known)
+        found = self.evaluator.evaluate(list(tasks.values()), bar)
+        for (key, task), evaluation in zip(tasks.items(), found, strict=True):
+            state.evaluations += task.known.flown == 0
+            state.flights += evaluation.flown - task.known.flown
+            state.known[key] = evaluation
+        candidates = [Candidate(each, key, state.known[key]) for each, key in zip(genes, keys, strict=True)]
+        for candidate in candidates:
+            if bar is None or not bar.rejects(candidate.evaluation.objectives):
+                self._watch(candidate)
+        return candidates
+
+    def _watch(self, candidate: Candidate) -> None:
+        """Keep the Pareto set of all candidates and the one with most successes."""
+        state, evaluation = self.state, candidate.evaluation
+        point = np.array(evaluation.objectives)
+        objectives = objectives_of(state.front)
+        if not state.front or not (dominators(objectives, point) or np.any(np.all(objectives == point, axis=1))):
+            beaten = dominated(objectives, point) if state.front else np.zeros(0, dtype=bool)
+            stay = [member for member, out in zip(state.front, beaten, strict=True) if not out]
+            state.front = [*stay, candidate]
+        best = state.champion
+        if (
+            best is None
+            or evaluation.successes > best.evaluation.successes
+            or (
+                evaluation.successes == best.evaluation.successes
+                and dominated(np.array([best.evaluation.objectives]), point)[0]
+            )
+        ):
+            state.champion = candidate
+        state.succeeded |= self.settings.stop and evaluation.successes == self.evaluator.trials
+
+    def _note(self) -> None:
+        """A line of history."""
+        state = self.state
+        assert state.champion is not None
+        least = objectives_of(state.front).min(axis=0)
+        state.history.append(
+            {
+                "generation": state.generation,
+                "evaluations": state.evaluations,
+                "flights": state.flights,
+                "front": len(state.front),
+                "successes": state.champion.evaluation.successes,
+                **{f"least_{place + 1}": value for place, value in enumerate(least.tolist())},
+            }
+        )
+
+
+def objectives_of(candidates: Sequence[Candidate]) -> np.ndarray:
+    """Objectives, a row per candidate."""
+    return np.array([candidate.evaluation.objectives for candidate in candidates])

@@ -1,0 +1,115 @@
+"""What a synthesis leaves: the Pareto set, the chosen law as file, parameter set and drawing, a log."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .atomic import write_atomically
+from .candidate import Candidate
+from .formula import formula, formula_text
+from .genetic import Search
+from .graph import law_svg
+from .law import Law
+from .parameter_set import parameter_set
+from .synthesis_file import Synthesis
+
+FORMAT, VERSION = "perilune-pareto-set", 1
+
+
+@dataclass
+class SynthesisResult:
+    """A search as far as it came; ``ended`` says why: success, generations or evaluations."""
+
+    synthesis: Synthesis
+    search: Search
+    provenance: Mapping[str, Any]
+    ended: str
+
+    @property
+    def law(self) -> Law:
+        """The law of the chosen candidate."""
+        return self._law(self.search.chosen())
+
+    def _law(self, candidate: Candidate) -> Law:
+        found = self.search.law(candidate)
+        evaluation = candidate.evaluation
+        values = ", ".join(f"{name} {value:.6g}" for name, value in self._objectives(candidate).items())
+        file = Path(self.synthesis.campaign.file).name
+        description = (
+            f"Found by {file}, seed {self.provenance['seed']}, from {self.synthesis.basic.name}: {values}; "
+            f"{evaluation.successes} of {evaluation.flown} trials are successes."
+        )
+        name = f"{Path(file).stem}_{candidate.key[:8]}"
+        return Law(name, found.matrix, found.q, self.synthesis.basic.exp_saturation, description)
+
+    def _objectives(self, candidate: Candidate) -> dict[str, float]:
+        return dict(zip(self.synthesis.objectives, candidate.evaluation.objectives, strict=True))
+
+    def _member(self, candidate: Candidate) -> dict[str, Any]:
+        objectives = {name: _plain(value) for name, value in self._objectives(candidate).items()}
+        return {
+            "objectives": objectives,
+            "successes": candidate.evaluation.successes,
+            "law": self._law(candidate).document(),
+        }
+
+    def document(self) -> dict[str, Any]:
+        """The result: provenance, counts, the chosen law with its formula, and the Pareto set."""
+        state = self.search.state
+        front = sorted(state.front, key=lambda candidate: candidate.evaluation.objectives)
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            **self.provenance,
+            "ended": self.ended,
+            "generations": state.generation,
+            "evaluations": state.evaluations,
+            "flights": state.flights,
+            "chosen": self._member(self.search.chosen()) | {"formula": formula(self.law)},
+            "members": [self._member(candidate) for candidate in front],
+        }
+
+    def write(self, folder: Path) -> None:
+        """Write pareto.json, law.json, law.ssv, law.svg and log.csv."""
+        text = json.dumps(self.document(), indent=1, allow_nan=False) + "\n"
+        write_atomically(folder / "pareto.json", text.encode())
+        self.law.write(folder / "law.json")
+        write_atomically(folder / "law.ssv", parameter_set(self.law, self.synthesis.component))
+        write_atomically(folder / "law.svg", law_svg(self.law))
+        write_log(folder / "log.csv", self.synthesis, self.search)
+
+    def text(self) -> str:
+        """The result for a terminal."""
+        state, chosen = self.search.state, self.search.chosen()
+        values = ", ".join(f"{name} {value:.6g}" for name, value in self._objectives(chosen).items())
+        return "\n".join(
+            [
+                f"laws flown: {state.evaluations}, in {state.flights} flights, {state.generation} generations; "
+                f"ended by {self.ended}; {len(state.front)} in the Pareto set",
+                f"chosen: {chosen.evaluation.successes} of {chosen.evaluation.flown} trials are successes; {values}",
+                "",
+                formula_text(self.law),
+            ]
+        )
+
+
+def write_log(path: Path, synthesis: Synthesis, search: Search) -> None:
+    """Write the history, a line per generation, with the least value of every objective so far."""
+    names = {f"least_{place}": f"least_{name}" for place, name in enumerate(synthesis.objectives, 1)}
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    history = search.state.history
+    writer.writerow([names.get(key, key) for key in history[0]])
+    writer.writerows(line.values() for line in history)
+    write_atomically(path, buffer.getvalue().encode())
+
+
+def _plain(value: float) -> float | None:
+    return value if math.isfinite(value) else None

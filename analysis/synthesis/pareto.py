@@ -1,0 +1,72 @@
+"""Pareto order: of several objectives, all to be made small, none weighs more than another."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+def dominators(objectives: np.ndarray, point: np.ndarray) -> int:
+    """How many rows of ``objectives`` (n, m) dominate a point (m,): no worse in any, better in one or more."""
+    no_worse = np.all(objectives <= point, axis=1)
+    return int(np.count_nonzero(no_worse & np.any(objectives < point, axis=1)))
+
+
+def dominated(objectives: np.ndarray, point: np.ndarray) -> np.ndarray:
+    """Which rows of ``objectives`` (n, m) a point (m,) dominates."""
+    return np.all(objectives >= point, axis=1) & np.any(objectives > point, axis=1)
+
+
+def ranks(objectives: np.ndarray) -> np.ndarray:
+    """For each row of ``objectives`` (n, m) how many others dominate it; 0: in the Pareto set."""
+    size = len(objectives)
+    no_worse, better = np.ones((size, size), dtype=bool), np.zeros((size, size), dtype=bool)
+    for values in objectives.T:
+        no_worse &= values[:, None] <= values
+        better |= values[:, None] < values
+    return np.count_nonzero(no_worse & better, axis=0)
+
+
+class Standing(NamedTuple):
+    """Where a point stands in a set, the smaller the better: rank first, then distance from the ideal point."""
+
+    rank: int
+    distance: float
+
+
+class ParetoOrder:
+    """An order of points by a set of them, ``objectives`` (n, m), infinite ones allowed.
+
+    Points of equal rank are ordered by their distance from the ideal point, the least value of every
+    objective in the set, in units of the extent of the set's Pareto front. What is below the ideal
+    point counts as on it, so that making any objective larger never improves a standing.
+    """
+
+    def __init__(self, objectives: np.ndarray) -> None:
+        self.objectives = objectives
+        self.ranks = ranks(objectives)
+        front = objectives[self.ranks == 0]
+        usable = np.where(np.isfinite(front), front, np.nan)
+        known = ~np.all(np.isnan(usable), axis=0)  # an objective that no point reaches says nothing
+        self.ideal = np.zeros(objectives.shape[1])
+        self.extent = np.ones(objectives.shape[1])
+        self.ideal[known] = np.nanmin(usable[:, known], axis=0)
+        spread = np.nanmax(usable[:, known], axis=0) - self.ideal[known]
+        self.extent[known] = np.where(spread > 0.0, spread, 1.0)
+
+    def distances(self, points: np.ndarray) -> np.ndarray:
+        """Distances of points (..., m) from the ideal one, in units of the front's extent."""
+        return np.sqrt(np.sum(np.square(np.maximum(points - self.ideal, 0.0) / self.extent), axis=-1))
+
+    def standing(self, point: np.ndarray) -> Standing:
+        """The standing of any point (m,)."""
+        return Standing(dominators(self.objectives, point), float(self.distances(point)))
+
+    def order(self) -> np.ndarray:
+        """Places of the set's points from the best standing to the worst; equal ones as they come."""
+        return np.lexsort((self.distances(self.objectives), self.ranks))
+
+    def worst(self) -> int:
+        """The place of the point with the worst standing."""
+        return int(self.order()[-1])

@@ -1,0 +1,108 @@
+"""`perilune synthesize`: output, JSON, exit status, an interruption from the keyboard.
+
+Truth: `run_synthesis` with the same file; an uninterrupted search.
+"""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from synthesis.campaign_text import CAMPAIGN, TEXT
+
+from analysis.cli import main
+from analysis.synthesis.synthesis import run_synthesis
+from analysis.synthesis.synthesis_file import read_synthesis
+
+pytestmark = pytest.mark.usefixtures("fmus")
+
+
+@pytest.fixture
+def file(tmp_path):
+    path = tmp_path / "search.toml"
+    path.write_text(TEXT)
+    return path
+
+
+def test_prints_and_writes_what_was_found(file, tmp_path, capsys):
+    out = tmp_path / "new" / "out"
+    command = ["synthesize", "network-operator", str(file), "--seed", "5", "--workers", "1", "--output", str(out)]
+    assert main(command) == 0
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    expected = run_synthesis(read_synthesis(file), seed=5, workers=1)
+    assert captured.out == expected.text() + "\n"
+    assert json.loads((out / "pareto.json").read_text()) == expected.document()
+    assert main([*command, "--resume", "--json", "-"]) == 0
+    assert json.loads(capsys.readouterr().out) == expected.document()
+    assert main(["run", "lunar_descent_2d", "--parameters", str(out / "law.ssv"), "--stop-time", "10"]) == 0
+
+
+def test_evaluations_limit_the_search(file, capsys):
+    command = ["synthesize", "network-operator", str(file), "--workers", "1", "--evaluations", "9", "--json", "-"]
+    assert main(command) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["ended"] == "evaluations"
+    assert found["evaluations"] >= 9
+    assert found["generations"] < 3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["none.toml"], "none.toml: No such file"),
+        (["campaign.toml"], "campaign.toml: network_operator: missing"),
+        (["search.toml", "--resume"], "--resume: no folder to resume from"),
+        (["search.toml", "--workers", "0"], "--workers: 0"),
+        (["search.toml", "--evaluations", "-3"], "--evaluations: -3"),
+        (["search.toml", "--seed", "-3"], "seed: -3 is negative"),
+    ],
+)
+def test_wrong_input(file, tmp_path, monkeypatch, capsys, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "campaign.toml").write_text(CAMPAIGN)
+    assert main(["synthesize", "network-operator", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("perilune: ")
+    assert words in error
+    assert error.count("\n") == 1
+
+
+def test_an_unknown_method(file, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["synthesize", "oracle", str(file)])
+    assert stop.value.code == 2
+    assert "network-operator" in capsys.readouterr().err
+
+
+def test_a_search_is_validated_and_not_flown_as_a_batch(file, capsys):
+    assert main(["validate", str(file)]) == 0
+    assert main(["batch", "lunar_descent_2d", "--campaign", str(file)]) == 2
+    error = capsys.readouterr().err
+    assert "network_operator: a search, not a batch" in error
+    assert error.count("\n") == 1
+
+
+def test_an_interruption_leaves_a_checkpoint_to_go_on_from(tmp_path):
+    file = tmp_path / "search.toml"
+    file.write_text(TEXT.replace("generations = 3", "generations = 400"))
+    out = tmp_path / "out"
+    program = "import sys; from analysis.cli import run; sys.argv[0] = 'perilune'; run()"
+    command = [sys.executable, "-c", program, "synthesize", "network-operator", str(file), "--output", str(out)]
+    search = subprocess.Popen([*command, "--workers", "2"], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    while not (out / "checkpoint.json").exists() and search.poll() is None:
+        time.sleep(0.05)
+    os.kill(search.pid, signal.SIGINT)
+    output, error = search.communicate()
+    assert search.returncode == 1, error
+    assert error == "perilune: interrupted\n"
+    assert output == ""
+    assert not list(out.glob(".*")), "a partial file was left"
+    reached = json.loads((out / "checkpoint.json").read_text())["state"]["evaluations"]
+    resumed = run_synthesis(read_synthesis(file), workers=1, output=out, resume=True, evaluations=reached + 30)
+    whole = run_synthesis(read_synthesis(file), workers=1, evaluations=reached + 30)
+    assert resumed.search.state.population == whole.search.state.population
+    assert resumed.search.state.history == whole.search.state.history
