@@ -1,0 +1,97 @@
+"""The approach of the free-flying robot as a user flies it: three parameter sets, three allocations, two steerings.
+
+Truth: the published and derived figures (hold, attitude, range at the end of the turn), the plan's own boundary
+conditions, momentum (the jets' impulse against the velocity gained), and the equality of runs cut differently.
+"""
+
+import numpy as np
+import pytest
+
+import perilune
+
+SYSTEM = "robot_rendezvous"
+ALLOCATIONS = ["jet_allocation_pseudo_inverse", "jet_allocation_least_propellant", "jet_allocation_quantised"]
+# Hold (m), attitude rms and largest in the turn (arcsec): what is asked for; the hold error has to be half of it.
+ASKED = {"paper": (0.03, 0.5, 2.0), "kalman": (0.015, 0.5, 2.0), "best": (0.006, 0.5, 2.0)}
+pytestmark = pytest.mark.usefixtures("fmus")
+
+
+def vector(flight, name, size=3):
+    """A vector signal, rows by components."""
+    return np.stack([flight[f"{name}[{i + 1}]"] for i in range(size)], axis=1)
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_eight_seeds_hold_place_and_attitude(name):
+    hold, attitude, turn = ASKED[name]
+    for trials in perilune.batch(SYSTEM, "seeds", parameters=[f"{name}.ssv"]).trials.values():
+        assert len(trials.trial) == 8
+        assert trials.success.all()
+        assert np.max(trials.metrics["hold_error"]) < 0.5 * hold
+        assert np.max(trials.metrics["attitude_error_rms"]) < attitude
+        assert np.max(trials.metrics["turn_attitude_error_max"]) < turn
+
+
+def test_jets_wrong_by_five_percent_hold_within_two_centimetres():
+    for trials in perilune.batch(SYSTEM, "thruster_errors").trials.values():
+        assert np.max(trials.metrics["hold_error"]) < 0.02
+
+
+def test_least_propellant_spends_least():
+    trials = perilune.batch(SYSTEM, "seeds", parameters=["best.ssv"], trials=2).trials
+    impulse = {name: np.mean(trials[name].metrics["impulse"]) for name in ALLOCATIONS}
+    assert min(impulse, key=impulse.get) == "jet_allocation_least_propellant"
+
+
+def test_starts_beside_the_plan_come_back_to_it():
+    trials = perilune.batch(SYSTEM, "initial_errors", trials=10).trials["jet_allocation_quantised"]
+    assert np.max(trials.metrics["position_error_max"]) > 0.5
+    assert np.max(trials.metrics["hold_error"]) < 0.01
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_a_communication_step_of_half_the_size_gives_the_same_bits(name):
+    options = {"parameters": [f"{name}.ssv"], "stop_time": 1600.0}
+    whole = perilune.simulate(SYSTEM, **options)
+    half = perilune.simulate(SYSTEM, step=0.0625, **options)
+    for signal in ("robot.position", "robot.velocity", "robot.quaternion", "robot.gimbal_angles"):
+        size = 4 if signal.endswith(("quaternion", "angles")) else 3
+        assert np.array_equal(vector(whole, signal, size), vector(half, signal, size)[::2]), signal
+
+
+def test_the_turn_ends_within_the_ranger_s_near_field_and_the_flight_at_thirty_metres():
+    flight = perilune.simulate(SYSTEM, parameters=["best.ssv"])
+    turned = np.searchsorted(flight.time, 1520.0)
+    assert flight["monitor.range"][turned] == pytest.approx(299.8, abs=0.1)
+    assert flight["monitor.range"][-1] == pytest.approx(30.0, abs=0.01)
+    # e_x along the spin axis: the quaternion's first column
+    w, x, y, z = vector(flight, "robot.quaternion", 4)[-1]
+    axis = np.array([w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)])
+    spin = np.array([-0.608, 0.228, 0.760])
+    assert axis == pytest.approx(spin / np.linalg.norm(spin), abs=1e-5)
+
+
+def test_velocity_gained_is_the_impulse_of_the_force_on_the_body():
+    flight = perilune.simulate(SYSTEM, parameters=["best.ssv"])
+    force = vector(flight, "robot.jet_force")[1:]
+    w, x, y, z = vector(flight, "robot.quaternion", 4)[1:].T
+    columns = np.stack(
+        [
+            np.stack([w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)]),
+            np.stack([2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)]),
+            np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z]),
+        ]
+    )
+    gained = 0.125 * np.einsum("ijn,nj->i", columns, force) / 1000.0
+    velocity = vector(flight, "robot.velocity")
+    # attitudes at the ends of steps stand for the turn within them
+    assert velocity[-1] - velocity[0] == pytest.approx(gained, abs=1e-4)
+
+
+def test_both_gyro_steerings_fly_the_turn():
+    found = {}
+    for steering in ("gyro_steering_explicit", "gyro_steering_robust"):
+        flight = perilune.simulate(SYSTEM, parameters=["kalman.ssv"], use={"gyros": steering}, stop_time=1600.0)
+        error = np.abs(vector(flight, "monitor.attitude_error"))[flight.time >= 1420.0]
+        found[steering] = np.max(error) * 648000 / np.pi
+    assert max(found.values()) < 2.0
