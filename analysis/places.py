@@ -1,4 +1,4 @@
-"""Where systems, FMUs and built archives lie."""
+"""Where systems, laws, FMUs and built archives lie."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 SYSTEMS = ROOT / "ssp_systems"
+LAWS = ROOT / "laws"
 BUILD = ROOT / "build"
 
 

@@ -35,12 +35,16 @@ class Metric:
 
 @dataclass(frozen=True)
 class Record:
-    """What is kept of a trial beside its metrics: final values, every n-th row of signals, full traces."""
+    """What is kept of a trial beside its metrics: final values, every n-th row of signals, full traces.
+
+    ``trials`` keeps the sampled signals of that many trials, the first ones, only.
+    """
 
     final: tuple[str, ...] = ()
     every: int | None = None
     signals: tuple[str, ...] = ()
     traces: str = "none"
+    trials: int | None = None
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from .distributions import Draw, read_draw
 from .expressions import RESERVED, Expression, is_name
 from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, read_toml, sequence, text
 
+SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})  # of records and of the results' table
 
 
@@ -88,7 +89,7 @@ def _metrics(table: Table, drawn: list[str]) -> tuple[Metric, ...]:
 
 
 def _record(table: Table) -> Record:
-    table.only(["final", "every", "signals", "traces"])
+    table.only(["final", "every", "signals", "trials", "traces"])
     every = table.get("every", integer, None)
     if every is not None and every < 1:
         raise table.error("every", f"{every} row(s)", "give 1 or more: every n-th row is kept")
@@ -97,7 +98,13 @@ def _record(table: Table) -> Record:
     if (every is None) != (not signals):
         missing = "signals" if every is not None else "every"
         raise table.error(missing, "missing", "give every = n together with signals = [...], or neither")
-    return Record(table.get("final", names, none), every, signals, table.get("traces", choice_of(*TRACES), "none"))
+    trials = table.get("trials", integer, None)
+    if trials is not None and trials < 1:
+        raise table.error("trials", f"{trials} trial(s)", "give 1 or more: the first n trials are sampled")
+    if trials is not None and every is None:
+        raise table.error("trials", "nothing is sampled", "give every = n and signals = [...] too, or drop trials")
+    traces = table.get("traces", choice_of(*TRACES), "none")
+    return Record(table.get("final", names, none), every, signals, traces, trials)
 
 
 def _settings(table: Table, drawn: list[str]) -> dict[str, Setting]:
@@ -126,6 +133,9 @@ def _success(table: Table, metrics: tuple[Metric, ...]) -> Expression:
 
 def parse_campaign(table: Table) -> Campaign:
     """The campaign in a table that was read from a file or made in memory. Raises InputError."""
+    if SYNTHESIS in table.content:
+        remedy = "search with perilune synthesize, then fly the law with a campaign without this table"
+        raise table.error(SYNTHESIS, "a search, not a batch", remedy)
     keys = ["system", "description", "trials", "seed", "parameters"]
     table.only([*keys, "set", "compare", "draw", "derive", "metric", "record", "success"])
     draws = _draws(table.table("draw"))

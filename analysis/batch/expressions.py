@@ -225,6 +225,14 @@ class Expression:
         self._order = list(translator.slots)
         self.names = frozenset(self._order)
 
+    @property
+    def is_truth(self) -> bool:
+        """Whether the value is a truth, 0 or 1: a comparison, or logic."""
+        body = ast.parse(self.text, mode="eval").body
+        return isinstance(body, ast.Compare | ast.BoolOp) or (
+            isinstance(body, ast.UnaryOp) and isinstance(body.op, ast.Not)
+        )
+
     def evaluate(self, values: Mapping[str, Any]) -> float | np.ndarray:
         """The value: a float, or an array of doubles where a value it uses is an array.
 

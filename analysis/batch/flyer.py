@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from analysis.cosim.fmu import LOADING
+from analysis.cosim.parameter_sets import ParameterValue
 from analysis.cosim.results import Flight, Result
 from analysis.cosim.simulation import Simulation
 
@@ -63,10 +65,15 @@ class Flyer:
             traces={trial: row.traces for trial, row in numbers if row.traces is not None},
         )
 
-    def fly_one(self, variant: str, trial: int) -> TrialResult:
-        """Fly one trial; the result does not depend on what was flown before."""
+    def fly_one(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> TrialResult:
+        """Fly one trial; the result does not depend on what was flown before.
+
+        ``overlay`` gives all of the plan's overlaid parameters their values; without it they keep those of
+        the variant's last flight.
+        """
         simulation, names = self.simulation(variant)
-        return self._judge(simulation.run(self.plan.parameters(simulation.prepared, trial)), names, trial)
+        parameters = {**self.plan.parameters(simulation.prepared, trial), **(overlay or {})}
+        return self._judge(simulation.run(parameters), names, trial)
 
     def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
         """Fly one trial with every signal recorded; same bits as in the batch."""
@@ -92,15 +99,15 @@ class Flyer:
             end_time=float(result.time[-1]) if result.time.size else float("nan"),
             metrics=metrics,
             final={name: _last(result.signals[name]) for name in campaign.record.final},
-            traces=self._traces(result, success),
+            traces=self._traces(result, success, trial),
         )
 
-    def _traces(self, result: Flight, success: bool) -> dict[str, np.ndarray] | None:
+    def _traces(self, result: Flight, success: bool, trial: int) -> dict[str, np.ndarray] | None:
         """Copies of what the campaign keeps over time: sampled signals, or everything of some trials."""
         record = self.plan.campaign.record
         if record.traces == "all" or (record.traces == "failures" and not success):
             return {"time": result.time.copy()} | {name: values.copy() for name, values in result.signals.items()}
-        if record.every is not None:
+        if record.every is not None and (record.trials is None or trial < record.trials):
             rows = slice(None, None, record.every)
             return {"time": result.time[rows].copy()} | {name: result[name][rows].copy() for name in record.signals}
         return None

@@ -27,13 +27,15 @@ class BatchPlan:
     """What a batch flies; small enough to be sent to every worker.
 
     ``options`` are the user's system options, which come after the campaign's own and win; draws
-    win over parameter sets. ``campaign_sha256`` is that of the campaign's file.
+    win over parameter sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names
+    parameters that whoever flies the plan gives anew with every flight.
     """
 
     system: str
     campaign: Campaign
     options: SystemOptions
     campaign_sha256: str = ""
+    overlaid: tuple[str, ...] = ()
 
     @cached_property
     def draws(self) -> DrawTable:
@@ -126,7 +128,7 @@ def _check_varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> None:
         ]
     if name not in known:
         raise InputError(plan.campaign.file, name, "no such parameter in the system", suggestion(name, known))
-    if name not in plan.draws.columns:  # seed or stream
+    if name not in plan.draws.columns:  # seed, stream or overlaid
         return
     values = np.asarray(plan.draws.columns[name], dtype=float)
     component = max((part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len)
@@ -172,7 +174,7 @@ def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
         else:
             constants[name] = _constant(plan, prepared, name)
     statuses = [f"{name}.status" for name in prepared.network.fmus if _is_output(prepared, f"{name}.status")]
-    return VariantNames(sorted(plan.parameters(prepared, 0)), signals, statuses, constants)
+    return VariantNames(sorted({*plan.parameters(prepared, 0), *plan.overlaid}), signals, statuses, constants)
 
 
 def _is_signal(prepared: PreparedSystem, name: str) -> bool:

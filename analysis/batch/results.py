@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from dataclasses import dataclass
 from pathlib import Path
@@ -55,16 +56,36 @@ class BatchResult:
         return summary_text(self.summary)
 
     def write(self, folder: Path) -> None:
-        """Write trials.parquet, draws.parquet, summary.json, and traces/ where the campaign keeps them."""
+        """Write trials.parquet, draws.parquet, summary.json, and traces/ where the campaign keeps them.
+
+        Every trace carries the batch's digest: a folder can hold traces of an earlier batch too.
+        """
+        batch = batch_digest(self.provenance)
         folder.mkdir(parents=True, exist_ok=True)
-        pyarrow.parquet.write_table(self.table(), folder / "trials.parquet")
+        write_parquet(self.table(), folder / "trials.parquet")
         text = json.dumps(self.document(), indent=1, allow_nan=False)
         (folder / "summary.json").write_text(text + "\n", encoding="utf-8")
         for variant, found in self.trials.items():
             for trial, traces in found.traces.items():
-                path = folder / "traces" / variant / f"{trial:06d}.parquet"
+                path = trace_path(folder, variant, trial)
                 path.parent.mkdir(parents=True, exist_ok=True)
-                pyarrow.parquet.write_table(pyarrow.table(traces), path)
+                metadata = {"perilune": json.dumps({"batch": batch, "variant": variant, "trial": trial})}
+                write_parquet(pyarrow.table(traces).replace_schema_metadata(metadata), path)
+
+
+def trace_path(folder: Path, variant: str, trial: int) -> Path:
+    """Where a trial's trace lies; a variant named by the path of an FMU has that path's slashes replaced."""
+    return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
+
+
+def write_parquet(table: pyarrow.Table, path: Path) -> None:
+    """A table with a checksum on every page, so that a damaged file is found out when it is read."""
+    pyarrow.parquet.write_table(table, path, write_page_checksum=True)
+
+
+def batch_digest(provenance: dict[str, Any]) -> str:
+    """The SHA-256 that tells a batch from others: of its provenance as JSON with sorted keys."""
+    return hashlib.sha256(json.dumps(provenance, sort_keys=True).encode()).hexdigest()
 
 
 def make_result(plan: BatchPlan, trials: dict[str, Trials], provenance: dict[str, Any]) -> BatchResult:

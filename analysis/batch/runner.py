@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import os
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import pyarrow
-import pyarrow.parquet
 from tqdm import tqdm
 
-from analysis.errors import InputError
-
+from .facts import campaign_facts
 from .plan import BatchPlan, check_plan
-from .results import BatchResult, make_result
+from .results import BatchResult, make_result, write_parquet
 from .trials import Trials, joined
-from .workers import fly_all, tasks_of
+from .workers import fly_all, tasks_of, worker_count
 
 
 def run_batch(plan: BatchPlan, *, workers: int | None = None, output: Path | None = None) -> BatchResult:
@@ -25,9 +22,7 @@ def run_batch(plan: BatchPlan, *, workers: int | None = None, output: Path | Non
     ``workers`` is the number of parallel flights (default: one per processor). With ``output``
     the table of draws is written there first, the results at the end.
     """
-    count = workers if workers is not None else len(os.sched_getaffinity(0))
-    if count < 1:
-        raise InputError("--workers", str(count), "not a positive number", "give 1 or more")
+    count = worker_count(workers)
     systems = check_plan(plan)
     native = all(prepared.is_native for prepared in systems.values())
     if output is not None:
@@ -49,7 +44,7 @@ def write_draws(plan: BatchPlan, folder: Path) -> None:
     """Write the table of draws to ``folder``/draws.parquet, a row per trial."""
     folder.mkdir(parents=True, exist_ok=True)
     columns = {"trial": list(range(plan.campaign.trials)), **plan.draws.columns}
-    pyarrow.parquet.write_table(pyarrow.table(columns), folder / "draws.parquet")
+    write_parquet(pyarrow.table(columns), folder / "draws.parquet")
 
 
 def provenance(plan: BatchPlan, systems: dict) -> dict[str, Any]:
@@ -74,4 +69,5 @@ def provenance(plan: BatchPlan, systems: dict) -> dict[str, Any]:
             for variant, prepared in systems.items()
         },
         "perilune": version("perilune"),
+        **campaign_facts(plan, systems),
     }

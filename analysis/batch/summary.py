@@ -85,7 +85,7 @@ def requirement_values(summary: Mapping[str, Any]) -> dict[str, float]:
     return values
 
 
-def _aligned(rows: list[list[str]]) -> list[str]:
+def aligned(rows: list[list[str]]) -> list[str]:
     """Rows of cells as lines, the first column to the left, the others to the right."""
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     return [
@@ -104,7 +104,7 @@ def summary_text(summary: Mapping[str, Any]) -> str:
         statuses = ", ".join(f"{count} {status}" for status, count in variant["statuses"].items())
         rate = f"{100 * variant['success_rate']:.2f}"
         rates.append([name, str(variant["trials"]), rate, f"{100 * low:.2f} to {100 * high:.2f}", statuses])
-    lines = _aligned(rates)
+    lines = aligned(rates)
     columns = ("mean", "std", "min", "max")
     cells = [["metric, successful trials", "variant", *columns, "unit"]]
     for metric in dict.fromkeys(metric for variant in summary.values() for metric in variant["metrics"]):
@@ -113,5 +113,5 @@ def summary_text(summary: Mapping[str, Any]) -> str:
             numbers = ["-" if found[column] is None else f"{found[column]:.4g}" for column in columns]
             cells.append([metric, name, *numbers, found["unit"]])
     if len(cells) > 1:
-        lines += ["", *_aligned(cells)]
+        lines += ["", *aligned(cells)]
     return "\n".join(lines)

@@ -3,23 +3,33 @@
 from __future__ import annotations
 
 import atexit
-import contextlib
 import gc
 import os
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
-from typing import Any
+from typing import TypeVar
 
 from loky import ProcessPoolExecutor
+
+from analysis.errors import InputError
 
 from .flyer import Flyer
 from .plan import BatchPlan
 from .trials import Trials
 
 Task = tuple[str, range]
+Result = TypeVar("Result")
 _local = threading.local()
 _flyers: list[Flyer] = []  # of this process's threads
+
+
+def worker_count(workers: int | None) -> int:
+    """The number of parallel flights: as asked for, or one per processor. Raises InputError."""
+    count = workers if workers is not None else len(os.sched_getaffinity(0))
+    if count < 1:
+        raise InputError("--workers", str(count), "not a positive number", "give 1 or more")
+    return count
 
 
 def tasks_of(plan: BatchPlan, workers: int) -> list[Task]:
@@ -30,30 +40,59 @@ def tasks_of(plan: BatchPlan, workers: int) -> list[Task]:
     return [(variant.name, piece) for piece in pieces for variant in plan.campaign.variants()]
 
 
-def fly_all(plan: BatchPlan, tasks: list[Task], workers: int, native: bool) -> Iterator[tuple[str, Trials]]:
-    """Fly every task, yielding results as they come, in any order.
+class FlyerPool:
+    """Workers that each hold a `Flyer` of one plan, for as long as the pool is open.
 
     Python FMUs hold the interpreter lock, so they get a process per worker; native ones
-    release it and get threads. With one worker everything happens here.
+    release it and get threads. With one worker everything happens in the caller's thread.
     """
-    if workers == 1:
-        flyer = Flyer(plan)
+
+    def __init__(self, plan: BatchPlan, workers: int, native: bool) -> None:
+        self.plan = plan
+        self._flyer = Flyer(plan) if workers == 1 else None
+        self._executor: Executor | None = None
+        if workers > 1 and native:
+            self._executor = ThreadPoolExecutor(workers, initializer=_start, initargs=(plan,))
+        elif workers > 1:
+            self._executor = ProcessPoolExecutor(workers, initializer=_start_process, initargs=(plan,))
+
+    def work(self, function: Callable[..., Result], tasks: Sequence[tuple]) -> Iterator[tuple[int, Result]]:
+        """Call ``function(flyer, *task)`` for every task: (place of the task, result), in any order.
+
+        The function is defined at the top of a module; tasks and results can be pickled. What has not
+        begun when the iterator is closed is not done any more.
+        """
+        if self._executor is None:
+            assert self._flyer is not None
+            for place, task in enumerate(tasks):
+                yield place, function(self._flyer, *task)
+            return
+        futures: dict[Future, int] = {
+            self._executor.submit(_call, function, task): place for place, task in enumerate(tasks)
+        }
         try:
-            for variant, trials in tasks:
-                yield variant, flyer.fly(variant, trials)
+            for future in as_completed(futures):
+                yield futures.pop(future), future.result()
         finally:
-            flyer.close()
-        return
-    executor: Executor
-    if native:
-        executor = ThreadPoolExecutor(workers, initializer=_start, initargs=(plan,))
-    else:
-        executor = ProcessPoolExecutor(workers, initializer=_start_process, initargs=(plan,))
-    with contextlib.ExitStack() as ending, executor:
-        ending.callback(_close_threads, plan)
-        futures: dict[Future, str] = {executor.submit(_fly, *task): task[0] for task in tasks}
-        for future in as_completed(futures):
-            yield futures.pop(future), future.result()
+            for future in futures:
+                future.cancel()
+
+    def __enter__(self) -> FlyerPool:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._executor is not None:
+            self._executor.shutdown()
+        if self._flyer is not None:
+            self._flyer.close()
+        _close_threads(self.plan)
+
+
+def fly_all(plan: BatchPlan, tasks: list[Task], workers: int, native: bool) -> Iterator[tuple[str, Trials]]:
+    """Fly every task, yielding results as they come, in any order."""
+    with FlyerPool(plan, workers, native) as pool:
+        for place, found in pool.work(Flyer.fly, tasks):
+            yield tasks[place][0], found
 
 
 def _start(plan: BatchPlan) -> None:
@@ -83,6 +122,5 @@ def _leave() -> None:
         os._exit(0)
 
 
-def _fly(variant: str, trials: range) -> Trials:
-    flyer: Any = _local.flyer
-    return flyer.fly(variant, trials)
+def _call(function: Callable[..., Result], task: tuple) -> Result:
+    return function(_local.flyer, *task)

@@ -9,14 +9,14 @@ from typing import Any
 from fmpy import read_model_description
 
 from analysis.cosim.archive import SystemArchive, open_system, system_names
-from analysis.places import BUILD
+from analysis.places import BUILD, LAWS
 from fmus_src.block import Block
 from fmus_src.catalogue import catalogue
 from fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 
 from .options import add_json, write_json
 
-HELP = "list systems, with parameter sets and campaigns, and FMUs"
+HELP = "list systems, with parameter sets and campaigns, laws and FMUs"
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -24,8 +24,9 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    document = {
+    document: dict[str, Any] = {
         "systems": {name: _system(open_system(name)) for name in system_names()},
+        "laws": sorted(path.stem for path in LAWS.glob("*.json")),
         "fmus": _fmus(),
     }
     if write_json(document, options.json):
@@ -34,6 +35,7 @@ def run(options: argparse.Namespace) -> int:
         print(name)
         print(f"  parameter sets  {', '.join(system['parameter_sets']) or 'none'}")
         print(f"  campaigns       {', '.join(system['campaigns']) or 'none'}")
+    print(f"laws              {', '.join(document['laws'])}")
     print("FMUs")
     width = max((len(name) for name in document["fmus"]), default=0)
     for name, entry in document["fmus"].items():

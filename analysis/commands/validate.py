@@ -9,12 +9,15 @@ from typing import Any
 
 from fmpy.validation import validate_fmu
 
-from analysis.batch.campaign_file import read_campaign
+from analysis.batch.campaign_file import SYNTHESIS, read_campaign
+from analysis.batch.toml_table import read_toml
 from analysis.cosim.archive import DEFAULT_VARIANT, open_system
 from analysis.cosim.fmu import load_fmu
 from analysis.cosim.parameter_sets import read_parameter_file
 from analysis.cosim.system import SystemOptions, prepare_system
 from analysis.errors import InputError
+from analysis.synthesis.law import read_law
+from analysis.synthesis.synthesis_file import read_synthesis
 
 from .options import add_json, write_json
 
@@ -53,8 +56,11 @@ def _check(path: str) -> dict[str, Any]:
             ]
         elif path.endswith(".ssv"):
             read_parameter_file(_read(path), path)
+        elif path.endswith(".json"):
+            read_law(Path(path))
         elif path.endswith(".toml"):
-            read_campaign(Path(path))
+            is_search = SYNTHESIS in read_toml(Path(path)).content
+            (read_synthesis if is_search else read_campaign)(Path(path))
         else:
             variants = [None, *(name for name in open_system(path).variants() if name != DEFAULT_VARIANT)]
             for variant in variants:

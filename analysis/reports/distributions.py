@@ -13,7 +13,7 @@ from analysis.batch.campaign import Metric
 from analysis.batch.results import BatchResult
 
 from .quantities import labelled, shown_factor
-from .style import WIDTH, house_style, log_ticks_x, look, new_figure, plain_ticks
+from .style import WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
 from .svg import inline_svg
 
 COLUMNS = 3
@@ -51,7 +51,7 @@ def distributions_figure(result: BatchResult, metrics: Sequence[Metric]) -> Mark
         figure = new_figure(0.35 + 2.3 * rows, WIDTH if columns > 1 else WIDTH / 2)
         all_axes = figure.subplots(rows, columns, squeeze=False, sharey=True)
         for axes, metric in zip(all_axes.flatten(), metrics, strict=False):
-            _draw_distribution(axes, metric, metric_values(result, metric.name))
+            draw_distribution(axes, metric, metric_values(result, metric.name), [look(i) for i in range(len(variants))])
         for axes in all_axes.flatten()[len(metrics) :]:
             axes.remove()
         for axes in all_axes[:, 0]:
@@ -64,13 +64,13 @@ def distributions_figure(result: BatchResult, metrics: Sequence[Metric]) -> Mark
         return inline_svg(figure, "distributions", "Distributions of " + ", ".join(metric.name for metric in metrics))
 
 
-def _draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray]) -> None:
+def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray], looks: Sequence[Look]) -> None:
+    """One panel: the empirical distribution of a metric in each of some series, which have a look each."""
     shown = {name: found * shown_factor(metric.unit) for name, found in values.items()}
     everything = np.concatenate(list(shown.values()))
     everything = everything[np.isfinite(everything)]
     low, high, logarithmic = _limits(everything)
-    for index, found in enumerate(shown.values()):
-        colour, dashes, marker = look(index)
+    for found, (colour, dashes, marker) in zip(shown.values(), looks, strict=True):
         finite = np.clip(np.sort(found[np.isfinite(found)]), low, None)
         share = 100.0 * np.arange(1, finite.size + 1) / found.size
         x = np.concatenate([[low], finite, [high]])

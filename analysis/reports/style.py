@@ -18,6 +18,7 @@ COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, "#000000")  # their yell
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.6)), (0, (1.2, 1.2)), (0, (6, 1.6, 1.2, 1.6)), (0, (9, 2)))
 MARKERS = "osD^vPX"
 INK, FAINT, GRID = "#222222", "#6b6b6b", "#dddddd"
+FAILED: Any = {"color": INK, "linestyle": (0, (4, 2))}  # flights that failed, and what is to be expected
 WIDTH = 10.4  # in; the page's column
 SETTINGS: Any = {
     "font.family": "sans-serif",
@@ -50,6 +51,7 @@ SETTINGS: Any = {
     "path.simplify_threshold": 0.2,
     "axes.formatter.use_mathtext": False,
     "axes.unicode_minus": True,
+    "text.parse_math": False,  # a $ in a name is a $
 }
 
 

@@ -15,6 +15,7 @@ from .style import WIDTH
 
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK_HREF = "{http://www.w3.org/1999/xlink}href"
+DECIMALS = re.compile(r"(\.\d\d)\d+")  # beyond hundredths of a point
 REFERENCE = re.compile(r"url\(#([^)]+)\)")
 
 
@@ -27,11 +28,13 @@ def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
     return buffer.getvalue()
 
 
-def inline_svg(figure: Figure, name: str, description: str) -> Markup:
+def inline_svg(figure: Figure, name: str, description: str, *, fill: bool = False) -> Markup:
     """A figure as an <svg> element for a page.
 
     Every id is prefixed with ``name``, which must differ between the figures of a page;
-    ``description`` is what a screen reader says. Text stays text: it can be searched and copied.
+    ``description`` is what a screen reader says. Text stays text: it can be searched and copied. With
+    ``fill`` the figure is as wide as what it stands in, otherwise its share of the page's column, and its
+    coordinates are cut to hundredths of a point, since such figures come in dozens.
     """
     root = etree.fromstring(svg_bytes(figure, name, text_as_paths=False), etree.XMLParser(resolve_entities=False))
     for unwanted in (*root.iter(f"{SVG}metadata"), *root.iter(f"{SVG}style")):
@@ -48,10 +51,13 @@ def inline_svg(figure: Figure, name: str, description: str) -> Markup:
                 element.set(key, f"#{name}-{value[1:]}")
             elif "url(#" in value:
                 element.set(key, REFERENCE.sub(rf"url(#{name}-\1)", value))
+            elif fill and key in ("d", "x", "y"):
+                element.set(key, DECIMALS.sub(r"\1", value))
     etree.strip_tags(root, etree.Comment)
     del root.attrib["width"], root.attrib["height"]
     root.set("role", "img")
     root.set("aria-label", description)
     root.set("class", "figure")
-    root.set("style", f"max-width: {100.0 * figure.get_figwidth() / WIDTH:.0f}%")
+    if not fill:
+        root.set("style", f"max-width: {100.0 * figure.get_figwidth() / WIDTH:.0f}%")
     return Markup(etree.tostring(root, encoding="unicode"))

@@ -1,0 +1,46 @@
+"""Small figures of one size that a page lays out side by side, or below each other on a narrow screen."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+
+from .style import DASHES, Look, house_style, new_figure
+from .svg import inline_svg
+
+PANEL_WIDTH = 3.4  # in; three in the page's column
+PANEL_HEIGHT = 2.5  # in
+KILOMETRES = 1e4  # m, from which on lengths are in km
+
+
+class Panel(NamedTuple):
+    """A figure with its heading: a label, which has a look where it is a contender's."""
+
+    label: str
+    figure: Markup
+
+
+def panel(label: str, name: str, description: str, draw: Callable[[Axes], None], height: float = PANEL_HEIGHT) -> Panel:
+    """A panel that ``draw`` draws; ``name`` must differ between the figures of a page."""
+    with house_style():
+        figure = new_figure(height, PANEL_WIDTH)
+        draw(figure.subplots())
+        return Panel(label, inline_svg(figure, name, description, fill=True))
+
+
+def far(values: np.ndarray) -> tuple[float, str]:
+    """Factor and unit in which lengths in m are shown together: km where one is long, else m."""
+    return (1e-3, "km") if values.size and np.nanmax(np.abs(values)) >= KILOMETRES else (1.0, "m")
+
+
+def swatch(look: Look) -> Markup:
+    """A look as a short line for legends in text."""
+    lengths = "" if look.dashes == DASHES[0] else " ".join(f"{1.7 * length:g}" for length in look.dashes[1])
+    return Markup(
+        '<svg class="swatch" viewBox="0 0 26 8" aria-hidden="true">'
+        '<line x1="0" y1="4" x2="26" y2="4" stroke="{}" stroke-width="3.2" stroke-dasharray="{}"/></svg>'
+    ).format(look.colour, lengths or "none")
