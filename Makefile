@@ -1,4 +1,4 @@
-# make demo | test | build | bench | sanitize | lint | clean; each sets up .venv by itself.
+# make demo | test | build | explore | bench | sanitize | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 
@@ -10,6 +10,10 @@ test: .venv/ready lint build
 
 build: .venv/ready
 	$(BIN)/python build_fmus.py
+
+# The property tests with examples drawn anew; what it finds goes into a test as an @example.
+explore: build
+	PERILUNE_EXPLORE=1 $(BIN)/python -m pytest -n 2 $$(grep -rl 'from hypothesis' tests --include='test_*.py')
 
 bench: build
 	$(BIN)/perilune benchmark
@@ -31,4 +35,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test build bench sanitize lint clean
+.PHONY: demo test build explore bench sanitize lint clean

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import hypothesis
 import pytest
 
 from analysis.places import BUILD, built_fmu
@@ -19,6 +20,11 @@ from fmus_src.export.closure import closure_of
 from fmus_src.export.command import main as build_fmus
 
 sys.path.insert(0, str(Path(__file__).parent))  # for `from cosim.builders import ...` in every folder
+
+# The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
+hypothesis.settings.register_profile("same", derandomize=True, deadline=None)
+hypothesis.settings.register_profile("explore", deadline=None)
+hypothesis.settings.load_profile("explore" if os.environ.get("PERILUNE_EXPLORE") == "1" else "same")
 
 _status: list[int] = []
 

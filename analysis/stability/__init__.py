@@ -1,0 +1,1 @@
+"""Linear stability of co-simulated systems: linearise, margins, describing functions, verdicts."""
