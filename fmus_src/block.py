@@ -120,9 +120,16 @@ class Parameter(Variable):
 
 
 class State(Variable):
-    """Internal, kept from step to step; readable from outside, never set."""
+    """Internal, kept from step to step; readable from outside, never set.
+
+    ``random``: the memory of a random number generator, which is left alone where a system is linearised.
+    """
 
     causality = "local"
+
+    def __init__(self, start: Any, *, random: bool = False, **declaration: Any) -> None:
+        super().__init__(start, **declaration)
+        self.random = random
 
 
 class Output(Variable):

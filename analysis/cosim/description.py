@@ -92,6 +92,7 @@ class Description:
     start_time: float
     stop_time: float | None
     step: float | None
+    annotations: dict[str, etree._Element] = field(default_factory=dict)  # of the whole document, by type
 
 
 class Reader:
@@ -131,6 +132,10 @@ class Reader:
             start_time=float(start) if start is not None else 0.0,
             stop_time=float(stop) if stop is not None else None,
             step=self.step(experiment),
+            annotations={
+                annotation.get("type", ""): annotation
+                for annotation in children(child(root, "ssd:Annotations"), "ssc:Annotation")
+            },
         )
 
     def step(self, experiment: etree._Element | None) -> float | None:

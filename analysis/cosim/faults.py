@@ -1,4 +1,4 @@
-"""Faults injected on connectors while a system flies."""
+"""What is injected on connectors while a system flies: faults, and signals that excite it."""
 
 from __future__ import annotations
 
@@ -40,3 +40,21 @@ class Fault:
     @property
     def window(self) -> tuple[float, float]:
         return self.start, self.stop
+
+
+@dataclass(frozen=True)
+class Excitation:
+    """A connector to which `Simulation.advance` adds the given column of its excitation, in the connector's unit."""
+
+    name: str
+    column: int
+
+    kind_number = loop.EXCITE
+    window = (-math.inf, math.inf)
+
+    @property
+    def value(self) -> float:
+        return float(self.column)
+
+
+Injection = Fault | Excitation

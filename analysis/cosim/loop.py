@@ -44,7 +44,7 @@ FUNCTION_NAMES = (
 
 # How a run ends: Buffers.outcome[0].
 STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED = range(5)
-OVERRIDE, BIAS, FREEZE = range(3)
+OVERRIDE, BIAS, FREEZE, EXCITE = range(4)
 FMI_WARNING = 1
 
 
@@ -66,9 +66,9 @@ class Program(NamedTuple):
     table_to: np.ndarray  # float64
     finished_slot: int  # -1: no `finished` connector
     fault_slot: np.ndarray  # int64 [f]
-    fault_kind: np.ndarray  # int64 [f], OVERRIDE, BIAS or FREEZE
+    fault_kind: np.ndarray  # int64 [f], OVERRIDE, BIAS, FREEZE or EXCITE
     fault_window: np.ndarray  # float64 [f, 2], from and until (s)
-    fault_value: np.ndarray  # float64 [f]
+    fault_value: np.ndarray  # float64 [f]; of EXCITE the column of the excitation
 
 
 class Buffers(NamedTuple):
@@ -81,12 +81,29 @@ class Buffers(NamedTuple):
 
 
 def _fly(  # type: ignore[no-untyped-def]
-    program, buffers, parameters, whole_parameters, reset, start, step, steps, recorded, stride, record, times
+    program,
+    buffers,
+    parameters,
+    whole_parameters,
+    reset,
+    start,
+    step,
+    stop,
+    first_point,
+    steps,
+    recorded,
+    stride,
+    record,
+    times,
+    excitation,
 ):
     """Initialise and run; returns the number of rows recorded, buffers.outcome says how it ended.
 
     ``parameters`` and ``whole_parameters`` are float64 and int32 [p]. ``record`` takes the slots
     ``recorded`` of every stride-th communication point and always those of the last one.
+    ``stop`` (s) is what FMUs are told of the end. A ``first_point`` of 0 or more goes on from that communication point, with buffers and FMUs as they
+    are; -1 initialises. The rows of ``excitation``, float64 [r, e], are added to the excited slots at the
+    communication points behind ``first_point``.
     """
     instructions = program.instructions
     reference, parameter_reference = program.reference, program.parameter_reference
@@ -96,16 +113,20 @@ def _fly(  # type: ignore[no-untyped-def]
     fault_slot, fault_kind = program.fault_slot, program.fault_kind
     fault_window, fault_value = program.fault_window, program.fault_value
     values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
-    values[:] = program.initial
-    frozen[:] = np.nan
     outcome[:] = 0
-    stop = start + steps * step
-    first_instruction = np.uint64(0 if reset else program.reset_end)
-    last_instruction = np.uint64(program.initial_end)
     rows = 0
-    n = -1  # the initialisation
+    n = first_point  # -1: the initialisation
     to_record = 0
-    after = start
+    if n < 0:
+        values[:] = program.initial
+        frozen[:] = np.nan
+        first_instruction = np.uint64(0 if reset else program.reset_end)
+        last_instruction = np.uint64(program.initial_end)
+        after = start
+    else:
+        first_instruction = np.uint64(program.initial_end)
+        last_instruction = np.uint64(instructions.shape[0])
+        after = start + n * step
     while True:
         time = after
         after = start + (n + 1) * step
@@ -167,6 +188,10 @@ def _fly(  # type: ignore[no-untyped-def]
                         values[faulty] = fault_value[f]
                     elif fault_kind[f] == BIAS:
                         values[faulty] += fault_value[f]
+                    elif fault_kind[f] == EXCITE:
+                        row = n - first_point
+                        if row < excitation.shape[0]:
+                            values[faulty] += excitation[row, int(fault_value[f])]
                     else:
                         if np.isnan(frozen[f]):
                             frozen[f] = values[faulty]

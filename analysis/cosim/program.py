@@ -12,7 +12,7 @@ from analysis.errors import InputError, suggestion
 
 from . import loop
 from .assignments import Settings, numbers
-from .faults import Fault
+from .faults import Injection
 from .fmu import Instance
 from .instructions import InstructionList, write_instructions
 from .network import Link, Network, Node
@@ -52,23 +52,23 @@ def build_program(
     algorithm: str,
     instances: dict[str, Instance],
     wanted: Collection[str] | None,
-    faults: Sequence[Fault] = (),
+    injections: Sequence[Injection] = (),
 ) -> tuple[loop.Program, Layout]:
     """Arrays for the loop. ``wanted`` names what is recorded (None: everything).
 
     Only outputs that are connected or wanted are fetched.
     """
-    builder = _Builder(network, settings, wanted, faults)
+    builder = _Builder(network, settings, wanted, injections)
     return builder.program(schedule, algorithm, instances), builder.layout()
 
 
 class _Builder:
     def __init__(
-        self, network: Network, settings: Settings, wanted: Collection[str] | None, faults: Sequence[Fault]
+        self, network: Network, settings: Settings, wanted: Collection[str] | None, injections: Sequence[Injection]
     ) -> None:
         self.network = network
         self.settings = settings
-        self.faults = faults
+        self.injections = injections
         self.names = list(network.fmus)
         self.slots: dict[str, int] = {}
         self.references: list[int] = []
@@ -76,7 +76,7 @@ class _Builder:
         self.types: dict[str, str] = {}
         self.units: dict[str, str | None] = {}
         read = {link.source.name for link in network.driver.values()}
-        self.fetched = None if wanted is None else read | set(wanted) | {fault.name for fault in faults}
+        self.fetched = None if wanted is None else read | set(wanted) | {injection.name for injection in injections}
         self.ranges = np.zeros((len(self.names), len(EXCHANGES), 2), dtype=np.int64)
         for index, name in enumerate(self.names):
             self._place_component(index, name)
@@ -181,7 +181,7 @@ class _Builder:
         flat = [entry for table in tables for entry in table]
         finished = self.network.nodes.get("finished")
         has_finish = finished is not None and finished.kind == "output" and "finished" in self.slots
-        fault_slots = [self._fault_slot(fault) for fault in self.faults]
+        fault_slots = [self._fault_slot(injection) for injection in self.injections]
         collected = InstructionList(
             [instances[name] for name in self.names],
             self.ranges,
@@ -208,9 +208,9 @@ class _Builder:
             table_to=np.array([entry[1] for entry in flat], dtype=np.float64),
             finished_slot=self.slots["finished"] if has_finish else -1,
             fault_slot=np.array(fault_slots, dtype=np.int64),
-            fault_kind=np.array([fault.kind_number for fault in self.faults], dtype=np.int64),
-            fault_window=np.array([fault.window for fault in self.faults], dtype=np.float64).reshape(-1, 2),
-            fault_value=np.array([fault.value for fault in self.faults], dtype=np.float64),
+            fault_kind=np.array([injection.kind_number for injection in self.injections], dtype=np.int64),
+            fault_window=np.array([injection.window for injection in self.injections], dtype=np.float64).reshape(-1, 2),
+            fault_value=np.array([injection.value for injection in self.injections], dtype=np.float64),
         )
 
     def _connection(self, link: Link) -> tuple[int, int, int, int]:
@@ -219,11 +219,16 @@ class _Builder:
         number = -1 if component is None else self.names.index(component)
         return _connection_code(link), number, self.slots[link.source.name], self.slots[link.target.name]
 
-    def _fault_slot(self, fault: Fault) -> int:
-        if fault.name not in self.slots or "." not in fault.name:
+    def _fault_slot(self, injection: Injection) -> int:
+        if injection.name not in self.slots or "." not in injection.name:
             names = [name for name in self.slots if "." in name]
-            raise InputError("fault", fault.name, "no such connector of a component", suggestion(fault.name, names))
-        return self.slots[fault.name]
+            raise InputError(
+                type(injection).__name__.lower(),
+                injection.name,
+                "no such connector of a component",
+                suggestion(injection.name, names),
+            )
+        return self.slots[injection.name]
 
     def layout(self) -> Layout:
         whole = np.zeros(self.values.size, dtype=np.int32)

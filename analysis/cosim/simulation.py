@@ -13,7 +13,7 @@ from analysis.errors import InputError
 
 from . import loop
 from .assignments import Settings
-from .faults import Fault
+from .faults import Excitation, Fault
 from .fmu import Instance, instantiate
 from .parameter_sets import ParameterValue, parse_value
 from .program import build_program
@@ -29,6 +29,7 @@ STATUS = {
 }
 FMI_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
 FMI_FATAL = 4
+NOTHING = np.zeros((0, 0))  # no excitation
 TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding
 
 
@@ -36,8 +37,9 @@ class Simulation:
     """Instances of a system's FMUs, reset and reused from flight to flight.
 
     ``varied`` names the parameters (``component.variable``) that `fly` may be given anew;
-    ``wanted`` the signals to record (None: all outputs, connected inputs and system connectors).
-    Use it as a context manager: it frees the instances. Not shared between threads.
+    ``wanted`` the signals to record (None: all outputs, connected inputs and system connectors);
+    ``excited`` the connectors that `advance` may add signals to. Use it as a context manager: it
+    frees the instances. Not shared between threads.
     """
 
     def __init__(
@@ -47,6 +49,7 @@ class Simulation:
         varied: Collection[str] = (),
         wanted: Collection[str] | None = None,
         faults: Sequence[Fault] = (),
+        excited: Sequence[str] = (),
     ) -> None:
         self.prepared = prepared
         self.settings = prepared.settings
@@ -55,6 +58,7 @@ class Simulation:
         self.instances: dict[str, Instance] = {}
         self._wanted = wanted
         self._faults = faults
+        self._excitations = [Excitation(name, column) for column, name in enumerate(excited)]
         self._instantiate()
 
     def _place_varied(self) -> None:
@@ -92,7 +96,7 @@ class Simulation:
             prepared.options.algorithm,
             self.instances,
             self._wanted,
-            faults,
+            [*faults, *self._excitations],
         )
         self.signal_names = [name for name in self.layout.slots if self._wanted is None or name in self._wanted]
         for name in self._wanted or ():
@@ -102,10 +106,10 @@ class Simulation:
                 )
         self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._recorded = np.array([self.layout.slots[name] for name in self.signal_names], dtype=np.int64)
-        self._buffers = loop.Buffers(
+        self.buffers = loop.Buffers(
             values=np.zeros(len(self.layout.slots)),
             whole=np.zeros(len(self.layout.slots), dtype=np.int32),
-            frozen=np.zeros(len(self._faults)),
+            frozen=np.zeros(len(self._faults) + len(self._excitations)),
             outcome=np.zeros(5, dtype=np.int64),
         )
         self._record = np.empty((0, 0))
@@ -127,8 +131,25 @@ class Simulation:
         """The flight alone, for batches; see `fly`."""
         for name, value in values.items():
             self.layout.set_parameter(self._varied[name], value)  # type: ignore[arg-type]
+        reset = not self._fresh
+        if self.layout.strings:
+            reset = self._set_strings(reset)
+        return self._advance(-1, self.prepared.steps, every, reset, NOTHING)
+
+    def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING) -> Flight:
+        """Fly on from communication point ``first`` to ``last``, as FMUs and buffers are; rows first + 1 to last.
+
+        -1 starts anew, which adds row 0. ``excitation`` [r, e] is added to the excited connectors at the r
+        communication points behind ``first``. ``last`` may lie behind the stop time. Arrays as in `fly`.
+        """
+        reset = first < 0 and not self._fresh
+        if first < 0 and self.layout.strings:
+            reset = self._set_strings(reset)
+        return self._advance(first, last, 1, reset, excitation)
+
+    def _advance(self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray) -> Flight:
         prepared = self.prepared
-        rows = prepared.steps // every + 2
+        rows = (last - max(first, 0)) // every + 2
         if self._record.shape[0] < rows:
             try:
                 self._record = np.empty((rows, self._recorded.size))
@@ -137,25 +158,25 @@ class Simulation:
                 problem = f"{rows} rows do not fit into memory"
                 remedy = "give a longer step or an earlier --stop-time"
                 raise InputError("--step", f"{prepared.step:g}", problem, remedy) from error
-        reset = not self._fresh
-        if self.layout.strings:
-            reset = self._set_strings(reset)
         for instance in self.instances.values():
             instance.messages.clear()
         function = loop.fly_unlocked if prepared.is_native else loop.fly_locked
         count = function(
             self.program,
-            self._buffers,
+            self.buffers,
             self.layout.real_values,
             self.layout.whole_values,
             reset,
             prepared.start,
             prepared.step,
-            prepared.steps,
+            prepared.start + max(prepared.steps, last) * prepared.step,
+            first,
+            last,
             self._recorded,
             every,
             self._record,
             self._times,
+            excitation if excitation.size else np.zeros((0, len(self._excitations))),
         )
         self._fresh = False
         status, message = self._end()
@@ -166,7 +187,7 @@ class Simulation:
             status=status,
             message=message,
         )
-        if self._buffers.outcome[0] == loop.FAILED and self._buffers.outcome[3] >= FMI_FATAL:
+        if self.buffers.outcome[0] == loop.FAILED and self.buffers.outcome[3] >= FMI_FATAL:
             self._replace_instances()
         return flight
 
@@ -181,14 +202,14 @@ class Simulation:
         return False
 
     def _end(self) -> tuple[str, str]:
-        code, subject, function, fmi_status, row = (int(value) for value in self._buffers.outcome)
+        code, subject, function, fmi_status, row = (int(value) for value in self.buffers.outcome)
         time = self.prepared.start + row * self.prepared.step
         if code == loop.NONFINITE:
             name = list(self.layout.slots)[subject]
-            return STATUS[code], f"{name} is {self._buffers.values[subject]} at t = {time:g} s"
+            return STATUS[code], f"{name} is {self.buffers.values[subject]} at t = {time:g} s"
         if code == loop.UNMAPPED:
             name = list(self.layout.slots)[subject]
-            value = self._buffers.values[subject]
+            value = self.buffers.values[subject]
             return STATUS[code], f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
         if code == loop.FAILED:
             component = list(self.instances)[subject]

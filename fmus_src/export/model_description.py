@@ -10,6 +10,7 @@ from lxml import etree
 from ..block import Block, Output, Parameter, State, Variable
 from ..units import UNITS
 
+STATE_ANNOTATION = "org.perilune.state"
 LOG_CATEGORIES = {
     "logStatusError": "what ended a step, with the traceback or source line",
     "logAll": "everything",
@@ -60,6 +61,7 @@ def model_description(
     for name, description in LOG_CATEGORIES.items():
         etree.SubElement(categories, "Category", name=name, description=description)
     etree.SubElement(root, "DefaultExperiment", startTime="0.0", stepSize=repr(block_class.default_step))
+    _state_layout(root, variables, "json" if needs_execution_tool else "words")
     sampled = "sample_period" in block_class.variables
     model_variables = etree.SubElement(root, "ModelVariables")
     indices: dict[str, list[int]] = {}
@@ -110,6 +112,23 @@ def _scalar_variable(
     if variable.nominal is not None and variable.type_name == "Real":
         details["nominal"] = literal(variable.nominal)
     etree.SubElement(element, variable.type_name, details)
+
+
+def _state_layout(root: etree._Element, variables: list[Variable], encoding: str) -> None:
+    """How fmi2SerializeFMUstate writes the complete memory, so that analyses can read and change it.
+
+    "words": 6 words of 8 bytes, then one for every value reference; "json": the list "values" by value
+    reference. ``random`` lists the value references of random number generators.
+    """
+    random: list[int] = []
+    reference = 0
+    for variable in variables:
+        if isinstance(variable, State) and variable.random:
+            random += range(reference, reference + variable.size)
+        reference += variable.size
+    annotations = etree.SubElement(root, "VendorAnnotations")
+    tool = etree.SubElement(annotations, "Tool", name=STATE_ANNOTATION)
+    etree.SubElement(tool, "SerializedState", encoding=encoding, random=" ".join(map(str, random)))
 
 
 def _structure(root: etree._Element, block_class: type[Block], indices: dict[str, list[int]]) -> None:

@@ -19,7 +19,7 @@ class AnalyticGuidance(TerminalGuidance):
         dr = [0.0] * 3
         dv = [0.0] * 3
         self.remaining(dr, dv)
-        time = quadratic_time(dr, self.velocity, dv, self.gravity)
+        time = self.planned_time(quadratic_time(dr, self.velocity, dv, self.gravity))
         self.time_to_go = time
         self.status = GOOD
         if time > 0.0:

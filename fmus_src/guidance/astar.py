@@ -46,10 +46,8 @@ class AstarGuidance(AstarProgramme):
             return time
         return 0.0
 
-    def solve(self) -> None:
-        dr = [0.0] * 3
-        dv = [0.0] * 3
-        self.remaining(dr, dv)
+    def newton_time(self, dr: list, dv: list) -> float:
+        """Time-to-go (s) from what is to gain, or 0, and the status where it is."""
         speed = norm(self.velocity)
         self.status = NO_SOLUTION
         start = self.last_root
@@ -57,13 +55,21 @@ class AstarGuidance(AstarProgramme):
             start = 2.0 * norm(dr) / speed
         if start > 0.0:
             self.status = NOT_CONVERGED
-            time = self.root(dr, self.velocity, dv, start)
-            if time > 0.0:
-                a = [0.0] * 3
-                b = [0.0] * 3
-                impulse_and_miss(dr, self.velocity, dv, self.gravity, time, a, b)
-                acceleration = 2.0 * norm(b) / (time * time)
-                if acceleration > 0.0:
-                    self.last_root = time
-                    self.time_to_go = time
-                    self.point(a, b, time, acceleration)
+            return self.root(dr, self.velocity, dv, start)
+        return 0.0
+
+    def solve(self) -> None:
+        dr = [0.0] * 3
+        dv = [0.0] * 3
+        self.remaining(dr, dv)
+        time = self.newton_time(dr, dv)
+        time = self.planned_time(time)
+        if time > 0.0:
+            a = [0.0] * 3
+            b = [0.0] * 3
+            impulse_and_miss(dr, self.velocity, dv, self.gravity, time, a, b)
+            acceleration = 2.0 * norm(b) / (time * time)
+            if acceleration > 0.0:
+                self.last_root = time
+                self.time_to_go = time
+                self.point(a, b, time, acceleration)

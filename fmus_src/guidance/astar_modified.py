@@ -18,11 +18,9 @@ class AstarModifiedGuidance(AstarProgramme):
 
     exhaust_speed = Parameter(3100.0, unit="m/s", minimum=1.0, description="effective exhaust speed of the engine")
 
-    def solve(self) -> None:
+    def formula_time(self, dr: list, dv: list) -> float:
+        """Time-to-go (s) from what is to gain, and the status: good, or no solution and 0."""
         g = self.gravity
-        dr = [0.0] * 3
-        dv = [0.0] * 3
-        self.remaining(dr, dv)
         distance = norm(dr)
         speed_sum = norm(self.velocity) + norm(self.target_velocity)
         self.status = NO_SOLUTION
@@ -32,15 +30,23 @@ class AstarModifiedGuidance(AstarProgramme):
             closing = norm(self.velocity) - dr[2] * g / speed_sum - 0.5 * e + e * e / (12.0 * self.exhaust_speed)
             if closing != 0.0:
                 # close to the target the formula can give a negative time, which ends the flight
-                time = distance / closing
-                self.time_to_go = time
                 self.status = GOOD
-                if time > 0.0:
-                    a = [0.0] * 3
-                    b = [0.0] * 3
-                    impulse_and_miss(dr, self.velocity, dv, g, time, a, b)
-                    acceleration = 2.0 * norm(b) / (time * time)
-                    if acceleration > 0.0:
-                        self.point(a, b, time, acceleration)
-                    else:
-                        self.status = NO_SOLUTION
+                return distance / closing
+        return 0.0
+
+    def solve(self) -> None:
+        dr = [0.0] * 3
+        dv = [0.0] * 3
+        self.remaining(dr, dv)
+        time = self.formula_time(dr, dv)
+        time = self.planned_time(time)
+        self.time_to_go = time
+        if time > 0.0:
+            a = [0.0] * 3
+            b = [0.0] * 3
+            impulse_and_miss(dr, self.velocity, dv, self.gravity, time, a, b)
+            acceleration = 2.0 * norm(b) / (time * time)
+            if acceleration > 0.0:
+                self.point(a, b, time, acceleration)
+            else:
+                self.status = NO_SOLUTION

@@ -23,6 +23,7 @@ class CertainTime(TerminalGuidance, interface=True):
     the least effort meanwhile.
     Limits: the ground is not known, and a start that is too fast for its distance flies past the
     target and back, below it if need be; without gravity there is no time for a start at rest.
+    |A| T = 2 |B| does not hold with a frozen time_to_go, with which the law is a0 + a1 t throughout.
     Source: D'Souza 1997, "An optimal guidance law for planetary landing"; the choice is ours.
     """
 
@@ -31,6 +32,9 @@ class CertainTime(TerminalGuidance, interface=True):
 
     def time_left(self, dr: list, dv: list) -> float:
         """Time-to-go (s) from what is to gain, and with it least_effort; 0 where there is none."""
+        if self.plan_frozen():
+            self.least_effort = True
+            return self.frozen_time_to_go
         g = self.gravity
         time = cubic_time(dr, self.velocity, dv, g)
         least = 0.0
@@ -52,6 +56,9 @@ class CertainTime(TerminalGuidance, interface=True):
 
     def burn_span(self, time: float) -> float:
         """How long (s) a command lasts that is given with ``time`` (s) to go."""
-        if time <= self.held_time():
+        held = self.held_time()
+        if self.plan_frozen():
+            held = self.cycle  # no last burn
+        if time <= held:
             return time
         return self.cycle

@@ -26,7 +26,8 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     Of the slot's parameters the law uses the altitude of target_position and moon_radius. It
     has no place or velocity to meet and no model of gravity, so the rest of target_position,
     target_velocity, gravity, gravity_correction and gravitational_parameter change nothing; nor do
-    terminal_step and last_burn, since the hand-over is a state to reach and not a burn to time.
+    terminal_step and last_burn, since the hand-over is a state to reach and not a burn to time, and
+    frozen_time_to_go, since the command does not depend on a time.
     With a matrix that is no network operator the status is 3 and there is no thrust.
     Source: Diveev, Pupkov and Sofronova 2013; see docs/lunar_descent_2d.md.
     """

@@ -30,6 +30,10 @@ class TerminalGuidance(Block, interface=True):
     T (g0 + gT)/2 to the velocity and T^2 (g0/3 + gT/6) to the position. T is the time_to_go of the
     cycle before less the cycle, counted down while a command is held; at the start, and until a
     first command is found, `solve` is repeated until T agrees with itself.
+
+    With frozen_time_to_go a law takes that time (`planned_time`) in place of its own in every cycle:
+    a feedback law that does not change on the way, for linear stability. The flight then goes on
+    until something else ends it, and no command is a last burn.
     """
 
     target_position = Parameter([0.0, 0.0, 2000.0], unit="m", frame="landing site", description="where to arrive")
@@ -58,6 +62,13 @@ class TerminalGuidance(Block, interface=True):
         unit="s",
         minimum=0.0,
         description="with exact: the last command is held for so long, which keeps noise of navigation out of it",
+    )
+    frozen_time_to_go = Parameter(
+        0.0,
+        unit="s",
+        minimum=0.0,
+        description="0: computed in every cycle; else the plan is held: command for this time_to_go all along, "
+        "for linear stability",
     )
     position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated position")
     velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated velocity")
@@ -111,6 +122,16 @@ class TerminalGuidance(Block, interface=True):
             dv[2] = dv[2] - time * self.gravity
             dr[2] = dr[2] - 0.5 * time * time * self.gravity
 
+    def plan_frozen(self) -> bool:
+        """Whether the plan is held, so that time_to_go never runs out."""
+        return self.frozen_time_to_go > 0.0
+
+    def planned_time(self, time: float) -> float:
+        """The time_to_go (s) to command for: ``time``, or that of a frozen plan."""
+        if self.plan_frozen():
+            return self.frozen_time_to_go
+        return time
+
     def aim(self) -> None:
         """Solve; with gravity_correction again where the time to correct over was not known."""
         self.solve()
@@ -125,12 +146,13 @@ class TerminalGuidance(Block, interface=True):
     def initialize(self) -> None:
         self.command_time = self.start_time
         self.cycle = self.sample_period
+        self.expected_time = self.planned_time(0.0)
         self.aim()
         self.judge()
         if self.status >= NOT_CONVERGED:
             self.time_to_go = 0.0
             self.thrust_acceleration = 0.0
-        elif self.terminal_step == 1:
+        elif self.terminal_step == 1 and not self.plan_frozen():
             self.burn_duration = self.time_to_go
 
     def judge(self) -> None:
@@ -170,7 +192,7 @@ class TerminalGuidance(Block, interface=True):
 
     def follow(self, time: float) -> None:
         """Command for the sample at ``time`` (s), or the end, or the last burn."""
-        left = self.time_to_go - self.cycle
+        left = self.planned_time(self.time_to_go - self.cycle)
         self.expected_time = left
         self.aim()
         self.judge()
@@ -181,11 +203,16 @@ class TerminalGuidance(Block, interface=True):
                 self.thrust_acceleration = 0.0
         elif self.time_to_go > 0.0:
             self.command_time = time
-        if self.started and self.terminal_step == 1:
+        if self.started and not self.plan_frozen():
+            self.end(time)
+
+    def end(self, time: float) -> None:
+        """At ``time`` (s): the last burn where it is due, or the end where less than a cycle is left."""
+        if self.terminal_step == 1:
             self.burn_duration = UNLIMITED
             if self.time_to_go <= self.held_time():
                 # from command_time on, which is earlier where the last command is held
                 self.burn_duration = time - self.command_time + self.time_to_go
-        elif self.started and self.time_to_go < self.cycle:
+        elif self.time_to_go < self.cycle:
             self.finished = True
             self.thrust_acceleration = 0.0

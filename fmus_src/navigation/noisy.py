@@ -38,7 +38,7 @@ class NoisyNavigation(Navigation):
     innovation_square = Output(
         0.0, unit="1", direct=True, description="normalised innovation squared of the last scalar fix"
     )
-    generator = State([0.0] * 6, description="random number generator")
+    generator = State([0.0] * 6, random=True, description="random number generator")
     estimate = State([0.0] * 6, description="position (m) and velocity (m/s), landing-site frame")
     covariance = State([0.0] * 36, description="covariance of the estimate, row order, m and m/s")
     start_time = State(0.0, unit="s", description="start of the flight")

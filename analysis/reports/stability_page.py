@@ -1,0 +1,142 @@
+"""The page of a stability study, in the order in which a board reads it: verdict, margins, loops, how it was made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from markupsafe import Markup
+
+from analysis.stability.results import LoopReport, StabilityReport, SweepReport
+
+from .page import write_page
+from .panels import Panel
+from .stability_figures import joint_panel, loop_panels, part_panels, sweep_panel
+from .stability_parts import Part, parts, without
+from .stability_tables import (
+    Table,
+    about,
+    anchor,
+    counts,
+    facts,
+    hash_table,
+    joint_table,
+    judged,
+    limit_table,
+    parameter_table,
+    point_table,
+    summary_table,
+    trim_table,
+    verdict_table,
+)
+from .stability_words import in_decibels, in_degrees, plain, verdict
+
+FEW = 2  # loops; of more, only those that fail are unfolded at first
+
+
+@dataclass(frozen=True)
+class Card:
+    """A loop on the page: what is always seen, and what is folded away below it."""
+
+    loop: LoopReport
+    id: str
+    open: bool
+    verdict: Markup
+    period: Markup
+    about: list[tuple[str, str]]
+    summary: Table
+    figures: list[Panel]
+    blocks: list[list[Part]]
+    without: list[str]
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Margins over one parameter on the page."""
+
+    report: SweepReport
+    panel: Panel
+    table: Table
+    crossings: Table
+
+
+def write_stability_page(report: StabilityReport, path: Path) -> None:
+    """Write one self-contained HTML page about a stability study; the same report gives the same bytes.
+
+    How long the study took is not on the page, so that the same study gives the same page.
+    """
+    rows = list(judged(report))
+    summary = summary_table(report)
+    write_page(
+        path,
+        "stability.html",
+        title=f"{report.system}: stability",
+        report=report,
+        verdict=verdict(report.verdict),
+        counts=counts(rows),
+        failing=verdict_table([row for row in rows if row[-1].passed is not None and not row[-1].passed]),
+        requirements=verdict_table(rows),
+        summary=summary,
+        joint=joint_table(report),
+        joint_panels=[joint_panel(joint, f"joint-{index + 1}") for index, joint in enumerate(report.joint)],
+        points=point_table(report.points),
+        trims=trim_table(report.points),
+        settings={
+            point.name: [(name, plain(value, digits=10)) for name, value in point.settings.items()]
+            for point in report.points
+            if point.settings
+        },
+        cards=[_card(report, summary, index) for index in range(len(report.loops))],
+        sweeps=[_sweep(report, sweep, f"sweep-{index + 1}") for index, sweep in enumerate(report.sweeps)],
+        limits=limit_table(report),
+        raw_limits=[(name, plain(value)) for name, value in report.limits.items()],
+        hashes=hash_table(report.provenance),
+        parameters=parameter_table(report.provenance.get("parameters", {})),
+        facts=facts(report.provenance),
+        provenance=report.provenance,
+    )
+
+
+def _card(report: StabilityReport, summary: Table, index: int) -> Card:
+    loop, name = report.loops[index], anchor(index)
+    figures = part_panels(loop, name)
+    return Card(
+        loop=loop,
+        id=name,
+        open=len(report.loops) <= FEW or loop.verdict == "fail",
+        verdict=verdict(loop.verdict),
+        period=plain(loop.sample_period),
+        about=about(loop),
+        summary=Table(summary.head[2:-1], summary.kinds[2:-1], [summary.rows[index][2:-1]]),
+        figures=loop_panels(loop, name),
+        blocks=_blocks([replace(part, figures=figures.get(part.key, [])) for part in parts(loop)]),
+        without=without(loop),
+    )
+
+
+def _blocks(shown: list[Part]) -> list[list[Part]]:
+    """Parts that are laid out as one; the short ones beside the long table of the method go below each other."""
+    blocks: list[list[Part]] = []
+    for part in shown:
+        if part.key == "robust":
+            blocks[-1].append(part)
+        else:
+            blocks.append([part])
+    return blocks
+
+
+def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
+    rows = [
+        (plain(float(value), sweep.unit), in_decibels(float(gain), absolute=True), in_degrees(float(phase)))
+        for value, gain, phase in zip(sweep.values, sweep.gain_margin, sweep.phase_margin, strict=True)
+    ]
+    crossings = [
+        (quantity, plain(None if value is None else float(value), sweep.unit))
+        for quantity, value in sweep.crossings.items()
+    ]
+    return Sweep(
+        sweep,
+        sweep_panel(sweep, report, name),
+        Table((sweep.parameter, "gain margin, dB", "phase margin, deg"), "nnn", rows),
+        Table(("limit", "crossed at"), "tn", crossings),
+    )

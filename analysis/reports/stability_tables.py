@@ -1,0 +1,224 @@
+"""Tables of a stability page: the verdict, the summary of all loops, points, limits and the header's facts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from markupsafe import Markup
+
+from analysis.stability.results import LoopReport, PointReport, Requirement, StabilityReport
+
+from .quantities import number, shown_unit
+from .stability_words import (
+    NO_CROSSING,
+    closed_loop,
+    found,
+    gain_margin,
+    in_decibels,
+    in_degrees,
+    limit,
+    phase_margin,
+    plain,
+    samples,
+    share,
+    verdict,
+)
+
+LONG = 30  # rows; longer tables are folded away
+Cell = Markup | str
+
+
+@dataclass(frozen=True)
+class Table:
+    """Head cells, how each column is set (``t`` text, ``s`` short text,
+    which stays on one line, ``l`` long text, ``n`` number, ``c`` code or hash), and rows of cells."""
+
+    head: tuple[str, ...]
+    kinds: str
+    rows: Sequence[tuple[Cell, ...]]
+    what: str = ""
+
+    @property
+    def is_long(self) -> bool:
+        return len(self.rows) > LONG
+
+
+def anchor(index: int) -> str:
+    """The id of a loop's card; names may hold what an id must not."""
+    return f"loop-{index + 1}"
+
+
+def link(report: StabilityReport, index: int) -> Markup:
+    """A loop's name, leading to its card."""
+    return Markup('<a href="#{}">{}</a>').format(anchor(index), report.loops[index].name)
+
+
+def judged(report: StabilityReport) -> Iterator[tuple[Cell, str, str, Requirement]]:
+    """Loop, operating point, scope and requirement of everything that is judged."""
+    for index, loop in enumerate(report.loops):
+        for requirement in loop.requirements:
+            yield link(report, index), loop.point, "nominal", requirement
+        if loop.dispersion is not None:
+            for requirement in loop.dispersion.requirements:
+                yield link(report, index), loop.point, "dispersed", requirement
+    for joint in report.joint:
+        for requirement in joint.requirements:
+            yield joint.name, joint.point, "channels at once", requirement
+
+
+def verdict_table(rows: list[tuple[Cell, str, str, Requirement]]) -> Table:
+    """Every requirement that is given: value, limit, verdict and, where there is none, why."""
+    head = ("loop", "operating point", "scope", "quantity", "value", "limit", "verdict", "note")
+    return Table(
+        head,
+        "ssssnnsl",
+        [
+            (loop, point, scope, item.quantity, found(item), limit(item), verdict(item.passed), item.note)
+            for loop, point, scope, item in rows
+        ],
+        "requirements",
+    )
+
+
+def counts(rows: list[tuple[Cell, str, str, Requirement]]) -> dict[str, int]:
+    """How many requirements hold, fail and are not applicable."""
+    passed = [item.passed for *_, item in rows]
+    return {
+        "pass": sum(value is not None and bool(value) for value in passed),
+        "fail": sum(value is not None and not value for value in passed),
+        "not applicable": sum(value is None for value in passed),
+    }
+
+
+def summary_table(report: StabilityReport) -> Table:
+    """Loops by operating points with their margins."""
+    head = (
+        "loop", "operating point", "gain margin, dB", "phase margin, deg", "delay margin, s", "delay margin, samples",
+        "modulus margin", "disk margin", "closed loop", "verdict",
+    )  # fmt: skip
+    rows = [
+        (
+            link(report, index),
+            loop.point,
+            gain_margin(loop.classical.gain_margin),
+            phase_margin(loop.classical.phase_margin),
+            plain(loop.classical.delay_margin, infinite=NO_CROSSING),
+            samples(loop.classical.delay_margin, loop.sample_period),
+            plain(loop.robust.modulus_margin, digits=3),
+            plain(loop.robust.disk_margin, digits=3),
+            closed_loop(loop.stable),
+            verdict(loop.verdict),
+        )
+        for index, loop in enumerate(report.loops)
+    ]
+    return Table(head, "ssnnnnnnss", rows, "loops")
+
+
+def joint_table(report: StabilityReport) -> Table:
+    """Disk margins of several channels that vary at once and independently."""
+    head = (
+        "channels", "operating point", "disk margin", "gain, dB, up and down", "phase, deg", "at rad/s", "verdict",
+    )  # fmt: skip
+    rows: list[tuple[Cell, ...]] = []
+    for joint in report.joint:
+        passed = [item.passed for item in joint.requirements if item.passed is not None]
+        name = Markup("<b>{}</b><br>{}").format(joint.name, ", ".join(joint.channels))
+        rows.append(
+            (
+                name,
+                joint.point,
+                plain(joint.disk_margin, digits=3),
+                in_decibels(joint.disk_gain, "without limit"),
+                in_degrees(joint.disk_phase),
+                plain(joint.disk_frequency),
+                verdict(all(passed) if passed else None),
+            )
+        )
+    return Table(head, "ttnnnnt", rows, "joint margins")
+
+
+def point_table(points: tuple[PointReport, ...]) -> Table:
+    """Operating points: where, how far from a trim, and how long the frozen view holds."""
+    head = (
+        "operating point", "phase", "time, s", "fastest change over a period", "drift of the response, %",
+        "frozen view holds, s",
+    )  # fmt: skip
+    rows: list[tuple[Cell, ...]] = []
+    for point in points:
+        fastest = _changed(*point.trim[0]) if point.trim else Markup("nothing changes")
+        holds = plain(point.holds, infinite="does not change")
+        rows.append((point.name, point.phase, plain(point.time, digits=6), fastest, share(point.drift), holds))
+    return Table(head, "ttntnn", rows, "operating points")
+
+
+def _changed(name: str, value: float, change: float, unit: str | None) -> Markup:
+    return Markup("{} by {} {}").format(name, plain(change, unit), shown_unit(unit))
+
+
+def trim_table(points: tuple[PointReport, ...]) -> Table:
+    """What changes most at each operating point while it is taken as frozen."""
+    rows: list[tuple[Cell, ...]] = [
+        (point.name, name, plain(value, unit, 6), plain(change, unit), shown_unit(unit))
+        for point in points
+        for name, value, change, unit in point.trim
+    ]
+    return Table(
+        ("operating point", "memory", "value", "change over a period", "unit"), "ttnnt", rows, "trim residuals"
+    )
+
+
+def limit_table(report: StabilityReport) -> Table:
+    """The limits that were used, each once."""
+    rows: dict[tuple[str, ...], tuple[Cell, ...]] = {}
+    for _, _, scope, item in judged(report):
+        rows.setdefault((scope, item.quantity, str(item.limit), item.unit), (scope, item.quantity, limit(item)))
+    return Table(("scope", "quantity", "limit"), "ttn", list(rows.values()), "limits")
+
+
+def hash_table(provenance: dict[str, Any]) -> Table:
+    """Hashes of the system and its FMUs."""
+    rows: list[tuple[Cell, ...]] = []
+    if "system_sha256" in provenance:
+        rows.append(("system", str(provenance.get("system", "")), str(provenance["system_sha256"])))
+    for component, fmu in provenance.get("fmus", {}).items():
+        name, digest = (fmu.get("fmu", ""), fmu["sha256"]) if isinstance(fmu, dict) else ("", fmu)
+        rows.append((component, str(name), str(digest)))
+    return Table(("part", "name", "SHA-256"), "ttc", rows, "hashes")
+
+
+def parameter_table(values: dict[str, Any]) -> Table:
+    """Parameters in SI units, as the description, parameter sets and options set them."""
+    return Table(("parameter", "value, SI"), "tn", [(name, plain(value, digits=10)) for name, value in values.items()])
+
+
+def facts(provenance: dict[str, Any]) -> list[tuple[str, Cell]]:
+    """Everything else that the study depends on: seed, step, versions and so on."""
+    shown = {"system", "system_sha256", "fmus", "parameters"}
+    return [(key.replace("_", " "), fact(value)) for key, value in provenance.items() if key not in shown]
+
+
+def fact(value: Any) -> Cell:
+    """One fact: a number, a text, or several of them."""
+    if value is None or value in ([], {}, ()):
+        return "none"
+    if isinstance(value, dict):
+        return Markup(", ").join(Markup("{} {}").format(key, fact(entry)) for key, entry in value.items())
+    if isinstance(value, list | tuple):
+        return Markup(", ").join(Markup("{}").format(fact(entry)) for entry in value)
+    if isinstance(value, float) and not math.isfinite(value):
+        return number(None)
+    return plain(value, digits=10)
+
+
+def about(loop: LoopReport) -> list[tuple[str, str]]:
+    """Where a loop is cut, which sign it has, and what stays closed."""
+    return [
+        ("cut", loop.cut),
+        ("comes back as", "the same signal" if loop.returned == loop.cut else loop.returned),
+        ("unit", shown_unit(loop.unit) or "1"),
+        ("sign", loop.sign),
+        ("stay closed", ", ".join(loop.closed) or "no other loop is declared"),
+    ]

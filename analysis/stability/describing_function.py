@@ -1,0 +1,232 @@
+"""Sinusoidal-input describing functions N(a) of the elements that actuators show.
+
+An element driven by a sin(wt) puts out a periodic signal; N(a) is the complex ratio of that signal's fundamental
+to the input. With y(theta) the output for the input a sin(theta), over one cycle
+
+    N(a) = 1/(pi a) integral of y(theta) (sin(theta) + j cos(theta)) d theta.
+
+None of them here depends on frequency. The imaginary part is negative where the output lags (hysteresis) and 0
+where it depends on the present input alone. All are odd: the mean of the input is taken to be 0.
+
+Source: Gelb and Vander Velde 1968, Multiple-Input Describing Functions and Nonlinear System Design, section 2.3
+(piecewise-linear elements and their saturation function f) and table B.1.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from numbers import Real
+
+import numpy as np
+
+Parameters = Mapping[str, float]
+INPUT, OUTPUT, RATIO = "unit of the input", "unit of the output", "unit of the output per unit of the input"
+
+
+@dataclass(frozen=True)
+class Element:
+    """One kind of element.
+
+    ``gain`` gives N (complex, shape (n,)) for amplitudes (shape (n,), positive) and complete parameters;
+    ``required`` and ``optional`` the parameters with the unit each has, ``defaults`` the values of the latter;
+    ``positive`` names those that may not be 0 (none may be negative). ``check`` says what is wrong with parameters
+    that are valid one by one, or "". ``kinks`` lists the amplitudes, ascending, at which N is not smooth, up to
+    ``farthest``, beyond which N is as good as that of a linear element (inf: N goes to 0). ``output`` is the
+    largest output, inf without limit, so that abs(N) <= 4 output/(pi a). ``note`` says what is assumed.
+    """
+
+    gain: Callable[[np.ndarray, Parameters], np.ndarray]
+    required: Mapping[str, str]
+    optional: Mapping[str, str]
+    defaults: Parameters
+    positive: tuple[str, ...]
+    check: Callable[[Parameters], str]
+    kinks: Callable[[Parameters], np.ndarray]
+    farthest: Callable[[Parameters], float]
+    output: Callable[[Parameters], float]
+    note: str
+
+
+def _share(threshold: float, amplitude: np.ndarray) -> np.ndarray:
+    """sqrt(1 - (threshold/amplitude)^2) where the amplitude reaches the threshold, else 0."""
+    ratio = np.minimum(abs(threshold) / amplitude, 1.0)
+    return np.sqrt((1.0 - ratio) * (1.0 + ratio))
+
+
+def _saturation_function(limit: float, amplitude: np.ndarray) -> np.ndarray:
+    """f(limit/a): N of a saturation with slope 1 (Gelb and Vander Velde 1968, section 2.3)."""
+    ratio = np.minimum(limit / amplitude, 1.0)
+    return 2.0 / math.pi * (np.arcsin(ratio) + ratio * _share(limit, amplitude))
+
+
+def _relay(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
+    level, dead_zone, hysteresis = (parameters[name] for name in ("level", "dead_zone", "hysteresis"))
+    on, off = dead_zone + hysteresis, dead_zone - hysteresis
+    # on from arcsin(on/a) to pi - arcsin(off/a), and half a cycle later with the other sign
+    real = 2.0 * level / (math.pi * amplitude) * (_share(on, amplitude) + _share(off, amplitude))
+    imaginary = -4.0 * level * hysteresis / (math.pi * amplitude**2)
+    return np.where(amplitude >= on, real + 1j * imaginary, 0.0)
+
+
+def _dead_zone(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
+    return 1.0 - _saturation_function(parameters["dead_zone"], amplitude) + 0j
+
+
+def _saturation(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
+    return _saturation_function(parameters["limit"], amplitude) + 0j
+
+
+def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
+    step = parameters["step"]
+
+    def gain(a: float) -> float:
+        """A sum of relays, each one step high, that switch half-way between two levels."""
+        thresholds = (np.arange(math.floor(a / step + 0.5)) + 0.5) * step
+        ratio = np.minimum(thresholds / a, 1.0)
+        return 4.0 * step / (math.pi * a) * float(np.sum(np.sqrt((1.0 - ratio) * (1.0 + ratio))))
+
+    return np.array([gain(a) for a in amplitude.tolist()], dtype=complex)
+
+
+def _pulse_width(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
+    level, dead_zone, gain = (parameters[name] for name in ("level", "dead_zone", "gain"))
+    # up to the limit the mean is gain times the input; inside the dead zone that is taken away again, which is a
+    # saturation at the dead zone less the jump at its edge: a relay of that height
+    linear = _saturation_function(level / gain, amplitude) - _saturation_function(dead_zone, amplitude)
+    jump = 4.0 * dead_zone / (math.pi * amplitude) * _share(dead_zone, amplitude)
+    return gain * (linear + jump) + 0j
+
+
+def _pulse_width_check(parameters: Parameters) -> str:
+    full = parameters["level"] / parameters["gain"]
+    if parameters["dead_zone"] > full:
+        return f"dead_zone = {parameters['dead_zone']!r} is above level/gain = {full!r}, the input at full width"
+    return ""
+
+
+def _thresholds(*values: float) -> np.ndarray:
+    return np.unique([value for value in values if value > 0.0])
+
+
+_QUANTISER_LEVELS = 100  # N is within 1e-3 of 1 from there on
+_DEAD_ZONES = 1e4  # N is within 2e-4 of 1 from there on
+
+ELEMENTS: dict[str, Element] = {
+    "relay": Element(
+        gain=_relay,
+        required={"level": OUTPUT},
+        optional={"dead_zone": INPUT, "hysteresis": INPUT},
+        defaults={"dead_zone": 0.0, "hysteresis": 0.0},
+        positive=("level",),
+        check=lambda parameters: "",
+        kinks=lambda parameters: _thresholds(parameters["dead_zone"] + parameters["hysteresis"]),
+        farthest=lambda parameters: math.inf,
+        output=lambda parameters: parameters["level"],
+        note="on where the input leaves +-(dead_zone + hysteresis), off where it is back within "
+        "+-(dead_zone - hysteresis); without a dead zone it changes over at +-hysteresis",
+    ),
+    "dead zone": Element(
+        gain=_dead_zone,
+        required={"dead_zone": INPUT},
+        optional={},
+        defaults={},
+        positive=("dead_zone",),
+        check=lambda parameters: "",
+        kinks=lambda parameters: _thresholds(parameters["dead_zone"]),
+        farthest=lambda parameters: _DEAD_ZONES * parameters["dead_zone"],
+        output=lambda parameters: math.inf,
+        note="0 within +-dead_zone, outside the input less the dead zone (slope 1)",
+    ),
+    "saturation": Element(
+        gain=_saturation,
+        required={"limit": INPUT},
+        optional={},
+        defaults={},
+        positive=("limit",),
+        check=lambda parameters: "",
+        kinks=lambda parameters: _thresholds(parameters["limit"]),
+        farthest=lambda parameters: math.inf,
+        output=lambda parameters: parameters["limit"],
+        note="the input within +-limit (slope 1), else the limit",
+    ),
+    "quantiser": Element(
+        gain=_quantiser,
+        required={"step": INPUT},
+        optional={},
+        defaults={},
+        positive=("step",),
+        check=lambda parameters: "",
+        kinks=lambda parameters: (np.arange(_QUANTISER_LEVELS) + 0.5) * parameters["step"],
+        farthest=lambda parameters: _QUANTISER_LEVELS * parameters["step"],
+        output=lambda parameters: math.inf,
+        note="the nearest whole multiple of step",
+    ),
+    "pulse width": Element(
+        gain=_pulse_width,
+        required={"level": OUTPUT},
+        optional={"dead_zone": INPUT, "gain": RATIO},
+        defaults={"dead_zone": 0.0, "gain": 1.0},
+        positive=("level", "gain"),
+        check=_pulse_width_check,
+        kinks=lambda parameters: _thresholds(parameters["dead_zone"], parameters["level"] / parameters["gain"]),
+        farthest=lambda parameters: math.inf,
+        output=lambda parameters: parameters["level"],
+        note="its mean over a modulation period, quasi-static: the signal is slow against the modulation period, "
+        "whose ripple the loop filters out and whose delay (that of a hold) is counted in the linear rest; the mean "
+        "is gain times the input up to level, and 0 below dead_zone = level (minimum on-time)/(gain period)",
+    ),
+}
+
+
+def complete_parameters(kind: str, parameters: Parameters) -> dict[str, float]:
+    """The parameters of an element as floats, defaults included; ValueError says in one line what is wrong."""
+    if kind not in ELEMENTS:
+        raise ValueError(f"{kind!r} is not a kind of element; there are {', '.join(ELEMENTS)}")
+    element = ELEMENTS[kind]
+    known = {**element.required, **element.optional}
+    takes = ", ".join(
+        f"{name} ({unit}{', optional' if name in element.optional else ''})" for name, unit in known.items()
+    )
+    for name in parameters:
+        if name not in known:
+            raise ValueError(f"{kind} has no parameter {name!r}; it takes {takes}")
+    complete: dict[str, float] = dict(element.defaults)
+    for name in known:
+        if name not in parameters:
+            if name in element.required:
+                raise ValueError(f"{kind} lacks its parameter {name!r}; it takes {takes}")
+            continue
+        value = parameters[name]
+        if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+            raise ValueError(f"{kind}: {name} = {value!r} is not a finite number")
+        if value < 0.0 or (value == 0.0 and name in element.positive):
+            raise ValueError(f"{kind}: {name} = {value!r} is {'negative' if value < 0.0 else 'not above 0'}")
+        complete[name] = float(value)
+    problem = element.check(complete)
+    if problem:
+        raise ValueError(f"{kind}: {problem}")
+    return complete
+
+
+def describing_function(kind: str, amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
+    """N(a), complex, for amplitudes of the input (any shape, positive); 0 where the element puts nothing out.
+
+    The unit is that of the output per unit of the input. ValueError for a wrong kind, parameter or amplitude.
+    """
+    complete = complete_parameters(kind, parameters)
+    values = np.asarray(amplitude, dtype=float)
+    if not np.all((values > 0.0) & np.isfinite(values)):
+        raise ValueError("amplitudes are finite and above 0")
+    return ELEMENTS[kind].gain(values.ravel(), complete).astype(complex).reshape(values.shape)
+
+
+def amplitude_range(kind: str, parameters: Parameters) -> tuple[float, float]:
+    """Amplitudes between which N(a) is worth a figure: around its kinks (one level of output, without any)."""
+    complete = complete_parameters(kind, parameters)
+    element = ELEMENTS[kind]
+    kinks = element.kinks(complete)
+    if not len(kinks):
+        return 0.1 * element.output(complete), 10.0 * element.output(complete)
+    return 0.5 * float(kinks[0]), 20.0 * float(kinks[0] if math.isinf(element.output(complete)) else kinks[-1])

@@ -1,0 +1,161 @@
+"""The linear model of a periodic system over one hyperperiod, and the loops' frequency responses in it.
+
+A loop that passes its cut M times in a hyperperiod has M inputs and M outputs there. Driven with the samples of
+exp(jwt), a channel answers at w and, where the system is truly periodic, at frequencies apart by whole multiples of
+2 pi/hyperperiod. Its loop gain at w is minus the ratio of what comes back at w to what goes in at w, both with the
+loop closed, which is what an injection measures; where the system does not change from sample to sample it is
+the loop's transfer function.
+Source: Bittanti and Colaneri 2009, Periodic Systems, sections 2.2 (lifting) and 2.3 (exponentially modulated
+periodic responses).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.linalg
+
+from .channels import Channel
+
+RANK = 1e-9  # of the largest singular value: below, a direction counts as forgotten within a period
+UNIT_CIRCLE = 1e-5  # poles this near to the unit circle count as on it
+
+
+@dataclass(frozen=True)
+class Port:
+    """Rows and columns of one channel in the model, in order of its samples."""
+
+    channel: Channel
+    seconds: float  # s, between samples
+    first: int
+    count: int
+
+    @property
+    def rows(self) -> slice:
+        return slice(self.first, self.first + self.count)
+
+
+@dataclass
+class LiftedModel:
+    """Closed loop over one hyperperiod: x' = a x + b d, u = cu x + du d, v = cv x + dv d.
+
+    d is added at the cuts, u goes in behind them, v comes back; all are stacked over the channels' samples.
+    ``names`` are the memory cells behind x, in units that balance a. ``period`` in s.
+    """
+
+    a: np.ndarray
+    b: np.ndarray
+    cu: np.ndarray
+    du: np.ndarray
+    cv: np.ndarray
+    dv: np.ndarray
+    names: tuple[str, ...]
+    period: float
+    ports: tuple[Port, ...]
+
+    def reduced(self, ports: tuple[Port, ...]) -> LiftedModel:
+        """The part of the memory that the ports both move and are moved by, through whatever lies between."""
+        rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
+        moved = reached(self.a != 0.0, np.any(self.b[:, rows] != 0.0, axis=1))
+        heard = np.any(self.cu[rows] != 0.0, axis=0) | np.any(self.cv[rows] != 0.0, axis=0)
+        moves = reached(self.a.T != 0.0, heard)
+        kept = np.flatnonzero(moved & moves)
+        return LiftedModel(
+            self.a[np.ix_(kept, kept)],
+            self.b[kept],
+            self.cu[:, kept],
+            self.du,
+            self.cv[:, kept],
+            self.dv,
+            tuple(self.names[place] for place in kept),
+            self.period,
+            self.ports,
+        )
+
+    @cached_property
+    def lasting(self) -> LiftedModel:
+        """The same model without the directions that are forgotten within some periods (poles at z = 0).
+
+        Orthogonal steps: the range of a, then the range of a within it, until nothing is lost. What a period
+        forgets still passes from d to u and v within it and over the periods it takes, so this is for poles only.
+        """
+        if not self.a.size:
+            return self
+        a, b, cu, cv = self.a, self.b, self.cu, self.cv
+        while a.shape[0]:
+            left, sizes, _ = np.linalg.svd(a)
+            rank = int(np.sum(sizes > RANK * max(1.0, sizes[0])))
+            if rank == a.shape[0]:
+                break
+            basis = left[:, :rank]
+            a, b, cu, cv = basis.T @ a @ basis, basis.T @ b, cu @ basis, cv @ basis
+        return LiftedModel(a, b, cu, self.du, cv, self.dv, (), self.period, self.ports)
+
+    def poles(self) -> np.ndarray:
+        """Closed-loop multipliers over the hyperperiod, those at 0 left out, largest first."""
+        values = np.linalg.eigvals(self.lasting.a)
+        return values[np.argsort(-abs(values), kind="stable")]
+
+    def unstable(self) -> int:
+        """Closed-loop multipliers outside the unit circle."""
+        return int(np.sum(abs(self.poles()) > 1.0 + UNIT_CIRCLE))
+
+    def opened(self, ports: tuple[Port, ...]) -> np.ndarray:
+        """Multipliers with these ports' cuts open and the other loops closed, those at 0 left out."""
+        rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
+        inside = np.linalg.solve(self.du[np.ix_(rows, rows)], self.cu[rows])
+        a = self.a - self.b[:, rows] @ inside
+        model = LiftedModel(a, self.b, self.cu, self.du, self.cv, self.dv, (), self.period, self.ports)
+        return model.poles()
+
+    def closed_response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """What goes in (u) and comes back (v) at each frequency for a unit of d, both (n, m, m) for m ports."""
+        u = np.empty((frequency.size, len(ports), len(ports)), dtype=complex)
+        v = np.empty_like(u)
+        # one triangular solve per frequency
+        triangle, unitary = scipy.linalg.schur(self.a, output="complex")
+        b, cu, cv = unitary.conj().T @ self.b, self.cu @ unitary, self.cv @ unitary
+        identity = np.eye(triangle.shape[0])
+        for place, w in enumerate(frequency):
+            drive = np.zeros((self.b.shape[1], len(ports)), dtype=complex)
+            listen = np.zeros((len(ports), self.b.shape[1]), dtype=complex)
+            for number, port in enumerate(ports):
+                wave = np.exp(1j * w * port.seconds * np.arange(port.count))
+                drive[port.rows, number] = wave
+                listen[number, port.rows] = wave.conj() / port.count
+            x = np.zeros((triangle.shape[0], len(ports)), dtype=complex)
+            if triangle.size:
+                shifted = np.exp(1j * w * self.period) * identity - triangle
+                x = scipy.linalg.solve_triangular(shifted, b @ drive, check_finite=False)
+            u[place] = listen @ (cu @ x + self.du @ drive)
+            v[place] = listen @ (cv @ x + self.dv @ drive)
+        return u, v
+
+    def response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> np.ndarray:
+        """L, minus the transfer from what goes in to what comes back, (n, m, m); other loops closed."""
+        u, v = self.closed_response(ports, np.asarray(frequency, dtype=float))
+        return -np.linalg.solve(np.swapaxes(u, 1, 2), np.swapaxes(v, 1, 2)).swapaxes(1, 2)
+
+    def periodicity(self, port: Port, frequency: np.ndarray) -> float:
+        """The largest share of what goes in that comes at other frequencies than the one added; 0: time-invariant."""
+        worst = 0.0
+        for w in frequency:
+            wave = np.exp(1j * w * port.seconds * np.arange(port.count))
+            x = np.linalg.solve(
+                np.exp(1j * w * self.period) * np.eye(len(self.a)) - self.a, self.b[:, port.rows] @ wave
+            )
+            samples = (self.cu[port.rows] @ x + self.du[port.rows, port.rows] @ wave) * wave.conj()
+            worst = max(worst, float(np.std(samples) / abs(np.mean(samples))))
+        return worst
+
+
+def reached(arrows: np.ndarray, start: np.ndarray) -> np.ndarray:
+    """Which cells are reached from the start over arrows [to, from]."""
+    reached = start.copy()
+    while True:
+        grown = reached | (arrows @ reached)
+        if np.array_equal(grown, reached):
+            return reached
+        reached = grown

@@ -1,0 +1,119 @@
+"""Odd random-phase multisines: periodic signals that measure a frequency response and show nonlinearity at once.
+
+Only odd harmonics are excited, and of those not all. Even-order nonlinearity answers at even lines, odd-order at all
+odd ones, so what comes back at lines that were not excited is nonlinearity or noise. Pintelon and Schoukens, "System
+Identification: A Frequency Domain Approach" (2nd ed. 2012). Line k of a period of N samples has
+the angular frequency 2 pi k/(N T).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+_GROUP = 4  # of this many successive candidates one, drawn at random, is not excited
+_DRAWS = 50  # of random phases, of which those with the lowest crest factor are taken
+_SWAPS = 100  # between time, where the peaks are clipped to a share, and frequency, where the amplitudes are restored
+_CLIPPED = 0.8
+
+
+@dataclass(frozen=True)
+class Multisine:
+    """One period of the signal: sum over ``lines`` k of amplitude * cos(2 pi k n/N + phase_k).
+
+    ``unexcited`` are the other lines from 1 to the highest that was asked for, even and odd. ``phases`` in rad.
+    """
+
+    signal: np.ndarray
+    amplitude: float
+    lines: np.ndarray
+    unexcited: np.ndarray
+    phases: np.ndarray
+
+    @property
+    def crest_factor(self) -> float:
+        """Largest absolute value over root mean square."""
+        return float(np.max(np.abs(self.signal)) / np.sqrt(np.mean(self.signal**2)))
+
+
+def multisine(
+    samples: int, amplitude: float, highest_line: int, seed: int, *, per_decade: float | None = None
+) -> Multisine:
+    """A multisine of ``samples`` per period, each line of ``amplitude``, excited up to ``highest_line``.
+
+    ``per_decade`` spaces the lines quasi-logarithmically: about as many per decade, or all odd ones where these are
+    fewer. The lowest line is always excited. Raises ValueError for a line at or above half the ``samples``.
+    """
+    if not 1 <= highest_line < samples / 2:
+        raise ValueError(f"the highest line, {highest_line}, must lie between 1 and half of {samples} samples")
+    if not amplitude > 0.0 or (per_decade is not None and not per_decade > 0.0):
+        raise ValueError("amplitude and lines per decade must be positive")
+    candidates = np.arange(1, highest_line + 1, 2)
+    if per_decade is not None:
+        highest_odd = float(candidates[-1])
+        wanted = np.geomspace(1.0, highest_odd, max(2, 1 + round(per_decade * np.log10(highest_odd))))
+        candidates = np.unique(2 * np.round((wanted - 1.0) / 2.0).astype(int) + 1)
+    random = np.random.default_rng(seed)
+    groups = np.arange(1, len(candidates) - _GROUP + 1, _GROUP)  # from the second candidate on, whole groups only
+    lines = np.delete(candidates, groups + random.integers(_GROUP, size=len(groups)))
+    phases = _low_crest(samples, lines, random)
+    signal = amplitude * _unit_signal(samples, lines, phases)
+    unexcited = np.setdiff1d(np.arange(1, highest_line + 1), lines)
+    return Multisine(signal, amplitude, lines, unexcited, phases)
+
+
+def _unit_signal(samples: int, lines: np.ndarray, phases: np.ndarray) -> np.ndarray:
+    spectrum = np.zeros(samples // 2 + 1, dtype=complex)
+    spectrum[lines] = 0.5 * samples * np.exp(1j * phases)
+    return np.fft.irfft(spectrum, samples)
+
+
+def _low_crest(samples: int, lines: np.ndarray, random: np.random.Generator) -> np.ndarray:
+    """Phases (rad) with a low peak: the best of some random ones, then swapping between time and frequency.
+
+    Van der Ouderaa, Schoukens and Renneboog, "Peak factor minimization using a time-frequency domain swapping
+    algorithm", IEEE Trans. Instrumentation and Measurement 37 (1988).
+    """
+
+    def peak(phases: np.ndarray) -> float:
+        return float(np.max(np.abs(_unit_signal(samples, lines, phases))))
+
+    best = min((random.uniform(-np.pi, np.pi, len(lines)) for _ in range(_DRAWS)), key=peak)
+    phases, lowest = best, peak(best)
+    for _ in range(_SWAPS):
+        signal = _unit_signal(samples, lines, phases)
+        bound = _CLIPPED * np.max(np.abs(signal))
+        phases = np.angle(np.fft.rfft(np.clip(signal, -bound, bound))[lines])
+        if peak(phases) < lowest:
+            best, lowest = phases, peak(phases)
+    return best
+
+
+def line_spectrum(record: np.ndarray, samples: int, lines: np.ndarray) -> np.ndarray:
+    """Complex amplitudes (len(lines), ...) of a record (n, ...) of whole periods of ``samples``, averaged over them.
+
+    A line amplitude * cos(2 pi k n/N + phase) gives amplitude * exp(1j * phase).
+    Raises ValueError when the record is not a whole number of periods.
+    """
+    record = np.asarray(record, dtype=float)
+    periods, rest = divmod(len(record), samples)
+    if rest or not periods:
+        raise ValueError(f"a record of {len(record)} samples is not a whole number of periods of {samples}")
+    mean = record.reshape(periods, samples, *record.shape[1:]).mean(axis=0)
+    return 2.0 / samples * np.fft.rfft(mean, axis=0)[np.asarray(lines)]
+
+
+def unexcited_share(record: np.ndarray, signal: Multisine) -> float:
+    """The largest response on a line not excited, relative to the larger one on the excited lines next to it.
+
+    ``record`` (n,) is a response over whole periods in the steady state: 0 where it is linear and without noise.
+    """
+    samples = len(signal.signal)
+    size = np.abs(line_spectrum(record, samples, signal.lines))
+    stray = np.abs(line_spectrum(record, samples, signal.unexcited))
+    above = np.searchsorted(signal.lines, signal.unexcited)
+    below, above = np.maximum(above - 1, 0), np.minimum(above, len(size) - 1)
+    if not np.all(size > 0.0):
+        raise ValueError("an excited line has no response at all: nothing to compare with")
+    return float(np.max(stray / np.maximum(size[below], size[above]), initial=0.0))

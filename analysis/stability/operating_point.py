@@ -1,0 +1,59 @@
+"""The memory of a system at an operating point, and how large everything is that it remembers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from analysis.cosim.memory import Cell, Memory
+
+from .bench import Bench
+
+LOOKS = 20  # communication points on the way to the operating point at which sizes are looked at
+LEAST = 1e-6  # of the largest number with the same unit: what is smaller is rounding, or happens to be near 0
+NOTHING = 1e-9  # in SI: what has a unit and is smaller has not been used yet, and tells no scale
+
+
+class OperatingPoint:
+    """A bench flown to its operating point and saved there.
+
+    ``scale`` [cells] is what a change of each cell is measured by: the largest number that the cell, or another one of
+    its vector, has held on the way, at least LEAST of the largest with its unit, and 1 where there was nothing.
+    ``sizes``: likewise of the signals at the cuts, by loop.
+    """
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+        self.memory = Memory(bench.simulation)
+        self.sizes: dict[str, float] = {}
+        largest = np.zeros(len(self.memory.cells))
+        last = -1
+        for point in np.unique(np.linspace(0, bench.origin, LOOKS).astype(int)):
+            signals = bench.fly(last, int(point))
+            last = int(point)
+            largest = np.maximum(largest, abs(self.memory.read()))
+            for channel in bench.channels:
+                size = float(np.max(abs(channel.injected(signals)), initial=0.0))
+                self.sizes[channel.loop] = max(self.sizes.get(channel.loop, 0.0), size)
+        self.snapshot = self.memory.take(last)
+        self.sizes = {loop: size or 1.0 for loop, size in self.sizes.items()}
+        self.scale = _scales(self.memory.cells, largest)
+
+    def release(self) -> None:
+        """Free what was saved."""
+        self.memory.release(self.snapshot)
+
+
+def _scales(cells: list[Cell], largest: np.ndarray) -> np.ndarray:
+    vectors: dict[str, float] = {}
+    units: dict[str, float] = {}
+    names = [cell.name.partition("[")[0] for cell in cells]
+    for cell, name, size in zip(cells, names, largest, strict=True):
+        vectors[name] = max(vectors.get(name, 0.0), float(size))
+        if cell.unit is not None:
+            units[cell.unit] = max(units.get(cell.unit, 0.0), float(size))
+    scales = []
+    for cell, name in zip(cells, names, strict=True):
+        scale = max(vectors[name], LEAST * units.get(cell.unit or "", 0.0))
+        unused = scale < NOTHING and cell.unit is not None
+        scales.append(1.0 if unused or scale == 0.0 else scale)
+    return np.array(scales)
