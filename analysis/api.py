@@ -1,4 +1,4 @@
-"""What a Python program calls: one flight, one campaign."""
+"""What a Python program calls: one flight, one campaign, one study of stability."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from analysis.cosim.results import Result
 from analysis.cosim.simulation import Simulation
 from analysis.cosim.system import SystemOptions, prepare_system
 from analysis.errors import InputError, suggestion
+from analysis.stability.results import StabilityReport
+from analysis.stability.study import Study
 
 
 def simulate(
@@ -63,6 +65,31 @@ def batch(
         system, campaign, _options(use, parameters, set, options), trials=trials, seed=seed, compare=compare
     )
     return run_batch(plan, workers=workers, output=Path(output) if output is not None else None)
+
+
+def stability(
+    system: str | Path,
+    *,
+    loops: Sequence[str] = (),
+    at: float | None = None,
+    campaign: str | None = None,
+    trials: int | None = None,
+    seed: int | None = None,
+    trial: int | None = None,
+    use: Mapping[str, str] | None = None,
+    parameters: Sequence[str] = (),
+    set: Mapping[str, ParameterValue] | None = None,
+    **options: Any,
+) -> StabilityReport:
+    """Margins, poles and robustness of a system's loops; see docs/stability.md.
+
+    ``loops`` are names that the system declares (all of them by default), or connectors to cut as
+    ``component.connector`` at the time ``at`` (s). ``campaign`` disperses the margins over its trials; ``trial``
+    studies the draws of one of them instead. The rest is as in `simulate`. Raises InputError, and StudyError where a flight
+    that the study needs breaks off.
+    """
+    study = Study(system, _options(use, parameters, set, options), loops, at, campaign, trials, seed, trial)
+    return study.run()
 
 
 def _options(

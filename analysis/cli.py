@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 
 from analysis.errors import InputError
 
-VERBS = ("list", "validate", "run", "batch", "compare", "law", "synthesize", "benchmark", "export")
+VERBS = ("list", "validate", "run", "batch", "compare", "law", "synthesize", "stability", "benchmark", "export")
 
 
 class Parser(argparse.ArgumentParser):

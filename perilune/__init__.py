@@ -3,11 +3,13 @@
 The importable face: everything here is defined elsewhere and documented there.
 """
 
-from analysis.api import batch, simulate
+from analysis.api import batch, simulate, stability
 from analysis.batch.results import BatchResult
 from analysis.cosim.faults import Fault
 from analysis.cosim.results import Result
 from analysis.errors import InputError
+from analysis.stability.bench import StudyError
+from analysis.stability.results import StabilityReport
 from fmus_src.block import Block, Input, Output, Parameter, State
 
 __all__ = [
@@ -19,7 +21,10 @@ __all__ = [
     "Output",
     "Parameter",
     "Result",
+    "StabilityReport",
     "State",
+    "StudyError",
     "batch",
     "simulate",
+    "stability",
 ]

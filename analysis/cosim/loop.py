@@ -100,10 +100,10 @@ def _fly(  # type: ignore[no-untyped-def]
     """Initialise and run; returns the number of rows recorded, buffers.outcome says how it ended.
 
     ``parameters`` and ``whole_parameters`` are float64 and int32 [p]. ``record`` takes the slots
-    ``recorded`` of every stride-th communication point and always those of the last one.
-    ``stop`` (s) is what FMUs are told of the end. A ``first_point`` of 0 or more goes on from that communication point, with buffers and FMUs as they
-    are; -1 initialises. The rows of ``excitation``, float64 [r, e], are added to the excited slots at the
-    communication points behind ``first_point``.
+    ``recorded`` of every stride-th communication point and always those of the last one. ``stop`` (s) is
+    what FMUs are told of the end. A ``first_point`` of 0 or more goes on from that communication point, with
+    buffers and FMUs as they are; -1 initialises. The rows of ``excitation``, float64 [r, e], are added to the
+    excited slots at the communication points behind ``first_point``.
     """
     instructions = program.instructions
     reference, parameter_reference = program.reference, program.parameter_reference

@@ -129,12 +129,16 @@ class Simulation:
 
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
         """The flight alone, for batches; see `fly`."""
-        for name, value in values.items():
-            self.layout.set_parameter(self._varied[name], value)  # type: ignore[arg-type]
+        self.set(values)
         reset = not self._fresh
         if self.layout.strings:
             reset = self._set_strings(reset)
         return self._advance(-1, self.prepared.steps, every, reset, NOTHING)
+
+    def set(self, values: Mapping[str, ParameterValue]) -> None:
+        """Give varied parameters other values, from the next start on."""
+        for name, value in values.items():
+            self.layout.set_parameter(self._varied[name], value)  # type: ignore[arg-type]
 
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING) -> Flight:
         """Fly on from communication point ``first`` to ``last``, as FMUs and buffers are; rows first + 1 to last.

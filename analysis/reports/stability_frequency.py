@@ -54,7 +54,7 @@ def frequency_axis(axes: Axes, low: float, high: float) -> None:
     """Angular frequencies over a logarithmic abscissa, marked also where it has no whole decade."""
     log_ticks_x(axes)
     axes.set_xlim(low, high)
-    if high < 30.0 * low:
+    if high < 150.0 * low:
         axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=8))
         axes.xaxis.set_major_formatter(FuncFormatter(log_tick))
 

@@ -23,13 +23,12 @@ from .stability_tables import (
     joint_table,
     judged,
     limit_table,
-    parameter_table,
     point_table,
     summary_table,
     trim_table,
     verdict_table,
 )
-from .stability_words import in_decibels, in_degrees, plain, verdict
+from .stability_words import directed, in_degrees, plain, verdict
 
 FEW = 2  # loops; of more, only those that fail are unfolded at first
 
@@ -91,7 +90,7 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
         limits=limit_table(report),
         raw_limits=[(name, plain(value)) for name, value in report.limits.items()],
         hashes=hash_table(report.provenance),
-        parameters=parameter_table(report.provenance.get("parameters", {})),
+        parameters=[(name, plain(value, digits=10)) for name, value in report.provenance.get("parameters", {}).items()],
         facts=facts(report.provenance),
         provenance=report.provenance,
     )
@@ -127,7 +126,7 @@ def _blocks(shown: list[Part]) -> list[list[Part]]:
 
 def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
     rows = [
-        (plain(float(value), sweep.unit), in_decibels(float(gain), absolute=True), in_degrees(float(phase)))
+        (plain(float(value), sweep.unit), directed(float(gain)), in_degrees(float(phase)))
         for value, gain, phase in zip(sweep.values, sweep.gain_margin, sweep.phase_margin, strict=True)
     ]
     crossings = [

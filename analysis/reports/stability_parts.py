@@ -18,6 +18,7 @@ from .stability_words import (
     NO_CROSSING,
     closed_loop,
     complex_number,
+    directed,
     in_decibels,
     in_degrees,
     plain,
@@ -240,14 +241,14 @@ def sampling(loop: LoopReport) -> Part:
     rows: list[tuple[Cell, ...]] = [
         (
             plain(item.step),
-            in_decibels(item.gain_margin, absolute=True),
+            directed(item.gain_margin),
             in_degrees(item.phase_margin),
             item.note,
         )
         for item in loop.sampling
     ]
     return Part(
-        "sampling", "Sampling", Table(("step, s", "gain margin, dB", "phase margin, deg", "note"), "nnnt", rows)
+        "sampling", "Sampling", Table(("step, s", "gain margin, dB", "phase margin, deg", "note"), "nnnl", rows)
     )
 
 

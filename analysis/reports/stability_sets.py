@@ -108,7 +108,7 @@ def draw_sweep(sweep: SweepReport, limits: Limits, gain_axes: Axes, phase_axes: 
     """Gain and phase margin over a parameter, with the limits and where they are crossed."""
     factor = shown_factor(sweep.unit)
     x = factor * sweep.values
-    gain = np.abs(20.0 * np.log10(np.where(sweep.gain_margin > 0.0, sweep.gain_margin, np.nan)))
+    gain = 20.0 * np.log10(np.where(sweep.gain_margin > 0.0, sweep.gain_margin, np.nan))
     shown: list[tuple[Axes, np.ndarray, float | None, str]] = [
         (gain_axes, gain, limits.gain, "gain margin, dB"),
         (phase_axes, np.degrees(sweep.phase_margin), limits.phase, "phase margin, deg"),
@@ -117,6 +117,8 @@ def draw_sweep(sweep: SweepReport, limits: Limits, gain_axes: Axes, phase_axes: 
         axes.plot(x, np.where(np.isfinite(y), y, np.nan), color=BLUE, marker="o", markersize=2.5)
         if limit is not None:
             axes.axhline(limit, **LIMIT)
+            if float(np.nanmin(y, initial=0.0)) < 0.0:
+                axes.axhline(-limit, **LIMIT)
         for value in sweep.crossings.values():
             if value is not None and math.isfinite(value):
                 axes.axvline(factor * value, color=INK, linewidth=0.9, linestyle=(0, (1.2, 1.6)))

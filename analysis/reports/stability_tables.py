@@ -27,6 +27,7 @@ from .stability_words import (
     verdict,
 )
 
+TIMES = ("step", "start_time", "stop_time")  # s
 LONG = 30  # rows; longer tables are folded away
 Cell = Markup | str
 
@@ -189,15 +190,14 @@ def hash_table(provenance: dict[str, Any]) -> Table:
     return Table(("part", "name", "SHA-256"), "ttc", rows, "hashes")
 
 
-def parameter_table(values: dict[str, Any]) -> Table:
-    """Parameters in SI units, as the description, parameter sets and options set them."""
-    return Table(("parameter", "value, SI"), "tn", [(name, plain(value, digits=10)) for name, value in values.items()])
-
-
 def facts(provenance: dict[str, Any]) -> list[tuple[str, Cell]]:
     """Everything else that the study depends on: seed, step, versions and so on."""
     shown = {"system", "system_sha256", "fmus", "parameters"}
-    return [(key.replace("_", " "), fact(value)) for key, value in provenance.items() if key not in shown]
+    return [
+        (key.replace("_", " "), fact(value) + Markup(" s") if key in TIMES else fact(value))
+        for key, value in provenance.items()
+        if key not in shown
+    ]
 
 
 def fact(value: Any) -> Cell:

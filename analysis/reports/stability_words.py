@@ -77,8 +77,16 @@ def gain_margin(crossing: Crossing | None) -> Markup:
     """A gain margin in dB with its direction."""
     if crossing is None:
         return Markup("<span>{}</span>").format(NO_CROSSING)
-    direction = "up" if crossing.value >= 1.0 else "down"
-    return in_decibels(crossing.value, absolute=True) + Markup(" {}").format(direction)
+    return directed(crossing.value)
+
+
+def directed(factor: float | None) -> Markup:
+    """A factor on the gain in dB with its direction; nan and inf: there is none."""
+    if factor is None:
+        return plain(None)
+    if not math.isfinite(factor):
+        return Markup("<span>{}</span>").format(NO_CROSSING)
+    return in_decibels(factor, absolute=True) + Markup(" {}").format("up" if factor >= 1.0 else "down")
 
 
 def phase_margin(crossing: Crossing | None) -> Markup:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 import numpy as np
 
+from analysis.cosim.parameter_sets import ParameterValue
 from analysis.cosim.results import COMPLETE
 from analysis.cosim.simulation import Simulation
 from analysis.cosim.system import PreparedSystem
@@ -28,10 +29,12 @@ class Bench:
 
     ``period`` is the hyperperiod in communication points: the least common multiple of the channels' and of the
     FMUs' sample periods. ``origin`` is the communication point just before the operating point, which is a
-    multiple of it. Use as a context manager.
+    multiple of it. ``varied`` names parameters that `set` may change. Use as a context manager.
     """
 
-    def __init__(self, prepared: PreparedSystem, point: Point, channels: Sequence[Channel]) -> None:
+    def __init__(
+        self, prepared: PreparedSystem, point: Point, channels: Sequence[Channel], varied: Sequence[str] = ()
+    ) -> None:
         self.prepared = prepared
         self.point = point
         self.channels = tuple(channels)
@@ -42,7 +45,7 @@ class Bench:
                 known = suggestion(point.signal, prepared.network.nodes)
                 raise InputError(prepared.network.file, f"point {point.name}", f"no signal {point.signal}", known)
             wanted.add(point.signal)
-        self.simulation = Simulation(prepared, wanted=wanted, excited=self.connectors)
+        self.simulation = Simulation(prepared, varied=varied, wanted=wanted, excited=self.connectors)
         self.period = self._hyperperiod()
         self.origin = self._origin()
 
@@ -70,6 +73,11 @@ class Bench:
             reason = flight.message or "the system ended by itself"
             raise StudyError(f"the flight for point {self.point.name} ended early ({end}): {reason}")
         return {name: values.copy() for name, values in flight.signals.items()}
+
+    def set(self, values: Mapping[str, ParameterValue]) -> None:
+        """Give varied parameters other values for the flights that follow, and find the operating point again."""
+        self.simulation.set(values)
+        self.origin = self._origin()
 
     def columns(self, channel: Channel) -> list[int]:
         """Columns of the excitation that belong to a channel."""

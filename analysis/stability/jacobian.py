@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -85,21 +85,25 @@ class Jacobian:
         return self.cell_column(cell, SCREEN[-1])
 
 
-def plateau(column: Callable[[float], np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+def plateau(column: Callable[[float], np.ndarray], steps: Sequence[float] = STEPS) -> tuple[np.ndarray, np.ndarray]:
     """Each element of a column at the step where it changes least to the next smaller one, and its value there.
 
-    Steps that are too large bend, steps that are too small drown in rounding; in between is a plateau. A pair that is 0 twice counts only where there is no plateau elsewhere: rounding can swallow a change altogether.
+    Steps that are too large bend, steps that are too small drown in rounding; in between is a plateau. A pair that
+    is 0 twice counts only where there is no plateau elsewhere: rounding can swallow a change altogether. Of a single
+    step it is the same value twice. Raises StudyError where no step leaves the flight whole.
     """
     values: list[np.ndarray] = []
-    for step in STEPS:
+    for step in steps:
         try:
             values.append(column(step))
         except StudyError:
-            if step == STEPS[-1]:
+            if step == steps[-1] and not values:
                 raise
             continue  # too large, such as a negative variance
         if len(values) == LEVELS:
             break
+    if len(values) == 1:
+        return values[0], values[0]
     levels = np.array(values)
     size = np.maximum(abs(levels[:-1]), abs(levels[1:]))
     with np.errstate(invalid="ignore", divide="ignore"):

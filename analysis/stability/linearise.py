@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 
-from .jacobian import Jacobian, plateau
+from .jacobian import STEPS, Jacobian, plateau
 from .lifted import LiftedModel, reached
 from .operating_point import OperatingPoint
 
@@ -29,21 +29,24 @@ class Linearisation:
     states: int
 
 
-def linearise(operating_point: OperatingPoint, cells: Sequence[int] | None = None) -> Linearisation:
-    """The linear model about the flight of one hyperperiod; ``cells`` names the memory that matters if known already.
+def linearise(
+    operating_point: OperatingPoint, cells: Sequence[int] | None = None, steps: Sequence[float] = STEPS
+) -> Linearisation:
+    """The linear model about the flight of one hyperperiod.
 
+    ``cells`` names the memory that matters if it is known already; of one single step nothing is known of a plateau.
     Raises StudyError where a flight breaks off.
     """
     jacobian = Jacobian(operating_point)
     count = len(operating_point.memory.cells)
     driven = [
-        plateau(lambda step, port=port, sample=sample: jacobian.input_column(port, sample, step))
+        plateau(lambda step, port=port, sample=sample: jacobian.input_column(port, sample, step), steps)
         for port in jacobian.ports
         for sample in range(port.count)
     ]
     if cells is None:
         cells = _in_between(np.column_stack([jacobian.screened(cell) for cell in range(count)]), driven)
-    remembered = [plateau(lambda step, cell=cell: jacobian.cell_column(cell, step)) for cell in cells]
+    remembered = [plateau(lambda step, cell=cell: jacobian.cell_column(cell, step), steps) for cell in cells]
     models = []
     for place in range(2):
         parts = [column[place] for column in remembered]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+
 import numpy as np
 
 from analysis.cosim.memory import Cell, Memory
@@ -37,6 +39,15 @@ class OperatingPoint:
         self.snapshot = self.memory.take(last)
         self.sizes = {loop: size or 1.0 for loop, size in self.sizes.items()}
         self.scale = _scales(self.memory.cells, largest)
+
+    def one_period_on(self) -> OperatingPoint:
+        """The same one hyperperiod later, measured by the same sizes; this one's snapshot stays as it is."""
+        later = copy.copy(self)
+        self.memory.put_back(self.snapshot)
+        last = self.snapshot.point + self.bench.period
+        self.bench.fly(self.snapshot.point, last)
+        later.snapshot = self.memory.take(last)
+        return later
 
     def release(self) -> None:
         """Free what was saved."""

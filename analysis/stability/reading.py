@@ -145,7 +145,6 @@ class _Reader:
         if loop is None or found["point"] not in loop.points:
             raise self.refuse(element, "no such loop at this point", suggestion(found["loop"], loops))
         low, high = self.number(element, "low"), self.number(element, "high")
-        assert low is not None and high is not None
-        if not low < high:
-            raise self.refuse(element, f"low {low:g} is not below high {high:g}", "swap them")
+        if low is None or high is None or not low < high:
+            raise self.refuse(element, f"low {low} is not below high {high}", "swap them")
         return Sweep(found["name"], found["loop"], found["point"], found["parameter"], low, high)

@@ -187,7 +187,7 @@ def simulate(system, steps=4000):
     return float(np.ptp(last) / 2), period
 
 
-def dispersion(make, trials=160):
+def dispersion(make, trials=80):
     """Margins with a gain and a lead drawn anew in every trial."""
     draws = np.random.default_rng(4).normal(size=(trials, 2))
     found = []
@@ -314,12 +314,6 @@ def sample_report():
         (sweep(),),
         12.5,
     )
-
-
-def many_loops(count=10):
-    """A page with many loops, all of which pass."""
-    loops = tuple(linear_loop(f"attitude {k}", attitude(1.0 + 0.05 * k), "hold") for k in range(count))
-    return replace_loops(sample_report(), loops)
 
 
 def replace_loops(report, loops):

@@ -1,0 +1,164 @@
+"""One operating point: its bench, its linear model, its loops, and how long the frozen view holds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from analysis.cosim.system import PreparedSystem, SystemOptions, prepare_system
+from analysis.errors import InputError
+
+from .assessment import decibel, degrees, lowest_frequency
+from .bench import Bench, StudyError
+from .channels import Channel, channels_of
+from .declaration import Limits, Loop, Point
+from .disk import joint_disk_margin
+from .linearise import Linearisation, linearise
+from .loop_study import LoopStudy
+from .operating_point import OperatingPoint
+from .results import JointReport, PointReport, Requirement
+from .routes import LoopModel, loop_model
+
+MOST_TRIM = 8  # of the memory that changes most
+TENTH = 0.1  # relative change of L at which the frozen view no longer holds
+
+
+def options_at(point: Point, options: SystemOptions) -> SystemOptions:
+    """A user's options over those of a point: the user's --use and --set win, the point's values win over files."""
+    return replace(
+        options,
+        use={**point.use, **options.use},
+        parameters=(*point.parameters, *options.parameters),
+        set={**point.set, **options.set},
+    )
+
+
+class PointStudy:
+    """The loops of one point. Use as a context manager."""
+
+    def __init__(
+        self, system: str, options: SystemOptions, point: Point, loops: Sequence[Loop], varied: Sequence[str] = ()
+    ) -> None:
+        self.point, self.loops = point, tuple(loops)
+        self.prepared: PreparedSystem = prepare_system(system, options_at(point, options))
+        channels = [
+            channel for loop in loops for channel in channels_of(loop, self.prepared.network, self.prepared.step)
+        ]
+        self.bench = Bench(self.prepared, point, channels, varied)
+        self.linear: Linearisation | None = None
+        self.why_not = ""
+        self._start: OperatingPoint | None = None
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        return self.bench.channels
+
+    def linearise(self) -> None:
+        """Route A, or why it cannot be taken."""
+        try:
+            self._start = OperatingPoint(self.bench)
+            self.linear = linearise(self._start)
+        except (InputError, StudyError) as error:
+            self.why_not = str(error)
+
+    def model(self, channel: Channel) -> LoopModel | None:
+        if self.linear is None:
+            return None
+        return loop_model(self.linear, next(port for port in self.linear.model.ports if port.channel is channel))
+
+    def loop_study(self, channel: Channel, limits: Limits) -> LoopStudy:
+        notes = {} if self.linear is not None else {"route A": self.why_not}
+        return LoopStudy(self.bench, channel, self.model(channel), limits, notes)
+
+    def report(self) -> PointReport:
+        """The point, with what the memory does over one hyperperiod more."""
+        drift = holds = None
+        trim: tuple[tuple[str, float, float, str | None], ...] = ()
+        if self.linear is not None:
+            trim = tuple(self.linear.drift[:MOST_TRIM])
+            try:
+                drift = self._drift()
+                holds = TENTH / drift * self.bench.seconds if drift > 0.0 else float("inf")
+            except StudyError:
+                drift = holds = None
+        return PointReport(
+            name=self.point.name,
+            phase=self.point.phase,
+            time=self.bench.time,
+            settings={**self.point.use, **dict.fromkeys(self.point.parameters, "parameter set"), **self.point.set},
+            trim=trim,
+            drift=drift,
+            holds=holds,
+        )
+
+    def _drift(self) -> float:
+        """The largest relative change of a loop's L, near its crossovers, over one hyperperiod."""
+        assert self.linear is not None
+        assert self._start is not None
+        later = linearise(self._start.one_period_on(), self.linear.cells)
+        worst = 0.0
+        for before, after in zip(self.linear.model.ports, later.model.ports, strict=True):
+            frequency = np.geomspace(1e-3, 1.0, 60) * np.pi / before.seconds
+            first = self.linear.model.reduced((before,)).response((before,), frequency)[:, 0, 0]
+            second = later.model.reduced((after,)).response((after,), frequency)[:, 0, 0]
+            near = (abs(first) > 0.1) & (abs(first) < 10.0)
+            worst = max(worst, float(np.max(abs(second[near] / first[near] - 1.0), initial=0.0)))
+        return worst
+
+    def joint(self, loop: Loop, limits: Limits) -> JointReport | None:
+        """All channels of a loop at once, None where it has one, or no linear model."""
+        if self.linear is None:
+            return None
+        ports = tuple(port for port in self.linear.model.ports if port.channel.loop == loop.name)
+        if len(ports) < 2:
+            return None
+        model = self.linear.model.reduced(ports)
+        seconds = ports[0].seconds
+
+        def single(frequency: np.ndarray) -> np.ndarray:
+            return model.response(ports, frequency)[:, 0, 0]
+
+        low = lowest_frequency(single, seconds)
+        found = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
+        gain, phase = decibel(found.gain), degrees(found.phase)
+        wanted = (
+            Requirement(
+                "joint disk gain margin",
+                gain,
+                limits.dispersed_gain_margin_db,
+                "dB",
+                gain >= limits.dispersed_gain_margin_db,
+            ),
+            Requirement(
+                "joint disk phase margin",
+                phase,
+                limits.dispersed_phase_margin_deg,
+                "deg",
+                phase >= limits.dispersed_phase_margin_deg,
+            ),
+        )
+        return JointReport(
+            name=loop.name,
+            point=self.point.name,
+            channels=tuple(port.channel.name for port in ports),
+            disk_margin=found.alpha,
+            disk_gain=found.gain,
+            disk_phase=found.phase,
+            disk_frequency=found.frequency,
+            frequency=found.frequencies,
+            disk_margins=found.alphas,
+            requirements=wanted,
+        )
+
+    def close(self) -> None:
+        if self._start is not None:
+            self._start.release()
+        self.bench.close()
+
+    def __enter__(self) -> PointStudy:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,116 @@
+"""The two routes to a loop's frequency response, and whether they agree."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .curves import Response
+from .lifted import UNIT_CIRCLE, LiftedModel, Port
+from .linearise import Linearisation
+from .modes import modes
+from .results import Agreement, Mode, RouteA, RouteB
+
+GAIN_AGREES = 10.0 ** (0.1 / 20.0)
+PHASE_AGREES = np.radians(0.5)
+NOT_LINEAR = 0.01  # change of L at half the amplitude
+DOUBTFUL = 0.01  # change of L with the next smaller steps of the differences
+BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
+
+
+@dataclass
+class LoopModel:
+    """Route A of one channel."""
+
+    model: LiftedModel
+    port: Port
+    modes: tuple[Mode, ...]
+    poles_open: np.ndarray
+    facts: RouteA
+
+    def response(self, frequency: np.ndarray) -> np.ndarray:
+        return self.model.response((self.port,), frequency)[:, 0, 0]
+
+    @property
+    def unstable_open(self) -> int:
+        return int(np.sum(abs(self.poles_open) > 1.0 + self.blur))
+
+    @property
+    def largest(self) -> float:
+        """The largest multiplier of a closed-loop mode that the cut moves and sees; 0 where none lasts."""
+        return max((abs(mode.z) for mode in self.modes if mode.kind == "loop"), default=0.0)
+
+    @property
+    def stable(self) -> bool:
+        return bool(self.largest < 1.0 + self.blur)
+
+    @property
+    def blur(self) -> float:
+        """How near to the unit circle a pole is no longer told from one on it."""
+        return max(UNIT_CIRCLE, 10.0 * self.facts.plateau)
+
+    def lightly_damped(self) -> tuple[list[float], list[float]]:
+        """Frequencies (rad/s) of undamped and of lightly damped open-loop poles, where the loop has one sample."""
+        if self.port.count > 1:
+            return [], []  # several samples a period: a multiplier does not tell the frequency
+        oscillating = self.poles_open[np.angle(self.poles_open) > BESIDE_ONE]
+        on_circle = abs(abs(oscillating) - 1.0) <= self.blur
+        frequencies = np.angle(oscillating) / self.model.period
+        near = (abs(oscillating) > 0.9) & ~on_circle
+        return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
+
+
+def loop_model(found: Linearisation, port: Port) -> LoopModel:
+    """The part of a linear model that belongs to one channel, and how far it can be trusted."""
+    model = found.model.reduced((port,))
+    neighbour = found.neighbour.reduced((port,))
+    nyquist = np.pi / port.seconds
+    look = np.geomspace(1e-3, 1.0, 40) * nyquist
+    a, b = model.response((port,), look)[:, 0, 0], neighbour.response((port,), look)[:, 0, 0]
+    visible = abs(a) > 1e-3
+    change = float(np.max(abs(b[visible] / a[visible] - 1.0), initial=0.0))
+    facts = RouteA(
+        states=found.states,
+        period=model.period,
+        plateau=change,
+        doubtful=_doubtful(model, neighbour) if change > DOUBTFUL else (),
+        periodicity=model.periodicity(port, look[::8]),
+    )
+    return LoopModel(model, port, modes(model, port), model.opened((port,)), facts)
+
+
+def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
+    """The memory whose derivatives change most with the step."""
+    if model.a.shape != neighbour.a.shape:
+        return ("what reaches what depends on the step",)
+    change = np.max(abs(model.a - neighbour.a), axis=0)
+    worst = np.argsort(-change)[:5]
+    return tuple(model.names[place] for place in worst if change[place] > 0.0)
+
+
+def agreement(response: Response, measured: RouteB, sample_period: float) -> Agreement:
+    """Route A against route B on its lines below half the Nyquist frequency."""
+    highest = 0.5 * np.pi / sample_period
+    kept = measured.curve.frequency <= highest
+    frequency = measured.curve.frequency[kept]
+    ratio = measured.curve.value[kept] / response(frequency)
+    gain = float(np.exp(np.max(abs(np.log(abs(ratio))))))
+    phase = float(np.max(abs(np.angle(ratio))))
+    return Agreement(gain, phase, float(frequency[-1]), bool(gain <= GAIN_AGREES and phase <= PHASE_AGREES))
+
+
+def disagreement(found: Agreement, a: RouteA, b: RouteB) -> str:
+    """Why the routes differ, as far as each knows of itself."""
+    reasons = []
+    if a.plateau > DOUBTFUL:
+        names = ", ".join(a.doubtful)
+        reasons.append(f"the derivatives of route A have no plateau ({a.plateau:.2g}; {names})")
+    if b.half_amplitude_change > NOT_LINEAR:
+        reasons.append(f"L changes by {b.half_amplitude_change:.2g} when the amplitude is halved")
+    if b.unexcited > NOT_LINEAR:
+        reasons.append(f"unexcited lines answer with {b.unexcited:.2g} of the excited ones")
+    if a.periodicity > NOT_LINEAR:
+        reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} comes back at other frequencies)")
+    size = f"{20.0 * np.log10(found.gain):.2g} dB and {np.degrees(found.phase):.2g} deg apart"
+    return f"{size}: " + ("; ".join(reasons) or "neither route sees a reason; the operating point does not last")

@@ -1,0 +1,200 @@
+"""A whole study of a system's stability: its points, loops, sweeps and campaign, in one report."""
+
+from __future__ import annotations
+
+import shlex
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, replace
+from pathlib import Path
+
+from analysis.batch.plan import BatchPlan, read_plan
+from analysis.cosim.archive import open_system
+from analysis.cosim.description import Description, Reader
+from analysis.cosim.system import PreparedSystem, SystemOptions, prepare_system
+from analysis.errors import InputError, suggestion
+
+from .declaration import Declaration, Limits, Loop, Point
+from .limit_cycles import element_report
+from .loop_study import LoopStudy
+from .point_study import PointStudy, options_at
+from .reading import read_declaration
+from .results import Dispersion, LoopReport, StabilityReport
+from .variations import dispersed, sampled, swept
+
+HERE = "command line"  # name of the point of loops that the command line names
+
+
+class Study:
+    """What is asked of one system, read and checked; `run` does it.
+
+    ``loops`` are names of declared loops, or connectors of loops that are not declared, which are cut at time
+    ``at`` (s; 0 unless given). With ``campaign`` margins are dispersed over its trials, or with ``trial`` the study is
+    made of that trial's draws. Raises InputError.
+    """
+
+    def __init__(
+        self,
+        system: str | Path,
+        options: SystemOptions,
+        loops: Sequence[str] = (),
+        at: float | None = None,
+        campaign: str | None = None,
+        trials: int | None = None,
+        seed: int | None = None,
+        trial: int | None = None,
+    ) -> None:
+        self.system, self.options = str(system), options
+        self.archive = open_system(system)
+        self.declaration = self._declared(loops, at)
+        self.campaign = campaign
+        self.plan: BatchPlan | None = None
+        if campaign is None:
+            for name, value in (("--trials", trials), ("--seed", seed), ("--trial", trial)):
+                if value is not None:
+                    raise InputError(name, str(value), "there is no campaign", "give --campaign NAME with it")
+        else:
+            self.plan = read_plan(system, campaign, options, trials=trials, seed=seed)
+        if trial is not None:
+            self._take_trial(trial)
+
+    def _description(self) -> Description:
+        name = self.archive.description_name(self.options.variant)
+        return Reader(f"{self.archive.label}/{name}", self.archive.read).read(self.archive.read(name, "SSD"))
+
+    def _declared(self, names: Sequence[str], at: float | None) -> Declaration:
+        """The declaration with just the loops that are asked for."""
+        description = self._description()
+        declared = read_declaration(description)
+        if at is not None and not any(name not in {loop.name for loop in declared.loops} for name in names):
+            raise InputError("--at", f"{at:g}", "it is for loops that the SSD does not name", "leave it out")
+        if not names:
+            if not declared.loops:
+                remedy = "name a loop in the SSD, or cut one with --loop COMPONENT.CONNECTOR --at SECONDS"
+                raise InputError(description.file, "", "declares no loops", remedy)
+            return declared
+        by_name = {loop.name: loop for loop in declared.loops}
+        wanted: list[Loop] = []
+        for name in names:
+            if name not in by_name and "." not in name:
+                raise InputError("--loop", name, "the SSD names no such loop", _loop_remedy(by_name))
+            wanted.append(by_name.get(name) or Loop(name, cut=name, points=(HERE,)))
+        points = (*declared.points, Point(HERE, time=0.0 if at is None else at))
+        used = {point for loop in wanted for point in loop.points}
+        kept = {loop.name for loop in wanted}
+        return Declaration(
+            declared.limits,
+            tuple(point for point in points if point.name in used),
+            tuple(wanted),
+            tuple(sweep for sweep in declared.sweeps if sweep.loop in kept),
+        )
+
+    def _take_trial(self, trial: int) -> None:
+        """The draws of one trial as settings, in place of the whole campaign."""
+        assert self.plan is not None
+        if not 0 <= trial < self.plan.campaign.trials:
+            problem = f"the campaign has trials 0 to {self.plan.campaign.trials - 1}"
+            raise InputError("--trial", str(trial), problem, "give one of them")
+        plan = replace(self.plan, campaign=replace(self.plan.campaign, compare={}))
+        prepared = plan.prepare(plan.campaign.variants()[0])
+        drawn = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
+        self.options = replace(
+            self.options,
+            parameters=(*plan.campaign.parameters, *self.options.parameters),
+            set={**plan.campaign.settings, **drawn, **self.options.set},
+        )
+        self.plan = None
+
+    def run(self) -> StabilityReport:
+        """Everything; takes up to a minute or so. Raises InputError, StudyError."""
+        begun = time.monotonic()
+        points, reports, joint, sweeps = [], [], [], []
+        provenance: dict = {}
+        limits = self.declaration.limits
+        for point in self.declaration.points:
+            loops = [loop for loop in self.declaration.loops if point.name in loop.points]
+            if not loops:
+                continue
+            with PointStudy(self.system, self.options, point, loops) as study:
+                study.linearise()
+                here = [self._loop(study, name.name, limits) for name in study.channels]
+                joint += [found for loop in loops if (found := study.joint(loop, limits)) is not None]
+                points.append(study.report())
+                provenance = provenance or study.bench.simulation.provenance()
+            self._vary(point, loops, here)
+            reports += here
+        for sweep in self.declaration.sweeps:
+            point = next(item for item in self.declaration.points if item.name == sweep.point)
+            loop = next(item for item in self.declaration.loops if item.name == sweep.loop)
+            sweeps.append(swept(self.system, self.options, point, loop, sweep, limits))
+        return StabilityReport(
+            system=self.archive.name,
+            provenance=provenance,
+            limits=asdict(limits),
+            points=tuple(points),
+            loops=tuple(reports),
+            joint=tuple(joint),
+            sweeps=tuple(sweeps),
+            seconds=time.monotonic() - begun,
+        )
+
+    def _loop(self, point: PointStudy, name: str, limits: Limits) -> LoopReport:
+        """One channel by both routes, with its amplitudes and elements."""
+        channel = next(channel for channel in point.channels if channel.name == name)
+        study: LoopStudy = point.loop_study(channel, limits)
+        study.measure()
+        others = [item.name for item in point.channels if item is not channel]
+        report = study.report(others)
+        crossings = [crossing.frequency for crossing in report.classical.phase]
+        found = study.amplitudes(min(crossings, default=0.1 * study.nyquist))
+        if found is not None:
+            report.amplitudes, report.amplitude_frequency = found
+        loop = next(loop for loop in self.declaration.loops if loop.name == channel.loop)
+        assessment, response = study.assessed
+        low, high = assessment.curve.frequency[0], assessment.curve.frequency[-1]
+
+        def prepare(use: Mapping[str, str]) -> PreparedSystem:
+            return self._prepared(point.point, use)
+
+        report.nonlinearities = tuple(
+            element_report(element, channel, channel.unit, response, low, high, prepare) for element in loop.elements
+        )
+        return report
+
+    def _prepared(self, point: Point, use: Mapping[str, str]) -> PreparedSystem:
+        """The system at a point with other FMUs, for a whole flight."""
+        options = options_at(point, self.options)
+        return prepare_system(self.system, replace(options, use={**options.use, **use}))
+
+    def _vary(self, point: Point, loops: Sequence[Loop], reports: Sequence[LoopReport]) -> None:
+        """What needs route A with something changed: the step, the campaign."""
+        if any("route A" in report.not_applicable for report in reports):
+            return
+        steps = sampled(self.system, self.options, point, loops)
+        spread: dict[str, Dispersion] = {}
+        if self.plan is not None:
+            spread = dispersed(self.plan, point, loops, self.declaration.limits, self._replay)
+        for report in reports:
+            report.sampling = tuple(steps[report.name])
+            report.dispersion = spread.get(report.name)
+
+    def _replay(self, channel: str, trial: int) -> str:
+        """The command that studies one trial of one loop again."""
+        assert self.plan is not None
+        assert self.campaign is not None
+        words = ["perilune", "stability", self.system, "--campaign", self.campaign]
+        words += ["--trial", str(trial), "--seed", str(self.plan.campaign.seed)]
+        words += ["--loop", channel.partition("[")[0]]
+        for slot, fmu in self.options.use.items():
+            words += ["--use", f"{slot}={fmu}"]
+        for name in self.options.parameters:
+            words += ["--parameters", name]
+        for name, value in self.options.set.items():
+            words += ["--set", f"{name}={value}"]
+        return shlex.join(words)
+
+
+def _loop_remedy(declared: Mapping[str, Loop]) -> str:
+    if not declared:
+        return "it names none; cut one with COMPONENT.CONNECTOR"
+    return f"{suggestion('', declared)}, or cut one with COMPONENT.CONNECTOR"
