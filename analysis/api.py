@@ -85,8 +85,8 @@ def stability(
 
     ``loops`` are names that the system declares (all of them by default), or connectors to cut as
     ``component.connector`` at the time ``at`` (s). ``campaign`` disperses the margins over its trials; ``trial``
-    studies the draws of one of them instead. The rest is as in `simulate`. Raises InputError, and StudyError where a flight
-    that the study needs breaks off.
+    studies the draws of one of them instead. The rest is as in `simulate`. Raises InputError, and
+    StudyError where a flight that the study needs breaks off.
     """
     study = Study(system, _options(use, parameters, set, options), loops, at, campaign, trials, seed, trial)
     return study.run()

@@ -63,9 +63,9 @@ def run(options: argparse.Namespace) -> int:
         print(f"{report.system}: {report.verdict}, {report.seconds:.1f} s")
     failures = failed(report)
     for name, item in failures:
-        value = "none" if item.value is None else f"{item.value:.4g} {_unit(item)}".strip()
+        shown = "none" if item.value is None else f"{item.value:.4g} {_unit(item)}".strip()
         print(
-            f"perilune: {name}: {item.quantity} {value} misses the limit {item.limit:g} {_unit(item)}".strip(),
+            f"perilune: {name}: {item.quantity} {shown} misses the limit {item.limit:g} {_unit(item)}".strip(),
             file=sys.stderr,
         )
     return 1 if failures else 0

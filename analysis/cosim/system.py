@@ -60,8 +60,14 @@ class PreparedSystem:
         return all(fmu.is_native for fmu in self.network.fmus.values())
 
 
-def prepare_system(system: str | Path, options: SystemOptions | None = None) -> PreparedSystem:
-    """Read and check a system with its options. Raises InputError."""
+def prepare_system(
+    system: str | Path, options: SystemOptions | None = None, loaded: dict[str, Fmu] | None = None
+) -> PreparedSystem:
+    """Read and check a system with its options. Raises InputError.
+
+    ``loaded`` keeps FMUs by their place, for a system that is prepared again and again: those in it are not read again.
+    """
+    loaded = {} if loaded is None else loaded
     options = options or SystemOptions()
     for name, value, known in (
         ("--algorithm", options.algorithm, ALGORITHMS),
@@ -73,7 +79,6 @@ def prepare_system(system: str | Path, options: SystemOptions | None = None) -> 
     description_name = archive.description_name(options.variant)
     reader = Reader(f"{archive.label}/{description_name}", archive.read)
     description = reader.read(archive.read(description_name, "SSD"))
-    loaded: dict[str, Fmu] = {}
 
     def load(name: str, component: Component) -> Fmu:
         if name in options.use:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .curves import Response, dense
+from .curves import Response, dense, remembered
 from .declaration import Limits
 from .margins import classical, robust
 from .results import Classical, Curve, Requirement, Robust
@@ -15,6 +15,7 @@ from .results import Classical, Curve, Requirement, Robust
 LOWEST = 1e-5  # of the Nyquist frequency: below, a linear model's integrators are not resolved
 BELOW = 0.02  # of the lowest gain crossover, from which on a loop is looked at
 COARSE = 600
+LOWER = 0.2  # step down where encirclements cannot be counted from there
 
 
 @dataclass(frozen=True)
@@ -48,12 +49,18 @@ def assess(
     include: Sequence[float] = (),
 ) -> Assessment:
     """All margins between ``low`` and ``high`` (rad/s); ``undamped`` and ``include`` as in `classical`."""
+    response = remembered(response)
     notes: dict[str, str] = {}
-    try:
-        found = classical(response, low, high, sample_period, unstable_open, undamped=undamped, include=include)
-    except ValueError as error:
-        notes["encirclements"] = str(error)
-        found = classical(response, low, high, sample_period, None, undamped=undamped, include=include)
+    while True:
+        try:
+            found = classical(response, low, high, sample_period, unstable_open, undamped=undamped, include=include)
+            break
+        except ValueError as error:  # mostly slow poles that are not yet told from integrators
+            if low <= LOWEST * high:
+                notes["encirclements"] = str(error)
+                found = classical(response, low, high, sample_period, None, undamped=undamped, include=include)
+                break
+            low = max(LOWEST * high, LOWER * low)
     curve = dense(response, low, high, include=include)
     return Assessment(curve, found, robust(response, low, high, include=include), notes)
 

@@ -24,6 +24,26 @@ _NEAR = 0.5  # distance (rad, in log gain, or of -1) within which a closest appr
 _ROUNDING = 1e-9  # distance below which closest approaches are noise
 
 
+class Remembered:
+    """A response that asks another one for each frequency (rad/s) once."""
+
+    def __init__(self, response: Response) -> None:
+        self._response = response
+        self._known: dict[float, np.ndarray] = {}
+
+    def __call__(self, frequency: np.ndarray) -> np.ndarray:
+        asked = np.asarray(frequency, dtype=float).tolist()
+        new = [angular for angular in dict.fromkeys(asked) if angular not in self._known]
+        if new:
+            self._known.update(zip(new, self._response(np.array(new)), strict=True))
+        return np.array([self._known[angular] for angular in asked])
+
+
+def remembered(response: Response) -> Response:
+    """The response with a memory, for several readers of the same curve; one that has a memory is left as it is."""
+    return response if isinstance(response, Remembered) else Remembered(response)
+
+
 def interpolated(frequency: np.ndarray, value: np.ndarray, sample_period: float) -> Response:
     """A response through measured lines: at ``frequency`` (rad/s, increasing, below pi/T) it has ``value``.
 

@@ -54,7 +54,8 @@ class Loop:
     """A loop and where it is cut: ``cut`` is a connector or a vector of connectors, each component a channel.
 
     With ``direction``, a vector of three connectors, the cut is the vector ``cut`` (its size) times ``direction``,
-    with the channels x, y, z. ``returned`` is the signal that comes back where it is not the cut's own, with
+    with the channels x, y, z; with ``direction_rate`` it is the direction that this rate reaches ``ahead`` (s) later.
+    ``returned`` is the signal that comes back where it is not the cut's own, with
     as many components. ``period`` (s): how often the loop passes the cut; None: every communication point.
     ``amplitude``: of an injected signal, in the cut's unit; None: 1 % of what the signal is. ``points`` are names.
     """
@@ -63,6 +64,8 @@ class Loop:
     cut: str
     points: tuple[str, ...]
     direction: str | None = None
+    direction_rate: str | None = None
+    ahead: float = 0.0
     returned: str | None = None
     period: float | None = None
     amplitude: float | None = None

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
-from slycot import ab13md
 
-from analysis.stability.curves import Response, base_grid
+from analysis.stability.curves import Response, base_grid, remembered
 from analysis.stability.margins import disk_gain, disk_phase, highest
+from analysis.stability.structured import scaled_bound
 
 _STEP = 0.05  # largest change of log alpha between neighbouring frequencies
 _MOST = 3000
@@ -29,15 +29,12 @@ class JointDisk(NamedTuple):
 def disk_margins(value: np.ndarray) -> np.ndarray:
     """The disk margin (skew 0) of each L in ``value`` (n, m, m): one over the structured singular value of S - I/2.
 
-    Every channel is scaled by a complex number of its own. The upper bound of the singular value, exact up to
-    three channels, is SLICOT's AB13MD, as in python-control's `disk_margins`, which does not take frequency data.
+    Every channel is scaled by a complex number of its own. The singular value is its upper bound by scaling, exact up
+    to three channels, as in python-control's `disk_margins`, which does not take frequency data.
     Seiler, Packard and Gahinet, "An introduction to disk margins", IEEE Control Systems Magazine 40 (2020).
     """
-    channels = value.shape[-1]
-    identity = np.eye(channels)
-    blocks, complex_ones = np.ones(channels, dtype=int), np.full(channels, 2)
-    balanced = np.linalg.inv(identity + value) - 0.5 * identity
-    bounds = np.array([ab13md(matrix, blocks, complex_ones)[0] for matrix in balanced])
+    identity = np.eye(value.shape[-1])
+    bounds = scaled_bound(np.linalg.inv(identity + value) - 0.5 * identity)
     with np.errstate(divide="ignore"):
         return 1.0 / bounds
 
@@ -48,15 +45,16 @@ def joint_disk_margin(response: Response, low: float, high: float, *, include: I
     It bounds what the loops stand only where the closed loop is stable. ``include`` holds the frequencies of lightly
     damped poles. Raises ValueError when the margin is not resolved over frequency.
     """
+    margins = remembered(lambda angular: disk_margins(response(angular)))
     frequency = base_grid(low, high, include)
-    alphas = disk_margins(response(frequency))
+    alphas = margins(frequency)
     while (coarse := np.flatnonzero(np.abs(np.diff(np.log(alphas))) > _STEP)).size:
         if len(frequency) + len(coarse) > _MOST:
             raise ValueError(f"the disk margin is not resolved by {_MOST} frequencies up to {high:g} rad/s")
         middle = 0.5 * (frequency[coarse] + frequency[coarse + 1])
         frequency = np.insert(frequency, coarse + 1, middle)
-        alphas = np.insert(alphas, coarse + 1, disk_margins(response(middle)))
-    bound, worst = highest(lambda angular: 1.0 / disk_margins(response(angular)), frequency)
+        alphas = np.insert(alphas, coarse + 1, margins(middle))
+    bound, worst = highest(lambda angular: 1.0 / margins(angular), frequency)
     alpha = 1.0 / bound
     place = int(np.searchsorted(frequency, worst))
     if place == len(frequency) or frequency[place] != worst:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from analysis.stability.curves import Response, dense
+from analysis.stability.curves import Response, dense, remembered
 
 _LARGEST_STEP = 0.5 * np.pi  # of the phase between neighbours: beyond it the turn could go either way
 _NOT_A_COUNT = 0.1  # largest distance of the number of turns from an integer
@@ -36,6 +36,7 @@ def encirclements(
     ``low`` is not low enough, or there are other poles on the unit circle.
     """
     undamped = np.sort(np.asarray([*undamped], dtype=float))
+    response = remembered(response)
 
     def difference(frequency: np.ndarray) -> np.ndarray:
         value = np.asarray(response(frequency), dtype=complex)

@@ -10,8 +10,8 @@ from .bench import StudyError
 from .lifted import Port
 from .operating_point import OperatingPoint
 
-STEPS = tuple(10.0**-power for power in range(2, 15))  # of a cell's scale or a signal's size
-LEVELS = 6  # steps in a row, from the largest on that the flight survives
+STEPS = tuple(10.0**-power for power in range(3, 15))  # of a cell's scale or a signal's size
+LEVELS = 4  # steps in a row, from the largest on that the flight survives
 SCREEN = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)  # the first of these that the flight survives tells which cells matter at all
 GOOD = 1e-3  # relative change between neighbouring steps below which a derivative has a plateau
 

@@ -21,6 +21,8 @@ from .channels import Channel
 
 RANK = 1e-9  # of the largest singular value: below, a direction counts as forgotten within a period
 UNIT_CIRCLE = 1e-5  # poles this near to the unit circle count as on it
+_BLOCK = 8  # rows of a triangle that are solved one by one before the others are told at once
+_TOGETHER = 64  # frequencies: arrays stay in the cache and products below the size for which BLAS starts threads
 
 
 @dataclass(frozen=True)
@@ -114,24 +116,38 @@ class LiftedModel:
         """What goes in (u) and comes back (v) at each frequency for a unit of d, both (n, m, m) for m ports."""
         u = np.empty((frequency.size, len(ports), len(ports)), dtype=complex)
         v = np.empty_like(u)
-        # one triangular solve per frequency
-        triangle, unitary = scipy.linalg.schur(self.a, output="complex")
-        b, cu, cv = unitary.conj().T @ self.b, self.cu @ unitary, self.cv @ unitary
-        identity = np.eye(triangle.shape[0])
-        for place, w in enumerate(frequency):
-            drive = np.zeros((self.b.shape[1], len(ports)), dtype=complex)
-            listen = np.zeros((len(ports), self.b.shape[1]), dtype=complex)
-            for number, port in enumerate(ports):
-                wave = np.exp(1j * w * port.seconds * np.arange(port.count))
-                drive[port.rows, number] = wave
-                listen[number, port.rows] = wave.conj() / port.count
-            x = np.zeros((triangle.shape[0], len(ports)), dtype=complex)
-            if triangle.size:
-                shifted = np.exp(1j * w * self.period) * identity - triangle
-                x = scipy.linalg.solve_triangular(shifted, b @ drive, check_finite=False)
-            u[place] = listen @ (cu @ x + self.du @ drive)
-            v[place] = listen @ (cv @ x + self.dv @ drive)
+        _, b, cu, cv = self._triangular
+        for first in range(0, frequency.size, _TOGETHER):
+            chosen = slice(first, first + _TOGETHER)
+            w = frequency[chosen]
+            # the samples of exp(jwt) at each port, (samples, frequencies)
+            waves = [np.exp(1j * np.outer(port.seconds * np.arange(port.count), w)) for port in ports]
+            for column, (source, drive) in enumerate(zip(ports, waves, strict=True)):
+                x = self._resolvent(np.exp(1j * self.period * w), b[:, source.rows] @ drive)
+                for row, (port, wave) in enumerate(zip(ports, waves, strict=True)):
+                    c = np.vstack([cu[port.rows], cv[port.rows]])
+                    d = np.vstack([self.du[port.rows, source.rows], self.dv[port.rows, source.rows]])
+                    samples = np.reshape(c @ x + d @ drive, (2, port.count, -1))
+                    u[chosen, row, column], v[chosen, row, column] = np.mean(samples * wave.conj(), axis=1)
         return u, v
+
+    @cached_property
+    def _triangular(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Complex Schur form of a, and b, cu and cv in its basis."""
+        triangle, unitary = scipy.linalg.schur(self.a, output="complex")
+        return triangle, unitary.conj().T @ self.b, self.cu @ unitary, self.cv @ unitary
+
+    def _resolvent(self, z: np.ndarray, right: np.ndarray) -> np.ndarray:
+        """(z - triangle)^-1 right, of shape (states, n), a column for each z: substitution for all z at once."""
+        triangle = self._triangular[0]
+        shifted = z - triangle.diagonal()[:, None]
+        x = np.array(right, dtype=complex)
+        for end in range(len(x), 0, -_BLOCK):
+            start = max(0, end - _BLOCK)
+            for row in range(end - 1, start - 1, -1):
+                x[row] = (x[row] + triangle[row, row + 1 : end] @ x[row + 1 : end]) / shifted[row]
+            x[:start] += triangle[:start, start:end] @ x[start:end]
+        return x
 
     def response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> np.ndarray:
         """L, minus the transfer from what goes in to what comes back, (n, m, m); other loops closed."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import scipy.linalg
@@ -40,13 +41,13 @@ def linearise(
     jacobian = Jacobian(operating_point)
     count = len(operating_point.memory.cells)
     driven = [
-        plateau(lambda step, port=port, sample=sample: jacobian.input_column(port, sample, step), steps)
+        plateau(partial(jacobian.input_column, port, sample), steps)
         for port in jacobian.ports
         for sample in range(port.count)
     ]
     if cells is None:
         cells = _in_between(np.column_stack([jacobian.screened(cell) for cell in range(count)]), driven)
-    remembered = [plateau(lambda step, cell=cell: jacobian.cell_column(cell, step), steps) for cell in cells]
+    remembered = [plateau(partial(jacobian.cell_column, cell), steps) for cell in cells]
     models = []
     for place in range(2):
         parts = [column[place] for column in remembered]

@@ -21,6 +21,7 @@ from .routes import DOUBTFUL, NOT_LINEAR, LoopModel, agreement, disagreement
 FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, beside itself and its half
 FIRST_LOOK = 1e-3  # of the Nyquist frequency: where a measurement without route A begins
 LOOP_GAIN = 5.0  # a measurement begins low enough when the gain of its lowest line is at least this
+LINES_FROM = 10.0  # of the lowest frequency that is looked at: a fifth of the lowest gain crossover
 STEP_LENGTH = 12.0  # over the lowest crossover: length of a step response
 
 
@@ -44,7 +45,7 @@ class LoopStudy:
         """Route B, from well below the crossover on."""
         try:
             if self.model is not None:
-                self._measure_from(5.0 * lowest_frequency(self.model.response, self.seconds))
+                self._measure_from(LINES_FROM * lowest_frequency(self.model.response, self.seconds))
                 return
             lowest = FIRST_LOOK * self.nyquist
             while True:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from analysis.stability.curves import Response, dense
+from analysis.stability.curves import Response, dense, remembered
 from analysis.stability.encirclements import encirclements
 from analysis.stability.results import Classical, Crossing, Robust
 
@@ -45,6 +45,7 @@ def classical(
     """
     include = [*include]
     undamped = [*undamped]
+    response = remembered(response)
     curve = dense(response, low, high, include=include)
     frequency = curve.frequency
 
@@ -85,6 +86,7 @@ def robust(response: Response, low: float, high: float, *, include: Iterable[flo
 
     They bound what the loop stands only where the closed loop is stable.
     """
+    response = remembered(response)
     frequency = dense(response, low, high, include=include).frequency
 
     def sensitivity(angular: np.ndarray) -> np.ndarray:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from analysis.cosim.system import PreparedSystem, SystemOptions, prepare_system
 from analysis.errors import InputError
 
 from .assessment import decibel, degrees, lowest_frequency
@@ -15,34 +13,24 @@ from .bench import Bench, StudyError
 from .channels import Channel, channels_of
 from .declaration import Limits, Loop, Point
 from .disk import joint_disk_margin
+from .jacobian import STEPS
 from .linearise import Linearisation, linearise
 from .loop_study import LoopStudy
 from .operating_point import OperatingPoint
 from .results import JointReport, PointReport, Requirement
 from .routes import LoopModel, loop_model
+from .subject import Subject
 
 MOST_TRIM = 8  # of the memory that changes most
 TENTH = 0.1  # relative change of L at which the frozen view no longer holds
 
 
-def options_at(point: Point, options: SystemOptions) -> SystemOptions:
-    """A user's options over those of a point: the user's --use and --set win, the point's values win over files."""
-    return replace(
-        options,
-        use={**point.use, **options.use},
-        parameters=(*point.parameters, *options.parameters),
-        set={**point.set, **options.set},
-    )
-
-
 class PointStudy:
     """The loops of one point. Use as a context manager."""
 
-    def __init__(
-        self, system: str, options: SystemOptions, point: Point, loops: Sequence[Loop], varied: Sequence[str] = ()
-    ) -> None:
+    def __init__(self, subject: Subject, point: Point, loops: Sequence[Loop], varied: Sequence[str] = ()) -> None:
         self.point, self.loops = point, tuple(loops)
-        self.prepared: PreparedSystem = prepare_system(system, options_at(point, options))
+        self.prepared = subject.at(point)
         channels = [
             channel for loop in loops for channel in channels_of(loop, self.prepared.network, self.prepared.step)
         ]
@@ -55,11 +43,11 @@ class PointStudy:
     def channels(self) -> tuple[Channel, ...]:
         return self.bench.channels
 
-    def linearise(self) -> None:
-        """Route A, or why it cannot be taken."""
+    def linearise(self, cells: Sequence[int] | None = None, steps: Sequence[float] = STEPS) -> None:
+        """Route A, or why it cannot be taken; ``cells`` and ``steps`` as in `linearise`."""
         try:
             self._start = OperatingPoint(self.bench)
-            self.linear = linearise(self._start)
+            self.linear = linearise(self._start, cells, steps)
         except (InputError, StudyError) as error:
             self.why_not = str(error)
 

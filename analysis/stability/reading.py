@@ -84,7 +84,7 @@ class _Reader:
 
     def limits(self, elements: list[etree._Element]) -> Limits:
         names = [item.name for item in fields(Limits)]
-        values = {}
+        values: dict[str, float | None] = {}
         for element in elements:
             self.attributes(element, (), names)
             values |= {name: self.number(element, name) for name in names if element.get(name) is not None}
@@ -115,7 +115,13 @@ class _Reader:
         return {item["component"]: item["fmu"] for item in found}
 
     def loop(self, element: etree._Element, points: set[str]) -> Loop:
-        found = self.attributes(element, ("name", "cut", "points"), ("direction", "returned", "period", "amplitude"))
+        found = self.attributes(
+            element,
+            ("name", "cut", "points"),
+            ("direction", "direction_rate", "ahead", "returned", "period", "amplitude"),
+        )
+        if ("direction_rate" in found) != ("ahead" in found) or ("ahead" in found and "direction" not in found):
+            raise self.refuse(element, "direction_rate and ahead come together, with a direction", "give all three")
         names = tuple(found["points"].split())
         for name in names:
             if name not in points:
@@ -125,6 +131,8 @@ class _Reader:
             cut=found["cut"],
             points=names,
             direction=found.get("direction"),
+            direction_rate=found.get("direction_rate"),
+            ahead=self.number(element, "ahead") or 0.0,
             returned=found.get("returned"),
             period=self.number(element, "period", positive=True),
             amplitude=self.number(element, "amplitude", positive=True),

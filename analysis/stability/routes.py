@@ -16,6 +16,7 @@ GAIN_AGREES = 10.0 ** (0.1 / 20.0)
 PHASE_AGREES = np.radians(0.5)
 NOT_LINEAR = 0.01  # change of L at half the amplitude
 DOUBTFUL = 0.01  # change of L with the next smaller steps of the differences
+LEAST_LOOK = 0.03
 BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
 
 
@@ -68,7 +69,7 @@ def loop_model(found: Linearisation, port: Port) -> LoopModel:
     nyquist = np.pi / port.seconds
     look = np.geomspace(1e-3, 1.0, 40) * nyquist
     a, b = model.response((port,), look)[:, 0, 0], neighbour.response((port,), look)[:, 0, 0]
-    visible = abs(a) > 1e-3
+    visible = (abs(a) > LEAST_LOOK) & (abs(a) < 1.0 / LEAST_LOOK)  # margins are decided where L is about 1
     change = float(np.max(abs(b[visible] / a[visible] - 1.0), initial=0.0))
     facts = RouteA(
         states=found.states,

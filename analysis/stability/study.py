@@ -11,16 +11,19 @@ from pathlib import Path
 from analysis.batch.plan import BatchPlan, read_plan
 from analysis.cosim.archive import open_system
 from analysis.cosim.description import Description, Reader
-from analysis.cosim.system import PreparedSystem, SystemOptions, prepare_system
+from analysis.cosim.system import PreparedSystem, SystemOptions
 from analysis.errors import InputError, suggestion
 
 from .declaration import Declaration, Limits, Loop, Point
+from .dispersion import dispersed
 from .limit_cycles import element_report
 from .loop_study import LoopStudy
-from .point_study import PointStudy, options_at
+from .point_study import PointStudy
 from .reading import read_declaration
 from .results import Dispersion, LoopReport, StabilityReport
-from .variations import dispersed, sampled, swept
+from .sampling import sampled
+from .subject import Subject
+from .sweep import swept
 
 HERE = "command line"  # name of the point of loops that the command line names
 
@@ -44,7 +47,7 @@ class Study:
         seed: int | None = None,
         trial: int | None = None,
     ) -> None:
-        self.system, self.options = str(system), options
+        self.subject = Subject(str(system), options)
         self.archive = open_system(system)
         self.declaration = self._declared(loops, at)
         self.campaign = campaign
@@ -59,7 +62,7 @@ class Study:
             self._take_trial(trial)
 
     def _description(self) -> Description:
-        name = self.archive.description_name(self.options.variant)
+        name = self.archive.description_name(self.subject.options.variant)
         return Reader(f"{self.archive.label}/{name}", self.archive.read).read(self.archive.read(name, "SSD"))
 
     def _declared(self, names: Sequence[str], at: float | None) -> Declaration:
@@ -98,10 +101,9 @@ class Study:
         plan = replace(self.plan, campaign=replace(self.plan.campaign, compare={}))
         prepared = plan.prepare(plan.campaign.variants()[0])
         drawn = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
-        self.options = replace(
-            self.options,
-            parameters=(*plan.campaign.parameters, *self.options.parameters),
-            set={**plan.campaign.settings, **drawn, **self.options.set},
+        mine = self.subject.options.set
+        self.subject = self.subject.changed(
+            parameters=plan.campaign.parameters, set={**plan.campaign.settings, **drawn, **mine}
         )
         self.plan = None
 
@@ -109,24 +111,31 @@ class Study:
         """Everything; takes up to a minute or so. Raises InputError, StudyError."""
         begun = time.monotonic()
         points, reports, joint, sweeps = [], [], [], []
+        cells: dict[str, list[int]] = {}  # that matter, by point
         provenance: dict = {}
         limits = self.declaration.limits
         for point in self.declaration.points:
             loops = [loop for loop in self.declaration.loops if point.name in loop.points]
             if not loops:
                 continue
-            with PointStudy(self.system, self.options, point, loops) as study:
+            with PointStudy(self.subject, point, loops) as study:
                 study.linearise()
                 here = [self._loop(study, name.name, limits) for name in study.channels]
                 joint += [found for loop in loops if (found := study.joint(loop, limits)) is not None]
                 points.append(study.report())
                 provenance = provenance or study.bench.simulation.provenance()
-            self._vary(point, loops, here)
+                step = study.prepared.step
+                if study.linear is not None:
+                    cells[point.name] = study.linear.cells
+            if point.name in cells:
+                self._vary(point, loops, here, step, cells[point.name])
             reports += here
         for sweep in self.declaration.sweeps:
+            if sweep.point not in cells:
+                continue  # the point's loops say why there is no linear model
             point = next(item for item in self.declaration.points if item.name == sweep.point)
             loop = next(item for item in self.declaration.loops if item.name == sweep.loop)
-            sweeps.append(swept(self.system, self.options, point, loop, sweep, limits))
+            sweeps.append(swept(self.subject, point, loop, sweep, limits, cells[sweep.point]))
         return StabilityReport(
             system=self.archive.name,
             provenance=provenance,
@@ -154,42 +163,37 @@ class Study:
         low, high = assessment.curve.frequency[0], assessment.curve.frequency[-1]
 
         def prepare(use: Mapping[str, str]) -> PreparedSystem:
-            return self._prepared(point.point, use)
+            return self.subject.at(point.point, use)
 
         report.nonlinearities = tuple(
             element_report(element, channel, channel.unit, response, low, high, prepare) for element in loop.elements
         )
         return report
 
-    def _prepared(self, point: Point, use: Mapping[str, str]) -> PreparedSystem:
-        """The system at a point with other FMUs, for a whole flight."""
-        options = options_at(point, self.options)
-        return prepare_system(self.system, replace(options, use={**options.use, **use}))
-
-    def _vary(self, point: Point, loops: Sequence[Loop], reports: Sequence[LoopReport]) -> None:
+    def _vary(
+        self, point: Point, loops: Sequence[Loop], reports: Sequence[LoopReport], step: float, cells: Sequence[int]
+    ) -> None:
         """What needs route A with something changed: the step, the campaign."""
-        if any("route A" in report.not_applicable for report in reports):
-            return
-        steps = sampled(self.system, self.options, point, loops)
+        steps = sampled(self.subject, point, loops, step, cells)
         spread: dict[str, Dispersion] = {}
         if self.plan is not None:
-            spread = dispersed(self.plan, point, loops, self.declaration.limits, self._replay)
+            spread = dispersed(self.subject, self.plan, point, loops, self.declaration.limits, cells, self._replay)
         for report in reports:
-            report.sampling = tuple(steps[report.name])
+            report.sampling = tuple(steps.get(report.name, ()))
             report.dispersion = spread.get(report.name)
 
     def _replay(self, channel: str, trial: int) -> str:
         """The command that studies one trial of one loop again."""
         assert self.plan is not None
         assert self.campaign is not None
-        words = ["perilune", "stability", self.system, "--campaign", self.campaign]
+        words = ["perilune", "stability", self.subject.system, "--campaign", self.campaign]
         words += ["--trial", str(trial), "--seed", str(self.plan.campaign.seed)]
         words += ["--loop", channel.partition("[")[0]]
-        for slot, fmu in self.options.use.items():
+        for slot, fmu in self.subject.options.use.items():
             words += ["--use", f"{slot}={fmu}"]
-        for name in self.options.parameters:
+        for name in self.subject.options.parameters:
             words += ["--parameters", name]
-        for name, value in self.options.set.items():
+        for name, value in self.subject.options.set.items():
             words += ["--set", f"{name}={value}"]
         return shlex.join(words)
 

@@ -1,4 +1,4 @@
-"""The FMUs of exact_systems.py, built once per test run."""
+"""The FMUs of exact_blocks.py, built once per test run."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 @pytest.fixture(scope="session")
 def exact_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder with `python` and `native`."""
-    from exact_systems import build_exact_fmus
+    from exact_blocks import build_exact_fmus
 
     base = tmp_path_factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "exact_fmus"

@@ -10,281 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import control
-import fmpy
 import numpy as np
 from cosim.builders import component, connection, document, inline, pack, system
 from sampled_loops import delay, held
-
-from fmus_src.export.command import main as build_fmus
-
-BLOCKS = '''
-import math
-
-from fmus_src.block import Block, Input, Output, Parameter, State
-
-LONGEST = 32
-
-
-class HeldMass(Block):
-    """x'' = u with u held over a step."""
-
-    start = Parameter(1.0, unit="m", description="position at the start")
-    speed = Parameter(0.0, unit="m/s", description="velocity at the start")
-    u = Input(0.0, unit="m/s2", description="acceleration")
-    position = Output(0.0, unit="m", description="position")
-    velocity = Output(0.0, unit="m/s", description="velocity")
-
-    def initialize(self) -> None:
-        self.position = self.start
-        self.velocity = self.speed
-
-    def step(self, t: float, h: float) -> None:
-        self.position = self.position + h * (self.velocity + 0.5 * h * self.u)
-        self.velocity = self.velocity + h * self.u
-
-
-class HeldPendulum(Block):
-    """x'' = rate^2 x + u, an upright pendulum, with u held over a step."""
-
-    rate = Parameter(0.5, unit="rad/s", description="of falling")
-    start = Parameter(0.1, unit="rad", description="angle at the start")
-    u = Input(0.0, unit="rad/s2", description="angular acceleration")
-    position = Output(0.0, unit="rad", description="angle")
-    velocity = Output(0.0, unit="rad/s", description="rate of the angle")
-
-    def initialize(self) -> None:
-        self.position = self.start
-
-    def step(self, t: float, h: float) -> None:
-        c = math.cosh(self.rate * h)
-        s = math.sinh(self.rate * h)
-        rest = -self.u / (self.rate * self.rate)  # where it would stand still
-        away = self.position - rest
-        x = rest + c * away + s * self.velocity / self.rate
-        self.velocity = self.rate * s * away + c * self.velocity
-        self.position = x
-
-
-class HeldResonance(Block):
-    """x'' + 2 damping rate x' + rate^2 x = rate^2 u with u held over a step."""
-
-    rate = Parameter(1.0, unit="rad/s", description="undamped natural frequency")
-    damping = Parameter(0.1, unit="1", description="damping ratio, below 1")
-    start = Parameter(1.0, unit="m", description="x at the start")
-    u = Input(0.0, unit="m", description="input")
-    position = Output(0.0, unit="m", description="x")
-    velocity = Output(0.0, unit="m/s", description="x'")
-
-    def initialize(self) -> None:
-        self.position = self.start
-
-    def step(self, t: float, h: float) -> None:
-        sigma = self.damping * self.rate
-        w = self.rate * math.sqrt(1.0 - self.damping * self.damping)
-        e = math.exp(-sigma * h)
-        c = math.cos(w * h)
-        s = math.sin(w * h)
-        away = self.position - self.u
-        sine = (self.velocity + sigma * away) / w
-        x = self.u + e * (away * c + sine * s)
-        self.velocity = e * ((sine * w - sigma * away) * c - (away * w + sigma * sine) * s)
-        self.position = x
-
-
-class HeldPair(Block):
-    """x1'' = u1 + coupling u2, x2'' = u2 - coupling u1 with both held over a step."""
-
-    coupling = Parameter(0.4, unit="1", description="of each input into the other axis")
-    start = Parameter([1.0, -0.5], unit="m", description="positions at the start")
-    u = Input([0.0, 0.0], unit="m/s2", description="accelerations")
-    position = Output([0.0, 0.0], unit="m", description="positions")
-    velocity = Output([0.0, 0.0], unit="m/s", description="velocities")
-
-    def initialize(self) -> None:
-        for i in range(2):
-            self.position[i] = self.start[i]
-
-    def step(self, t: float, h: float) -> None:
-        a = [0.0, 0.0]
-        a[0] = self.u[0] + self.coupling * self.u[1]
-        a[1] = self.u[1] - self.coupling * self.u[0]
-        for i in range(2):
-            self.position[i] = self.position[i] + h * (self.velocity[i] + 0.5 * h * a[i])
-            self.velocity[i] = self.velocity[i] + h * a[i]
-
-
-class Late(Block):
-    """y is u of some steps ago."""
-
-    samples = Parameter(1, minimum=1, maximum=LONGEST, description="steps")
-    u = Input(0.0, description="input")
-    y = Output(0.0, description="output")
-    line = State([0.0] * LONGEST, description="inputs to come out, the next one first")
-
-    def step(self, t: float, h: float) -> None:
-        self.line[self.samples - 1] = self.u
-        self.y = self.line[0]
-        for i in range(LONGEST - 1):
-            self.line[i] = self.line[i + 1]
-
-
-class Difference(Block):
-    """y = -(proportional u + derivative (u - u of the last sample)/period)."""
-
-    sample_period = Parameter(0.0, unit="s", minimum=0.0, description="of control; 0: every step")
-    proportional = Parameter(0.2, description="gain")
-    derivative = Parameter(0.6, unit="s", description="gain of the rate")
-    u = Input(0.0, description="input")
-    y = Output(0.0, direct=True, description="command")
-    last = State(0.0, description="u of the last sample")
-
-    def initialize(self) -> None:
-        self.y = -self.proportional * self.u
-        self.last = self.u
-
-    def step(self, t: float, h: float) -> None:
-        period = h
-        if self.sample_period > 0.0:
-            period = self.sample_period
-        self.y = -(self.proportional * self.u + self.derivative * (self.u - self.last) / period)
-        self.last = self.u
-
-
-class DifferencePair(Block):
-    """Difference twice, as vectors."""
-
-    sample_period = Parameter(0.0, unit="s", minimum=0.0, description="of control; 0: every step")
-    proportional = Parameter([0.2, 0.3], description="gains")
-    derivative = Parameter([0.6, 0.9], unit="s", description="gains of the rates")
-    u = Input([0.0, 0.0], unit="m", description="inputs")
-    y = Output([0.0, 0.0], direct=True, unit="m/s2", description="commands")
-    last = State([0.0, 0.0], description="u of the last sample")
-
-    def initialize(self) -> None:
-        for i in range(2):
-            self.y[i] = -self.proportional[i] * self.u[i]
-            self.last[i] = self.u[i]
-
-    def step(self, t: float, h: float) -> None:
-        period = h
-        if self.sample_period > 0.0:
-            period = self.sample_period
-        for i in range(2):
-            rate = (self.u[i] - self.last[i]) / period
-            self.y[i] = -(self.proportional[i] * self.u[i] + self.derivative[i] * rate)
-            self.last[i] = self.u[i]
-
-
-class LowPass(Block):
-    """y = -gain g with g = keep g + (1 - keep) u at every sample."""
-
-    sample_period = Parameter(0.0, unit="s", minimum=0.0, description="of control; 0: every step")
-    keep = Parameter(0.8, unit="1", description="share of g that stays")
-    gain = Parameter(0.5, unit="1", description="at rest")
-    u = Input(0.0, unit="m", description="input")
-    y = Output(0.0, direct=True, unit="m", description="command")
-    g = State(0.0, unit="m", description="filtered input")
-
-    def initialize(self) -> None:
-        self.g = self.u
-        self.y = -self.gain * self.g
-
-    def step(self, t: float, h: float) -> None:
-        self.g = self.keep * self.g + (1.0 - self.keep) * self.u
-        self.y = -self.gain * self.g
-
-
-class TustinLead(Block):
-    """y = -gain (lead s + 1)/(lag s + 1) u by Tustin's rule at every step."""
-
-    gain = Parameter(0.01, description="at rest")
-    lead = Parameter(20.0, unit="s", description="time of the zero")
-    lag = Parameter(2.0, unit="s", description="time of the pole")
-    u = Input(0.0, unit="m", description="input")
-    y = Output(0.0, direct=True, unit="m/s2", description="command")
-    last_u = State(0.0, unit="m", description="u of the last step")
-
-    def initialize(self) -> None:
-        self.y = -self.gain * self.u
-        self.last_u = self.u
-
-    def step(self, t: float, h: float) -> None:
-        change = (2.0 * self.lead + h) * self.u - (2.0 * self.lead - h) * self.last_u
-        self.y = ((2.0 * self.lag - h) * self.y - self.gain * change) / (2.0 * self.lag + h)
-        self.last_u = self.u
-
-
-class UnitGain(Block):
-    """y = u."""
-
-    u = Input(0.0, unit="m/s2", description="input")
-    y = Output(0.0, direct=True, unit="m/s2", description="output")
-
-    def initialize(self) -> None:
-        self.y = self.u
-
-    def step(self, t: float, h: float) -> None:
-        self.y = self.u
-
-
-class ThreeLevelRelay(Block):
-    """y = level with the sign of u, 0 within the dead zone."""
-
-    level = Parameter(0.06, unit="m/s2", description="size of y")
-    dead_zone = Parameter(0.02, unit="m/s2", description="largest u without an answer")
-    u = Input(0.0, unit="m/s2", description="input")
-    y = Output(0.0, direct=True, unit="m/s2", description="output")
-
-    def initialize(self) -> None:
-        self.answer()
-
-    def answer(self) -> None:
-        self.y = 0.0
-        if self.u > self.dead_zone:
-            self.y = self.level
-        if self.u < -self.dead_zone:
-            self.y = -self.level
-
-    def step(self, t: float, h: float) -> None:
-        self.answer()
-
-
-class NoisyCounter(Block):
-    """y = u and uniform noise from a Lehmer generator; counts its steps."""
-
-    seed = Parameter(1234.0, description="first state of the generator")
-    sigma = Parameter(0.0, unit="m", description="size of the noise")
-    u = Input(0.0, unit="m", description="input")
-    y = Output(0.0, unit="m", direct=True, description="output")
-    count = Output(0, description="steps taken")
-    even = Output(True, description="count is even")
-    generator = State(1.0, random=True, description="last random number")
-    mean = State([0.0, 0.0], unit="m", description="of the outputs, slow and slower")
-
-    def initialize(self) -> None:
-        self.generator = self.seed
-        self.y = self.u
-
-    def step(self, t: float, h: float) -> None:
-        self.generator = math.fmod(16807.0 * self.generator, 2147483647.0)
-        self.y = self.u + self.sigma * (self.generator / 1073741823.5 - 1.0)
-        self.count = self.count + 1
-        self.even = self.count % 2 == 0
-        self.mean[1] = self.mean[1] + 0.1 * (self.mean[0] - self.mean[1])
-        self.mean[0] = self.mean[0] + 0.1 * (self.y - self.mean[0])
-'''
-
-
-def build_exact_fmus(folder: Path) -> None:
-    """Build the blocks above into ``folder``/native and ``folder``/python."""
-    folder.mkdir(parents=True)
-    blocks = folder / "exact_blocks.py"
-    blocks.write_text(BLOCKS)
-    arguments = ["--blocks", str(blocks), "--output", str(folder), "--platform", fmpy.platform]
-    assert build_fmus(arguments) == 0
-    for flavour in ("native", "python"):
-        (folder / "fmus" / flavour).rename(folder / flavour)
-
 
 def with_stability(ssd: str, inside: str) -> str:
     """The description with an annotation around the elements of Stability, on lines of their own."""
@@ -354,7 +82,7 @@ def wires(*names: str) -> str:
 
 
 def ring(
-    parts: dict[str, tuple[str, str, str, str]], step: float, stop: float, stability: str, width: int = 1
+    parts: dict[str, tuple[str, str, str, str]], step: float, stop: float, stability: str = "", width: int = 1
 ) -> str:
     """A description of components in a ring: name -> (fmu, input, output, parameters), vectors of ``width``."""
     marks = [""] if width == 1 else [f"[{place}]" for place in range(1, width + 1)]
@@ -370,22 +98,28 @@ def ring(
     around = "".join(
         wires(*(f"{name}.{into}{mark}.{out}{mark}" for name, (_, into, out, _) in parts.items())) for mark in marks
     )
-    return with_stability(document(system(*components, connections=around), stop=stop, step=step), stability)
+    ssd = document(system(*components, connections=around), stop=stop, step=step)
+    return with_stability(ssd, stability) if stability else ssd
 
 
-def stability_of(period: float, time: float, cut: str = "control.y") -> str:
-    """One loop at one point."""
-    return f'<Point name="there" time="{time}"/><Loop name="loop" cut="{cut}" points="there" period="{period}"/>'
+def stability_of(period: float | None, time: float) -> str:
+    """One loop, cut behind its controller, at one point; ``period`` (s) None: it passes at every step."""
+    rate = f'period="{period}"' if period is not None else ""
+    return f'<Point name="there" time="{time}"/>\n<Loop name="loop" cut="control.y" points="there" {rate}/>'
 
 
-def late_double_integrator(every: int) -> ExactSystem:
-    """Proportional and derivative control of 1/s^2 over three steps of delay; control at every n-th step."""
-    step, samples = 0.25, 3
+def sampling(every: int, step: float) -> tuple[float, float | None, str]:
+    """Period of control (s), as declared and as a parameter: at every step, or at every n-th."""
     period = every * step
-    kp, kd = 0.02, 0.22
-    sampled = f"proportional=Real:{kp}; derivative=Real:{kd}; sample_period=Real:{period if every > 1 else 0.0}"
+    return (period, period, f"; sample_period=Real:{period}") if every > 1 else (period, None, "")
+
+
+def late_double_integrator(every: int = 1, step: float = 0.25) -> ExactSystem:
+    """Proportional and derivative control of 1/s^2 over three steps of delay; control at every n-th step."""
+    samples, kp, kd = 3, 0.02, 0.22
+    period, declared, sampled = sampling(every, step)
     parts = {
-        "control": ("difference", "u", "y", sampled),
+        "control": ("difference", "u", "y", f"proportional=Real:{kp}; derivative=Real:{kd}{sampled}"),
         "late": ("late", "u", "y", f"samples=Integer:{samples}"),
         "plant": ("held_mass", "u", "position", ""),
     }
@@ -394,63 +128,75 @@ def late_double_integrator(every: int) -> ExactSystem:
     loop = difference(kp, kd, period) * plant
     if whole:
         loop = loop * delay(whole, period)
-    ssd = ring(parts, step, 60.0, stability_of(period, 20.0))
-    return ExactSystem("late_double_integrator", ssd, loop, step)
+    return ExactSystem("late_double_integrator", ring(parts, step, 60.0, stability_of(declared, 20.0)), loop, step)
 
 
-def resonance(every: int) -> ExactSystem:
+def resonance(every: int = 1, step: float = 0.1) -> ExactSystem:
     """A resonance behind a low pass, of third order: the gain is above 1 around the resonance only."""
-    step = 0.1
-    period = every * step
-    rate, damping, gain = 2.0, 0.1, 0.4
-    keep = 0.9 if every == 1 else 0.7
-    sampled = f"keep=Real:{keep}; gain=Real:{gain}; sample_period=Real:{period if every > 1 else 0.0}"
+    rate, damping, gain = 2.0, 0.1, 0.5
+    keep = 0.5 if every == 1 else 0.7
+    period, declared, sampled = sampling(every, step)
     parts = {
-        "control": ("low_pass", "u", "y", sampled),
+        "control": ("low_pass", "u", "y", f"keep=Real:{keep}; gain=Real:{gain}{sampled}"),
         "plant": ("held_resonance", "u", "position", f"rate=Real:{rate}; damping=Real:{damping}"),
     }
     filtered = control.ss(keep, 1.0 - keep, gain * keep, gain * (1.0 - keep), period)
     plant = control.tf(rate**2, [1.0, 2.0 * damping * rate, rate**2])
-    ssd = ring(parts, step, 40.0, stability_of(period, 4.0))
+    ssd = ring(parts, step, 40.0, stability_of(declared, 4.0))
     return ExactSystem("resonance", ssd, filtered * held(plant, period), step)
 
 
-def pendulum(every: int) -> ExactSystem:
+def pendulum(every: int = 1, step: float = 0.05) -> ExactSystem:
     """An upright pendulum, unstable, over one step of delay."""
-    step, rate = 0.05, 1.2
-    period = every * step
-    kp, kd = 4.0, 2.6
-    sampled = f"proportional=Real:{kp}; derivative=Real:{kd}; sample_period=Real:{period if every > 1 else 0.0}"
+    rate, kp, kd = 1.2, 4.0, 2.6
+    period, declared, sampled = sampling(every, step)
     parts = {
-        "control": ("difference", "u", "y", sampled),
+        "control": ("difference", "u", "y", f"proportional=Real:{kp}; derivative=Real:{kd}{sampled}"),
         "late": ("late", "u", "y", "samples=Integer:1"),
         "plant": ("held_pendulum", "u", "position", f"rate=Real:{rate}"),
     }
     plant = control.ss(control.tf(1.0, [1.0, 0.0, -(rate**2)]))
-    if every == 1:
-        loop = difference(kp, kd, period) * held_late(plant, period, 0.0) * delay(1, period)
-    else:
-        loop = difference(kp, kd, period) * held_late(plant, period, step)
-    ssd = ring(parts, step, 30.0, stability_of(period, 3.0))
-    return ExactSystem("pendulum", ssd, loop, step)
+    law = difference(kp, kd, period)
+    loop = law * held_late(plant, period, step) if every > 1 else law * held(plant, period) * delay(1, period)
+    return ExactSystem("pendulum", ring(parts, step, 30.0, stability_of(declared, 3.0)), loop, step)
 
 
-def coupled_pair(every: int) -> ExactSystem:
-    """Two coupled double integrators with a controller for each, over one step of delay in each axis."""
-    step, coupling = 0.1, 0.4
-    period = every * step
-    kp, kd = (0.5, 0.9), (0.9, 1.3)
-    values = "; ".join(
-        f"proportional[{i}]=Real:{kp[i - 1]}; derivative[{i}]=Real:{kd[i - 1]}" for i in (1, 2)
-    )
-    sampled = f"{values}; sample_period=Real:{period if every > 1 else 0.0}"
+def coupled_pair(every: int = 1, step: float = 0.1) -> ExactSystem:
+    """Two coupled double integrators with a controller for each."""
+    coupling, kp, kd = 0.4, (0.5, 0.9), (0.9, 1.3)
+    period, declared, sampled = sampling(every, step)
+    gains = "; ".join(f"proportional[{i}]=Real:{kp[i - 1]}; derivative[{i}]=Real:{kd[i - 1]}" for i in (1, 2))
     parts = {
-        "control": ("difference_pair", "u", "y", sampled),
+        "control": ("difference_pair", "u", "y", gains + sampled),
         "plant": ("held_pair", "u", "position", f"coupling=Real:{coupling}"),
     }
     zero, one = np.zeros((2, 2)), np.eye(2)
     into = np.array([[1.0, coupling], [-coupling, 1.0]])
     plant = control.ss(np.block([[zero, one], [zero, zero]]), np.vstack([zero, into]), np.hstack([one, zero]), zero)
     both = control.append(*(difference(p, d, period) for p, d in zip(kp, kd, strict=True)))
-    ssd = ring(parts, step, 30.0, stability_of(period, 2.0), width=2)
-    return ExactSystem("coupled_pair", ssd, both * held_late(plant, period, 0.0), step)
+    ssd = ring(parts, step, 30.0, stability_of(declared, 2.0), width=2)
+    return ExactSystem("coupled_pair", ssd, both * held(plant, period), step)
+
+
+def relay_loop(relay: Path) -> ExactSystem:
+    """A lead, a relay with dead zone, a delay and a double integrator; a unit gain in the relay's slot.
+
+    A flight with ``relay``, an FMU, starts far above the unstable limit cycle; ``loop`` is the linear rest.
+    """
+    step, samples, gain, lead, lag = 0.25, 16, 0.01, 20.0, 2.0
+    parts = {
+        "lead": ("tustin_lead", "u", "y", f"gain=Real:{gain}; lead=Real:{lead}; lag=Real:{lag}"),
+        "jets": ("unit_gain", "u", "y", ""),
+        "late": ("late", "u", "y", f"samples=Integer:{samples}"),
+        "plant": ("held_mass", "u", "position", "start=Real:5.97"),
+    }
+    stability = (
+        '<Point name="rest" time="0"/>\n'
+        '<Loop name="relay" cut="lead.y" points="rest" amplitude="0.01">\n'
+        '<Element name="jets" kind="relay" level="0.06" dead_zone="0.02">\n'
+        f'<Use component="jets" fmu="{relay}"/></Element></Loop>'
+    )
+    compensator = control.c2d(control.ss(control.tf([gain * lead, gain], [lag, 1.0])), step, "bilinear")
+    plant = held(control.tf(1.0, [1.0, 0.0, 0.0]), step)
+    loop = compensator * plant * delay(samples, step)
+    return ExactSystem("relay_loop", ring(parts, step, 1800.0, stability), loop, step)

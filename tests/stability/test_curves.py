@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from stability.sampled_loops import HeldDoubleIntegrator, response_of
 
-from analysis.stability.curves import dense, interpolated
+from analysis.stability.curves import dense, interpolated, remembered
 from analysis.stability.margins import classical
 
 LOOP = HeldDoubleIntegrator(period=0.5, samples=1, phase_crossover=0.6, gain_crossover=0.3)
@@ -83,6 +83,35 @@ def test_a_touch_of_the_unit_circle_is_not_missed() -> None:
     assert len(found.phase) == 2
     for crossing in found.phase:
         assert crossing.frequency == pytest.approx(np.sqrt(1.0 - 2.0 * damping**2), rel=1e-3)
+
+
+def test_a_remembered_response_is_asked_for_each_frequency_once() -> None:
+    asked: list[float] = []
+
+    def loops(frequency: np.ndarray) -> np.ndarray:
+        asked.extend(frequency)
+        return frequency[:, None, None] * np.array([[1.0, 2.0j], [3.0, 4.0]])
+
+    response = remembered(loops)
+    assert remembered(response) is response
+    first = np.array([3.0, 1.0, 3.0])
+    np.testing.assert_array_equal(response(first), loops(first))
+    del asked[:]
+    again = np.array([2.0, 1.0])
+    np.testing.assert_array_equal(response(again)[:, 1, 1], [8.0, 4.0])
+    assert asked == [2.0]
+
+
+def test_margins_ask_for_each_frequency_once() -> None:
+    asked: list[float] = []
+    exact = response_of(LOOP.system)
+
+    def response(frequency: np.ndarray) -> np.ndarray:
+        asked.extend(frequency.tolist())
+        return exact(frequency)
+
+    classical(response, 1e-2, np.pi / LOOP.period, LOOP.period, 0)
+    assert len(set(asked)) == len(asked)
 
 
 def test_refuses_what_it_cannot_resolve() -> None:

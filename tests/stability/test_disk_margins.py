@@ -41,6 +41,22 @@ def test_two_coupled_loops_equal_python_control(system: control.StateSpace) -> N
     assert np.min(control.disk_margins(system, fine, returnall=True)[0]) >= found.alpha * (1.0 - 1e-9)
 
 
+def three_coupled() -> control.StateSpace:
+    loops = [held(gain * (S + 0.1) / S**2, 1.0) * delay(1, 1.0) for gain in (0.3, 0.2, 0.1)]
+    return control.append(*loops) * control.ss([], [], [], [[1.0, 0.4, -0.2], [-0.3, 0.8, 0.1], [0.2, -0.5, 0.9]], 1.0)
+
+
+def test_three_coupled_loops_equal_python_control() -> None:
+    system = three_coupled()
+    found = joint_disk_margin(response_of(system), 1e-2, np.pi)
+    assert outside(system) == 0
+    # the precision is that of the reference, SLICOT's AB13MD
+    alphas = control.disk_margins(system, found.frequencies[::5], returnall=True)[0]
+    np.testing.assert_allclose(found.alphas[::5], alphas, rtol=1e-7)
+    fine = np.linspace(0.98 * found.frequency, 1.02 * found.frequency, 21)
+    assert np.min(control.disk_margins(system, fine, returnall=True)[0]) >= found.alpha * (1.0 - 1e-7)
+
+
 @given(random_loops())
 @settings(max_examples=10)
 def test_one_loop_equals_the_closed_form(system: control.StateSpace) -> None:
@@ -58,7 +74,7 @@ def test_loops_without_coupling_have_the_least_of_their_margins(seed: int) -> No
     random = np.random.default_rng(seed)
     values = random.normal(size=(4, 3)) + 1j * random.normal(size=(4, 3))
     joint = disk_margins(np.array([np.diag(row) for row in values]))
-    np.testing.assert_allclose(joint, np.min(1.0 / np.abs(1.0 / (1.0 + values) - 0.5), axis=1), rtol=1e-6)
+    np.testing.assert_allclose(joint, np.min(1.0 / np.abs(1.0 / (1.0 + values) - 0.5), axis=1), rtol=1e-9)
 
 
 def test_no_gain_or_phase_within_the_disk_makes_the_loops_unstable_and_one_on_it_does() -> None:

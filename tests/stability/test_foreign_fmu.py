@@ -1,0 +1,118 @@
+"""A loop of FMUs that are not ours, in C by hand and of stock pythonfmu: no memory, no units, so by injection only.
+
+Truth: an integrator over one step of delay. With g = gain times step and a = w step, |L| = g/(2 sin(a/2)) and its
+phase is -pi/2 - 3a/2, so the gain margin is 1/g and the phase margin pi/2 - 3 asin(g/2).
+"""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from cosim.builders import component, connection, document, pack, system
+from foreign_fmus import build_foreign_fmus
+
+import perilune
+from analysis.cli import main
+from analysis.stability.assessment import decibel, degrees
+
+STEP, GAIN = 0.1, 4.0
+G = GAIN * STEP
+GAIN_MARGIN, PHASE_MARGIN = -20.0 * math.log10(G), math.degrees(0.5 * math.pi - 3.0 * math.asin(0.5 * G))
+ENDS = "input u Real; output y Real"
+
+
+@pytest.fixture(scope="module")
+def foreign(tmp_path_factory):
+    return build_foreign_fmus(tmp_path_factory.mktemp("foreign"))
+
+
+@pytest.fixture(scope="module")
+def path(foreign):
+    wires = connection("law.y", "plant.u") + connection("plant.y", "law.u")
+    parts = component("law", "law", ENDS), component("plant", "integrator", ENDS)
+    return pack(foreign / "foreign.ssp", foreign, document(system(*parts, connections=wires), stop=10.0, step=STEP))
+
+
+def assert_margins(loop):
+    assert decibel(loop.classical.gain_margin.value) == pytest.approx(GAIN_MARGIN, abs=0.01)
+    assert degrees(loop.classical.phase_margin.value) == pytest.approx(PHASE_MARGIN, abs=0.05)
+
+
+@pytest.mark.parametrize("cut", ["law.y", "plant.y", "law.u"])
+def test_by_injection_wherever_it_is_cut(path, cut):
+    report = perilune.stability(path, loops=[cut], at=1.0)
+    (loop,) = report.loops
+    assert_margins(loop)
+    assert (loop.cut, loop.unit, loop.sample_period) == (cut, None, pytest.approx(STEP))
+    assert loop.classical.gain_margin.frequency == pytest.approx(math.pi / 3.0 / STEP, rel=1e-4)
+    assert loop.route_b.half_amplitude_change < 1e-9
+    assert loop.route_b.unexcited < 1e-9
+    frequency, value = loop.route_b.curve.frequency, loop.route_b.curve.value
+    z = np.exp(1j * frequency * STEP)
+    assert abs(value * z * (z - 1.0) / G - 1.0).max() < 1e-4
+
+
+def test_route_a_is_not_applicable_and_says_why(path):
+    report = perilune.stability(path, loops=["law.y"], at=1.0)
+    (loop,) = report.loops
+    assert "law.fmu" in loop.not_applicable["route A"]
+    assert "does not tell how it serialises its memory" in loop.not_applicable["route A"]
+    assert (loop.route_a, loop.agreement, loop.structure, loop.dispersion) == (None, None, None, None)
+    assert (loop.modes, loop.sampling, len(loop.poles_z)) == ((), (), 0)
+    assert (loop.stable, loop.unstable_open, loop.classical.encirclements) == (None, None, None)
+    judged = {requirement.quantity: requirement.passed for requirement in loop.requirements}
+    assert judged == {"largest multiplier": None, "gain margin": True, "phase margin": True, "modulus margin": True}
+    assert loop.verdict == report.verdict == "pass"
+
+
+def test_the_command_line(path, tmp_path, capsys):
+    page, file = tmp_path / "report.html", tmp_path / "report.json"
+    options = ["--loop", "law.y", "--at", "1", "--report", str(page), "--json", str(file)]
+    assert main(["stability", str(path), *options]) == 0
+    found = json.loads(file.read_text())
+    (loop,) = found["loops"]
+    assert loop["cut"] == "law.y"
+    assert loop["gain_margin_db"] == pytest.approx(GAIN_MARGIN, abs=0.01)
+    assert loop["phase_margin_deg"] == pytest.approx(PHASE_MARGIN, abs=0.05)
+    assert loop["delay_margin_s"] == pytest.approx(math.radians(PHASE_MARGIN) * STEP / (2.0 * math.asin(0.5 * G)), 1e-3)
+    assert "law.fmu" in loop["not_applicable"]["route A"]
+    assert loop["poles_z"] == []
+    assert page.read_text().lower().startswith("<!doctype html")
+    assert "law.y at command line: 7.96 dB, 55.39 deg" in capsys.readouterr().out
+
+
+def test_exit_status_1_and_one_line_per_failed_requirement(path, capsys):
+    """With g = 0.8 the margins are 1.9 dB and 19.3 deg, and -1 is as near as this."""
+    z = np.exp(1j * np.linspace(0.1, math.pi, 100001))
+    modulus = np.min(abs(1.0 + 0.8 / (z * (z - 1.0))))
+    assert main(["stability", str(path), "--loop", "law.y", "--set", "law.gain=8"]) == 1
+    lines = capsys.readouterr().err.splitlines()
+    assert [line.partition(": loop law.y at command line: ")[2] for line in lines] == [
+        "gain margin 1.938 dB misses the limit 6 dB",
+        "phase margin 19.27 deg misses the limit 30 deg",
+        f"modulus margin {modulus:.4g} misses the limit 0.5",
+    ]
+
+
+def test_a_loop_that_runs_away_is_no_report(path):
+    with pytest.raises(perilune.StudyError, match=r"route A: .*route B: the flight .* ended early \(nonfinite"):
+        perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": 21.0})
+
+
+@pytest.mark.parametrize(
+    ("loop", "words"),
+    [
+        ("law.z", r"no connector law\.z"),
+        ("law", "the SSD names no such loop"),
+        ("plant.y[1]", "no connector"),
+    ],
+)
+def test_a_cut_that_is_not_there(path, loop, words):
+    with pytest.raises(perilune.InputError, match=words):
+        perilune.stability(path, loops=[loop])
+
+
+def test_a_system_without_loops(path):
+    with pytest.raises(perilune.InputError, match="declares no loops.*--loop"):
+        perilune.stability(path)
