@@ -20,6 +20,9 @@ import scipy.linalg
 from .channels import Channel
 
 RANK = 1e-9  # of the largest singular value: below, a direction counts as forgotten within a period
+SHARE = 1e-7
+LOWEST, LOOKS = 1e-4, 24  # frequencies, over the Nyquist frequency, at which shares are looked at
+QUIET = 1e-6  # response below which nothing has a share
 UNIT_CIRCLE = 1e-5  # poles this near to the unit circle count as on it
 _BLOCK = 8  # rows of a triangle that are solved one by one before the others are told at once
 _TOGETHER = 64  # frequencies: arrays stay in the cache and products below the size for which BLAS starts threads
@@ -58,12 +61,23 @@ class LiftedModel:
     ports: tuple[Port, ...]
 
     def reduced(self, ports: tuple[Port, ...]) -> LiftedModel:
-        """The part of the memory that the ports both move and are moved by, through whatever lies between."""
+        """The part of the memory that the ports both move and are moved by, through whatever lies between.
+
+        Of that, cells whose share of what comes back is below SHARE at all frequencies are left out: they are moved by
+        rounding, or move by rounding, as the covariance of a filter does where its innovations vanish.
+        """
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
         moved = reached(self.a != 0.0, np.any(self.b[:, rows] != 0.0, axis=1))
         heard = np.any(self.cu[rows] != 0.0, axis=0) | np.any(self.cv[rows] != 0.0, axis=0)
         moves = reached(self.a.T != 0.0, heard)
-        kept = np.flatnonzero(moved & moves)
+        connected = self._part(np.flatnonzero(moved & moves))
+        if not connected.a.size:
+            return connected
+        share = np.max([connected._shares(port) for port in ports], axis=0)
+        return connected._part(np.flatnonzero(share > SHARE))
+
+    def _part(self, kept: np.ndarray) -> LiftedModel:
+        """The model of some of the cells."""
         return LiftedModel(
             self.a[np.ix_(kept, kept)],
             self.b[kept],
@@ -75,6 +89,20 @@ class LiftedModel:
             self.period,
             self.ports,
         )
+
+    def _shares(self, port: Port) -> np.ndarray:
+        """By cell: the largest relative change of what comes back, at any frequency, per relative change of the cell."""
+        shares = np.zeros(len(self.a))
+        identity = np.eye(len(self.a))
+        for w in np.geomspace(LOWEST, 1.0, LOOKS) * np.pi / port.seconds:
+            wave = np.exp(1j * w * port.seconds * np.arange(port.count))
+            shifted = np.exp(1j * w * self.period) * identity - self.a
+            moved = np.linalg.solve(shifted, self.b[:, port.rows] @ wave)
+            heard = wave.conj() @ self.cv[port.rows]
+            moves = np.linalg.solve(shifted.T, heard)
+            whole = abs(heard @ moved + wave.conj() @ (self.dv[port.rows, port.rows] @ wave))
+            shares = np.maximum(shares, abs(moved * moves) / max(whole, QUIET))
+        return shares
 
     @cached_property
     def lasting(self) -> LiftedModel:

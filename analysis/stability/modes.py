@@ -20,12 +20,17 @@ def modes(model: LiftedModel, port: Port) -> tuple[Mode, ...]:
     values, left, right = scipy.linalg.eig(lasting.a, left=True, right=True)
     into = np.linalg.norm(left.conj().T @ lasting.b[:, port.rows], axis=1)
     out = np.linalg.norm(lasting.cu[port.rows] @ right, axis=0)
+    overlap = abs(np.sum(left.conj() * right, axis=0))
+    residue = into * out / np.maximum(overlap, np.finfo(float).tiny)
+    residue = residue / (np.max(residue) or 1.0)
     into, out = into / (np.max(into) or 1.0), out / (np.max(out) or 1.0)
     found = []
     for place in np.argsort(-abs(values), kind="stable"):
         z = complex(values[place])
         s = np.log(z) / model.period
         moved, seen = into[place] > APART, out[place] > APART
+        if residue[place] <= APART:  # the weaker side is the one that is missing
+            moved, seen = moved and into[place] >= out[place], seen and out[place] > into[place]
         kind = {(True, True): "loop", (False, True): "not controllable", (True, False): "not observable"}
         found.append(
             Mode(

@@ -1,7 +1,7 @@
 """Margins of a sampled state space by python-control, with what its functions leave out.
 
-Crossings are those of `stability_margins` on a frequency response as dense as its spline needs for 1e-5 dB; it has none at the
-ends, where L is real: frequency 0 and the Nyquist frequency.
+Crossings are those of `stability_margins` on a frequency response as dense as its spline needs for 1e-5 dB; it has
+none at the ends, where L is real: frequency 0 and the Nyquist frequency.
 """
 
 from __future__ import annotations

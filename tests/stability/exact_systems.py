@@ -14,6 +14,7 @@ import numpy as np
 from cosim.builders import component, connection, document, inline, pack, system
 from sampled_loops import delay, held
 
+
 def with_stability(ssd: str, inside: str) -> str:
     """The description with an annotation around the elements of Stability, on lines of their own."""
     note = (

@@ -114,5 +114,5 @@ def test_a_cut_that_is_not_there(path, loop, words):
 
 
 def test_a_system_without_loops(path):
-    with pytest.raises(perilune.InputError, match="declares no loops.*--loop"):
+    with pytest.raises(perilune.InputError, match=r"declares no loops.*--loop"):
         perilune.stability(path)

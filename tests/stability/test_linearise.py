@@ -6,19 +6,19 @@ Truth: exact_periodic.py; python-control; the times at which flights are where a
 import control
 import numpy as np
 import pytest
-from cosim.builders import component, connection, document, inline, pack, system
+from cosim.builders import component, connection, document, pack, system
 from exact_periodic import EVERY, HYPERPERIOD, STATES, STEP, description, exact_model, hyperperiod
 from exact_systems import difference, ring, with_stability
 from sampled_loops import delay, held, response_of
 
 import perilune
+from analysis.cosim.system import SystemOptions, prepare_system
 from analysis.errors import InputError
 from analysis.stability.bench import Bench, StudyError
 from analysis.stability.channels import channels_of
 from analysis.stability.declaration import Loop, Point
 from analysis.stability.linearise import linearise
 from analysis.stability.operating_point import OperatingPoint
-from analysis.cosim.system import SystemOptions, prepare_system
 
 LOOPS = [
     Loop("first", "first.y", ("there",), period=EVERY[0] * STEP),
@@ -174,7 +174,9 @@ def test_a_flight_that_ends_early_is_told(bench_of, exact_fmus):
         "control": ("difference", "u", "y", "proportional=Real:0; derivative=Real:0"),
         "plant": ("held_pendulum", "u", "position", "rate=Real:8"),
     }
-    bench = bench_of(ring(parts, 0.25, 60.0), exact_fmus, Point("there", time=400.0), [Loop("l", "control.y", ("there",))])
+    bench = bench_of(
+        ring(parts, 0.25, 60.0), exact_fmus, Point("there", time=400.0), [Loop("l", "control.y", ("there",))]
+    )
     with pytest.raises(StudyError, match=r"the flight for point there ended early \(nonfinite at t = [\d.]+ s\)"):
         OperatingPoint(bench)
 

@@ -5,7 +5,7 @@ Truth: the declaration as written, and the number of the line on which its wrong
 
 import pytest
 from cosim.builders import component, document, pack, system
-from exact_systems import with_stability
+from exact_systems import ring, with_stability
 
 import perilune
 from analysis.cosim.description import Reader
@@ -104,7 +104,11 @@ WRONG = {
         "Sweep",
         "no such loop at this point",
     ),
-    "sweep without a parameter": ('<Sweep name="s" loop="one" point="hold" low="1" high="2"/>', "Sweep", "no parameter"),
+    "sweep without a parameter": (
+        '<Sweep name="s" loop="one" point="hold" low="1" high="2"/>',
+        "Sweep",
+        "no parameter",
+    ),
     "sweep from high to low": (
         '<Sweep name="s" loop="one" point="hold" parameter="c.p" low="2" high="1"/>',
         "Sweep",
@@ -152,10 +156,14 @@ def test_a_wrong_nonlinear_element_is_refused_with_its_line(name):
     assert_refused([POINT, '<Loop name="l" cut="a.b" points="hold">', bad, "</Loop>"], bad, "Element", words)
 
 
-def test_one_annotation_holds_one_declaration():
-    text = with_stability(SSD, POINT).replace("</Stability>", "</Stability><Stability/>")
-    with pytest.raises(InputError, match=r"Annotation \(line \d+\): 2 elements Stability; write one"):
-        read_declaration(Reader("x.ssd", lambda *_: b"").read(text.encode()))
+def test_the_annotation_holds_just_one_declaration():
+    for wrong in ("", "<Stabilty/>", '<Stability xmlns="https://perilune.org/stability"/>' * 2):
+        text = with_stability(SSD, "@")
+        begin, end = text.index("<Stability"), text.index("</Stability>") + len("</Stability>")
+        with pytest.raises(InputError, match=r"line \d+") as caught:
+            read_declaration(Reader("x.ssd", lambda *_: b"").read((text[:begin] + wrong + text[end:]).encode()))
+        assert str(caught.value).startswith("x.ssd: ")
+        assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -168,7 +176,9 @@ def test_one_annotation_holds_one_declaration():
     ],
 )
 def test_what_only_the_system_can_tell_is_refused_too(exact_fmus, tmp_path, point, loop, words):
-    ssd = with_stability(SSD, f'<Point name="hold" {point}/>\n<Loop name="one" {loop} points="hold"/>')
+    declared = f'<Point name="hold" {point}/>\n<Loop name="one" {loop} points="hold"/>'
+    parts = {"control": ("difference", "u", "y", ""), "plant": ("held_mass", "u", "position", "")}
+    ssd = ring(parts, 0.25, 10.0, declared)
     with pytest.raises(InputError, match=words) as caught:
         perilune.stability(pack(tmp_path / "x.ssp", exact_fmus, ssd))
     assert "x.ssp" in str(caught.value)
