@@ -122,14 +122,15 @@ class Parameter(Variable):
 class State(Variable):
     """Internal, kept from step to step; readable from outside, never set.
 
-    ``random``: the memory of a random number generator, which is left alone where a system is linearised.
+    ``frozen``: left as it is along the flight where a system is linearised: the memory of random number generators,
+    and covariances, whose small changes act on estimates only through innovations.
     """
 
     causality = "local"
 
-    def __init__(self, start: Any, *, random: bool = False, **declaration: Any) -> None:
+    def __init__(self, start: Any, *, frozen: bool = False, **declaration: Any) -> None:
         super().__init__(start, **declaration)
-        self.random = random
+        self.frozen = frozen
 
 
 class Output(Variable):

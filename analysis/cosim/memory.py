@@ -66,7 +66,8 @@ class Piece:
 class Memory:
     """The memory of a simulation's FMUs and connectors as real numbers, ``cells``; nothing else is remembered.
 
-    Whole numbers and the states of random number generators are saved and put back, but are no cells.
+    Whole numbers, and what FMUs name as frozen (random number generators, covariances), are saved and put back, but
+    are no cells.
     Raises InputError where an FMU does not tell how it serialises its memory.
     """
 
@@ -76,14 +77,14 @@ class Memory:
         self._write: dict[str, Callable[[bytes, int, float], bytes]] = {}
         self._pieces: list[Piece] = []
         for component, instance in simulation.instances.items():
-            encoding, random = _layout(instance.fmu, component)
+            encoding, frozen = _layout(instance.fmu, component)
             self._write[component] = ENCODINGS[encoding]
             mine = [
                 variable
                 for variable in instance.fmu.variables.values()
                 if variable.type == "Real"
                 and variable.causality in REMEMBERED
-                and variable.valueReference not in random
+                and variable.valueReference not in frozen
             ]
             self.cells += [
                 Cell(f"{component}.{item.name}", instance.fmu.unit_of(item), component, item.valueReference)
@@ -140,12 +141,12 @@ class Memory:
 
 
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
-    """Encoding of an FMU's serialised state, and the value references of its random number generators."""
+    """Encoding of an FMU's serialised state, and the value references that are no cells."""
     description = etree.parse(fmu.folder / "modelDescription.xml")
     found = description.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/SerializedState")
     if found is None or found.get("encoding") not in ENCODINGS:
         raise InputError(fmu.label, component, "does not tell how it serialises its memory", "measure by injection")
-    return found.get("encoding"), {int(item) for item in found.get("random", "").split()}
+    return found.get("encoding"), {int(item) for item in found.get("frozen", "").split()}
 
 
 def _write_word(serialized: bytes, reference: int, value: float) -> bytes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from .declaration import Limits
 from .margins import classical, robust
 from .results import Classical, Curve, Requirement, Robust
 
-LOWEST = 1e-5  # of the Nyquist frequency: below, a linear model's integrators are not resolved
+LOWEST = 1e-6  # of the Nyquist frequency: below, a linear model's integrators are not resolved
 BELOW = 0.02  # of the lowest gain crossover, from which on a loop is looked at
 COARSE = 600
 LOWER = 0.2  # step down where encirclements cannot be counted from there
@@ -47,20 +47,31 @@ def assess(
     unstable_open: int | None,
     undamped: Sequence[float] = (),
     include: Sequence[float] = (),
+    slower: Callable[[float], int] = lambda _: 0,
 ) -> Assessment:
-    """All margins between ``low`` and ``high`` (rad/s); ``undamped`` and ``include`` as in `classical`."""
+    """All margins between ``low`` and ``high`` (rad/s); ``undamped`` and ``include`` as in `classical`.
+
+    ``slower`` says how many unstable open-loop poles lie below a frequency: encirclements counted from there on take
+    them as integrators, so it is begun below them where that can be resolved.
+    """
     response = remembered(response)
     notes: dict[str, str] = {}
     while True:
+        lowest = low <= LOWEST * high
         try:
             found = classical(response, low, high, sample_period, unstable_open, undamped=undamped, include=include)
-            break
+            if lowest or unstable_open is None or slower(low) == 0:
+                break
         except ValueError as error:  # mostly slow poles that are not yet told from integrators
-            if low <= LOWEST * high:
+            if lowest:
                 notes["encirclements"] = str(error)
                 found = classical(response, low, high, sample_period, None, undamped=undamped, include=include)
                 break
-            low = max(LOWEST * high, LOWER * low)
+        low = max(LOWEST * high, LOWER * low)
+    if unstable_open is not None and (left := slower(low)) and "encirclements" not in notes:
+        notes["encirclements"] = (
+            f"{left} unstable open-loop poles are slower than {low:.2g} rad/s: taken as integrators"
+        )
     curve = dense(response, low, high, include=include)
     return Assessment(curve, found, robust(response, low, high, include=include), notes)
 

@@ -9,6 +9,7 @@ show what is not linear).
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,9 +20,11 @@ from .multisine import Multisine, line_spectrum, multisine, unexcited_share
 from .results import Curve, RouteB
 
 SEED = 1  # of the multisine's phases
-PERIODS = 2  # measured, after those that the transient takes
+PERIODS = 1  # measured at least, after those that the transient takes
+MOST_ROUNDS = 12  # samples of a loop in a hyperperiod up to which the window is a whole number of hyperperiods
 PATIENCE = 8  # periods of transient at most
-SETTLED = 1e-5  # relative difference of the last two periods
+SETTLED = 1e-5  # relative difference of two windows one period apart
+STILL_MOVING = 1e-2  # and that above which a loop counts as unstable, or as one that does not repeat itself
 PER_DECADE = 20
 FEWEST, MOST = 128, 65536  # samples in a period
 DEFAULT_SHARE = 0.01  # amplitude where none is declared, of the signal's own size
@@ -42,11 +45,18 @@ class Injector:
 
     def __post_init__(self) -> None:
         self.seconds = self.channel.period * self.bench.prepared.step
-        samples = 2 * round(np.pi / (self.lowest * self.seconds))
+        samples = max(FEWEST, round(2.0 * np.pi / (self.lowest * self.seconds)))
         if samples > MOST:
             raise NotMeasurableError(f"{self.lowest:g} rad/s needs {samples} samples a period, more than {MOST}")
-        self.samples = max(FEWEST, samples)
-        self.signal: Multisine = multisine(self.samples, 1.0, self.samples // 2 - 1, SEED, per_decade=PER_DECADE)
+        # A periodic loop also answers at frequencies apart by those of the hyperperiod. Over a whole number of
+        # hyperperiods, of which a period of the signal is none, these fall between the lines. Nor is a line at
+        # a multiple of the hyperperiod's frequency, where what stays constant answers in route A.
+        rounds = self.bench.period // self.channel.period
+        while math.gcd(samples, rounds) > 1:
+            samples += 1
+        self.samples = samples
+        self.periods = rounds * math.ceil(PERIODS / rounds) if rounds <= MOST_ROUNDS else PERIODS
+        self.signal: Multisine = multisine(samples, 1.0, (samples - 1) // 2, SEED, per_decade=PER_DECADE)
         self.frequency = 2.0 * np.pi * self.signal.lines / (self.samples * self.seconds)
         self._transient = 1
         self._base: dict[str, np.ndarray] = {}
@@ -60,7 +70,7 @@ class Injector:
         return RouteB(
             amplitude=peak / float(np.max(abs(self.signal.signal))),
             lines=len(self.signal.lines),
-            periods=PERIODS,
+            periods=self.periods,
             period=self.samples * self.seconds,
             half_amplitude_change=float(np.max(abs(half[low] / value[low] - 1.0))),
             unexcited=unexcited,
@@ -77,26 +87,28 @@ class Injector:
     def spectrum(self, peak: float) -> tuple[np.ndarray, float]:
         """L on the lines with a multisine of this largest value, and the largest answer on unexcited lines."""
         wave = self.signal.signal * (peak / float(np.max(abs(self.signal.signal))))
+        window = self.periods * self.samples
         while True:
-            u, v = self._answer(np.tile(wave, self._transient + PERIODS))
-            ends = [
-                line_spectrum(u[start : start + self.samples], self.samples, self.signal.lines)
-                for start in (-2 * self.samples + len(u), -self.samples + len(u))
-            ]
-            change = float(np.max(abs(ends[1] - ends[0])) / np.max(abs(ends[1])))
+            u, v = self._answer(np.tile(wave, self._transient + self.periods + 1))
+            inside, before = (
+                line_spectrum(u[start : start + window], self.samples, self.signal.lines)
+                for start in (len(u) - window, len(u) - window - self.samples)
+            )
+            change = float(np.max(abs(inside - before)) / np.max(abs(inside)))
             if change < SETTLED or self._transient >= PATIENCE:
                 break
             self._transient *= 2
-        kept = slice(-PERIODS * self.samples, None)
-        inside = line_spectrum(u[kept], self.samples, self.signal.lines)
-        back = line_spectrum(v[kept], self.samples, self.signal.lines)
+        if change > STILL_MOVING:
+            periods = self._transient
+            raise NotMeasurableError(f"the answer still changes by {change:.2g} of itself after {periods} periods")
+        back = line_spectrum(v[-window:], self.samples, self.signal.lines)
         if not np.all(abs(inside) > 0.0):
             raise NotMeasurableError("nothing of what is added arrives behind the cut")
-        return -back / inside, unexcited_share(u[kept], self.signal)
+        return -back / inside, unexcited_share(u[-window:], self.signal)
 
     def _points(self) -> int:
         """Communication points behind the operating point that a measurement takes."""
-        points = (self._transient + PERIODS) * self.samples * self.channel.period
+        points = (self._transient + self.periods + 1) * self.samples * self.channel.period
         until = self.bench.point.until
         end = self.bench.time + points * self.bench.prepared.step
         if until is not None and end > until:

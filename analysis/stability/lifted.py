@@ -91,7 +91,7 @@ class LiftedModel:
         )
 
     def _shares(self, port: Port) -> np.ndarray:
-        """By cell: the largest relative change of what comes back, at any frequency, per relative change of the cell."""
+        """By cell: the largest relative change of what comes back, at any frequency, per relative change of it."""
         shares = np.zeros(len(self.a))
         identity = np.eye(len(self.a))
         for w in np.geomspace(LOWEST, 1.0, LOOKS) * np.pi / port.seconds:

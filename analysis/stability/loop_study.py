@@ -74,7 +74,14 @@ class LoopStudy:
             low = lowest_frequency(self.model.response, self.seconds)
             undamped, include = self.model.lightly_damped()
             found = assess(
-                self.model.response, low, self.nyquist, self.seconds, self.model.unstable_open, undamped, include
+                self.model.response,
+                low,
+                self.nyquist,
+                self.seconds,
+                self.model.unstable_open,
+                undamped,
+                include,
+                self.model.slower,
             )
             return found, self.model.response
         if self.measured is None:

@@ -12,6 +12,7 @@ from .bench import Bench
 
 LOOKS = 20  # communication points on the way to the operating point at which sizes are looked at
 LEAST = 1e-6  # of the largest number with the same unit: what is smaller is rounding, or happens to be near 0
+NEVER = 1e-3  # likewise, of a vector that has been 0 all the way
 NOTHING = 1e-9  # in SI: what has a unit and is smaller has not been used yet, and tells no scale
 
 
@@ -19,7 +20,9 @@ class OperatingPoint:
     """A bench flown to its operating point and saved there.
 
     ``scale`` [cells] is what a change of each cell is measured by: the largest number that the cell, or another one of
-    its vector, has held on the way, at least LEAST of the largest with its unit, and 1 where there was nothing.
+    its vector, has held on the way, at least LEAST of the largest with its unit (NEVER, where the vector has held
+    nothing yet), and 1 where nothing tells a scale. Vectors without a unit, such as covariances, mix quantities:
+    there each cell is measured by itself.
     ``sizes``: likewise of the signals at the cuts, by loop.
     """
 
@@ -38,7 +41,7 @@ class OperatingPoint:
                 self.sizes[channel.loop] = max(self.sizes.get(channel.loop, 0.0), size)
         self.snapshot = self.memory.take(last)
         self.sizes = {loop: size or 1.0 for loop, size in self.sizes.items()}
-        self.scale = _scales(self.memory.cells, largest)
+        self.scale = _scales(self.memory.cells, largest, self.memory.read())
 
     def one_period_on(self) -> OperatingPoint:
         """The same one hyperperiod later, measured by the same sizes; this one's snapshot stays as it is."""
@@ -54,17 +57,23 @@ class OperatingPoint:
         self.memory.release(self.snapshot)
 
 
-def _scales(cells: list[Cell], largest: np.ndarray) -> np.ndarray:
+def _scales(cells: list[Cell], largest: np.ndarray, now: np.ndarray) -> np.ndarray:
     vectors: dict[str, float] = {}
+    least: dict[str, float] = {}
     units: dict[str, float] = {}
     names = [cell.name.partition("[")[0] for cell in cells]
-    for cell, name, size in zip(cells, names, largest, strict=True):
+    for cell, name, size, present in zip(cells, names, largest, abs(now), strict=True):
         vectors[name] = max(vectors.get(name, 0.0), float(size))
+        if present > 0.0:
+            least[name] = min(least.get(name, np.inf), float(present))
         if cell.unit is not None:
             units[cell.unit] = max(units.get(cell.unit, 0.0), float(size))
     scales = []
-    for cell, name in zip(cells, names, strict=True):
-        scale = max(vectors[name], LEAST * units.get(cell.unit or "", 0.0))
-        unused = scale < NOTHING and cell.unit is not None
-        scales.append(1.0 if unused or scale == 0.0 else scale)
+    for cell, name, present in zip(cells, names, abs(now), strict=True):
+        if cell.unit is None:
+            scales.append(float(present) or least.get(name, 1.0))
+            continue
+        like = units[cell.unit]
+        scale = max(vectors[name], LEAST * like) if vectors[name] > 0.0 else NEVER * like
+        scales.append(scale if scale >= NOTHING else 1.0)
     return np.array(scales)

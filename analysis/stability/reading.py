@@ -13,7 +13,7 @@ from analysis.cosim.documents import tag
 from analysis.errors import InputError, suggestion
 
 from .declaration import Declaration, Element, Limits, Loop, Point, Sweep
-from .describing_function import ELEMENTS
+from .describing_function import ELEMENTS, complete_parameters
 
 ANNOTATION = "org.perilune.stability"
 
@@ -87,32 +87,43 @@ class _Reader:
         values: dict[str, float | None] = {}
         for element in elements:
             self.attributes(element, (), names)
-            values |= {name: self.number(element, name) for name in names if element.get(name) is not None}
+            values |= {
+                name: self.number(element, name, positive=True) for name in names if element.get(name) is not None
+            }
         return Limits(**values)  # type: ignore[arg-type]
 
     def point(self, element: etree._Element) -> Point:
         found = self.attributes(element, ("name",), ("time", "signal", "falls_to", "until", "phase"))
         if ("signal" in found) != ("falls_to" in found) or ("signal" in found) == ("time" in found):
             raise self.refuse(element, "neither a time nor a signal that falls_to a value, or both", "give one of them")
+        time, until = self.number(element, "time"), self.number(element, "until")
+        if time is not None and until is not None and until <= time:
+            raise self.refuse(element, f"it lasts until {until:g} s but is at {time:g} s", "give a later end")
         parts = self.parts(element, ("Use", "ParameterSet", "Set"))
         return Point(
             name=found["name"],
-            time=self.number(element, "time"),
+            time=time,
             signal=found.get("signal"),
             falls_to=self.number(element, "falls_to"),
-            until=self.number(element, "until"),
+            until=until,
             phase=found.get("phase", ""),
             use=self.uses(parts["Use"]),
             parameters=tuple(self.attributes(item, ("source",))["source"] for item in parts["ParameterSet"]),
-            set={
-                item["name"]: item["value"]
-                for item in (self.attributes(entry, ("name", "value")) for entry in parts["Set"])
-            },
+            set=self.pairs(parts["Set"], "name", "value"),
         )
 
     def uses(self, elements: list[etree._Element]) -> dict[str, str]:
-        found = [self.attributes(element, ("component", "fmu")) for element in elements]
-        return {item["component"]: item["fmu"] for item in found}
+        return self.pairs(elements, "component", "fmu")
+
+    def pairs(self, elements: list[etree._Element], key: str, value: str) -> dict[str, str]:
+        """Two attributes of each element as a mapping; what is given twice is refused."""
+        found: dict[str, str] = {}
+        for element in elements:
+            item = self.attributes(element, (key, value))
+            if item[key] in found:
+                raise self.refuse(element, f"{item[key]} is given twice", "give it once")
+            found[item[key]] = item[value]
+        return found
 
     def loop(self, element: etree._Element, points: set[str]) -> Loop:
         found = self.attributes(
@@ -126,6 +137,8 @@ class _Reader:
         for name in names:
             if name not in points:
                 raise self.refuse(element, f"no point {name}", suggestion(name, points))
+        if len(set(names)) < len(names):
+            raise self.refuse(element, "a point is given twice", "give it once")
         return Loop(
             name=found["name"],
             cut=found["cut"],
@@ -141,11 +154,19 @@ class _Reader:
 
     def element(self, element: etree._Element) -> Element:
         name, kind = element.get("name", "").strip(), element.get("kind", "").strip()
-        if not name or kind not in ELEMENTS:
-            raise self.refuse(element, f"no name, or unknown kind {kind!r}", suggestion(kind, ELEMENTS))
-        values = {str(key): self.number(element, str(key)) for key in element.attrib if key not in ("name", "kind")}
+        if not name:
+            raise self.refuse(element, "no name", 'write name="..."')
+        if kind not in ELEMENTS:
+            raise self.refuse(element, f"unknown kind {kind!r}", suggestion(kind, ELEMENTS))
+        values = {
+            str(key): self.number(element, str(key)) or 0.0 for key in element.attrib if key not in ("name", "kind")
+        }
+        try:
+            complete_parameters(kind, values)
+        except ValueError as error:
+            raise self.refuse(element, str(error), "mend it") from error
         use = self.uses(self.parts(element, ("Use",))["Use"])
-        return Element(name, kind, values, use)  # type: ignore[arg-type]
+        return Element(name, kind, values, use)
 
     def sweep(self, element: etree._Element, loops: dict[str, Loop]) -> Sweep:
         found = self.attributes(element, ("name", "loop", "point", "parameter", "low", "high"))

@@ -17,6 +17,7 @@ PHASE_AGREES = np.radians(0.5)
 NOT_LINEAR = 0.01  # change of L at half the amplitude
 DOUBTFUL = 0.01  # change of L with the next smaller steps of the differences
 LEAST_LOOK = 0.03
+SLOW_ANGLE = np.pi / 8  # rad
 BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
 
 
@@ -37,6 +38,11 @@ class LoopModel:
     def unstable_open(self) -> int:
         return int(np.sum(abs(self.poles_open) > 1.0 + self.blur))
 
+    def slower(self, frequency: float) -> int:
+        """Unstable open-loop poles slower than a frequency (rad/s), which are not told from integrators there."""
+        unstable = self.poles_open[abs(self.poles_open) > 1.0 + self.blur]
+        return int(np.sum(abs(np.log(unstable)) / self.model.period < frequency))
+
     @property
     def largest(self) -> float:
         """The largest multiplier of a closed-loop mode that the cut moves and sees; 0 where none lasts."""
@@ -52,10 +58,13 @@ class LoopModel:
         return max(UNIT_CIRCLE, 10.0 * self.facts.plateau)
 
     def lightly_damped(self) -> tuple[list[float], list[float]]:
-        """Frequencies (rad/s) of undamped and of lightly damped open-loop poles, where the loop has one sample."""
-        if self.port.count > 1:
-            return [], []  # several samples a period: a multiplier does not tell the frequency
-        oscillating = self.poles_open[np.angle(self.poles_open) > BESIDE_ONE]
+        """Frequencies (rad/s) of undamped and of lightly damped open-loop poles.
+
+        Where the loop has several samples a hyperperiod, a multiplier tells the frequency of slow poles only.
+        """
+        angle = np.angle(self.poles_open)
+        most = np.pi if self.port.count == 1 else SLOW_ANGLE
+        oscillating = self.poles_open[(angle > BESIDE_ONE) & (angle < most)]
         on_circle = abs(abs(oscillating) - 1.0) <= self.blur
         frequencies = np.angle(oscillating) / self.model.period
         near = (abs(oscillating) > 0.9) & ~on_circle

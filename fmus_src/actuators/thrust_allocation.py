@@ -43,7 +43,7 @@ class ThrustAllocation(Allocation):
     direction_lead = Parameter(0.0, unit="s", minimum=0.0, description="the direction is that of so much later")
     seed = Parameter(1, minimum=0, description="random numbers: seed")
     stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
     thrust_factor = State(1.0, unit="1", description="thrust given over thrust commanded")
     commanded_thrust = State(0.0, unit="N", description="thrust commanded at the last communication point")
 

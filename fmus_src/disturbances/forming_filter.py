@@ -26,7 +26,7 @@ class FormingFilter(Block):
     stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
     disturbance = Output(0.0, unit="1", description="filtered noise")
     disturbance_rate = Output(0.0, unit="1/s", description="its derivative")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -118,17 +118,17 @@ def _state_layout(root: etree._Element, variables: list[Variable], encoding: str
     """How fmi2SerializeFMUstate writes the complete memory, so that analyses can read and change it.
 
     "words": 6 words of 8 bytes, then one for every value reference; "json": the list "values" by value
-    reference. ``random`` lists the value references of random number generators.
+    reference. ``frozen`` lists the value references of what a linearisation leaves alone.
     """
-    random: list[int] = []
+    frozen: list[int] = []
     reference = 0
     for variable in variables:
-        if isinstance(variable, State) and variable.random:
-            random += range(reference, reference + variable.size)
+        if isinstance(variable, State) and variable.frozen:
+            frozen += range(reference, reference + variable.size)
         reference += variable.size
     annotations = etree.SubElement(root, "VendorAnnotations")
     tool = etree.SubElement(annotations, "Tool", name=STATE_ANNOTATION)
-    etree.SubElement(tool, "SerializedState", encoding=encoding, random=" ".join(map(str, random)))
+    etree.SubElement(tool, "SerializedState", encoding=encoding, frozen=" ".join(map(str, frozen)))
 
 
 def _structure(root: etree._Element, block_class: type[Block], indices: dict[str, list[int]]) -> None:

@@ -96,7 +96,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
         description="0 good, 1 a sensor's last sample was rejected, 2 its last rejection_limit, 3 variance negative",
     )
     sensor_errors = State([0.0] * 9, description="bias (m/s2), scale factor and misalignment (rad) per axis, estimated")
-    covariance = State([0.0] * 225, description="covariance of the fifteen states, row order, SI")
+    covariance = State([0.0] * 225, frozen=True, description="covariance of the fifteen states, row order, SI")
     rejected_in_a_row = State([0] * 3, description="samples with a scalar rejected: altitude, velocity, position")
 
     def predict(self, h: float) -> None:

@@ -123,7 +123,7 @@ class AttitudeFilter(Block):
         0, minimum=0, maximum=1, direct=AT_ONCE, description="0 good, 1 last sample not finite and left out"
     )
     angular_velocity = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="estimate of the Kalman filter")
-    covariance = State([0.0] * 9, description="of attitude, rate and disturbance, row order, SI")
+    covariance = State([0.0] * 9, frozen=True, description="of attitude, rate and disturbance, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
     start_time = State(0.0, unit="s", description="start of the flight")
     last_momentum = State([0.0, 0.0, 0.0], unit="N.m.s", frame="body", description="gyro_momentum at the last step")

@@ -38,9 +38,9 @@ class NoisyNavigation(Navigation):
     innovation_square = Output(
         0.0, unit="1", direct=True, description="normalised innovation squared of the last scalar fix"
     )
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
     estimate = State([0.0] * 6, description="position (m) and velocity (m/s), landing-site frame")
-    covariance = State([0.0] * 36, description="covariance of the estimate, row order, m and m/s")
+    covariance = State([0.0] * 36, frozen=True, description="covariance of the estimate, row order, m and m/s")
     start_time = State(0.0, unit="s", description="start of the flight")
     position_fixes = State(0, description="position fixes taken")
     velocity_fixes = State(0, description="velocity fixes taken")

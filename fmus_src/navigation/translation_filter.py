@@ -101,7 +101,7 @@ class TranslationFilter(Block):
     status = Output(
         0, minimum=0, maximum=1, direct=AT_ONCE, description="0 good, 1 last sample not finite and left out"
     )
-    covariance = State([0.0] * 4, description="of position and velocity, row order, SI")
+    covariance = State([0.0] * 4, frozen=True, description="of position and velocity, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
     start_time = State(0.0, unit="s", description="start of the flight")
     last_velocity = State(

@@ -63,7 +63,7 @@ class FreeFlyingRobot(Block):
     jet_force = Output([0.0, 0.0, 0.0], unit="N", frame="body", description="force of the jets over the last step")
     jet_torque = Output([0.0, 0.0, 0.0], unit="N.m", frame="body", description="their torque over the last step")
     impulse = Output(0.0, unit="N.s", description="thrusts of all jets, summed and integrated: the propellant")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
     thrust_factor = State([1.0] * 8, unit="1", description="thrust of each jet over the commanded one")
     strength = State([0.0] * 6, description="force (N/N) and torque (N.m/N) of the jets, by rows of signs")
     angular_momentum = State(

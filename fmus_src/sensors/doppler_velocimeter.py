@@ -29,7 +29,7 @@ class DopplerVelocimeter(Block):
         [0.0, 0.0, 0.0], unit="m/s", frame="landing site", direct=True, description="measured velocity"
     )
     sample_count = Output(0, direct=("position",), description="samples in range; tells a new one from a held one")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

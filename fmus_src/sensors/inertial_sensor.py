@@ -43,7 +43,7 @@ class InertialSensor(Block):
         description="measured integral of specific force between the last two samples",
     )
     sample_count = Output(0, description="samples with an increment; tells a new one from a held one")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
     bias = State([0.0] * 3, unit="m/s2", frame="landing site", description="error of specific force")
     scale_factor = State([0.0] * 3, unit="1", frame="landing site", description="relative error of specific force")
     misalignment = State(

@@ -29,7 +29,7 @@ class LaserRanger(Block):
     )
     range = Output(0.0, unit="m", direct=True, description="length of relative_position")
     sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -25,7 +25,7 @@ class PlanarStateSensor(Block):
     measured_path_angle = Output(0.0, unit="rad", direct=("path_angle",), description="measured path angle")
     measured_altitude = Output(0.0, unit="m", direct=("altitude",), description="measured altitude")
     sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -24,7 +24,7 @@ class RadarAltimeter(Block):
     position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="true position")
     measured_altitude = Output(0.0, unit="m", direct=True, description="altitude above the sphere of moon_radius")
     sample_count = Output(0, direct=True, description="samples in range; tells a new one from a held one")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -26,7 +26,7 @@ class StarInertial(Block):
         [1.0, 0.0, 0.0, 0.0], unit="1", direct=True, description="measured, from body to inertial, scalar first"
     )
     sample_count = Output(0, description="samples taken; tells a new one from a held one")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)

@@ -27,7 +27,7 @@ class TerrainCamera(Block):
         [0.0, 0.0, 0.0], unit="m", frame="landing site", direct=True, description="measured position"
     )
     sample_count = Output(0, direct=True, description="samples in the band; tells a new one from a held one")
-    generator = State([0.0] * 6, random=True, description="random number generator")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)
