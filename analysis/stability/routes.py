@@ -17,6 +17,7 @@ PHASE_AGREES = np.radians(0.5)
 NOT_LINEAR = 0.01  # change of L at half the amplitude
 DOUBTFUL = 0.01  # change of L with the next smaller steps of the differences
 LEAST_LOOK = 0.03
+NEAR_CIRCLE = 0.98
 SLOW_ANGLE = np.pi / 8  # rad
 BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
 
@@ -29,6 +30,7 @@ class LoopModel:
     port: Port
     modes: tuple[Mode, ...]
     poles_open: np.ndarray
+    open_blur: float  # how near to the unit circle an open-loop pole is no longer told from one on it
     facts: RouteA
 
     def response(self, frequency: np.ndarray) -> np.ndarray:
@@ -36,11 +38,11 @@ class LoopModel:
 
     @property
     def unstable_open(self) -> int:
-        return int(np.sum(abs(self.poles_open) > 1.0 + self.blur))
+        return int(np.sum(abs(self.poles_open) > 1.0 + self.open_blur))
 
     def slower(self, frequency: float) -> int:
         """Unstable open-loop poles slower than a frequency (rad/s), which are not told from integrators there."""
-        unstable = self.poles_open[abs(self.poles_open) > 1.0 + self.blur]
+        unstable = self.poles_open[abs(self.poles_open) > 1.0 + self.open_blur]
         return int(np.sum(abs(np.log(unstable)) / self.model.period < frequency))
 
     @property
@@ -65,7 +67,7 @@ class LoopModel:
         angle = np.angle(self.poles_open)
         most = np.pi if self.port.count == 1 else SLOW_ANGLE
         oscillating = self.poles_open[(angle > BESIDE_ONE) & (angle < most)]
-        on_circle = abs(abs(oscillating) - 1.0) <= self.blur
+        on_circle = abs(abs(oscillating) - 1.0) <= self.open_blur
         frequencies = np.angle(oscillating) / self.model.period
         near = (abs(oscillating) > 0.9) & ~on_circle
         return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
@@ -87,7 +89,16 @@ def loop_model(found: Linearisation, port: Port) -> LoopModel:
         doubtful=_doubtful(model, neighbour) if change > DOUBTFUL else (),
         periodicity=model.periodicity(port, look[::8]),
     )
-    return LoopModel(model, port, modes(model, port), model.opened((port,)), facts)
+    poles = model.opened((port,))
+    return LoopModel(model, port, modes(model, port), poles, _blur(poles, neighbour.opened((port,))), facts)
+
+
+def _blur(poles: np.ndarray, again: np.ndarray) -> float:
+    """How far the sizes of poles near the unit circle move with the differences' step; integrators in a row split."""
+    near, other = (np.sort(abs(values[abs(values) > NEAR_CIRCLE])) for values in (poles, again))
+    if near.size != other.size:
+        return UNIT_CIRCLE
+    return max(UNIT_CIRCLE, 3.0 * float(np.max(abs(near - other), initial=0.0)))
 
 
 def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:

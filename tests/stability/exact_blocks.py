@@ -249,7 +249,7 @@ class NoisyCounter(Block):
     y = Output(0.0, unit="m", direct=True, description="output")
     count = Output(0, description="steps taken")
     even = Output(True, description="count is even")
-    generator = State(1.0, random=True, description="last random number")
+    generator = State(1.0, frozen=True, description="last random number")
     mean = State([0.0, 0.0], unit="m", description="of the outputs, slow and slower")
 
     def initialize(self) -> None:

@@ -72,7 +72,11 @@ WRONG = {
     # what the wrong element is, by its line; words of the message
     "unknown element": ("<Pint/>", "Pint", "unknown element; use one of Limits, Loop, Point, Sweep"),
     "unknown attribute of limits": ('<Limits gain="8"/>', "Limits", "unknown attribute gain"),
-    "limit that is no number": ('<Limits gain_margin_db="6 dB"/>', "Limits", "gain_margin_db '6 dB' is not a number"),
+    "limit that is no number": (
+        '<Limits gain_margin_db="6 dB"/>',
+        "Limits",
+        "gain_margin_db '6 dB' is not a positive number",
+    ),
     "point without a name": ('<Point time="1"/>', "Point", "no name"),
     "point with an empty name": ('<Point name=" " time="1"/>', "Point", "no name"),
     "point without a time": ('<Point name="p"/>', "Point", "neither a time nor a signal"),
