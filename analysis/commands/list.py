@@ -9,14 +9,16 @@ from typing import Any
 from fmpy import read_model_description
 
 from analysis.cosim.archive import SystemArchive, open_system, system_names
+from analysis.cosim.description import read_description
 from analysis.places import BUILD, LAWS
+from analysis.stability.reading import read_declaration
 from fmus_src.block import Block
 from fmus_src.catalogue import catalogue
 from fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 
 from .options import add_json, write_json
 
-HELP = "list systems, with parameter sets and campaigns, laws and FMUs"
+HELP = "list systems, with parameter sets, campaigns and loops, laws and FMUs"
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -35,6 +37,7 @@ def run(options: argparse.Namespace) -> int:
         print(name)
         print(f"  parameter sets  {', '.join(system['parameter_sets']) or 'none'}")
         print(f"  campaigns       {', '.join(system['campaigns']) or 'none'}")
+        print(f"  loops           {', '.join(system['loops']) or 'none'}")
     print(f"laws              {', '.join(document['laws'])}")
     print("FMUs")
     width = max((len(name) for name in document["fmus"]), default=0)
@@ -47,6 +50,7 @@ def _system(archive: SystemArchive) -> dict[str, list[str]]:
     return {
         "parameter_sets": sorted(Path(name).name for name in archive.files if name.endswith(".ssv")),
         "campaigns": sorted(Path(name).stem for name in archive.files if name.startswith(f"{CAMPAIGN_FOLDER}/")),
+        "loops": [loop.name for loop in read_declaration(read_description(archive)).loops],
     }
 
 

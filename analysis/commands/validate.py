@@ -16,6 +16,7 @@ from analysis.cosim.fmu import load_fmu
 from analysis.cosim.parameter_sets import read_parameter_file
 from analysis.cosim.system import SystemOptions, prepare_system
 from analysis.errors import InputError
+from analysis.stability.reading import read_declaration
 from analysis.synthesis.law import read_law
 from analysis.synthesis.synthesis_file import read_synthesis
 
@@ -65,6 +66,7 @@ def _check(path: str) -> dict[str, Any]:
             variants = [None, *(name for name in open_system(path).variants() if name != DEFAULT_VARIANT)]
             for variant in variants:
                 prepared = prepare_system(path, SystemOptions(variant=variant))
+                read_declaration(prepared.network.description)
                 notes += prepared.network.notes
                 notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
     except InputError as error:

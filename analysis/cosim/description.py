@@ -8,6 +8,7 @@ from lxml import etree
 
 from analysis.errors import InputError
 
+from .archive import SystemArchive
 from .documents import child, children, read_document, tag
 from .transformations import Transformation, read_transformation
 from .units import Unit, units_of_document
@@ -93,6 +94,12 @@ class Description:
     stop_time: float | None
     step: float | None
     annotations: dict[str, etree._Element] = field(default_factory=dict)  # of the whole document, by type
+
+
+def read_description(archive: SystemArchive, variant: str | None = None) -> Description:
+    """The SSD of an archive, the default one or a variant's; raises InputError."""
+    name = archive.description_name(variant)
+    return Reader(f"{archive.label}/{name}", archive.read).read(archive.read(name, "SSD"))
 
 
 class Reader:

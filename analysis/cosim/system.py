@@ -11,7 +11,7 @@ from analysis.places import BUILD, built_fmu
 
 from .archive import SystemArchive, open_system
 from .assignments import Settings, collect_settings, text_assignment
-from .description import Component, Reader
+from .description import Component, read_description
 from .fmu import Fmu, load_fmu
 from .network import Network, build_network
 from .parameter_sets import Assignment, ParameterValue, read_parameter_file
@@ -76,9 +76,7 @@ def prepare_system(
         if value is not None and value not in known:
             raise InputError(name, str(value), "unknown", suggestion(str(value), known))
     archive = open_system(system)
-    description_name = archive.description_name(options.variant)
-    reader = Reader(f"{archive.label}/{description_name}", archive.read)
-    description = reader.read(archive.read(description_name, "SSD"))
+    description = read_description(archive, options.variant)
 
     def load(name: str, component: Component) -> Fmu:
         if name in options.use:

@@ -93,6 +93,8 @@ class _Loop:
 
     def stable(self, amplitude: float, frequency: float) -> bool:
         gain = self.gain(amplitude)
+        if gain == 0.0:
+            return False  # at the very threshold of the element: nothing pushes
         h = 1e-6 * amplitude
         growth = (self.gain(amplitude + h) - self.gain(amplitude - h)) / (2.0 * h) / gain
         if not (growth / self.slope(frequency)).imag < 0.0:  # the real part of ds/da

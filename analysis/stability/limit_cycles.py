@@ -20,6 +20,7 @@ from .oscillation import find_oscillation
 from .results import LimitCycle, Nonlinearity
 
 POINTS = 400
+LARGEST_GAIN = 1e3
 
 
 def element_report(
@@ -40,7 +41,7 @@ def element_report(
         parameters = complete_parameters(element.kind, element.parameters)
     except ValueError as error:
         raise InputError(f"loop {channel.loop}", f"element {element.name}", str(error), "correct the SSD") from error
-    balances = predict(response, low, high, element.kind, parameters)
+    balances = predict(response, _lowest(response, low, high), high, element.kind, parameters)
     amplitude = np.geomspace(*amplitude_range(element.kind, parameters), POINTS)
     flown = _flown(prepare(element.use), channel) if element.use else None
     stable = [balance for balance in balances if balance.stable]
@@ -61,6 +62,13 @@ def element_report(
         note += f". None is predicted, but the flight oscillates: {flown[0]:.4g} at a period of {flown[1]:.4g} s"
     gain = describing_function(element.kind, amplitude, parameters)
     return Nonlinearity(element.name, element.kind, parameters, unit, amplitude, gain, tuple(cycles), note)
+
+
+def _lowest(response: Response, low: float, high: float) -> float:
+    """Where to begin (rad/s): slower, L is so large that the element hardly moves, and integrators are only noise."""
+    frequency = np.geomspace(low, high, POINTS)
+    below = np.flatnonzero(abs(response(frequency)) < LARGEST_GAIN)
+    return float(frequency[below[0]]) if below.size else low
 
 
 def _flown(prepared: PreparedSystem, channel: Channel) -> tuple[float, float] | None:

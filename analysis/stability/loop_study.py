@@ -62,15 +62,30 @@ class LoopStudy:
         self.measured = self.injector.measure()
         return self.measured
 
+    @property
+    def _doubtful(self) -> bool:
+        return self.model is not None and self.model.facts.plateau > DOUBTFUL
+
+    @property
+    def _bent(self) -> bool:
+        return self.measured is not None and self.measured.half_amplitude_change > NOT_LINEAR
+
+    @property
+    def _not_linear(self) -> str:
+        """Why this loop has no margins that could be judged: neither route finds it linear; "" where one does."""
+        if (self._doubtful or self.model is None) and self._bent:
+            return "the loop is not linear: see how L changes over the amplitude"
+        if self._doubtful and self.measured is None:
+            return "the linear model is doubtful, and there is no measurement"
+        return ""
+
     @cached_property
     def assessed(self) -> tuple[Assessment, Response]:
         """Margins, by route A where it can be trusted, else by route B, once `measure` has run.
 
         Raises StudyError where there is neither.
         """
-        doubtful = self.model is not None and self.model.facts.plateau > DOUBTFUL
-        linear = self.measured is not None and self.measured.half_amplitude_change <= NOT_LINEAR
-        if self.model is not None and not (doubtful and linear):
+        if self.model is not None and not (self._doubtful and self.measured is not None and not self._bent):
             low = lowest_frequency(self.model.response, self.seconds)
             undamped, include = self.model.lightly_damped()
             found = assess(
@@ -86,8 +101,7 @@ class LoopStudy:
             return found, self.model.response
         if self.measured is None:
             raise StudyError(f"{self.channel.name}: " + "; ".join(f"{name}: {why}" for name, why in self.notes.items()))
-        if doubtful:
-            assert self.model is not None
+        if self.model is not None:
             names = ", ".join(self.model.facts.doubtful)
             self.notes["route A"] = f"its derivatives have no plateau ({names}), so margins are those of route B"
         curve = self.measured.curve
@@ -123,7 +137,12 @@ class LoopStudy:
             not_applicable={**self.notes, **assessment.notes},
             step=self._step(assessment) if model and stable else None,
             requirements=requirements(
-                assessment.classical, assessment.robust, stable, self.limits, model.largest if model else None
+                assessment.classical,
+                assessment.robust,
+                stable,
+                self.limits,
+                model.largest if model else None,
+                self._not_linear,
             ),
         )
         if self.model is not None and self.measured is not None:

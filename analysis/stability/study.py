@@ -10,7 +10,7 @@ from pathlib import Path
 
 from analysis.batch.plan import BatchPlan, read_plan
 from analysis.cosim.archive import open_system
-from analysis.cosim.description import Description, Reader
+from analysis.cosim.description import read_description
 from analysis.cosim.system import PreparedSystem, SystemOptions
 from analysis.errors import InputError, suggestion
 
@@ -61,13 +61,9 @@ class Study:
         if trial is not None:
             self._take_trial(trial)
 
-    def _description(self) -> Description:
-        name = self.archive.description_name(self.subject.options.variant)
-        return Reader(f"{self.archive.label}/{name}", self.archive.read).read(self.archive.read(name, "SSD"))
-
     def _declared(self, names: Sequence[str], at: float | None) -> Declaration:
         """The declaration with just the loops that are asked for."""
-        description = self._description()
+        description = read_description(self.archive, self.subject.options.variant)
         declared = read_declaration(description)
         if at is not None and not any(name not in {loop.name for loop in declared.loops} for name in names):
             raise InputError("--at", f"{at:g}", "it is for loops that the SSD does not name", "leave it out")
