@@ -16,8 +16,9 @@ from analysis.cosim.results import Result
 from analysis.cosim.simulation import Simulation
 from analysis.cosim.system import SystemOptions, prepare_system
 from analysis.errors import InputError, suggestion
+from analysis.stability.request import read_request
 from analysis.stability.results import StabilityReport
-from analysis.stability.study import Study
+from analysis.stability.study import study
 
 
 def simulate(
@@ -76,6 +77,7 @@ def stability(
     trials: int | None = None,
     seed: int | None = None,
     trial: int | None = None,
+    workers: int | None = None,
     use: Mapping[str, str] | None = None,
     parameters: Sequence[str] = (),
     set: Mapping[str, ParameterValue] | None = None,
@@ -88,8 +90,17 @@ def stability(
     studies the draws of one of them instead. The rest is as in `simulate`. Raises InputError, and
     StudyError where a flight that the study needs breaks off.
     """
-    study = Study(system, _options(use, parameters, set, options), loops, at, campaign, trials, seed, trial)
-    return study.run()
+    request = read_request(
+        system,
+        _options(use, parameters, set, options),
+        loops=loops,
+        at=at,
+        campaign=campaign,
+        trials=trials,
+        seed=seed,
+        trial=trial,
+    )
+    return study(request, workers)
 
 
 def _options(

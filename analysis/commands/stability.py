@@ -10,8 +10,9 @@ from analysis.reports.stability_page import write_stability_page
 from analysis.stability.assessment import decibel, degrees
 from analysis.stability.bench import StudyError
 from analysis.stability.document import document
+from analysis.stability.request import read_request
 from analysis.stability.results import LoopReport, Requirement, StabilityReport
-from analysis.stability.study import Study
+from analysis.stability.study import study
 
 from .options import add_json, add_system, system_options, write_json
 
@@ -32,25 +33,28 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--trials", type=int, metavar="N", help="fewer or more trials than the campaign says")
     parser.add_argument("--seed", type=int, metavar="S", help="another root seed than the campaign's")
     parser.add_argument("--trial", type=int, metavar="K", help="study the draws of one trial of the campaign instead")
+    parser.add_argument(
+        "--workers", type=int, metavar="N", help="points studied side by side; default: one per processor"
+    )
     parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
     add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:
-    study = Study(
+    request = read_request(
         options.system,
         system_options(options),
-        options.loop,
-        options.at,
-        options.campaign,
-        options.trials,
-        options.seed,
-        options.trial,
+        loops=options.loop,
+        at=options.at,
+        campaign=options.campaign,
+        trials=options.trials,
+        seed=options.seed,
+        trial=options.trial,
     )
     try:
-        report = study.run()
+        report = study(request, options.workers)
     except StudyError as error:
-        print(f"perilune: {study.archive.label}: {error}", file=sys.stderr)
+        print(f"perilune: {request.label}: {error}", file=sys.stderr)
         return 1
     if options.report is not None:
         write_stability_page(report, options.report)

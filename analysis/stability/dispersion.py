@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -29,11 +30,10 @@ def dispersed(
 ) -> dict[str, Dispersion]:
     """Margins of every channel over the trials of a campaign, each linearised on its own flight.
 
-    The campaign's draws, seeds and streams are flown at the point; its comparison of FMUs is left out.
+    The campaign's draws, seeds and streams are flown at the point.
     ``cells`` is the memory that matters at the point; ``replay`` gives the command that studies one trial of one loop
     again. Raises InputError, StudyError.
     """
-    plan = replace(plan, campaign=replace(plan.campaign, compare={}))
     check_plan(plan)
     flown = subject.changed(parameters=plan.campaign.parameters)
     flown = replace(flown, options=replace(flown.options, set={**plan.campaign.settings, **flown.options.set}))
@@ -46,7 +46,8 @@ def dispersed(
             start.release()
             for channel in study.channels:
                 rows.setdefault(channel.name, []).append(margins_of(linear, channel.name))
-    return {name: _dispersion(plan, name, items, limits, replay) for name, items in rows.items()}
+        loop_of = {channel.name: channel.loop for channel in study.channels}
+    return {name: _dispersion(plan, items, limits, partial(replay, loop_of[name])) for name, items in rows.items()}
 
 
 def _varied(plan: BatchPlan) -> list[str]:
@@ -54,9 +55,7 @@ def _varied(plan: BatchPlan) -> list[str]:
     return sorted(plan.parameters(prepared, 0))
 
 
-def _dispersion(
-    plan: BatchPlan, name: str, items: list[Margins], limits: Limits, replay: Callable[[str, int], str]
-) -> Dispersion:
+def _dispersion(plan: BatchPlan, items: list[Margins], limits: Limits, replay: Callable[[int], str]) -> Dispersion:
     disks = np.array([item.disk if item.stable else 0.0 for item in items])
     worst = int(np.argmin(disks))
     stable = all(item.stable for item in items)
@@ -90,6 +89,6 @@ def _dispersion(
         stable=np.array([item.stable for item in items]),
         poles=np.concatenate([item.poles for item in items]),
         worst=worst,
-        replay=replay(name, worst),
+        replay=replay(worst),
         requirements=wanted,
     )
