@@ -104,3 +104,24 @@ def tiny_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def tiny(request: pytest.FixtureRequest, tiny_folder: Path) -> Path:
     """The tiny FMUs, in either flavour."""
     return tiny_folder / request.param
+
+
+@pytest.fixture(scope="session")
+def exact_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The FMUs of stability/exact_blocks.py in folders `python` and `native`, built once per test run."""
+    from stability.exact_blocks import build_exact_fmus
+
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "exact_fmus"
+    with one_process_at_a_time(folder.with_name("exact_fmus.lock")):
+        if not folder.is_dir():
+            partial = folder.with_name("exact_fmus.part")
+            build_exact_fmus(partial)
+            partial.rename(folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def exact_fmus(exact_folder: Path) -> Path:
+    """The native ones."""
+    return exact_folder / "native"

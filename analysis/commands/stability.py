@@ -72,7 +72,9 @@ def run(options: argparse.Namespace) -> int:
             f"perilune: {name}: {item.quantity} {shown} misses the limit {item.limit:g} {_unit(item)}".strip(),
             file=sys.stderr,
         )
-    return 1 if failures else 0
+    for lost in report.unstudied:
+        print(f"perilune: {lost.what} {lost.name} at {lost.point}: not studied: {lost.reason}", file=sys.stderr)
+    return 1 if failures or report.unstudied else 0
 
 
 def failed(report: StabilityReport) -> list[tuple[str, Requirement]]:

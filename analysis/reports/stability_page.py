@@ -77,6 +77,7 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
         requirements=verdict_table(rows),
         summary=summary,
         joint=joint_table(report),
+        unstudied=report.unstudied,
         joint_panels=[joint_panel(joint, f"joint-{index + 1}") for index, joint in enumerate(report.joint)],
         points=point_table(report.points),
         trims=trim_table(report.points),

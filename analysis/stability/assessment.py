@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -82,18 +82,15 @@ def requirements(
     stable: bool | None,
     limits: Limits,
     largest_pole: float | None,
-    not_linear: str = "",
 ) -> tuple[Requirement, ...]:
-    """The project's limits against one loop; ``not_linear`` says why they do not apply, where they do not."""
+    """The project's limits against one loop."""
     stability = Requirement("largest multiplier", largest_pole, 1.0, "1", stable, "the closed loop is unstable")
     if stable:
         stability = Requirement("largest multiplier", largest_pole, 1.0, "1", True)
     elif stable is None:
         stability = Requirement("largest multiplier", None, 1.0, "1", None, "poles are not known without route A")
-    if stable is False or not_linear:
-        note = not_linear or "the closed loop is unstable"
-        if not_linear:
-            stability = replace(stability, passed=None, note=not_linear)
+    if stable is False:
+        note = "the closed loop is unstable"
         return (
             stability,
             Requirement("gain margin", None, limits.gain_margin_db, "dB", None, note),

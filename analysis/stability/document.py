@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,7 @@ def document(report: StabilityReport) -> dict[str, Any]:
         "loops": [_loop(loop) for loop in report.loops],
         "joint": [_joint(joint) for joint in report.joint],
         "sweeps": [_sweep(sweep) for sweep in report.sweeps],
+        "unstudied": [asdict(item) for item in report.unstudied],
         "provenance": report.provenance,
     }
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .assessment import assess, decibel, degrees, lowest_frequency
+from .bench import StudyError
 from .linearise import Linearisation
 from .routes import loop_model
 
@@ -34,11 +35,14 @@ class Margins:
 
 
 def margins_of(linear: Linearisation, name: str) -> Margins:
-    """The margins of one channel of a linear model."""
+    """The margins of one channel of a linear model. Raises StudyError where they cannot be read."""
     port = next(port for port in linear.model.ports if port.channel.name == name)
     model = loop_model(linear, port)
     low = lowest_frequency(model.response, port.seconds)
-    found = assess(model.response, low, np.pi / port.seconds, port.seconds, None)
+    try:
+        found = assess(model.response, low, np.pi / port.seconds, port.seconds, None)
+    except ValueError as error:
+        raise StudyError(f"{name}: {error}") from error
     gain, phase = found.classical.gain_margin, found.classical.phase_margin
     return Margins(
         gain=gain.value if gain else np.inf,

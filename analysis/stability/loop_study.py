@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .assessment import Assessment, assess, lowest_frequency, requirements
+from .assessment import Assessment, assess, requirements
 from .bench import Bench, StudyError
 from .channels import Channel
 from .curves import Response, interpolated
@@ -45,7 +45,7 @@ class LoopStudy:
         """Route B, from well below the crossover on."""
         try:
             if self.model is not None:
-                self._measure_from(LINES_FROM * lowest_frequency(self.model.response, self.seconds))
+                self._measure_from(LINES_FROM * self.model.lowest)
                 return
             lowest = FIRST_LOOK * self.nyquist
             while True:
@@ -70,27 +70,42 @@ class LoopStudy:
     def _bent(self) -> bool:
         return self.measured is not None and self.measured.half_amplitude_change > NOT_LINEAR
 
-    @property
-    def _not_linear(self) -> str:
-        """Why this loop has no margins that could be judged: neither route finds it linear; "" where one does."""
-        if (self._doubtful or self.model is None) and self._bent:
-            return "the loop is not linear: see how L changes over the amplitude"
+    def refuse_what_is_not_linear(self) -> None:
+        """Raises StudyError, with L over the amplitude, where neither route finds the loop linear."""
         if self._doubtful and self.measured is None:
-            return "the linear model is doubtful, and there is no measurement"
-        return ""
+            assert self.model is not None
+            names = ", ".join(self.model.facts.doubtful)
+            reason = self.notes.get("route B", "it is not measured")
+            raise StudyError(f"its derivatives have no plateau ({names}), and there is no measurement: {reason}")
+        if (self._doubtful or self.model is None) and self._bent:
+            assert self.injector is not None
+            found = self.amplitudes(float(np.sqrt(self.injector.frequency[0] * self.injector.frequency[-1])))
+            assert found is not None
+            points, frequency = found
+            sizes = "; ".join(
+                f"{20.0 * np.log10(abs(item.value)):.2f} dB, {np.degrees(np.angle(item.value)):.1f} deg "
+                f"with {item.amplitude:g}"
+                for item in points
+            )
+            raise StudyError(f"not applicable, since it is not linear: at {frequency:.3g} rad/s L is {sizes}")
 
     @cached_property
     def assessed(self) -> tuple[Assessment, Response]:
         """Margins, by route A where it can be trusted, else by route B, once `measure` has run.
 
-        Raises StudyError where there is neither.
+        Raises StudyError where there is neither, or where the response is no loop's that margins could be read from.
         """
+        try:
+            return self._assess()
+        except ValueError as error:
+            raise StudyError(f"{self.channel.name}: {error}") from error
+
+    def _assess(self) -> tuple[Assessment, Response]:
         if self.model is not None and not (self._doubtful and self.measured is not None and not self._bent):
-            low = lowest_frequency(self.model.response, self.seconds)
             undamped, include = self.model.lightly_damped()
             found = assess(
                 self.model.response,
-                low,
+                self.model.lowest,
                 self.nyquist,
                 self.seconds,
                 self.model.unstable_open,
@@ -142,7 +157,6 @@ class LoopStudy:
                 stable,
                 self.limits,
                 model.largest if model else None,
-                self._not_linear,
             ),
         )
         if self.model is not None and self.measured is not None:

@@ -8,7 +8,7 @@ import scipy.linalg
 from .lifted import LiftedModel, Port
 from .results import Mode, Structure
 
-APART = 1e-6  # of the largest: a mode that answers less does not belong to the loop, or it is rounding
+APART = 1e-4  # of the largest: a mode that answers less does not belong to the loop, or it is rounding
 RANK = 1e-9  # of the largest singular value
 
 

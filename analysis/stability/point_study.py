@@ -96,7 +96,10 @@ class PointStudy:
         return worst
 
     def joint(self, loop: Loop, limits: Limits) -> JointReport | None:
-        """All channels of a loop at once, None where it has one, or no linear model."""
+        """All channels of a loop at once, None where it has one, or no linear model.
+
+        Raises StudyError where the margin is not resolved over frequency.
+        """
         if self.linear is None:
             return None
         ports = tuple(port for port in self.linear.model.ports if port.channel.loop == loop.name)
@@ -109,7 +112,10 @@ class PointStudy:
             return model.response(ports, frequency)[:, 0, 0]
 
         low = lowest_frequency(single, seconds)
-        found = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
+        try:
+            found = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
+        except ValueError as error:
+            raise StudyError(str(error)) from error
         gain, phase = decibel(found.gain), degrees(found.phase)
         wanted = (
             Requirement(

@@ -120,7 +120,7 @@ def _chosen(description: Description, names: Sequence[str], at: float | None) ->
     wanted: list[Loop] = []
     for name in dict.fromkeys(names):
         if name not in by_name and "." not in name:
-            raise InputError("--loop", name, "the SSD names no such loop", _remedy(by_name))
+            raise InputError("--loop", name, "the SSD names no such loop", _remedy(name, by_name))
         wanted.append(by_name.get(name) or Loop(name, cut=name, points=(HERE,)))
     points = (*declared.points, Point(HERE, time=0.0 if at is None else at))
     used = {point for loop in wanted for point in loop.points}
@@ -133,10 +133,10 @@ def _chosen(description: Description, names: Sequence[str], at: float | None) ->
     )
 
 
-def _remedy(declared: Mapping[str, Loop]) -> str:
+def _remedy(name: str, declared: Mapping[str, Loop]) -> str:
     if not declared:
         return "it names none; cut one with COMPONENT.CONNECTOR"
-    return f"{suggestion('', declared)}, or cut one with COMPONENT.CONNECTOR"
+    return f"{suggestion(name, declared)}, or cut one with COMPONENT.CONNECTOR"
 
 
 def _drawn(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions:

@@ -303,9 +303,19 @@ class SweepReport:
     crossings: dict[str, float]  # by requirement
 
 
+@dataclass(frozen=True)
+class Unstudied:
+    """Something that was asked for and could not be had: a loop at a point, its channels at once, a sweep."""
+
+    name: str
+    point: str
+    what: str
+    reason: str
+
+
 @dataclass
 class StabilityReport:
-    """Everything about one system."""
+    """Everything about one system. ``unstudied`` is what could not be had, each with its reason."""
 
     system: str
     provenance: dict[str, Any]
@@ -314,6 +324,7 @@ class StabilityReport:
     loops: tuple[LoopReport, ...]
     joint: tuple[JointReport, ...]
     sweeps: tuple[SweepReport, ...]
+    unstudied: tuple[Unstudied, ...]
     seconds: float
 
     @property
@@ -322,4 +333,4 @@ class StabilityReport:
         verdicts += ["fail" for joint in self.joint for item in joint.requirements if item.passed is False]
         if "fail" in verdicts:
             return "fail"
-        return "pass" if "pass" in verdicts else "not applicable"
+        return "pass" if "pass" in verdicts and not self.unstudied else "not applicable"

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from .assessment import lowest_frequency
 from .curves import Response
 from .lifted import UNIT_CIRCLE, LiftedModel, Port
 from .linearise import Linearisation
@@ -17,7 +19,7 @@ PHASE_AGREES = np.radians(0.5)
 NOT_LINEAR = 0.01  # change of L at half the amplitude
 DOUBTFUL = 0.01  # change of L with the next smaller steps of the differences
 LEAST_LOOK = 0.03
-NEAR_CIRCLE = 0.98
+INTEGRATOR = 0.05  # of the lowest frequency that is looked at: a thousandth of the lowest gain crossover
 SLOW_ANGLE = np.pi / 8  # rad
 BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
 
@@ -30,20 +32,30 @@ class LoopModel:
     port: Port
     modes: tuple[Mode, ...]
     poles_open: np.ndarray
-    open_blur: float  # how near to the unit circle an open-loop pole is no longer told from one on it
     facts: RouteA
 
     def response(self, frequency: np.ndarray) -> np.ndarray:
         return self.model.response((self.port,), frequency)[:, 0, 0]
 
+    @cached_property
+    def lowest(self) -> float:
+        """Where margins are looked for from (rad/s)."""
+        return lowest_frequency(self.response, self.port.seconds)
+
+    @cached_property
+    def _unstable(self) -> np.ndarray:
+        """Rates (rad/s) of open-loop poles outside the unit circle; slower ones are integrators, split by rounding."""
+        outside = self.poles_open[abs(self.poles_open) > 1.0 + UNIT_CIRCLE].astype(complex)
+        rates = abs(np.log(outside)) / self.model.period
+        return rates[rates > INTEGRATOR * self.lowest]
+
     @property
     def unstable_open(self) -> int:
-        return int(np.sum(abs(self.poles_open) > 1.0 + self.open_blur))
+        return len(self._unstable)
 
     def slower(self, frequency: float) -> int:
         """Unstable open-loop poles slower than a frequency (rad/s), which are not told from integrators there."""
-        unstable = self.poles_open[abs(self.poles_open) > 1.0 + self.open_blur]
-        return int(np.sum(abs(np.log(unstable)) / self.model.period < frequency))
+        return int(np.sum(self._unstable < frequency))
 
     @property
     def largest(self) -> float:
@@ -67,7 +79,7 @@ class LoopModel:
         angle = np.angle(self.poles_open)
         most = np.pi if self.port.count == 1 else SLOW_ANGLE
         oscillating = self.poles_open[(angle > BESIDE_ONE) & (angle < most)]
-        on_circle = abs(abs(oscillating) - 1.0) <= self.open_blur
+        on_circle = abs(abs(oscillating) - 1.0) <= self.blur
         frequencies = np.angle(oscillating) / self.model.period
         near = (abs(oscillating) > 0.9) & ~on_circle
         return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
@@ -89,16 +101,7 @@ def loop_model(found: Linearisation, port: Port) -> LoopModel:
         doubtful=_doubtful(model, neighbour) if change > DOUBTFUL else (),
         periodicity=model.periodicity(port, look[::8]),
     )
-    poles = model.opened((port,))
-    return LoopModel(model, port, modes(model, port), poles, _blur(poles, neighbour.opened((port,))), facts)
-
-
-def _blur(poles: np.ndarray, again: np.ndarray) -> float:
-    """How far the sizes of poles near the unit circle move with the differences' step; integrators in a row split."""
-    near, other = (np.sort(abs(values[abs(values) > NEAR_CIRCLE])) for values in (poles, again))
-    if near.size != other.size:
-        return UNIT_CIRCLE
-    return max(UNIT_CIRCLE, 3.0 * float(np.max(abs(near - other), initial=0.0)))
+    return LoopModel(model, port, modes(model, port), model.opened((port,)), facts)
 
 
 def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:

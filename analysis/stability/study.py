@@ -15,13 +15,14 @@ from loky import ProcessPoolExecutor
 from analysis.batch.workers import worker_count
 from analysis.cosim.system import PreparedSystem
 
+from .bench import StudyError
 from .channels import Channel
 from .declaration import Point
 from .dispersion import dispersed
 from .limit_cycles import element_report
 from .point_study import PointStudy
 from .request import Request
-from .results import Dispersion, JointReport, LoopReport, PointReport, StabilityReport
+from .results import Dispersion, JointReport, LoopReport, PointReport, StabilityReport, Unstudied
 from .sampling import sampled
 from .subject import Subject
 from .sweep import swept
@@ -34,6 +35,7 @@ class PointResult:
     report: PointReport
     loops: list[LoopReport]
     joint: list[JointReport]
+    unstudied: list[Unstudied]
     cells: list[int] | None
     provenance: dict[str, Any]
 
@@ -41,7 +43,7 @@ class PointResult:
 def study(request: Request, workers: int | None = None) -> StabilityReport:
     """Everything, points side by side in ``workers`` processes (None: one per processor).
 
-    The report does not depend on their number. Raises InputError, and StudyError where a flight breaks off.
+    The report does not depend on their number. Raises InputError, and StudyError where no flight reaches a point.
     """
     begun = time.monotonic()
     count = worker_count(workers)
@@ -52,13 +54,22 @@ def study(request: Request, workers: int | None = None) -> StabilityReport:
     else:
         found = [study_point(request, point) for point in points]
     cells = {point.name: result.cells for point, result in zip(points, found, strict=True)}
+    unstudied = [item for result in found for item in result.unstudied]
     sweeps = []
     for sweep in request.declaration.sweeps:
         known = cells[sweep.point]
-        if known is not None:  # else the point's loops say why there is no linear model
-            subject = Subject(request.system, request.options)
-            loop, point = request.loop(sweep.loop), request.point(sweep.point)
+        has_loop = any(
+            (item.loop, item.point) == (sweep.loop, sweep.point) for result in found for item in result.loops
+        )
+        if known is None or not has_loop:
+            unstudied.append(Unstudied(sweep.name, sweep.point, "sweep", "its loop has no linear model there"))
+            continue
+        subject = Subject(request.system, request.options)
+        loop, point = request.loop(sweep.loop), request.point(sweep.point)
+        try:
             sweeps.append(swept(subject, point, loop, sweep, request.declaration.limits, known))
+        except StudyError as error:
+            unstudied.append(Unstudied(sweep.name, sweep.point, "sweep", str(error)))
     return StabilityReport(
         system=request.name,
         provenance=found[0].provenance,
@@ -67,6 +78,7 @@ def study(request: Request, workers: int | None = None) -> StabilityReport:
         loops=tuple(loop for result in found for loop in result.loops),
         joint=tuple(joint for result in found for joint in result.joint),
         sweeps=tuple(sweeps),
+        unstudied=tuple(unstudied),
         seconds=time.monotonic() - begun,
     )
 
@@ -91,17 +103,33 @@ def study_point(request: Request, point: Point) -> PointResult:
     loops, limits = request.loops_at(point), request.declaration.limits
     with PointStudy(subject, point, loops) as work:
         work.linearise()
-        reports = [_loop(request, subject, work, channel) for channel in work.channels]
-        joint = [found for loop in loops if (found := work.joint(loop, limits)) is not None]
+        reports: list[LoopReport] = []
+        joint: list[JointReport] = []
+        unstudied: list[Unstudied] = []
+        for channel in work.channels:
+            try:
+                reports.append(_loop(request, subject, work, channel))
+            except StudyError as error:
+                unstudied.append(Unstudied(channel.name, point.name, "loop", str(error)))
+        lost = {item.name for item in unstudied}
+        for loop in loops:
+            if any(channel.loop == loop.name and channel.name in lost for channel in work.channels):
+                continue
+            try:
+                found = work.joint(loop, limits)
+                joint += [] if found is None else [found]
+            except StudyError as error:
+                unstudied.append(Unstudied(loop.name, point.name, "channels at once", str(error)))
         step = work.prepared.step
         result = PointResult(
             report=work.report(),
             loops=reports,
             joint=joint,
+            unstudied=unstudied,
             cells=work.linear.cells if work.linear is not None else None,
             provenance=work.bench.simulation.provenance(),
         )
-    if result.cells is not None:
+    if result.cells is not None and reports:
         _vary(request, subject, point, reports, step, result.cells)
     return result
 
@@ -110,6 +138,7 @@ def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channe
     """One channel by both routes, with its amplitudes and elements."""
     work = point.loop_study(channel, request.declaration.limits)
     work.measure()
+    work.refuse_what_is_not_linear()
     report = work.report([item.name for item in point.channels if item is not channel])
     crossings = [crossing.frequency for crossing in report.classical.phase]
     found = work.amplitudes(min(crossings, default=0.1 * work.nyquist))
@@ -137,7 +166,7 @@ def _vary(
     cells: Sequence[int],
 ) -> None:
     """What needs route A with something changed: the step, the campaign."""
-    loops = request.loops_at(point)
+    loops = [loop for loop in request.loops_at(point) if any(report.loop == loop.name for report in reports)]
     steps = sampled(subject, point, loops, step, cells)
     spread: dict[str, Dispersion] = {}
     if request.plan is not None:

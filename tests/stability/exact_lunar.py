@@ -48,9 +48,9 @@ class HoverLoop:
 
     @property
     def plant(self) -> tuple[np.ndarray, np.ndarray]:
-        """Matrix and input column of offset, velocity, acceleration and, across, the command before, from point to point.
+        """Matrix and input column, point to point, of offset, velocity, acceleration and, across, the last command.
 
-        The command is a state of the exponential; across it moves evenly from the one before to the new one.
+        Across the command moves evenly from the last one to the new one.
         """
         lag = THRUST_LAG if self.vertical else ATTITUDE_LAG
         # offset, velocity, acceleration, command, its rate

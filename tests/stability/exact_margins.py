@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import control
 import numpy as np
-from sampled_loops import response_of
+
+from tests.stability.sampled_loops import response_of
 
 POINTS = 2000
 LEAST, MOST = 1e-9, 1e9  # gain margins beyond which L counts as 0 or infinite
@@ -24,9 +25,9 @@ def crossings(loop: control.StateSpace) -> tuple[np.ndarray, np.ndarray, np.ndar
     return np.array(kept), np.radians((phase + 180.0) % 360.0 - 180.0), at
 
 
-def disk_margin(loop: control.StateSpace) -> float:
-    """With skew 0, of one channel or of several at once."""
-    grid = np.geomspace(1e-3, 1.0, 400) * np.pi / loop.dt
+def disk_margin(loop: control.StateSpace, lowest: float = 1e-3) -> float:
+    """With skew 0, of one channel or of several at once, from ``lowest`` of the Nyquist frequency on."""
+    grid = np.geomspace(lowest, 1.0, 400) * np.pi / loop.dt
     place = int(np.argmin(control.disk_margins(loop, grid, skew=0.0, returnall=True)[0]))
     close = np.linspace(grid[max(place - 1, 0)], grid[min(place + 1, len(grid) - 1)], 200)
     return float(control.disk_margins(loop, close, skew=0.0)[0])

@@ -95,9 +95,23 @@ def test_exit_status_1_and_one_line_per_failed_requirement(path, capsys):
     ]
 
 
-def test_a_loop_that_runs_away_is_no_report(path):
-    with pytest.raises(perilune.StudyError, match=r"route A: .*route B: the flight .* ended early \(nonfinite"):
-        perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": 21.0})
+@pytest.mark.parametrize(
+    ("gain", "words"),
+    [
+        (10.05, "route B: the answer still changes by"),  # slowly: g is 1.005, the square of the poles' size
+        (21.0, "route B: the flight for point command line ended early (nonfinite"),
+    ],
+)
+def test_an_unstable_loop_that_injection_cannot_measure(path, capsys, gain, words):
+    """z (z - 1) + g = 0 has its roots outside of the unit circle for g above 1: nothing settles."""
+    report = perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": gain})
+    (lost,) = report.unstudied
+    assert (report.loops, lost.name, lost.what) == ((), "law.y", "loop")
+    assert lost.reason.startswith("law.y: route A: ")
+    assert words in lost.reason
+    assert main(["stability", str(path), "--loop", "law.y", "--at", "1", "--set", f"law.gain={gain}"]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line == f"perilune: loop law.y at command line: not studied: {lost.reason}"
 
 
 @pytest.mark.parametrize(

@@ -77,7 +77,7 @@ def test_both_routes_of_a_periodic_system(exact_fmus, tmp_path):
         truth = exact.response((port,), frequency)[:, 0, 0]
         assert loop.sample_period == pytest.approx(port.seconds)
         low = frequency < 0.5 * np.pi / port.seconds
-        assert abs(loop.route_b.curve.value / truth - 1.0)[low].max() < 5e-3
+        assert abs(loop.route_b.curve.value / truth - 1.0)[low].max() < 1e-6
         assert loop.agreement.agrees
         assert loop.route_a.period == pytest.approx(HYPERPERIOD * STEP)
         assert loop.route_a.periodicity > 1e-5

@@ -49,8 +49,8 @@ def test_predicted_from_the_linear_rest(element, balance):
     assert element.parameters == {"level": LEVEL, "dead_zone": DEAD_ZONE, "hysteresis": 0.0}
     small, large = element.cycles
     assert [small.stable, large.stable] == [False, True]
-    assert [small.amplitude, large.amplitude] == pytest.approx(balance[:2], rel=1e-4)
-    assert [small.period, large.period] == pytest.approx([balance[2]] * 2, rel=1e-4)
+    assert [small.amplitude, large.amplitude] == pytest.approx(balance[:2], rel=1e-5)
+    assert [small.period, large.period] == pytest.approx([balance[2]] * 2, rel=1e-5)
     assert large.amplitude == pytest.approx(0.0597, rel=1e-3)
     assert large.period == pytest.approx(27.9, rel=1e-3)
 

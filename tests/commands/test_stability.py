@@ -1,0 +1,287 @@
+"""`perilune stability`: what it writes, its exit status, margins over a campaign and the command for its worst trial.
+
+Truth: margins by python-control on tests/stability/exact_systems.py with the gain that was drawn; the robot's gain
+margin goes with its mass; the exit status promised: 0, 1 for a limit that is missed, 2 for wrong input, a line each.
+"""
+
+import json
+import re
+import shlex
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analysis.cli import main
+from tests.stability.exact_margins import crossings, disk_margin
+from tests.stability.exact_robot import translation_loop
+from tests.stability.exact_systems import late_double_integrator
+
+DECIBEL = 20.0 / np.log(10.0)
+LATE = late_double_integrator()
+# Cut at the plant's output instead: the same loop.
+TWO = '<Loop name="sensed" cut="plant.position" points="there"/>'
+NUMBERS = ("gain_margin_db", "phase_margin_deg", "delay_margin_s", "modulus_margin", "disk_margin")
+CAMPAIGN = """
+system = "late_double_integrator"
+trials = 6
+seed = 11
+
+[draw."control.proportional"]
+distribution = "uniform"
+low = 0.01
+high = 0.03
+
+[metric.position]
+expression = "plant.position"
+reduction = "final"
+
+[success]
+expression = "abs(position) < 100"
+"""
+
+
+@pytest.fixture(scope="module")
+def packed(exact_fmus, tmp_path_factory):
+    """Packs the late double integrator with more in its declaration; gives the path."""
+
+    def pack(limits="", loops=""):
+        ssd = LATE.ssd.replace("<Point", f"<Limits {limits}/>\n<Point", 1).replace(
+            "</Stability>", f"{loops}</Stability>"
+        )
+        return str(replace(LATE, ssd=ssd).packed(tmp_path_factory.mktemp("late"), exact_fmus))
+
+    return pack
+
+
+@pytest.fixture(scope="module")
+def plain(packed):
+    return packed()
+
+
+@pytest.fixture(scope="module")
+def campaign(tmp_path_factory):
+    path = tmp_path_factory.mktemp("campaign") / "gains.toml"
+    path.write_text(CAMPAIGN)
+    return str(path)
+
+
+def strict(text):
+    """JSON without the numbers that are none."""
+
+    def refuse(name):
+        raise AssertionError(f"{name} in the JSON")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def run(capsys, *arguments, status=0):
+    """What is on standard output as JSON, and the lines on standard error."""
+    assert main(["stability", *arguments, "--json", "-"]) == status
+    captured = capsys.readouterr()
+    return strict(captured.out), captured.err.splitlines()
+
+
+def nearest(gains):
+    """The gain margin in dB."""
+    return np.min(abs(DECIBEL * np.log(gains)))
+
+
+def test_json_on_standard_output(plain, capsys):
+    found, errors = run(capsys, plain)
+    assert errors == []
+    assert (found["system"], found["verdict"]) == ("late_double_integrator", "pass")
+    (loop,) = found["loops"]
+    gain, phase, frequency = crossings(LATE.loop)
+    assert loop["gain_margin_db"] == pytest.approx(nearest(gain), abs=1e-3)
+    assert loop["phase_margin_deg"] == pytest.approx(np.degrees(np.min(abs(phase))), abs=1e-3)
+    assert loop["delay_margin_s"] == pytest.approx(np.min(phase % (2.0 * np.pi) / frequency), rel=1e-4)
+    assert loop["disk_margin"] == pytest.approx(disk_margin(LATE.loop), rel=1e-4)
+    z = np.exp(1j * np.linspace(1e-3, np.pi, 20_001))
+    response = LATE.loop(z)
+    assert loop["modulus_margin"] == pytest.approx(np.min(abs(1.0 + response)), rel=1e-4)
+    poles = np.array([complex(*pole) for pole in loop["poles_z"]])
+    for pole in LATE.closed:
+        assert np.min(abs(poles - pole)) < 1e-8
+    assert (loop["name"], loop["point"], loop["cut"], loop["verdict"]) == ("loop", "there", "control.y", "pass")
+    assert found["limits"]["gain_margin_db"] == 6.0
+    assert {item["quantity"] for item in loop["requirements"] if item["passed"]} >= {"gain margin", "phase margin"}
+    assert len(found["provenance"]["system_sha256"]) == 64
+
+
+def test_page_json_file_and_talk_to_the_terminal(plain, tmp_path, capsys):
+    page, file = tmp_path / "new" / "report.html", tmp_path / "new" / "report.json"
+    assert main(["stability", plain, "--report", str(page), "--json", str(file)]) == 0
+    captured = capsys.readouterr()
+    (loop,) = strict(file.read_text())["loops"]
+    line, last = captured.out.splitlines()
+    assert line.startswith(f"loop at there: {loop['gain_margin_db']:.2f} dB, {loop['phase_margin_deg']:.2f} deg, ")
+    assert line.endswith("routes agree: pass")
+    assert re.fullmatch(r"late_double_integrator: pass, \d+\.\d s", last)
+    assert captured.err == ""
+    assert page.read_text().lower().startswith("<!doctype html")
+    assert sorted(path.name for path in page.parent.iterdir()) == ["report.html", "report.json"]
+
+
+def test_a_line_for_every_limit_that_is_missed(packed, capsys):
+    limits = 'gain_margin_db="40" phase_margin_deg="10" modulus_margin="0.99"'
+    found, errors = run(capsys, packed(limits), status=1)
+    (loop,) = found["loops"]
+    assert loop["verdict"] == found["verdict"] == "fail"
+    assert errors == [
+        f"perilune: loop loop at there: gain margin {nearest(crossings(LATE.loop)[0]):.4g} dB misses the limit 40 dB",
+        f"perilune: loop loop at there: modulus margin {loop['modulus_margin']:.4g} misses the limit 0.99",
+    ]
+    missed = {item["quantity"] for item in loop["requirements"] if item["passed"] is False}
+    assert missed == {"gain margin", "modulus margin"}
+
+
+def test_a_setting_that_eats_the_margin(plain, capsys):
+    """Without derivative a double integrator with delay is unstable: that is the one line, margins do not apply."""
+    found, errors = run(capsys, plain, "--set", "control.derivative=0", status=1)
+    (loop,) = found["loops"]
+    assert (loop["stable"], loop["verdict"]) == (False, "fail")
+    (error,) = errors
+    largest = max(abs(complex(*pole)) for pole in loop["poles_z"])
+    assert largest > 1.0
+    assert error == f"perilune: loop loop at there: largest multiplier {largest:.4g} misses the limit 1"
+
+
+def test_loops_are_picked_by_name_or_connector(packed, capsys):
+    path = packed(loops=TWO)
+    everything, _ = run(capsys, path)
+    assert [loop["name"] for loop in everything["loops"]] == ["loop", "sensed"]
+    one, _ = run(capsys, path, "--loop", "sensed")
+    assert [loop["name"] for loop in one["loops"]] == ["sensed"]
+    cut, _ = run(capsys, path, "--loop", "plant.u", "--at", "20")
+    (loop,) = cut["loops"]
+    assert (loop["name"], loop["point"], loop["cut"]) == ("plant.u", "command line", "plant.u")
+    assert cut["points"][0]["time_s"] == pytest.approx(20.0)
+    for found in (*everything["loops"], *one["loops"], loop):
+        for name in NUMBERS:
+            assert found[name] == pytest.approx(everything["loops"][0][name], rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--loop", "lop"], "--loop: lop: the SSD names no such loop; "),
+        (["--loop", "plant.q"], "no connector plant.q"),
+        (["--at", "3"], "--at: 3: it is for loops that the SSD does not name"),
+        (["--loop", "loop", "--at", "3"], "--at: 3: it is for loops that the SSD does not name"),
+        (["--trial", "0"], "--trial: 0: there is no campaign"),
+        (["--trials", "3"], "--trials: 3: there is no campaign"),
+        (["--seed", "3"], "--seed: 3: there is no campaign"),
+        (["--campaign", "none"], "late_double_integrator.ssp: --campaign: no none in the system"),
+        (["--campaign", "CAMPAIGN", "--trial", "6"], "--trial: 6: the campaign has trials 0 to 5"),
+        (["--campaign", "CAMPAIGN", "--trial", "-1"], "--trial: -1: the campaign has trials 0 to 5"),
+        (["--set", "control.gain=1"], "control.gain"),
+    ],
+)
+def test_wrong_input(plain, campaign, tmp_path, monkeypatch, capsys, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    given = [campaign if word == "CAMPAIGN" else word for word in arguments]
+    assert main(["stability", plain, *given, "--report", "page.html", "--json", "found.json"]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith("perilune: ")
+    assert words in captured.err
+    assert captured.err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.usefixtures("fmus")
+def test_a_system_without_loops(capsys):
+    assert main(["stability", "lunar_terminal_guidance"]) == 2
+    error = capsys.readouterr().err
+    assert "declares no loops; name a loop in the SSD, or cut one with --loop COMPONENT.CONNECTOR --at SECONDS" in error
+    assert error.count("\n") == 1
+
+
+def test_margins_over_a_campaign_and_its_worst_trial_again(plain, campaign, capsys):
+    given = [plain, "--campaign", campaign]
+    found, _ = run(capsys, *given)
+    (loop,) = found["loops"]
+    spread = loop["dispersion"]
+    assert (spread["trials"], spread["stable_trials"]) == (6, 6)
+    columns = {name: [] for name in ("gain_margin_db", "phase_margin_deg", "disk_margin")}
+    for trial in range(6):
+        one, _ = run(capsys, *given, "--trial", str(trial))
+        drawn = late_double_integrator(proportional=one["provenance"]["parameters"]["control.proportional"]).loop
+        gain, phase, _ = crossings(drawn)
+        (again,) = one["loops"]
+        assert again["gain_margin_db"] == pytest.approx(nearest(gain), abs=1e-3)
+        assert again["phase_margin_deg"] == pytest.approx(np.degrees(np.min(abs(phase))), abs=1e-3)
+        assert "dispersion" not in again
+        for name, value in zip(
+            columns, (nearest(gain), np.degrees(np.min(abs(phase))), disk_margin(drawn)), strict=True
+        ):
+            columns[name].append(value)
+    assert np.ptp(columns["gain_margin_db"]) > 0.1
+    for name, values in columns.items():
+        expected = dict(zip(("least", "5 %", "50 %"), np.quantile(values, (0.0, 0.05, 0.5)), strict=True))
+        assert spread[name] == pytest.approx(expected, rel=1e-4), name
+    assert spread["worst_trial"] == np.argmin(columns["disk_margin"])
+    command, *replay = shlex.split(spread["replay"])
+    assert command == "perilune"
+    assert main([*replay, "--json", "-"]) == 0
+    (worst,) = strict(capsys.readouterr().out)["loops"]
+    assert worst["disk_margin"] == pytest.approx(spread["disk_margin"]["least"], rel=1e-5)
+
+
+def test_the_same_numbers_twice_whatever_the_workers(packed, campaign, capsys):
+    """Two points, so that there is something to share."""
+    there = '<Point name="later" time="30"/>'
+    path = packed(loops=f"{there}{TWO.replace('there', 'later')}")
+    texts = []
+    for workers in ("1", "2"):
+        assert (
+            main(["stability", path, "--campaign", campaign, "--trials", "2", "--workers", workers, "--json", "-"]) == 0
+        )
+        texts.append(capsys.readouterr().out)
+    assert texts[0] == texts[1]
+
+
+def test_fewer_trials_and_another_seed_draw_others(plain, campaign, capsys):
+    drawn = []
+    for seed in ("11", "12"):
+        found, _ = run(capsys, plain, "--campaign", campaign, "--trials", "2", "--seed", seed)
+        (loop,) = found["loops"]
+        assert loop["dispersion"]["trials"] == 2
+        assert f"--seed {seed}" in loop["dispersion"]["replay"]
+        drawn.append(loop["dispersion"]["gain_margin_db"]["least"])
+    assert drawn[0] != drawn[1]
+
+
+def test_dispersed_limits_fail_with_a_line_of_their_own(packed, campaign, capsys):
+    found, errors = run(
+        capsys, packed('dispersed_gain_margin_db="30"'), "--campaign", campaign, "--trials", "2", status=1
+    )
+    (loop,) = found["loops"]
+    least = loop["dispersion"]["gain_margin_db"]["least"]
+    assert errors == [
+        f"perilune: loop loop at there: dispersed gain margin {least:.4g} dB misses the limit 30 dB",
+    ]
+    assert found["verdict"] == "fail"
+
+
+@pytest.mark.usefixtures("fmus")
+def test_the_robot_s_margins_over_its_uncertain_inertia(capsys):
+    given = ["robot_rendezvous", "--parameters", "paper.ssv", "--loop", "translation_4s"]
+    found, _ = run(capsys, *given, "--campaign", "inertia", "--trials", "3")
+    exact = translation_loop(4.0).margins
+    assert [loop["name"] for loop in found["loops"]] == [f"translation_4s[{axis}]" for axis in (1, 2, 3)]
+    worst = {loop["dispersion"]["worst_trial"] for loop in found["loops"]}
+    assert len(worst) == 1  # the lightest robot
+    _, *replay = shlex.split(found["loops"][0]["dispersion"]["replay"])
+    assert main([*replay, "--json", "-"]) == 0
+    again = strict(capsys.readouterr().out)
+    mass = again["provenance"]["parameters"]["robot.mass"]
+    for loop, one in zip(found["loops"], again["loops"], strict=True):
+        spread = loop["dispersion"]
+        assert (spread["trials"], spread["stable_trials"]) == (3, 3)
+        assert one["gain_margin_db"] == pytest.approx(exact.gain + DECIBEL * np.log(mass / 1000.0), abs=1e-3)
+        for name in ("gain_margin_db", "phase_margin_deg"):
+            assert spread[name]["least"] < spread[name]["5 %"] < spread[name]["50 %"]
+            assert spread[name]["least"] == pytest.approx(one[name], abs=0.01)
+        assert spread["disk_margin"]["least"] == pytest.approx(one["disk_margin"], rel=1e-3)
