@@ -63,6 +63,8 @@ def assess(
             if lowest or unstable_open is None or slower(low) == 0:
                 break
         except ValueError as error:  # mostly slow poles that are not yet told from integrators
+            if unstable_open is None:
+                raise
             if lowest:
                 notes["encirclements"] = str(error)
                 found = classical(response, low, high, sample_period, None, undamped=undamped, include=include)

@@ -94,7 +94,7 @@ class Bench:
             value = float(self.prepared.settings.variables.get((component, "sample_period"), variable.start))
             if value > 0.0:
                 ratio = Fraction(value / step).limit_denominator(1000)
-                period = math.lcm(period, ratio.numerator)
+                period = math.lcm(period, max(1, ratio.numerator))
         if period > LONGEST:
             problem = f"the sample periods fit together only every {period * step:g} s"
             raise InputError(
@@ -109,6 +109,10 @@ class Bench:
             values = flight.signals[self.point.signal]
             assert self.point.falls_to is not None
             below = np.flatnonzero(values <= self.point.falls_to)
+            if not below.size and flight.status not in COMPLETE:
+                raise StudyError(
+                    f"the flight to point {self.point.name} ended early: {flight.message or flight.status}"
+                )
             if not below.size:
                 problem = f"{self.point.signal} never falls to {self.point.falls_to:g}"
                 raise InputError(self.prepared.network.file, f"point {self.point.name}", problem, "give another value")

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from analysis.batch.plan import BatchPlan, check_plan
+from analysis.batch.plan import BatchPlan
 
 from .declaration import Limits, Loop, Point
 from .followed import ONE_STEP, Margins, margins_of
@@ -34,7 +34,6 @@ def dispersed(
     ``cells`` is the memory that matters at the point; ``replay`` gives the command that studies one trial of one loop
     again. Raises InputError, StudyError.
     """
-    check_plan(plan)
     flown = subject.changed(parameters=plan.campaign.parameters)
     flown = replace(flown, options=replace(flown.options, set={**plan.campaign.settings, **flown.options.set}))
     rows: dict[str, list[Margins]] = {}
@@ -42,8 +41,10 @@ def dispersed(
         for trial in range(plan.campaign.trials):
             study.bench.set(plan.parameters(study.prepared, trial))
             start = OperatingPoint(study.bench)
-            linear = linearise(start, cells, ONE_STEP)
-            start.release()
+            try:
+                linear = linearise(start, cells, ONE_STEP)
+            finally:
+                start.release()
             for channel in study.channels:
                 rows.setdefault(channel.name, []).append(margins_of(linear, channel.name))
         loop_of = {channel.name: channel.loop for channel in study.channels}
@@ -82,10 +83,10 @@ def _dispersion(plan: BatchPlan, items: list[Margins], limits: Limits, replay: C
     return Dispersion(
         campaign=plan.campaign.file,
         trials=len(items),
-        gain_margin=np.array([item.gain if np.isfinite(item.gain) else np.nan for item in items]),
-        phase_margin=np.array([item.phase if np.isfinite(item.phase) else np.nan for item in items]),
-        modulus_margin=np.array([item.modulus for item in items]),
-        disk_margin=np.array([item.disk for item in items]),
+        gain_margin=np.array([item.gain if item.stable and np.isfinite(item.gain) else np.nan for item in items]),
+        phase_margin=np.array([item.phase if item.stable and np.isfinite(item.phase) else np.nan for item in items]),
+        modulus_margin=np.array([item.modulus if item.stable else np.nan for item in items]),
+        disk_margin=np.array([item.disk if item.stable else np.nan for item in items]),
         stable=np.array([item.stable for item in items]),
         poles=np.concatenate([item.poles for item in items]),
         worst=worst,

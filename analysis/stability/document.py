@@ -23,7 +23,7 @@ from .results import (
 
 
 def document(report: StabilityReport) -> dict[str, Any]:
-    """The whole report without its curves, ready for strict JSON: no number is infinite, absent ones are null."""
+    """The whole report without route A's curves, ready for strict JSON: no number is infinite, absent ones are null."""
     return {
         "system": report.system,
         "verdict": report.verdict,

@@ -40,7 +40,8 @@ def margins_of(linear: Linearisation, name: str) -> Margins:
     model = loop_model(linear, port)
     low = lowest_frequency(model.response, port.seconds)
     try:
-        found = assess(model.response, low, np.pi / port.seconds, port.seconds, None)
+        undamped, near = model.lightly_damped()
+        found = assess(model.response, low, np.pi / port.seconds, port.seconds, None, (), [*undamped, *near])
     except ValueError as error:
         raise StudyError(f"{name}: {error}") from error
     gain, phase = found.classical.gain_margin, found.classical.phase_margin

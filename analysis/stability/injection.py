@@ -145,8 +145,8 @@ class Injector:
 
 
 def measured(injector: Injector, peak: float) -> np.ndarray | None:
-    """L on the lines with this amplitude, None where the flight does not survive it."""
+    """L on the lines with this amplitude, None where it cannot be measured with it."""
     try:
         return injector.spectrum(peak)[0]
-    except StudyError:
+    except (NotMeasurableError, StudyError):
         return None

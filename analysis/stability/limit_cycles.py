@@ -11,6 +11,7 @@ from analysis.cosim.simulation import Simulation
 from analysis.cosim.system import PreparedSystem
 from analysis.errors import InputError
 
+from .bench import StudyError
 from .channels import Channel
 from .curves import Response
 from .declaration import Element
@@ -21,6 +22,7 @@ from .results import LimitCycle, Nonlinearity
 
 POINTS = 400
 LARGEST_GAIN = 1e3
+FEWEST = 100  # communication points of a flight in which an oscillation could be seen
 
 
 def element_report(
@@ -41,7 +43,10 @@ def element_report(
         parameters = complete_parameters(element.kind, element.parameters)
     except ValueError as error:
         raise InputError(f"loop {channel.loop}", f"element {element.name}", str(error), "correct the SSD") from error
-    balances = predict(response, _lowest(response, low, high), high, element.kind, parameters)
+    try:
+        balances = predict(response, _lowest(response, low, high), high, element.kind, parameters)
+    except ValueError as error:
+        raise StudyError(f"{channel.name}: element {element.name}: {error}") from error
     amplitude = np.geomspace(*amplitude_range(element.kind, parameters), POINTS)
     flown = _flown(prepare(element.use), channel) if element.use else None
     stable = [balance for balance in balances if balance.stable]
@@ -75,7 +80,7 @@ def _flown(prepared: PreparedSystem, channel: Channel) -> tuple[float, float] | 
     """Amplitude and period (s) of what comes back to the cut in the last part of a whole flight, None if it rests."""
     with Simulation(prepared, wanted=channel.recorded) as simulation:
         flight = simulation.fly()
-        if flight.status not in COMPLETE:
+        if flight.status not in COMPLETE or flight.time.size < FEWEST:
             return None
         values = channel.back(flight.signals, np.zeros((flight.time.size, len(channel.connectors))))
         found = find_oscillation(flight.time, values)

@@ -18,7 +18,7 @@ from .modes import structure
 from .results import AmplitudePoint, LoopReport, RouteB
 from .routes import DOUBTFUL, NOT_LINEAR, LoopModel, agreement, disagreement
 
-FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, beside itself and its half
+FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, beside itself
 FIRST_LOOK = 1e-3  # of the Nyquist frequency: where a measurement without route A begins
 LOOP_GAIN = 5.0  # a measurement begins low enough when the gain of its lowest line is at least this
 LINES_FROM = 10.0  # of the lowest frequency that is looked at: a fifth of the lowest gain crossover
@@ -58,8 +58,9 @@ class LoopStudy:
                 self.notes["route B"] = str(error)
 
     def _measure_from(self, lowest: float) -> RouteB:
-        self.injector = Injector(self.bench, self.channel, lowest)
-        self.measured = self.injector.measure()
+        injector = Injector(self.bench, self.channel, lowest)
+        self.measured = injector.measure()
+        self.injector = injector
         return self.measured
 
     @property

@@ -71,11 +71,16 @@ class PointStudy:
                 holds = TENTH / drift * self.bench.seconds if drift > 0.0 else float("inf")
             except StudyError:
                 drift = holds = None
+        options = self.prepared.options
         return PointReport(
             name=self.point.name,
             phase=self.point.phase,
             time=self.bench.time,
-            settings={**self.point.use, **dict.fromkeys(self.point.parameters, "parameter set"), **self.point.set},
+            settings={
+                **{slot: options.use[slot] for slot in self.point.use},
+                **dict.fromkeys(self.point.parameters, "parameter set"),
+                **{name: options.set[name] for name in self.point.set},
+            },
             trim=trim,
             drift=drift,
             holds=holds,
@@ -85,7 +90,11 @@ class PointStudy:
         """The largest relative change of a loop's L, near its crossovers, over one hyperperiod."""
         assert self.linear is not None
         assert self._start is not None
-        later = linearise(self._start.one_period_on(), self.linear.cells)
+        start = self._start.one_period_on()
+        try:
+            later = linearise(start, self.linear.cells)
+        finally:
+            start.release()
         worst = 0.0
         for before, after in zip(self.linear.model.ports, later.model.ports, strict=True):
             frequency = np.geomspace(1e-3, 1.0, 60) * np.pi / before.seconds

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from analysis.batch.plan import BatchPlan, read_plan
+from analysis.batch.plan import BatchPlan, check_plan, read_plan
 from analysis.cosim.archive import open_system
 from analysis.cosim.description import Description, read_description
 from analysis.cosim.system import SystemOptions
@@ -51,7 +52,10 @@ class Request:
         assert self.campaign is not None
         options = self.options
         words = ["perilune", "stability", self.system, "--campaign", self.campaign]
-        words += ["--trial", str(trial), "--seed", str(self.plan.campaign.seed), "--loop", loop]
+        words += ["--trial", str(trial), "--trials", str(self.plan.campaign.trials)]
+        words += ["--seed", str(self.plan.campaign.seed), "--loop", loop]
+        if HERE in self.loop(loop).points:
+            words += ["--at", repr(self.point(HERE).time)]
         for slot, fmu in options.use.items():
             words += ["--use", f"{slot}={fmu}"]
         for name in options.parameters:
@@ -101,6 +105,7 @@ def read_request(
         return request
     plan = read_plan(system, campaign, options, trials=trials, seed=seed)
     plan = replace(plan, campaign=replace(plan.campaign, compare={}))  # of FMUs; a study is of one system
+    check_plan(plan)
     if trial is None:
         return replace(request, campaign=campaign, plan=plan)
     return replace(request, options=_drawn(plan, options, trial))
@@ -110,6 +115,10 @@ def _chosen(description: Description, names: Sequence[str], at: float | None) ->
     """The declaration with just the loops that are asked for."""
     declared = read_declaration(description)
     by_name = {loop.name: loop for loop in declared.loops}
+    if at is not None and not (math.isfinite(at) and at >= description.start_time):
+        raise InputError(
+            "--at", str(at), "not a time of the flight", f"give seconds from {description.start_time:g} on"
+        )
     if at is not None and all(name in by_name for name in names):
         raise InputError("--at", f"{at:g}", "it is for loops that the SSD does not name", "leave it out")
     if not names:

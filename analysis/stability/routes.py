@@ -19,7 +19,8 @@ PHASE_AGREES = np.radians(0.5)
 NOT_LINEAR = 0.01  # change of L at half the amplitude
 DOUBTFUL = 0.01  # change of L with the next smaller steps of the differences
 LEAST_LOOK = 0.03
-INTEGRATOR = 0.05  # of the lowest frequency that is looked at: a thousandth of the lowest gain crossover
+MOST_BLUR = 1e-3
+INTEGRATOR = 0.1  # of the lowest frequency that is looked at: 0.002 of the lowest gain crossover
 SLOW_ANGLE = np.pi / 8  # rad
 BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
 
@@ -69,7 +70,7 @@ class LoopModel:
     @property
     def blur(self) -> float:
         """How near to the unit circle a pole is no longer told from one on it."""
-        return max(UNIT_CIRCLE, 10.0 * self.facts.plateau)
+        return max(UNIT_CIRCLE, min(10.0 * self.facts.plateau, MOST_BLUR))
 
     def lightly_damped(self) -> tuple[list[float], list[float]]:
         """Frequencies (rad/s) of undamped and of lightly damped open-loop poles.

@@ -14,6 +14,7 @@ from loky import ProcessPoolExecutor
 
 from analysis.batch.workers import worker_count
 from analysis.cosim.system import PreparedSystem
+from analysis.errors import InputError
 
 from .bench import StudyError
 from .channels import Channel
@@ -130,7 +131,7 @@ def study_point(request: Request, point: Point) -> PointResult:
             provenance=work.bench.simulation.provenance(),
         )
     if result.cells is not None and reports:
-        _vary(request, subject, point, reports, step, result.cells)
+        _vary(request, subject, point, reports, step, result.cells, unstudied)
     return result
 
 
@@ -164,13 +165,17 @@ def _vary(
     reports: Sequence[LoopReport],
     step: float,
     cells: Sequence[int],
+    unstudied: list[Unstudied],
 ) -> None:
     """What needs route A with something changed: the step, the campaign."""
     loops = [loop for loop in request.loops_at(point) if any(report.loop == loop.name for report in reports)]
-    steps = sampled(subject, point, loops, step, cells)
+    steps = sampled(subject, point, loops, step, cells, [report.name for report in reports])
     spread: dict[str, Dispersion] = {}
     if request.plan is not None:
-        spread = dispersed(subject, request.plan, point, loops, request.declaration.limits, cells, request.replay)
+        try:
+            spread = dispersed(subject, request.plan, point, loops, request.declaration.limits, cells, request.replay)
+        except (StudyError, InputError) as error:  # wrong input has been refused before; a trial may still end early
+            unstudied.append(Unstudied(request.campaign or "", point.name, "campaign", str(error)))
     for report in reports:
         report.sampling = tuple(steps.get(report.name, ()))
         report.dispersion = spread.get(report.name)

@@ -8,6 +8,8 @@ from functools import cache
 import numpy as np
 from scipy.optimize import brentq
 
+from analysis.cosim.system import PreparedSystem
+
 from .bench import StudyError
 from .declaration import Limits, Loop, Point, Sweep
 from .followed import ONE_STEP, Margins, margins_of
@@ -58,12 +60,21 @@ def swept(
         name=sweep.name,
         loop=loop.name,
         parameter=sweep.parameter,
-        unit=None,
+        unit=_unit(subject.at(point), sweep.parameter),
         values=np.array(values),
         gain_margin=np.array([item.gain if item.stable else np.nan for item in found]),
         phase_margin=np.array([item.phase if item.stable else np.nan for item in found]),
         crossings=crossings,
     )
+
+
+def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
+    """The unit of ``component.variable``; None where there is no such parameter, which the settings refuse."""
+    for component, fmu in prepared.network.fmus.items():
+        variable = fmu.variables.get(parameter.removeprefix(f"{component}."))
+        if parameter.startswith(f"{component}.") and variable is not None:
+            return fmu.unit_of(variable)
+    return None
 
 
 def _last_change(passes: list[bool]) -> int | None:
@@ -81,4 +92,4 @@ def _crossing(
         item = margins(value)
         return float(np.clip(excess(item), -FAR, FAR)) if item.stable else -FAR
 
-    return float(brentq(over, low, high, rtol=CROSSING, xtol=CROSSING * abs(high)))
+    return float(brentq(over, low, high, rtol=CROSSING, xtol=CROSSING * max(abs(low), abs(high))))

@@ -153,7 +153,7 @@ def test_text_of_others_is_escaped(report, tmp_path):
     sweep = replace(report.sweeps[0], name=nasty, parameter=nasty, crossings={nasty: 2.0})
     provenance = {nasty: nasty, "parameters": {nasty: nasty}, "fmus": {nasty: {"fmu": nasty, "sha256": nasty}}}
     page = write(
-        StabilityReport(nasty, provenance, {nasty: 1.0}, (point,), (strange,), (joint,), (sweep,), 0.0),
+        StabilityReport(nasty, provenance, {nasty: 1.0}, (point,), (strange,), (joint,), (sweep,), (), 0.0),
         tmp_path / "page.html",
     )
     assert_self_contained(page)
@@ -191,7 +191,7 @@ def extreme(report):
         replace(dispersed, name="s", dispersion=some),
         bare,
     )
-    return StabilityReport("x", {"faults": [], "seed": None}, {}, (point,), loops, (), (sweep,), 0.0)
+    return StabilityReport("x", {"faults": [], "seed": None}, {}, (point,), loops, (), (sweep,), (), 0.0)
 
 
 def test_extremes(report, tmp_path):
@@ -205,7 +205,7 @@ def test_extremes(report, tmp_path):
 
 
 def test_empty_study(tmp_path):
-    page = write(StabilityReport("x", {}, {}, (), (), (), (), 0.0), tmp_path / "page.html")
+    page = write(StabilityReport("x", {}, {}, (), (), (), (), (), 0.0), tmp_path / "page.html")
     assert_self_contained(page)
     for words in (f"{NONE} not applicable", "No requirement is set", "The study has no loop.", "No operating point."):
         assert words in text_of(page)

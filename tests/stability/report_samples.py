@@ -312,11 +312,12 @@ def sample_report():
         ),
         (joint("hold"),),
         (sweep(),),
+        (),
         12.5,
     )
 
 
 def replace_loops(report, loops):
     return StabilityReport(
-        report.system, report.provenance, report.limits, report.points, tuple(loops), (), (), report.seconds
+        report.system, report.provenance, report.limits, report.points, tuple(loops), (), (), (), report.seconds
     )
