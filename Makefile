@@ -1,4 +1,4 @@
-# make demo | test | build | explore | bench | sanitize | lint | clean; each sets up .venv by itself.
+# make demo | test | build | explore | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 
@@ -22,6 +22,10 @@ bench: build
 sanitize: .venv/ready
 	PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
 
+# What the tests of the HTML pages need, from Debian's packages (as root); without it they say that they are skipped.
+browser:
+	command -v chromium >/dev/null || { apt-get update -qq && apt-get install -y -qq chromium >/dev/null; }
+
 lint: .venv/ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -35,4 +39,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test build explore bench sanitize lint clean
+.PHONY: demo test build explore bench sanitize browser lint clean
