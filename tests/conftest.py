@@ -10,6 +10,7 @@ import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import hypothesis
 import pytest
@@ -125,3 +126,15 @@ def exact_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def exact_fmus(exact_folder: Path) -> Path:
     """The native ones."""
     return exact_folder / "native"
+
+
+@pytest.fixture(scope="session")
+def studies(exact_fmus: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """Reports of tiny systems as `perilune stability` makes them, studied once per test run."""
+    from tests.stability.studies import kept, make_studies
+
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "studies"
+    folder.mkdir(exist_ok=True)
+    with one_process_at_a_time(folder.with_name("studies.lock")):
+        return kept(folder / "studies.pickle", lambda: make_studies(folder, exact_fmus))

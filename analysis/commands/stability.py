@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from analysis.reports.stability_page import write_stability_page
-from analysis.stability.assessment import decibel, degrees
 from analysis.stability.bench import StudyError
 from analysis.stability.document import document
+from analysis.stability.margin_values import MARGINS, UNLIMITED, Quantity
 from analysis.stability.request import read_request
-from analysis.stability.results import LoopReport, Requirement, StabilityReport
+from analysis.stability.requirement import Requirement, Verdict
+from analysis.stability.results import JointReport, LoopReport, SweepCrossing, SweepReport
 from analysis.stability.study import study
 
 from .options import add_json, add_system, system_options, write_json
@@ -60,46 +62,62 @@ def run(options: argparse.Namespace) -> int:
         write_stability_page(report, options.report)
     if not write_json(document(report), options.json):
         for loop in report.loops:
-            print(_line(loop))
+            print("\n".join(_lines(loop)))
         for sweep in report.sweeps:
-            for quantity, value in sweep.crossings.items():
-                print(f"{sweep.name}: {quantity} reaches its limit at {sweep.parameter} = {value:.4g}")
+            for crossing in sweep.crossings:
+                print(_crossing_line(sweep, crossing))
         print(f"{report.system}: {report.verdict}, {report.seconds:.1f} s")
-    failures = failed(report)
-    for name, item in failures:
-        shown = "none" if item.value is None else f"{item.value:.4g} {_unit(item)}".strip()
-        print(
-            f"perilune: {name}: {item.quantity} {shown} misses the limit {item.limit:g} {_unit(item)}".strip(),
-            file=sys.stderr,
-        )
+    failures = [item for item in report.judged() if item.requirement.verdict is Verdict.FAIL]
+    for subject, requirement in failures:
+        if not requirement.unstable or isinstance(subject, JointReport):  # else that it is unstable has a line already
+            print(f"perilune: {_failure_line(subject, requirement)}", file=sys.stderr)
     for lost in report.unstudied:
         print(f"perilune: {lost.what} {lost.name} at {lost.point}: not studied: {lost.reason}", file=sys.stderr)
     return 1 if failures or report.unstudied else 0
 
 
-def failed(report: StabilityReport) -> list[tuple[str, Requirement]]:
-    """Every requirement that does not hold, with where."""
-    found = []
-    for loop in report.loops:
-        items = [*loop.requirements, *(loop.dispersion.requirements if loop.dispersion else ())]
-        found += [(f"loop {loop.name} at {loop.point}", item) for item in items if item.passed is False]
-    for joint in report.joint:
-        found += [(f"loops {joint.name} at {joint.point}", item) for item in joint.requirements if item.passed is False]
-    return found
+def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:
+    where = f"{'loops' if isinstance(subject, JointReport) else 'loop'} {subject.name} at {subject.point}"
+    found = "of an unstable loop" if item.unstable else f"{item.value:.4g} {_unit(item)}".strip()
+    note = f": {item.note}" if item.note else ""
+    return f"{where}: {item.title} {found} misses the limit {item.limit:g} {_unit(item)}".strip() + note
 
 
 def _unit(item: Requirement) -> str:
     return "" if item.unit == "1" else item.unit
 
 
-def _line(loop: LoopReport) -> str:
-    gain, phase = loop.classical.gain_margin, loop.classical.phase_margin
-    words = [
-        f"{decibel(gain.value):.2f} dB" if gain else "no gain crossing",
-        f"{degrees(phase.value):.2f} deg" if phase else "no phase crossing",
-        f"modulus {loop.robust.modulus_margin:.3f}",
-        f"disk {loop.robust.disk_margin:.3f}",
-    ]
+def _words(sizes: Mapping[Quantity, float]) -> str:
+    """Sizes of margins: ``12.39 dB, 44.28 deg, modulus 0.597, disk 0.761``."""
+    words = []
+    for quantity, size in sizes.items():
+        name = quantity.split()[0]
+        if size == UNLIMITED:
+            words.append(f"no {name} crossing")
+        else:
+            words.append(f"{name} {size:.3f}" if quantity.unit == "1" else f"{size:.2f} {quantity.unit}")
+    return ", ".join(words)
+
+
+def _lines(loop: LoopReport) -> Iterator[str]:
+    """A loop's line, and one below it for the campaign."""
+    margins = loop.margins
+    sizes = {quantity: margins.size(quantity) for quantity in MARGINS}
+    words = f"unstable, largest multiplier {margins.largest:.4g}" if margins.unstable else _words(sizes)
     if loop.agreement is not None:
-        words.append("routes agree" if loop.agreement.agrees else "routes differ")
-    return f"{loop.name} at {loop.point}: {', '.join(words)}: {loop.verdict}"
+        words += ", routes agree" if loop.agreement.agrees else ", routes differ"
+    yield f"{loop.name} at {loop.point}: {words}: {loop.verdict}"
+    if (spread := loop.dispersion) is not None:
+        if spread.unstable:
+            again = f"the worst, trial {spread.worst}, again: {spread.replay}"
+            found = f"{spread.unstable} of {spread.trials} trials unstable; {again}"
+        else:
+            least = {quantity: spread.levels(quantity)["least"] for quantity in MARGINS}
+            found = f"{spread.trials} trials stable, least {_words(least)}"
+        yield f"  over {Path(spread.campaign).name}: {found}"
+
+
+def _crossing_line(sweep: SweepReport, crossing: SweepCrossing) -> str:
+    side = "below" if crossing.below else "above"
+    what = "unstable" if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit"
+    return f"{sweep.name}: {what} {side} {sweep.parameter} = {crossing.value:.4g}"

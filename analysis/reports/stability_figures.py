@@ -8,6 +8,8 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
+from analysis.stability.decibels import decibels
+from analysis.stability.margin_values import MARGINS, UNSTABLE, Quantity
 from analysis.stability.results import JointReport, LoopReport, StabilityReport, SweepReport
 
 from .panels import PANEL_WIDTH, Panel, panel
@@ -16,7 +18,6 @@ from .stability_frequency import draw_bode, draw_sensitivity, margin_words
 from .stability_nyquist import INVERSE, Limits, draw_harmonic_balance, draw_nichols, draw_nyquist, limits_of
 from .stability_poles import crowded, draw_cloud, draw_poles, poles_of
 from .stability_sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
-from .stability_words import decibels
 from .style import house_style, new_figure
 from .svg import inline_svg
 
@@ -36,12 +37,13 @@ def stacked(label: str, name: str, description: str, draw: Callable[[Axes, Axes]
 def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
     """Bode, Nyquist, Nichols; poles, those near z = 1, step response."""
     margins = margin_words(loop)
+    modulus = margins if loop.margins.unstable else f"modulus margin {number(float(loop.robust.modulus_margin), 3)}"
     found = [
         stacked("Bode", f"{name}-bode", f"Bode diagram of {loop.name}: {margins}", lambda g, p: draw_bode(loop, g, p)),
         panel(
             "Nyquist",
             f"{name}-nyquist",
-            f"Nyquist diagram of {loop.name}: modulus margin {number(float(loop.robust.modulus_margin), 3)}",
+            f"Nyquist diagram of {loop.name}: {modulus}",
             lambda axes: draw_nyquist(loop, axes),
             HEIGHT,
         ),
@@ -93,36 +95,30 @@ def dispersion_panels(loop: LoopReport, name: str) -> list[Panel]:
     if found is None:
         return []
     limits = {item.quantity: item.limit for item in found.requirements}
-    gain = np.abs(20.0 * np.log10(np.where(found.gain_margin > 0.0, found.gain_margin, np.nan)))
-    kinds = [
-        ("gain margin", "gain margin, dB", gain),
-        ("phase margin", "phase margin, deg", np.degrees(np.abs(found.phase_margin))),
-        ("modulus margin", "modulus margin", found.modulus_margin),
-        ("disk margin", "disk margin", found.disk_margin),
-    ]
-    stable = found.stable.astype(bool)
     panels = []
-    for kind, what, values in kinds:
-        finite = values[np.isfinite(values)]
-        if not finite.size:
-            continue
+    for quantity in MARGINS:
+        sizes = found.sizes(quantity)
 
-        def draw(
-            axes: Axes, values: np.ndarray = values, what: str = what, limit: float | None = limits.get(kind)
-        ) -> None:
-            draw_histogram(values, stable, axes, what, limit, found.worst)
+        def draw(axes: Axes, sizes: np.ndarray = sizes, quantity: Quantity = quantity) -> None:
+            unit = "" if quantity.unit == "1" else f", {quantity.unit}"
+            draw_histogram(sizes, axes, f"{quantity}{unit}", limits.get(quantity), found.worst)
 
-        words = (
-            f"Histogram of the {kind} of {loop.name} over {found.trials} trials, least {number(float(finite.min()), 3)}"
-        )
-        label = f"{kind.capitalize()} over trials"
-        panels.append(panel(label, f"{name}-trials-{kind.replace(' ', '-')}", words, draw, LOW))
+        words = f"Histogram of the {quantity} of {loop.name} over {found.trials} trials, {_least(sizes)}"
+        label = f"{quantity.capitalize()} over trials"
+        panels.append(panel(label, f"{name}-trials-{quantity.replace(' ', '-')}", words, draw, LOW))
     if np.any(np.isfinite(found.poles)):
         words = f"Closed-loop poles of {loop.name} in {found.trials} trials"
         near = ", near z = 1" if crowded(poles_of(loop)) else ""
         draw_poles_of_all = lambda axes: draw_cloud(loop, axes)  # noqa: E731
         panels.append(panel(f"Poles over trials{near}", f"{name}-cloud", words, draw_poles_of_all, LOW))
     return panels
+
+
+def _least(sizes: np.ndarray) -> str:
+    finite = sizes[np.isfinite(sizes)]
+    words = [f"least {number(float(finite.min()), 3)}"] if finite.size else []
+    unstable = int(np.sum(sizes == UNSTABLE))
+    return ", ".join([*([f"{unstable} unstable"] if unstable else []), *words]) or "none with a crossing"
 
 
 def amplitude_panels(loop: LoopReport, name: str) -> list[Panel]:
@@ -160,16 +156,18 @@ def nonlinear_panels(loop: LoopReport, name: str, index: int) -> list[Panel]:
 def joint_panel(joint: JointReport, name: str) -> Panel:
     """The disk margin of several channels over frequency."""
     words = f"Disk margin of {joint.name} over frequency, least {number(float(joint.disk_margin), 3)}"
-    if math.isfinite(joint.disk_frequency):
+    if not joint.stable:
+        words = f"Distance of {joint.name} from the critical point over frequency; the closed loop is unstable"
+    elif math.isfinite(joint.disk_frequency):
         words += f" at {number(float(joint.disk_frequency))} rad/s"
     return panel(f"{joint.name}, {joint.point}", name, words, lambda axes: draw_joint(joint, axes), HEIGHT)
 
 
 def sweep_panel(sweep: SweepReport, report: StabilityReport, name: str) -> Panel:
-    """Margins over a parameter; the limits are those of the loop that was swept."""
-    limits = next(
-        (limits_of(loop) for loop in report.loops if sweep.loop in (loop.name, loop.loop)), Limits(None, None, None)
-    )
+    """Margins over a parameter with the study's limits."""
+    limits = Limits(report.limits.get("gain_margin_db"), report.limits.get("phase_margin_deg"), None)
     words = f"Gain and phase margin of {sweep.loop} over {sweep.parameter}, {sweep.values.size} values"
+    if unstable := sum(item.unstable for item in sweep.margins):
+        words += f", {unstable} of them unstable"
     label = f"{sweep.loop} over {sweep.parameter}"
     return stacked(label, name, words, lambda g, p: draw_sweep(sweep, limits, g, p))

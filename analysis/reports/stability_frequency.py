@@ -8,16 +8,18 @@ response beside a computed one, and know no exclusion zone. What is drawn are th
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator
 
-from analysis.stability.results import Curve, LoopReport
+from analysis.stability.decibels import decibel_size, decibels
+from analysis.stability.readings import Classical, Curve
+from analysis.stability.results import LoopReport
 
 from .quantities import log_tick, number, tick
-from .stability_words import decibels
 from .style import BLUE, FAINT, GREEN, INK, VERMILION, log_ticks_x
 
 MEASURED: Any = {
@@ -33,7 +35,7 @@ FAR = 60.0  # dB below 1, from where on a gain says nothing about margins
 
 def in_db(values: np.ndarray) -> np.ndarray:
     """Sizes in dB; what is zero is far down."""
-    return 20.0 * np.log10(np.maximum(np.abs(values), FLOOR))
+    return decibels(np.maximum(np.abs(values), FLOOR))
 
 
 def phase_of(curve: Curve, at: float | None) -> np.ndarray:
@@ -66,9 +68,14 @@ def measured_too(loop: LoopReport) -> Curve | None:
     return loop.route_b.curve
 
 
+def margin_crossings(loop: LoopReport) -> Classical:
+    """The crossings that are margins: none where the closed loop is unstable."""
+    return replace(loop.classical, gain=(), phase=()) if loop.margins.unstable else loop.classical
+
+
 def draw_bode(loop: LoopReport, gain_axes: Axes, phase_axes: Axes) -> None:
     """Gain and phase with the decisive margins as bars; circles are the measured response."""
-    curve, found = loop.curve, loop.classical
+    curve, found = loop.curve, margin_crossings(loop)
     gain, phase = found.gain_margin, found.phase_margin
     centre = phase.frequency if phase is not None else gain.frequency if gain is not None else None
     degrees = phase_of(curve, centre)
@@ -120,7 +127,7 @@ def draw_sensitivity(loop: LoopReport, axes: Axes, modulus_limit: float | None) 
         (found.sensitivity_frequency, found.sensitivity_peak),
         (found.complementary_frequency, found.complementary_peak),
     ):
-        if math.isfinite(frequency) and math.isfinite(peak) and peak > 0.0:
+        if not loop.margins.unstable and math.isfinite(frequency) and math.isfinite(peak) and peak > 0.0:
             axes.plot(frequency, decibels(peak), **PHASE_MARK)
     top = max(float(np.max(s)), float(np.max(t)))
     if modulus_limit:
@@ -137,10 +144,12 @@ def draw_sensitivity(loop: LoopReport, axes: Axes, modulus_limit: float | None) 
 
 def margin_words(loop: LoopReport) -> str:
     """The classical margins in words, for those who cannot see the figure."""
+    if loop.margins.unstable:
+        return "the closed loop is unstable, hence no margins"
     gain, phase = loop.classical.gain_margin, loop.classical.phase_margin
     words = []
     if gain is not None:
-        words.append(f"gain margin {number(abs(decibels(gain.value)))} dB at {number(gain.frequency)} rad/s")
+        words.append(f"gain margin {number(decibel_size(gain.value))} dB at {number(gain.frequency)} rad/s")
     if phase is not None:
         words.append(f"phase margin {number(math.degrees(phase.value))} deg at {number(phase.frequency)} rad/s")
     return ", ".join(words) or "no crossing, hence no gain or phase margin"

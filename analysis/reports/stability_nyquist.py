@@ -11,11 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
+from analysis.stability.decibels import decibels
+from analysis.stability.margin_values import Quantity
 from analysis.stability.results import LoopReport, Nonlinearity
 
 from .quantities import MINUS, tick
-from .stability_frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, in_db, measured_too
-from .stability_words import decibels
+from .stability_frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, in_db, margin_crossings, measured_too
 from .style import BLUE, GREEN, INK, PURPLE, VERMILION, plain_ticks
 
 INVERSE = f"{MINUS}1/N"
@@ -39,10 +40,8 @@ class Limits:
 
 def limits_of(loop: LoopReport) -> Limits:
     """The limits among a loop's requirements."""
-    found = {(item.quantity, item.unit): item.limit for item in loop.requirements}
-    return Limits(
-        found.get(("gain margin", "dB")), found.get(("phase margin", "deg")), found.get(("modulus margin", "1"))
-    )
+    found = {item.quantity: item.limit for item in loop.requirements}
+    return Limits(found.get(Quantity.GAIN), found.get(Quantity.PHASE), found.get(Quantity.MODULUS))
 
 
 def _complex_plane(axes: Axes, left: float, right: float) -> None:
@@ -73,7 +72,7 @@ def _direction(axes: Axes, value: np.ndarray, left: float, right: float) -> None
 
 def draw_nyquist(loop: LoopReport, axes: Axes) -> None:
     """L near -1 with the unit circle, the circle of the modulus margin and that of its limit."""
-    value, found, limits = loop.curve.value, loop.robust, limits_of(loop)
+    value, found, limits = loop.curve.value, margin_crossings(loop), limits_of(loop)
     furthest = max([1.0 / item.value for item in loop.classical.gain if item.value > 0.0], default=1.0)
     left, right = -min(max(2.6, 1.15 * furthest), 8.0), 1.4
     axes.plot(value.real, value.imag, color=BLUE)
@@ -82,13 +81,14 @@ def draw_nyquist(loop: LoopReport, axes: Axes) -> None:
     if measured is not None:
         axes.plot(measured.value.real, measured.value.imag, **MEASURED)
     faint_line(axes, np.cos(ANGLES), np.sin(ANGLES))
-    around = found.modulus_margin
-    axes.plot(-1.0 + around * np.cos(ANGLES), around * np.sin(ANGLES), color=GREEN, linewidth=1.2)
+    if not loop.margins.unstable:
+        around = loop.robust.modulus_margin
+        axes.plot(-1.0 + around * np.cos(ANGLES), around * np.sin(ANGLES), color=GREEN, linewidth=1.2)
     if limits.modulus is not None:
         axes.plot(-1.0 + limits.modulus * np.cos(ANGLES), limits.modulus * np.sin(ANGLES), **LIMIT)
-    for crossing in loop.classical.gain:
+    for crossing in found.gain:
         axes.plot(-1.0 / crossing.value, 0.0, **GAIN_MARK)
-    for crossing in loop.classical.phase:
+    for crossing in found.phase:
         axes.plot(-math.cos(crossing.value), -math.sin(crossing.value), **PHASE_MARK)
     _complex_plane(axes, left, right)
     _direction(axes, value, left, right)
@@ -113,9 +113,9 @@ def draw_nichols(loop: LoopReport, axes: Axes) -> None:
     measured = measured_too(loop)
     if measured is not None:
         axes.plot(np.degrees(np.angle(-measured.value)) - 180.0, in_db(measured.value), **MEASURED)
-    for crossing in loop.classical.gain:
+    for crossing in margin_crossings(loop).gain:
         axes.plot(-180.0, -decibels(crossing.value), **GAIN_MARK)
-    for crossing in loop.classical.phase:
+    for crossing in margin_crossings(loop).phase:
         axes.plot(math.degrees(math.remainder(crossing.value, 2.0 * math.pi)) - 180.0, 0.0, **PHASE_MARK)
     reach = max([abs(decibels(item.value)) for item in loop.classical.gain if item.value > 0.0], default=0.0)
     height = min(max(20.0, 1.4 * reach), 40.0)

@@ -7,10 +7,13 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from analysis.stability.results import LoopReport, StabilityReport, SweepReport
+from analysis.stability.margin_values import Quantity
+from analysis.stability.requirement import Verdict
+from analysis.stability.results import LoopReport, StabilityReport, SweepCrossing, SweepReport
 
 from .page import write_page
 from .panels import Panel
+from .quantities import labelled
 from .stability_figures import joint_panel, loop_panels, part_panels, sweep_panel
 from .stability_parts import Part, parts, without
 from .stability_tables import (
@@ -28,7 +31,7 @@ from .stability_tables import (
     trim_table,
     verdict_table,
 )
-from .stability_words import directed, in_degrees, plain, verdict
+from .stability_words import UNSTABLE_WORD, gain_margin, phase_margin, plain, size, verdict
 
 FEW = 2  # loops; of more, only those that fail are unfolded at first
 
@@ -64,7 +67,7 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
 
     How long the study took is not on the page, so that the same study gives the same page.
     """
-    rows = list(judged(report))
+    rows = judged(report)
     summary = summary_table(report)
     write_page(
         path,
@@ -73,7 +76,7 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
         report=report,
         verdict=verdict(report.verdict),
         counts=counts(rows),
-        failing=verdict_table([row for row in rows if row[-1].passed is not None and not row[-1].passed]),
+        failing=verdict_table([row for row in rows if row[-1].verdict is Verdict.FAIL]),
         requirements=verdict_table(rows),
         summary=summary,
         joint=joint_table(report),
@@ -103,7 +106,7 @@ def _card(report: StabilityReport, summary: Table, index: int) -> Card:
     return Card(
         loop=loop,
         id=name,
-        open=len(report.loops) <= FEW or loop.verdict == "fail",
+        open=len(report.loops) <= FEW or loop.verdict is Verdict.FAIL,
         verdict=verdict(loop.verdict),
         period=plain(loop.sample_period),
         about=about(loop),
@@ -127,16 +130,25 @@ def _blocks(shown: list[Part]) -> list[list[Part]]:
 
 def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
     rows = [
-        (plain(float(value), sweep.unit), directed(float(gain)), in_degrees(float(phase)))
-        for value, gain, phase in zip(sweep.values, sweep.gain_margin, sweep.phase_margin, strict=True)
+        (
+            plain(float(value), sweep.unit),
+            gain_margin(margins),
+            phase_margin(margins),
+            size(margins.size(Quantity.MODULUS)),
+        )
+        for value, margins in zip(sweep.values, sweep.margins, strict=True)
     ]
     crossings = [
-        (quantity, plain(None if value is None else float(value), sweep.unit))
-        for quantity, value in sweep.crossings.items()
+        (_crossed(crossing), "below" if crossing.below else "above", plain(crossing.value, sweep.unit))
+        for crossing in sweep.crossings
     ]
     return Sweep(
         sweep,
         sweep_panel(sweep, report, name),
-        Table((sweep.parameter, "gain margin, dB", "phase margin, deg"), "nnn", rows),
-        Table(("limit", "crossed at"), "tn", crossings),
+        Table((sweep.parameter, "gain margin, dB", "phase margin, deg", "modulus margin"), "nnnn", rows),
+        Table(("what fails", "where", labelled(sweep.parameter, sweep.unit)), "ttn", crossings),
     )
+
+
+def _crossed(crossing: SweepCrossing) -> str:
+    return UNSTABLE_WORD if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit"

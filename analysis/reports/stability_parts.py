@@ -3,30 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 from markupsafe import Markup
 
-from analysis.stability.results import Dispersion, LoopReport, Mode, Nonlinearity
+from analysis.stability.margin_values import MARGINS
+from analysis.stability.results import LEVELS, Dispersion, LoopReport, Mode, Nonlinearity
 
 from .panels import Panel
 from .quantities import MINUS, shown_unit
 from .stability_tables import Cell, Table
 from .stability_words import (
     NO_CROSSING,
+    UNSTABLE_WORD,
     closed_loop,
     complex_number,
-    directed,
+    gain_margin,
     in_decibels,
     in_degrees,
+    phase_margin,
     plain,
     samples,
     share,
+    size,
+    state,
 )
-
-QUANTILES = (("least", 0.0), ("5 %", 0.05), ("50 %", 0.5))
 
 
 @dataclass(frozen=True)
@@ -78,17 +80,20 @@ def classical(loop: LoopReport) -> Part:
     """Every crossing, the delay margin and the encirclements."""
     found = loop.classical
     rows: list[tuple[Cell, ...]] = []
+    kind = "crossing" if loop.margins.unstable else "margin"
     for crossing in found.gain:
-        name = f"gain margin {'up' if crossing.value >= 1.0 else 'down'}"
+        name = f"gain {kind} {'up' if crossing.value >= 1.0 else 'down'}"
         rows.append((name, in_decibels(crossing.value, absolute=True), "dB", plain(crossing.frequency)))
     if not found.gain:
-        rows.append(("gain margin", NO_CROSSING, "", ""))
+        rows.append((f"gain {kind}", NO_CROSSING, "", ""))
     for crossing in found.phase:
-        name = "phase margin" if crossing.value >= 0.0 else "phase margin, lead"
+        name = f"phase {kind}" if crossing.value >= 0.0 else f"phase {kind}, lead"
         rows.append((name, in_degrees(crossing.value), "deg", plain(crossing.frequency)))
     if not found.phase:
-        rows.append(("phase margin", NO_CROSSING, "", ""))
-    if math.isfinite(found.delay_margin):
+        rows.append((f"phase {kind}", NO_CROSSING, "", ""))
+    if loop.margins.unstable:
+        rows.append(("delay margin", UNSTABLE_WORD, "", ""))
+    elif math.isfinite(found.delay_margin):
         rows.append(("delay margin", plain(found.delay_margin), "s", plain(found.delay_frequency)))
         rows.append(("", samples(found.delay_margin, loop.sample_period), "samples", ""))
     else:
@@ -98,22 +103,25 @@ def classical(loop: LoopReport) -> Part:
     unstable = plain(loop.unstable_open) if loop.unstable_open is not None else "not known"
     rows.append(("unstable poles of the open loop", unstable, "", ""))
     rows.append(("closed loop", closed_loop(loop.stable), "", ""))
-    note = "" if loop.stable is not False else "The closed loop is unstable: its crossings are not margins."
+    note = "The closed loop is unstable: its crossings are not margins." if loop.margins.unstable else ""
     return Part("classical", "Classical", Table(("quantity", "value", "unit", "at rad/s"), "tntn", rows), note)
 
 
 def robust(loop: LoopReport) -> Part:
     """Distances from the critical point."""
     found = loop.robust
+    word = state(loop.margins)
     rows: list[tuple[Cell, ...]] = [
-        ("modulus margin", plain(found.modulus_margin), plain(found.sensitivity_frequency)),
+        ("modulus margin", word or plain(found.modulus_margin), plain(found.sensitivity_frequency)),
         ("peak of S, dB", in_decibels(found.sensitivity_peak), plain(found.sensitivity_frequency)),
         ("peak of T, dB", in_decibels(found.complementary_peak), plain(found.complementary_frequency)),
-        ("disk margin", plain(found.disk_margin), plain(found.disk_frequency)),
-        ("— gain, up and down, dB", in_decibels(found.disk_gain, "without limit"), ""),
-        ("— phase, deg", in_degrees(found.disk_phase), ""),
+        ("disk margin", word or plain(found.disk_margin), plain(found.disk_frequency)),
+        ("— gain, up and down, dB", word or in_decibels(found.disk_gain, "without limit"), ""),
+        ("— phase, deg", word or in_degrees(found.disk_phase), ""),
     ]
     note = "Within the disk margin gain and phase may change at once."
+    if loop.margins.unstable:
+        note = "Peaks are those of the response: of an unstable closed loop they bound nothing."
     return Part("robust", "Robust", Table(("quantity", "value", "at rad/s"), "tnn", rows), note)
 
 
@@ -160,31 +168,19 @@ def structure(loop: LoopReport) -> Part:
     return Part("structure", "Structure", Table(("part", "rank", "least kept singular value"), "tnn", rows))
 
 
-def quantile(values: np.ndarray, stable: np.ndarray, level: float) -> float:
-    """An order statistic over the stable trials, of which those without a crossing (nan) have no least margin."""
-    kept = np.where(np.isnan(values), np.inf, values)[stable]
-    return float(np.quantile(kept, level, method="inverted_cdf")) if kept.size else math.nan
-
-
 def dispersed(found: Dispersion) -> Part:
     """Least, 5 % and median margins over the campaign, and how to fly the worst case again."""
-    stable = found.stable.astype(bool)
-    kinds: list[tuple[str, np.ndarray, Callable[[float], Markup]]] = [
-        ("gain margin, dB", np.exp(np.abs(np.log(found.gain_margin))), in_decibels),
-        ("phase margin, deg", np.abs(found.phase_margin), in_degrees),
-        ("modulus margin", found.modulus_margin, lambda value: plain(value, infinite=NO_CROSSING)),
-        ("disk margin", found.disk_margin, lambda value: plain(value, infinite=NO_CROSSING)),
-    ]
     rows: list[tuple[Cell, ...]] = []
-    for name, values, shown in kinds:
-        at_worst = float(values[found.worst])
-        cells = [shown(quantile(values, stable, level)) for _, level in QUANTILES]
-        rows.append((name, *cells, shown(math.inf if math.isnan(at_worst) else at_worst)))
-    head = ("margin", *(name for name, _ in QUANTILES), f"trial {found.worst}, the worst")
+    for quantity in MARGINS:
+        unit = "" if quantity.unit == "1" else f", {quantity.unit}"
+        cells = [size(value) for value in found.levels(quantity).values()]
+        rows.append((f"{quantity}{unit}", *cells, size(found.margins[found.worst].size(quantity))))
+    head = ("margin", *LEVELS, f"trial {found.worst}, the worst")
+    unstable = f"{found.unstable} of {found.trials} trials are unstable" if found.unstable else "all trials are stable"
     note = Markup(
-        "Campaign {}: {} of {} trials are stable; the columns are over those, a trial without a crossing counts as "
-        "one without limit. The worst trial has the least disk margin. It is flown again by"
-    ).format(found.campaign, plain(int(stable.sum())), plain(found.trials))
+        "Campaign {}: {}. Levels are margins of single trials, over all of them; an unstable trial counts below every "
+        "number, one without a crossing above. The worst trial has the least disk margin{}. It is flown again by"
+    ).format(found.campaign, unstable, ", of the unstable ones the largest multiplier" if found.unstable else "")
     return Part("dispersed", "Dispersed", Table(head, "tnnnn", rows), note, found.replay)
 
 
@@ -241,8 +237,8 @@ def sampling(loop: LoopReport) -> Part:
     rows: list[tuple[Cell, ...]] = [
         (
             plain(item.step),
-            directed(item.gain_margin),
-            in_degrees(item.phase_margin),
+            gain_margin(item.margins) if item.margins else plain(None),
+            phase_margin(item.margins) if item.margins else plain(None),
             item.note,
         )
         for item in loop.sampling

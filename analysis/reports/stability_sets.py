@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
+from analysis.stability.decibels import decibels, factor_of
+from analysis.stability.margin_values import UNLIMITED, UNSTABLE, Quantity
+from analysis.stability.margins import disk_of_gain, disk_of_phase
 from analysis.stability.results import JointReport, LoopReport, Nonlinearity, SweepReport
 
 from .quantities import labelled, shown_factor, tick
@@ -16,6 +21,7 @@ from .stability_nyquist import LIMIT, Limits
 from .style import BLUE, FAILED, GREEN, INK, VERMILION, log_ticks_x, plain_ticks
 
 BINS = 24
+UNSTABLE_BAND: Any = {"facecolor": "white", "edgecolor": VERMILION, "hatch": "////", "zorder": 0.5}
 
 
 def draw_step(loop: LoopReport, axes: Axes) -> None:
@@ -31,29 +37,33 @@ def draw_step(loop: LoopReport, axes: Axes) -> None:
     axes.set_xlabel("s")
 
 
-def draw_histogram(
-    values: np.ndarray, stable: np.ndarray, axes: Axes, what: str, limit: float | None, worst: int
-) -> None:
-    """Trials by a margin, unstable ones hatched; the limit dashed, the worst trial marked."""
-    finite = np.isfinite(values)
-    kept = values[finite]
+def draw_histogram(sizes: np.ndarray, axes: Axes, what: str, limit: float | None, worst: int) -> None:
+    """Trials by a margin's size; unstable ones as a hatched bar left of all, the limit dashed, the worst marked."""
+    unstable, finite = sizes == UNSTABLE, np.isfinite(sizes)
+    kept = sizes[finite]
     low, high = (float(kept.min()), float(kept.max())) if kept.size else (0.0, 1.0)
     if limit is not None:
         low, high = min(low, limit), max(high, limit)
     margin = 0.04 * (high - low) or 0.04 * abs(high) or 1.0
     edges = np.linspace(low - margin, high + margin, BINS + 1)
-    axes.hist(values[finite & stable], bins=edges.tolist(), color=BLUE, alpha=0.75)
-    if np.any(finite & ~stable):
-        axes.hist(values[finite & ~stable], bins=edges.tolist(), facecolor="white", edgecolor=VERMILION, hatch="////")
+    width = edges[1] - edges[0]
+    axes.hist(kept, bins=edges.tolist(), color=BLUE, alpha=0.75)
+    left = edges[0]
+    if np.any(unstable):
+        left = edges[0] - 3.0 * width
+        axes.bar(edges[0] - 2.0 * width, int(np.sum(unstable)), 2.0 * width, **UNSTABLE_BAND)
     if limit is not None:
         axes.axvline(limit, **{**LIMIT, "linewidth": 1.4})
-    if math.isfinite(values[worst]):
-        axes.plot(values[worst], 0.0, **{**PHASE_MARK, "marker": "^", "markersize": 7, "clip_on": False})
-    axes.set_xlim(edges[0], edges[-1])
+    if finite[worst] or unstable[worst]:
+        at = edges[0] - 2.0 * width if unstable[worst] else sizes[worst]
+        axes.plot(at, 0.0, **{**PHASE_MARK, "marker": "^", "markersize": 7, "clip_on": False})
+    axes.set_xlim(left, edges[-1])
     plain_ticks(axes, x=5, y=4, whole_y=True)
-    missing = values.size - kept.size
-    without = f", {missing} without" if missing else ""
-    axes.set_title(f"trials{without}", loc="left", fontsize=8.5)
+    counted = {"unstable": int(np.sum(unstable)), "without crossing": int(np.sum(sizes == UNLIMITED))}
+    axes.set_title(
+        ", ".join(["trials", *(f"{count} {words}" for words, count in counted.items() if count)]),
+        loc="left", fontsize=8.5,
+    )  # fmt: skip
     axes.set_xlabel(what)
 
 
@@ -105,23 +115,27 @@ def draw_describing(element: Nonlinearity, axes: Axes) -> None:
 
 
 def draw_sweep(sweep: SweepReport, limits: Limits, gain_axes: Axes, phase_axes: Axes) -> None:
-    """Gain and phase margin over a parameter, with the limits and where they are crossed."""
+    """Gain and phase margin over a parameter, the limits, where they are crossed; hatched: unstable."""
     factor = shown_factor(sweep.unit)
     x = factor * sweep.values
-    gain = 20.0 * np.log10(np.where(sweep.gain_margin > 0.0, sweep.gain_margin, np.nan))
+    unstable = np.array([item.unstable for item in sweep.margins])
+    gain = np.array([math.nan if item.unstable else decibels(item.gain) for item in sweep.margins])
+    phase = np.array([math.nan if item.unstable else math.degrees(item.phase) for item in sweep.margins])
     shown: list[tuple[Axes, np.ndarray, float | None, str]] = [
         (gain_axes, gain, limits.gain, "gain margin, dB"),
-        (phase_axes, np.degrees(sweep.phase_margin), limits.phase, "phase margin, deg"),
+        (phase_axes, phase, limits.phase, "phase margin, deg"),
     ]
+    edges = [crossing.value for crossing in sweep.crossings if crossing.quantity is Quantity.STABILITY]
     for axes, y, limit, title in shown:
         axes.plot(x, np.where(np.isfinite(y), y, np.nan), color=BLUE, marker="o", markersize=2.5)
         if limit is not None:
             axes.axhline(limit, **LIMIT)
             if float(np.nanmin(y, initial=0.0)) < 0.0:
                 axes.axhline(-limit, **LIMIT)
-        for value in sweep.crossings.values():
-            if value is not None and math.isfinite(value):
-                axes.axvline(factor * value, color=INK, linewidth=0.9, linestyle=(0, (1.2, 1.6)))
+        for crossing in sweep.crossings:
+            axes.axvline(factor * crossing.value, color=INK, linewidth=0.9, linestyle=(0, (1.2, 1.6)))
+        for left, right in _runs(unstable, sweep.values, edges):
+            axes.axvspan(factor * left, factor * right, **UNSTABLE_BAND)
         axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 1.5, 2, 3, 5, 10]))
         axes.yaxis.set_major_formatter(FuncFormatter(tick))
         axes.set_title(title, loc="left", fontsize=8.5)
@@ -133,17 +147,27 @@ def draw_sweep(sweep: SweepReport, limits: Limits, gain_axes: Axes, phase_axes: 
     phase_axes.set_xlabel(labelled(sweep.parameter, sweep.unit))
 
 
+def _runs(unstable: np.ndarray, values: np.ndarray, edges: list[float]) -> list[tuple[float, float]]:
+    """From where to where the loop is unstable: between the edges found, or the ends of the sweep."""
+    bounds = [float(values[0]), *edges, float(values[-1])]
+    middles = [(low, high) for low, high in itertools.pairwise(bounds) if high > low]
+    return [(low, high) for low, high in middles if np.any(unstable & (values >= low) & (values <= high))]
+
+
 def draw_joint(joint: JointReport, axes: Axes) -> None:
-    """The disk margin of all channels at once over frequency, its least value and the limit."""
+    """The disk margin of all channels at once over frequency, its least value and the limit that both sizes set."""
     axes.plot(joint.frequency, joint.disk_margins, color=BLUE)
-    if math.isfinite(joint.disk_frequency):
+    if joint.stable and math.isfinite(joint.disk_frequency):
         axes.plot(joint.disk_frequency, joint.disk_margin, **PHASE_MARK)
-    for item in joint.requirements:
-        if item.quantity == "disk margin":
-            axes.axhline(item.limit, **LIMIT)
+    limits = {item.quantity: item.limit for item in joint.requirements}
+    alphas = [disk_of_gain(factor_of(limits[Quantity.DISK_GAIN]))] if Quantity.DISK_GAIN in limits else []
+    alphas += [disk_of_phase(math.radians(limits[Quantity.DISK_PHASE]))] if Quantity.DISK_PHASE in limits else []
+    if alphas:
+        axes.axhline(max(alphas), **LIMIT)
     finite = joint.disk_margins[np.isfinite(joint.disk_margins)]
     axes.set_ylim(0.0, min(2.1, 1.1 * float(np.max(finite, initial=0.1))))
     plain_ticks(axes, y=5)
     frequency_axis(axes, float(joint.frequency[0]), float(joint.frequency[-1]))
-    axes.set_title("disk margin", loc="left", fontsize=8.5)
+    title = "disk margin" if joint.stable else "distance; the closed loop is unstable"
+    axes.set_title(title, loc="left", fontsize=8.5)
     axes.set_xlabel("rad/s")

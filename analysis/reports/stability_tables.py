@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from markupsafe import Markup
 
-from analysis.stability.results import LoopReport, PointReport, Requirement, StabilityReport
+from analysis.stability.margin_values import UNSTABLE
+from analysis.stability.requirement import Requirement, Scope, Verdict
+from analysis.stability.results import LoopReport, PointReport, StabilityReport
 
 from .quantities import number, shown_unit
 from .stability_words import (
@@ -24,10 +26,13 @@ from .stability_words import (
     plain,
     samples,
     share,
+    size,
+    state,
     verdict,
 )
 
 TIMES = ("step", "start_time", "stop_time")  # s
+SCOPES = {Scope.NOMINAL: "nominal", Scope.DISPERSED: "dispersed", Scope.JOINT: "channels at once"}
 LONG = 30  # rows; longer tables are folded away
 Cell = Markup | str
 
@@ -57,41 +62,40 @@ def link(report: StabilityReport, index: int) -> Markup:
     return Markup('<a href="#{}">{}</a>').format(anchor(index), report.loops[index].name)
 
 
-def judged(report: StabilityReport) -> Iterator[tuple[Cell, str, str, Requirement]]:
-    """Loop, operating point, scope and requirement of everything that is judged."""
-    for index, loop in enumerate(report.loops):
-        for requirement in loop.requirements:
-            yield link(report, index), loop.point, "nominal", requirement
-        if loop.dispersion is not None:
-            for requirement in loop.dispersion.requirements:
-                yield link(report, index), loop.point, "dispersed", requirement
-    for joint in report.joint:
-        for requirement in joint.requirements:
-            yield joint.name, joint.point, "channels at once", requirement
+Row = tuple[Cell, str, Requirement]
 
 
-def verdict_table(rows: list[tuple[Cell, str, str, Requirement]]) -> Table:
+def judged(report: StabilityReport) -> list[Row]:
+    """Loop, operating point and requirement of everything that is judged."""
+    places = {id(loop): index for index, loop in enumerate(report.loops)}
+    return [
+        (
+            link(report, places[id(subject)]) if isinstance(subject, LoopReport) else subject.name,
+            subject.point,
+            requirement,
+        )
+        for subject, requirement in report.judged()
+    ]
+
+
+def verdict_table(rows: Sequence[Row]) -> Table:
     """Every requirement that is given: value, limit, verdict and, where there is none, why."""
     head = ("loop", "operating point", "scope", "quantity", "value", "limit", "verdict", "note")
     return Table(
         head,
         "ssssnnsl",
         [
-            (loop, point, scope, item.quantity, found(item), limit(item), verdict(item.passed), item.note)
-            for loop, point, scope, item in rows
+            (loop, point, SCOPES[item.scope], item.title, found(item), limit(item), verdict(item.verdict), item.note)
+            for loop, point, item in rows
         ],
         "requirements",
     )
 
 
-def counts(rows: list[tuple[Cell, str, str, Requirement]]) -> dict[str, int]:
+def counts(rows: Sequence[Row]) -> dict[str, int]:
     """How many requirements hold, fail and are not applicable."""
-    passed = [item.passed for *_, item in rows]
-    return {
-        "pass": sum(value is not None and bool(value) for value in passed),
-        "fail": sum(value is not None and not value for value in passed),
-        "not applicable": sum(value is None for value in passed),
-    }
+    verdicts = [item.verdict for *_, item in rows]
+    return {word: verdicts.count(word) for word in Verdict}
 
 
 def summary_table(report: StabilityReport) -> Table:
@@ -104,12 +108,12 @@ def summary_table(report: StabilityReport) -> Table:
         (
             link(report, index),
             loop.point,
-            gain_margin(loop.classical.gain_margin),
-            phase_margin(loop.classical.phase_margin),
-            plain(loop.classical.delay_margin, infinite=NO_CROSSING),
-            samples(loop.classical.delay_margin, loop.sample_period),
-            plain(loop.robust.modulus_margin, digits=3),
-            plain(loop.robust.disk_margin, digits=3),
+            gain_margin(loop.margins),
+            phase_margin(loop.margins),
+            state(loop.margins) or plain(loop.classical.delay_margin, infinite=NO_CROSSING),
+            state(loop.margins) or samples(loop.classical.delay_margin, loop.sample_period),
+            state(loop.margins) or plain(loop.robust.modulus_margin, digits=3),
+            state(loop.margins) or plain(loop.robust.disk_margin, digits=3),
             closed_loop(loop.stable),
             verdict(loop.verdict),
         )
@@ -125,19 +129,15 @@ def joint_table(report: StabilityReport) -> Table:
     )  # fmt: skip
     rows: list[tuple[Cell, ...]] = []
     for joint in report.joint:
-        passed = [item.passed for item in joint.requirements if item.passed is not None]
         name = Markup("<b>{}</b><br>{}").format(joint.name, ", ".join(joint.channels))
-        rows.append(
-            (
-                name,
-                joint.point,
-                plain(joint.disk_margin, digits=3),
-                in_decibels(joint.disk_gain, "without limit"),
-                in_degrees(joint.disk_phase),
-                plain(joint.disk_frequency),
-                verdict(all(passed) if passed else None),
-            )
+        margins = (
+            plain(joint.disk_margin, digits=3),
+            in_decibels(joint.disk_gain, "without limit"),
+            in_degrees(joint.disk_phase),
+            plain(joint.disk_frequency),
         )
+        none = (size(UNSTABLE),) * 3 + (plain(None),)
+        rows.append((name, joint.point, *(margins if joint.stable else none), verdict(joint.verdict)))
     return Table(head, "ttnnnnt", rows, "joint margins")
 
 
@@ -174,8 +174,8 @@ def trim_table(points: tuple[PointReport, ...]) -> Table:
 def limit_table(report: StabilityReport) -> Table:
     """The limits that were used, each once."""
     rows: dict[tuple[str, ...], tuple[Cell, ...]] = {}
-    for _, _, scope, item in judged(report):
-        rows.setdefault((scope, item.quantity, str(item.limit), item.unit), (scope, item.quantity, limit(item)))
+    for _, item in report.judged():
+        rows.setdefault((item.title, str(item.limit)), (SCOPES[item.scope], item.title, limit(item)))
     return Table(("scope", "quantity", "limit"), "ttn", list(rows.values()), "limits")
 
 

@@ -1,7 +1,8 @@
 """How a stability page words its values: dB and degrees, what is infinite, what could not be had, verdicts.
 
 The exact SI value (a factor, rad, s) stands in the markup's ``value``, as everywhere on our pages. Nothing is
-ever shown as "inf" or "nan": an infinite margin has no crossing, anything else that is not finite is a dash.
+ever shown as "inf" or "nan": an infinite margin has no crossing, an unstable loop has no margins and says so,
+anything else that is not finite is a dash.
 """
 
 from __future__ import annotations
@@ -12,19 +13,16 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from analysis.stability.results import Crossing, Requirement
+from analysis.stability.decibels import decibel_size, decibels, degree_size
+from analysis.stability.margin_values import UNSTABLE, Margins
+from analysis.stability.requirement import Requirement, Verdict
 
 from .page import exact
 from .quantities import MINUS, NONE, number, shown_unit
 
 NO_CROSSING = "none (no crossing)"
-WORDS = {True: "pass", False: "fail", None: "not applicable"}
-SIGNS = {"pass": "✓", "fail": "✗", "not applicable": NONE}
-
-
-def decibels(factor: float) -> float:
-    """A gain as a factor in dB; 0 is minus infinity."""
-    return 20.0 * math.log10(factor) if factor > 0.0 else -math.inf
+UNSTABLE_WORD = "unstable"
+SIGNS = {Verdict.PASS: "✓", Verdict.FAIL: "✗", Verdict.NOT_APPLICABLE: NONE}
 
 
 def _data(value: float, shown: float, digits: int, infinite: str) -> Markup:
@@ -48,8 +46,8 @@ def in_decibels(factor: float | None, infinite: str = NO_CROSSING, *, absolute: 
     """A factor in dB, without the unit; ``absolute``: how far from 1, up or down."""
     if factor is None:
         return plain(None)
-    shown = decibels(float(factor))
-    return _data(float(factor), abs(shown) if absolute else shown, 4, infinite)
+    shown = decibel_size(factor) if absolute else decibels(float(factor))
+    return _data(float(factor), shown, 4, infinite)
 
 
 def in_degrees(angle: float | None, infinite: str = NO_CROSSING) -> Markup:
@@ -73,28 +71,36 @@ def complex_number(value: complex, digits: int = 4) -> Markup:
     return Markup('<data value="{}">{}</data>').format(repr(value).strip("()"), shown)
 
 
-def gain_margin(crossing: Crossing | None) -> Markup:
+def state(margins: Margins) -> Markup | None:
+    """What stands in the place of margins that an unstable loop has not."""
+    return Markup("<b>{}</b>").format(UNSTABLE_WORD) if margins.unstable else None
+
+
+def gain_margin(margins: Margins) -> Markup:
     """A gain margin in dB with its direction."""
-    if crossing is None:
-        return Markup("<span>{}</span>").format(NO_CROSSING)
-    return directed(crossing.value)
+    return state(margins) or directed(margins.gain)
 
 
-def directed(factor: float | None) -> Markup:
-    """A factor on the gain in dB with its direction; nan and inf: there is none."""
-    if factor is None:
-        return plain(None)
+def directed(factor: float) -> Markup:
+    """A factor on the gain in dB with its direction; inf: there is none."""
     if not math.isfinite(factor):
         return Markup("<span>{}</span>").format(NO_CROSSING)
     return in_decibels(factor, absolute=True) + Markup(" {}").format("up" if factor >= 1.0 else "down")
 
 
-def phase_margin(crossing: Crossing | None) -> Markup:
+def phase_margin(margins: Margins) -> Markup:
     """A phase margin in degrees; a lead is said to be one."""
-    if crossing is None:
-        return Markup("<span>{}</span>").format(NO_CROSSING)
-    shown = _data(float(crossing.value), abs(math.degrees(crossing.value)), 4, NO_CROSSING)
-    return shown + Markup("" if crossing.value >= 0.0 else " lead")
+    if margins.unstable or not math.isfinite(margins.phase):
+        return state(margins) or Markup("<span>{}</span>").format(NO_CROSSING)
+    shown = _data(float(margins.phase), degree_size(margins.phase), 4, NO_CROSSING)
+    return shown + Markup("" if margins.phase >= 0.0 else " lead")
+
+
+def size(value: float | None) -> Markup:
+    """The size of a margin in its unit: a number, unstable, or without a crossing."""
+    if value == UNSTABLE:
+        return Markup("<b>{}</b>").format(UNSTABLE_WORD)
+    return plain(value, infinite=NO_CROSSING)
 
 
 def samples(delay: float, period: float) -> Markup:
@@ -102,9 +108,8 @@ def samples(delay: float, period: float) -> Markup:
     return plain(float(delay) / period, infinite=NO_CROSSING)
 
 
-def verdict(passed: bool | str | None) -> Markup:
+def verdict(word: Verdict) -> Markup:
     """Pass, fail or not applicable: a word, a sign and a colour."""
-    word = passed if isinstance(passed, str) else WORDS[passed]
     return Markup('<span class="verdict {}">{} {}</span>').format(word.replace(" ", "-"), SIGNS[word], word)
 
 
@@ -114,12 +119,9 @@ def closed_loop(stable: bool | None) -> str:
 
 
 def found(requirement: Requirement) -> Markup:
-    """The value of a requirement with its unit; what holds without a value has no crossing."""
+    """The value of a requirement with its unit."""
     value = requirement.value
-    if value is None:
-        return Markup("<span>{}</span>").format(NO_CROSSING if requirement.passed else NONE)
-    shown = plain(float(value), infinite=NO_CROSSING)
-    return shown + Markup("" if math.isinf(value) else _unit(requirement.unit))
+    return size(value) + (_unit(requirement.unit) if value is not None and math.isfinite(value) else Markup(""))
 
 
 def limit(requirement: Requirement) -> Markup:

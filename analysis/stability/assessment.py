@@ -9,8 +9,10 @@ import numpy as np
 
 from .curves import Response, dense, remembered
 from .declaration import Limits
+from .margin_values import Margins, Quantity
 from .margins import classical, robust
-from .results import Classical, Curve, Requirement, Robust
+from .readings import Classical, Curve, Robust
+from .requirement import Requirement, Scope
 
 LOWEST = 1e-6  # of the Nyquist frequency: below, a linear model's integrators are not resolved
 BELOW = 0.02  # of the lowest gain crossover, from which on a loop is looked at
@@ -78,47 +80,19 @@ def assess(
     return Assessment(curve, found, robust(response, low, high, include=include), notes)
 
 
-def requirements(
-    found: Classical,
-    peaks: Robust,
-    stable: bool | None,
-    limits: Limits,
-    largest_pole: float | None,
-) -> tuple[Requirement, ...]:
+def requirements(found: Margins, limits: Limits) -> tuple[Requirement, ...]:
     """The project's limits against one loop."""
-    stability = Requirement("largest multiplier", largest_pole, 1.0, "1", stable, "the closed loop is unstable")
-    if stable:
-        stability = Requirement("largest multiplier", largest_pole, 1.0, "1", True)
-    elif stable is None:
-        stability = Requirement("largest multiplier", None, 1.0, "1", None, "poles are not known without route A")
-    if stable is False:
-        note = "the closed loop is unstable"
-        return (
-            stability,
-            Requirement("gain margin", None, limits.gain_margin_db, "dB", None, note),
-            Requirement("phase margin", None, limits.phase_margin_deg, "deg", None, note),
-            Requirement("modulus margin", None, limits.modulus_margin, "1", None, note),
-        )
-    gain, phase = found.gain_margin, found.phase_margin
-    return (
-        stability,
-        _at_least("gain margin", decibel(gain.value) if gain else None, limits.gain_margin_db, "dB"),
-        _at_least("phase margin", degrees(phase.value) if phase else None, limits.phase_margin_deg, "deg"),
-        _at_least("modulus margin", peaks.modulus_margin, limits.modulus_margin, "1"),
+    if found.stable is None:
+        note = "poles are not known without route A"
+        stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, None, 1.0, None, note)
+    else:
+        note = "" if found.stable else "the closed loop is unstable"
+        stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, found.largest, 1.0, found.stable, note)
+    wanted = {
+        Quantity.GAIN: limits.gain_margin_db,
+        Quantity.PHASE: limits.phase_margin_deg,
+        Quantity.MODULUS: limits.modulus_margin,
+    }
+    return stability, *(
+        Requirement.at_least(Scope.NOMINAL, quantity, found.size(quantity), limit) for quantity, limit in wanted.items()
     )
-
-
-def _at_least(quantity: str, value: float | None, limit: float, unit: str) -> Requirement:
-    if value is None:
-        return Requirement(quantity, None, limit, unit, True, "no crossing")
-    return Requirement(quantity, value, limit, unit, bool(value >= limit))
-
-
-def decibel(factor: float) -> float:
-    """The size of a gain margin in dB, up or down."""
-    return float(abs(20.0 * np.log10(factor)))
-
-
-def degrees(angle: float) -> float:
-    """The size of a phase margin in deg, lag or lead."""
-    return float(np.degrees(abs(angle)))

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from analysis.stability.results import Curve
+from analysis.stability.readings import Curve
 
 Response = Callable[[np.ndarray], np.ndarray]
 

@@ -11,11 +11,13 @@ import numpy as np
 from analysis.batch.plan import BatchPlan
 
 from .declaration import Limits, Loop, Point
-from .followed import ONE_STEP, Margins, margins_of
+from .followed import ONE_STEP, margins_of, model_of, poles_of
 from .linearise import linearise
+from .margin_values import Margins, Quantity, worst_of
 from .operating_point import OperatingPoint
 from .point_study import PointStudy
-from .results import Dispersion, Requirement
+from .requirement import Requirement, Scope
+from .results import Dispersion
 from .subject import Subject
 
 
@@ -37,6 +39,7 @@ def dispersed(
     flown = subject.changed(parameters=plan.campaign.parameters)
     flown = replace(flown, options=replace(flown.options, set={**plan.campaign.settings, **flown.options.set}))
     rows: dict[str, list[Margins]] = {}
+    poles: dict[str, list[np.ndarray]] = {}
     with PointStudy(flown, point, loops, _varied(plan)) as study:
         for trial in range(plan.campaign.trials):
             study.bench.set(plan.parameters(study.prepared, trial))
@@ -46,9 +49,14 @@ def dispersed(
             finally:
                 start.release()
             for channel in study.channels:
-                rows.setdefault(channel.name, []).append(margins_of(linear, channel.name))
+                model = model_of(linear, channel.name)
+                rows.setdefault(channel.name, []).append(margins_of(model))
+                poles.setdefault(channel.name, []).append(poles_of(model))
         loop_of = {channel.name: channel.loop for channel in study.channels}
-    return {name: _dispersion(plan, items, limits, partial(replay, loop_of[name])) for name, items in rows.items()}
+    return {
+        name: _dispersion(plan, items, np.concatenate(poles[name]), limits, partial(replay, loop_of[name]))
+        for name, items in rows.items()
+    }
 
 
 def _varied(plan: BatchPlan) -> list[str]:
@@ -56,40 +64,26 @@ def _varied(plan: BatchPlan) -> list[str]:
     return sorted(plan.parameters(prepared, 0))
 
 
-def _dispersion(plan: BatchPlan, items: list[Margins], limits: Limits, replay: Callable[[int], str]) -> Dispersion:
-    disks = np.array([item.disk if item.stable else 0.0 for item in items])
-    worst = int(np.argmin(disks))
-    stable = all(item.stable for item in items)
-    gain = min(item.gain_db for item in items)
-    phase = min(item.phase_deg for item in items)
-    shown = (float(gain) if np.isfinite(gain) else None, float(phase) if np.isfinite(phase) else None)
-    wanted = (
-        Requirement("dispersed stability", float(np.mean([item.stable for item in items])), 1.0, "1", stable),
-        Requirement(
-            "dispersed gain margin",
-            shown[0],
-            limits.dispersed_gain_margin_db,
-            "dB",
-            stable and gain >= limits.dispersed_gain_margin_db,
-        ),
-        Requirement(
-            "dispersed phase margin",
-            shown[1],
-            limits.dispersed_phase_margin_deg,
-            "deg",
-            stable and phase >= limits.dispersed_phase_margin_deg,
-        ),
-    )
+def _dispersion(
+    plan: BatchPlan, items: Sequence[Margins], poles: np.ndarray, limits: Limits, replay: Callable[[int], str]
+) -> Dispersion:
+    worst = worst_of(items)
+    unstable = sum(item.unstable for item in items)
+    note = f"{unstable} of {len(items)} trials unstable; the worst again: {replay(worst)}" if unstable else ""
+    share = Requirement(Scope.DISPERSED, Quantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note)
+    wanted = {
+        Quantity.GAIN: limits.dispersed_gain_margin_db,
+        Quantity.PHASE: limits.dispersed_phase_margin_deg,
+    }
+    least = [
+        Requirement.at_least(Scope.DISPERSED, quantity, min(item.size(quantity) for item in items), limit)
+        for quantity, limit in wanted.items()
+    ]
     return Dispersion(
         campaign=plan.campaign.file,
-        trials=len(items),
-        gain_margin=np.array([item.gain if item.stable and np.isfinite(item.gain) else np.nan for item in items]),
-        phase_margin=np.array([item.phase if item.stable and np.isfinite(item.phase) else np.nan for item in items]),
-        modulus_margin=np.array([item.modulus if item.stable else np.nan for item in items]),
-        disk_margin=np.array([item.disk if item.stable else np.nan for item in items]),
-        stable=np.array([item.stable for item in items]),
-        poles=np.concatenate([item.poles for item in items]),
+        margins=tuple(items),
+        poles=poles,
         worst=worst,
         replay=replay(worst),
-        requirements=wanted,
+        requirements=(share, *least),
     )

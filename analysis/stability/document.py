@@ -8,22 +8,24 @@ from typing import Any
 
 import numpy as np
 
-from .assessment import decibel, degrees
-from .results import (
-    Crossing,
-    Dispersion,
-    JointReport,
-    LoopReport,
-    Nonlinearity,
-    PointReport,
-    Requirement,
-    StabilityReport,
-    SweepReport,
-)
+from .decibels import decibels, degree_size
+from .margin_values import UNLIMITED, UNSTABLE, Margins, Quantity
+from .requirement import Requirement
+from .results import Dispersion, JointReport, LoopReport, Nonlinearity, PointReport, StabilityReport, SweepReport
+
+KEYS = {
+    "gain_margin_db": Quantity.GAIN,
+    "phase_margin_deg": Quantity.PHASE,
+    "modulus_margin": Quantity.MODULUS,
+    "disk_margin": Quantity.DISK,
+}
 
 
 def document(report: StabilityReport) -> dict[str, Any]:
-    """The whole report without route A's curves, ready for strict JSON: no number is infinite, absent ones are null."""
+    """The whole report without route A's curves, ready for strict JSON.
+
+    No number is infinite: a margin is a number, "unstable", "unlimited", or null where it is not known.
+    """
     return {
         "system": report.system,
         "verdict": report.verdict,
@@ -41,8 +43,16 @@ def _number(value: float | None) -> float | None:
     return None if value is None or not math.isfinite(value) else float(value)
 
 
-def _decibel(crossing: Crossing | None) -> float | None:
-    return decibel(crossing.value) if crossing else None
+def _size(value: float | None) -> float | str | None:
+    """The size of a margin: a number, or what it is instead of one."""
+    if value is None:
+        return None
+    return {UNSTABLE: "unstable", UNLIMITED: "unlimited"}.get(value, float(value))
+
+
+def _margins(found: Margins | None) -> dict[str, Any]:
+    """The four margins; null where there are none to be had."""
+    return {name: _size(None if found is None else found.size(quantity)) for name, quantity in KEYS.items()}
 
 
 def _complex(values: np.ndarray) -> list[list[float]]:
@@ -50,7 +60,11 @@ def _complex(values: np.ndarray) -> list[list[float]]:
 
 
 def _loop(loop: LoopReport) -> dict[str, Any]:
-    phase = loop.classical.phase_margin
+    margins = loop.margins
+
+    def held(value: float) -> float | str | None:
+        return _size(UNSTABLE if margins.unstable else value)
+
     found: dict[str, Any] = {
         "name": loop.name,
         "loop": loop.loop,
@@ -62,18 +76,14 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
         "closed": list(loop.closed),
         "verdict": loop.verdict,
         "stable": loop.stable,
-        "gain_margin_db": _decibel(loop.classical.gain_margin),
-        "phase_margin_deg": degrees(phase.value) if phase else None,
-        "delay_margin_s": _number(loop.classical.delay_margin),
-        "modulus_margin": loop.robust.modulus_margin,
-        "disk_margin": loop.robust.disk_margin,
-        "disk_gain_db": _number(20.0 * math.log10(loop.robust.disk_gain) if loop.robust.disk_gain < math.inf else None),
-        "disk_phase_deg": degrees(loop.robust.disk_phase),
+        **_margins(margins),
+        "delay_margin_s": held(loop.classical.delay_margin),
+        "disk_gain_db": held(decibels(loop.robust.disk_gain)),
+        "disk_phase_deg": held(degree_size(loop.robust.disk_phase)),
         "sensitivity_peak": loop.robust.sensitivity_peak,
         "complementary_peak": loop.robust.complementary_peak,
         "gain_crossings": [
-            {"gain_db": 20.0 * math.log10(item.value), "frequency_rad_s": item.frequency}
-            for item in loop.classical.gain
+            {"gain_db": decibels(item.value), "frequency_rad_s": item.frequency} for item in loop.classical.gain
         ],
         "phase_crossings": [
             {"phase_deg": math.degrees(item.value), "frequency_rad_s": item.frequency} for item in loop.classical.phase
@@ -93,15 +103,7 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
         "requirements": [_requirement(item) for item in loop.requirements],
         "not_applicable": loop.not_applicable,
         "nonlinearities": [_element(item) for item in loop.nonlinearities],
-        "sampling": [
-            {
-                "step_s": item.step,
-                "gain_margin_db": _size(item.gain_margin, decibel),
-                "phase_margin_deg": _size(item.phase_margin, degrees),
-                "note": item.note,
-            }
-            for item in loop.sampling
-        ],
+        "sampling": [{"step_s": item.step, **_margins(item.margins), "note": item.note} for item in loop.sampling],
         "amplitudes": [
             {"amplitude": item.amplitude, "L": [item.value.real, item.value.imag], "change": item.change}
             for item in loop.amplitudes
@@ -129,7 +131,7 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
         }
     if loop.agreement is not None:
         found["agreement"] = {
-            "gain_db": 20.0 * math.log10(loop.agreement.gain),
+            "gain_db": decibels(loop.agreement.gain),
             "phase_deg": math.degrees(loop.agreement.phase),
             "agrees": loop.agreement.agrees,
         }
@@ -138,14 +140,11 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
     return found
 
 
-def _size(value: float | None, measure: Any) -> float | None:
-    return None if value is None or not math.isfinite(value) else measure(value)
-
-
 def _requirement(item: Requirement) -> dict[str, Any]:
     return {
+        "scope": item.scope,
         "quantity": item.quantity,
-        "value": _number(item.value),
+        "value": _size(item.value),
         "limit": item.limit,
         "unit": item.unit,
         "passed": item.passed,
@@ -173,22 +172,14 @@ def _element(item: Nonlinearity) -> dict[str, Any]:
 
 
 def _dispersion(item: Dispersion) -> dict[str, Any]:
-    quantiles: dict[str, Any] = {}
-    columns = {
-        "gain_margin_db": abs(20.0 * np.log10(item.gain_margin)),
-        "phase_margin_deg": abs(np.degrees(item.phase_margin)),
-        "modulus_margin": item.modulus_margin,
-        "disk_margin": item.disk_margin,
+    levels = {
+        name: {level: _size(value) for level, value in item.levels(quantity).items()} for name, quantity in KEYS.items()
     }
-    for name, values in columns.items():
-        known = values[np.isfinite(values)]
-        levels = np.quantile(known, (0.0, 0.05, 0.5)) if known.size else (None, None, None)
-        quantiles[name] = dict(zip(("least", "5 %", "50 %"), map(_number, levels), strict=True))
     return {
         "campaign": item.campaign,
         "trials": item.trials,
-        "stable_trials": int(np.sum(item.stable)),
-        **quantiles,
+        "unstable_trials": item.unstable,
+        **levels,
         "worst_trial": item.worst,
         "replay": item.replay,
         "requirements": [_requirement(entry) for entry in item.requirements],
@@ -196,13 +187,18 @@ def _dispersion(item: Dispersion) -> dict[str, Any]:
 
 
 def _joint(joint: JointReport) -> dict[str, Any]:
+    def held(value: float) -> float | str | None:
+        return _size(value if joint.stable else UNSTABLE)
+
     return {
         "name": joint.name,
         "point": joint.point,
         "channels": list(joint.channels),
-        "disk_margin": joint.disk_margin,
-        "disk_gain_db": _number(20.0 * math.log10(joint.disk_gain) if joint.disk_gain < math.inf else None),
-        "disk_phase_deg": degrees(joint.disk_phase),
+        "stable": joint.stable,
+        "verdict": joint.verdict,
+        "disk_margin": held(joint.disk_margin),
+        "disk_gain_db": held(decibels(joint.disk_gain)),
+        "disk_phase_deg": held(degree_size(joint.disk_phase)),
         "frequency_rad_s": joint.disk_frequency,
         "requirements": [_requirement(item) for item in joint.requirements],
     }
@@ -214,9 +210,11 @@ def _sweep(sweep: SweepReport) -> dict[str, Any]:
         "loop": sweep.loop,
         "parameter": sweep.parameter,
         "values": [float(value) for value in sweep.values],
-        "gain_margin_db": [_size(float(value), decibel) for value in sweep.gain_margin],
-        "phase_margin_deg": [_size(float(value), degrees) for value in sweep.phase_margin],
-        "crossings": sweep.crossings,
+        **{name: [_size(item.size(quantity)) for item in sweep.margins] for name, quantity in KEYS.items()},
+        "crossings": [
+            {"quantity": item.quantity, "value": item.value, "fails": "below" if item.below else "above"}
+            for item in sweep.crossings
+        ],
     }
 
 

@@ -2,54 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from .assessment import assess, decibel, degrees, lowest_frequency
+from .assessment import assess, lowest_frequency
 from .bench import StudyError
 from .linearise import Linearisation
-from .routes import loop_model
+from .margin_values import Margins
+from .routes import LoopModel, loop_model
 
 ONE_STEP = (1e-6,)  # of differences, where a plateau has been seen at the same point already
 
 
-@dataclass(frozen=True)
-class Margins:
-    """Factors and angles (rad) as in `results`, inf where there is no crossing; ``poles`` are those of the loop."""
-
-    gain: float
-    phase: float
-    modulus: float
-    disk: float
-    stable: bool
-    poles: np.ndarray
-
-    @property
-    def gain_db(self) -> float:
-        return decibel(self.gain) if np.isfinite(self.gain) else np.inf
-
-    @property
-    def phase_deg(self) -> float:
-        return degrees(self.phase) if np.isfinite(self.phase) else np.inf
+def model_of(linear: Linearisation, name: str) -> LoopModel:
+    """The loop of one channel in a linear model."""
+    return loop_model(linear, next(port for port in linear.model.ports if port.channel.name == name))
 
 
-def margins_of(linear: Linearisation, name: str) -> Margins:
-    """The margins of one channel of a linear model. Raises StudyError where they cannot be read."""
-    port = next(port for port in linear.model.ports if port.channel.name == name)
-    model = loop_model(linear, port)
-    low = lowest_frequency(model.response, port.seconds)
+def margins_of(model: LoopModel) -> Margins:
+    """The nearest margins of one loop. Raises StudyError where they cannot be read."""
+    seconds = model.port.seconds
+    low = lowest_frequency(model.response, seconds)
     try:
         undamped, near = model.lightly_damped()
-        found = assess(model.response, low, np.pi / port.seconds, port.seconds, None, (), [*undamped, *near])
+        found = assess(model.response, low, np.pi / seconds, seconds, None, (), [*undamped, *near])
     except ValueError as error:
-        raise StudyError(f"{name}: {error}") from error
-    gain, phase = found.classical.gain_margin, found.classical.phase_margin
-    return Margins(
-        gain=gain.value if gain else np.inf,
-        phase=phase.value if phase else np.inf,
-        modulus=found.robust.modulus_margin,
-        disk=found.robust.disk_margin,
-        stable=model.stable,
-        poles=np.array([mode.z for mode in model.modes if mode.kind == "loop"]),
-    )
+        raise StudyError(f"{model.port.channel.name}: {error}") from error
+    return Margins.of(found.classical, found.robust, model.stable, model.largest)
+
+
+def poles_of(model: LoopModel) -> np.ndarray:
+    """The multipliers of the closed-loop modes that the cut moves and sees."""
+    return np.array([mode.z for mode in model.modes if mode.kind == "loop"])

@@ -17,7 +17,8 @@ import numpy as np
 from .bench import Bench, StudyError
 from .channels import Channel
 from .multisine import Multisine, line_spectrum, multisine, unexcited_share
-from .results import Curve, RouteB
+from .readings import Curve
+from .results import RouteB
 
 SEED = 1  # of the multisine's phases
 PERIODS = 1  # measured at least, after those that the transient takes

@@ -12,6 +12,7 @@ from .assessment import Assessment, assess, requirements
 from .bench import Bench, StudyError
 from .channels import Channel
 from .curves import Response, interpolated
+from .decibels import decibels
 from .declaration import Limits
 from .injection import Injector, NotMeasurableError, measured
 from .modes import structure
@@ -84,8 +85,7 @@ class LoopStudy:
             assert found is not None
             points, frequency = found
             sizes = "; ".join(
-                f"{20.0 * np.log10(abs(item.value)):.2f} dB, {np.degrees(np.angle(item.value)):.1f} deg "
-                f"with {item.amplitude:g}"
+                f"{decibels(item.value):.2f} dB, {np.degrees(np.angle(item.value)):.1f} deg with {item.amplitude:g}"
                 for item in points
             )
             raise StudyError(f"not applicable, since it is not linear: at {frequency:.3g} rad/s L is {sizes}")
@@ -144,6 +144,7 @@ class LoopStudy:
             classical=assessment.classical,
             robust=assessment.robust,
             stable=stable,
+            largest=model.largest if model else None,
             unstable_open=model.unstable_open if model else None,
             modes=model.modes if model else (),
             poles_z=poles,
@@ -152,14 +153,8 @@ class LoopStudy:
             route_b=self.measured,
             not_applicable={**self.notes, **assessment.notes},
             step=self._step(assessment) if model and stable else None,
-            requirements=requirements(
-                assessment.classical,
-                assessment.robust,
-                stable,
-                self.limits,
-                model.largest if model else None,
-            ),
         )
+        report.requirements = requirements(report.margins, self.limits)
         if self.model is not None and self.measured is not None:
             found = agreement(self.model.response, self.measured, self.seconds)
             report.agreement = found

@@ -13,7 +13,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from analysis.stability.curves import Response, dense, remembered
 from analysis.stability.encirclements import encirclements
-from analysis.stability.results import Classical, Crossing, Robust
+from analysis.stability.readings import Classical, Crossing, Robust
 
 # Beyond these no crossing is believed: 180 dB of gain, or a phase within rounding of the negative real axis, as that
 # of a double integrator at low frequency.
@@ -126,6 +126,16 @@ def disk_gain(alpha: float) -> float:
 def disk_phase(alpha: float) -> float:
     """The change of phase (rad, either way) that a disk margin with skew 0 guarantees."""
     return 2.0 * float(np.arctan(0.5 * alpha))
+
+
+def disk_of_gain(factor: float) -> float:
+    """The disk margin with skew 0 that guarantees a factor on the gain, and one over it."""
+    return 2.0 * (factor - 1.0) / (factor + 1.0)
+
+
+def disk_of_phase(angle: float) -> float:
+    """The disk margin with skew 0 that guarantees a change of phase (rad, either way)."""
+    return 2.0 * float(np.tan(0.5 * angle))
 
 
 def highest(size: Callable[[np.ndarray], np.ndarray], frequency: np.ndarray) -> tuple[float, float]:

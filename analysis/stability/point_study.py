@@ -8,16 +8,19 @@ import numpy as np
 
 from analysis.errors import InputError
 
-from .assessment import decibel, degrees, lowest_frequency
+from .assessment import lowest_frequency
 from .bench import Bench, StudyError
 from .channels import Channel, channels_of
+from .decibels import decibel_size, degree_size
 from .declaration import Limits, Loop, Point
 from .disk import joint_disk_margin
 from .jacobian import STEPS
 from .linearise import Linearisation, linearise
 from .loop_study import LoopStudy
+from .margin_values import UNSTABLE, Quantity
 from .operating_point import OperatingPoint
-from .results import JointReport, PointReport, Requirement
+from .requirement import Requirement, Scope
+from .results import JointReport, PointReport
 from .routes import LoopModel, loop_model
 from .subject import Subject
 
@@ -38,6 +41,7 @@ class PointStudy:
         self.linear: Linearisation | None = None
         self.why_not = ""
         self._start: OperatingPoint | None = None
+        self._models: dict[str, LoopModel] = {}
 
     @property
     def channels(self) -> tuple[Channel, ...]:
@@ -52,9 +56,13 @@ class PointStudy:
             self.why_not = str(error)
 
     def model(self, channel: Channel) -> LoopModel | None:
+        """Route A of one channel; None where there is none."""
         if self.linear is None:
             return None
-        return loop_model(self.linear, next(port for port in self.linear.model.ports if port.channel is channel))
+        if channel.name not in self._models:
+            port = next(port for port in self.linear.model.ports if port.channel is channel)
+            self._models[channel.name] = loop_model(self.linear, port)
+        return self._models[channel.name]
 
     def loop_study(self, channel: Channel, limits: Limits) -> LoopStudy:
         notes = {} if self.linear is not None else {"route A": self.why_not}
@@ -125,34 +133,27 @@ class PointStudy:
             found = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
         except ValueError as error:
             raise StudyError(str(error)) from error
-        gain, phase = decibel(found.gain), degrees(found.phase)
-        wanted = (
-            Requirement(
-                "joint disk gain margin",
-                gain,
-                limits.dispersed_gain_margin_db,
-                "dB",
-                gain >= limits.dispersed_gain_margin_db,
-            ),
-            Requirement(
-                "joint disk phase margin",
-                phase,
-                limits.dispersed_phase_margin_deg,
-                "deg",
-                phase >= limits.dispersed_phase_margin_deg,
-            ),
-        )
+        models = [self.model(port.channel) for port in ports]
+        stable = all(item is not None and item.stable for item in models)
+        wanted = {
+            Quantity.DISK_GAIN: (decibel_size(found.gain), limits.dispersed_gain_margin_db),
+            Quantity.DISK_PHASE: (degree_size(found.phase), limits.dispersed_phase_margin_deg),
+        }
         return JointReport(
             name=loop.name,
             point=self.point.name,
             channels=tuple(port.channel.name for port in ports),
+            stable=stable,
             disk_margin=found.alpha,
             disk_gain=found.gain,
             disk_phase=found.phase,
             disk_frequency=found.frequency,
             frequency=found.frequencies,
             disk_margins=found.alphas,
-            requirements=wanted,
+            requirements=tuple(
+                Requirement.at_least(Scope.JOINT, quantity, size if stable else UNSTABLE, limit)
+                for quantity, (size, limit) in wanted.items()
+            ),
         )
 
     def close(self) -> None:

@@ -2,66 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from .margin_values import Margins, Quantity, order_statistic
+from .readings import Classical, Curve, Robust
+from .requirement import Requirement, Verdict, combined
 
-@dataclass(frozen=True)
-class Crossing:
-    """A gain or phase margin where the loop's frequency response crosses the critical ray or the unit circle.
-
-    ``value`` is the factor on the gain that makes the loop marginal (above 1: a margin upwards, below 1:
-    downwards), or the phase lag (rad, positive; negative: a lead) that does; ``frequency`` in rad/s.
-    """
-
-    value: float
-    frequency: float
-
-
-@dataclass(frozen=True)
-class Classical:
-    """Every crossing of one loop. Infinite margins are empty tuples. Encirclements of -1 are counter-clockwise."""
-
-    gain: tuple[Crossing, ...]
-    phase: tuple[Crossing, ...]
-    delay_margin: float  # s; inf: none
-    delay_frequency: float  # rad/s, at which the delay margin is reached; nan: none
-    encirclements: int | None  # None: not counted, since nothing is known about poles
-
-    @property
-    def gain_margin(self) -> Crossing | None:
-        """The crossing nearest to 1 in dB, up or down."""
-        return min(self.gain, key=lambda crossing: abs(np.log(crossing.value)), default=None)
-
-    @property
-    def phase_margin(self) -> Crossing | None:
-        """The crossing nearest to 0, lag or lead."""
-        return min(self.phase, key=lambda crossing: abs(crossing.value), default=None)
-
-
-@dataclass(frozen=True)
-class Robust:
-    """Distances from -1. Peaks of |S| and |T| with their frequencies (rad/s); disk margin alpha with skew 0."""
-
-    modulus_margin: float
-    sensitivity_peak: float
-    sensitivity_frequency: float
-    complementary_peak: float
-    complementary_frequency: float
-    disk_margin: float
-    disk_gain: float  # the factor up, and 1/factor down, that the disk margin guarantees
-    disk_phase: float  # rad
-    disk_frequency: float
-
-
-@dataclass(frozen=True)
-class Curve:
-    """A frequency response: angular frequencies (rad/s) and complex values of L, minus the loop's transfer."""
-
-    frequency: np.ndarray
-    value: np.ndarray
+LEVELS = {"least": 0.0, "5 %": 0.05, "50 %": 0.5}  # of dispersed margins
 
 
 @dataclass(frozen=True)
@@ -130,22 +81,6 @@ class Agreement:
 
 
 @dataclass(frozen=True)
-class Requirement:
-    """A limit, what was found and whether it holds. ``passed`` None: not applicable, and ``note`` says why.
-
-    ``quantity`` is a word such as "gain margin"; ``value`` and ``limit`` are in ``unit`` ("dB", "deg", "s", "1"),
-    as they are shown.
-    """
-
-    quantity: str
-    value: float | None
-    limit: float
-    unit: str
-    passed: bool | None
-    note: str = ""
-
-
-@dataclass(frozen=True)
 class AmplitudePoint:
     """Gain and phase of L at one frequency, measured with one amplitude of the injected signal (in its unit)."""
 
@@ -181,33 +116,45 @@ class Nonlinearity:
 
 @dataclass(frozen=True)
 class Sampled:
-    """The margins with another communication step; ``note`` says why there are none."""
+    """The margins with another communication step (s); None where there are none, and ``note`` says why."""
 
     step: float
-    gain_margin: float | None  # factor
-    phase_margin: float | None  # rad
+    margins: Margins | None
     note: str = ""
 
 
 @dataclass(frozen=True)
 class Dispersion:
-    """Margins over the trials of a campaign: arrays over trials, nan where a trial has none.
+    """Margins over the trials of a campaign.
 
-    ``worst`` is the trial with the least disk margin and ``replay`` the command that flies it again.
-    ``poles`` are all trials' closed-loop multipliers, side by side.
+    ``worst`` is the trial with the least disk margin, of unstable ones that with the largest multiplier, and ``replay``
+    the command that studies it again. ``poles`` are all trials' closed-loop multipliers, side by side.
     """
 
     campaign: str
-    trials: int
-    gain_margin: np.ndarray  # factor
-    phase_margin: np.ndarray  # rad
-    modulus_margin: np.ndarray
-    disk_margin: np.ndarray
-    stable: np.ndarray  # bool
+    margins: tuple[Margins, ...]
     poles: np.ndarray
     worst: int
     replay: str
     requirements: tuple[Requirement, ...]
+
+    @property
+    def trials(self) -> int:
+        return len(self.margins)
+
+    @property
+    def unstable(self) -> int:
+        """How many trials are unstable."""
+        return sum(item.unstable for item in self.margins)
+
+    def sizes(self, quantity: Quantity) -> np.ndarray:
+        """A margin's size in every trial, `UNSTABLE` and `UNLIMITED` among them."""
+        return np.array([item.size(quantity) for item in self.margins])
+
+    def levels(self, quantity: Quantity) -> dict[str, float]:
+        """Least, 5 % and median over all trials: order statistics, so each is the margin of a trial."""
+        sizes = [item.size(quantity) for item in self.margins]
+        return {name: order_statistic(sizes, level) for name, level in LEVELS.items()}
 
 
 @dataclass
@@ -227,6 +174,7 @@ class LoopReport:
     classical: Classical
     robust: Robust
     stable: bool | None  # of the closed loop; None: not known
+    largest: float | None  # multiplier of the closed loop's modes; None: not known
     unstable_open: int | None  # poles of the open loop outside the unit circle
     modes: tuple[Mode, ...] = ()
     poles_z: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=complex))
@@ -244,23 +192,31 @@ class LoopReport:
     requirements: tuple[Requirement, ...] = ()
 
     @property
-    def verdict(self) -> str:
-        """``pass``, ``fail`` or ``not applicable``."""
-        judged = [requirement.passed for requirement in self.requirements if requirement.passed is not None]
-        if self.dispersion is not None:
-            judged += [item.passed for item in self.dispersion.requirements if item.passed is not None]
-        if not judged:
-            return "not applicable"
-        return "pass" if all(judged) else "fail"
+    def margins(self) -> Margins:
+        """The nearest margins; of an unstable loop there are none."""
+        return Margins.of(self.classical, self.robust, self.stable, self.largest)
+
+    @property
+    def judged(self) -> tuple[Requirement, ...]:
+        """All requirements, those of the dispersion last."""
+        return self.requirements + (self.dispersion.requirements if self.dispersion is not None else ())
+
+    @property
+    def verdict(self) -> Verdict:
+        return combined(self.judged)
 
 
 @dataclass(frozen=True)
 class JointReport:
-    """All channels of one loop opened at once, with independent scaling of each (a multivariable disk margin)."""
+    """All channels of one loop opened at once, with independent scaling of each (a multivariable disk margin).
+
+    Where the closed loop is not ``stable`` the distances are of the response only: it has no margin.
+    """
 
     name: str
     point: str
     channels: tuple[str, ...]
+    stable: bool
     disk_margin: float
     disk_gain: float  # factor
     disk_phase: float  # rad
@@ -268,6 +224,10 @@ class JointReport:
     frequency: np.ndarray
     disk_margins: np.ndarray  # over frequency
     requirements: tuple[Requirement, ...] = ()
+
+    @property
+    def verdict(self) -> Verdict:
+        return combined(self.requirements)
 
 
 @dataclass(frozen=True)
@@ -290,17 +250,28 @@ class PointReport:
 
 
 @dataclass(frozen=True)
+class SweepCrossing:
+    """The value of the parameter at which a margin reaches its limit or, of stability, the loop becomes unstable.
+
+    ``below``: the side that fails.
+    """
+
+    quantity: Quantity
+    value: float
+    below: bool
+
+
+@dataclass(frozen=True)
 class SweepReport:
-    """Margins over one parameter, and the values at which each limit is crossed."""
+    """Margins over one parameter, and the values at which each limit is crossed, ascending."""
 
     name: str
     loop: str
     parameter: str
     unit: str | None
     values: np.ndarray
-    gain_margin: np.ndarray  # factor
-    phase_margin: np.ndarray  # rad
-    crossings: dict[str, float]  # by requirement
+    margins: tuple[Margins, ...]
+    crossings: tuple[SweepCrossing, ...]
 
 
 @dataclass(frozen=True)
@@ -311,6 +282,13 @@ class Unstudied:
     point: str
     what: str
     reason: str
+
+
+class Judged(NamedTuple):
+    """A requirement and what is judged by it."""
+
+    subject: LoopReport | JointReport
+    requirement: Requirement
 
 
 @dataclass
@@ -327,10 +305,17 @@ class StabilityReport:
     unstudied: tuple[Unstudied, ...]
     seconds: float
 
+    def judged(self) -> Iterator[Judged]:
+        """Everything that is judged, with where it belongs."""
+        for loop in self.loops:
+            for requirement in loop.judged:
+                yield Judged(loop, requirement)
+        for joint in self.joint:
+            for requirement in joint.requirements:
+                yield Judged(joint, requirement)
+
     @property
-    def verdict(self) -> str:
-        verdicts = [loop.verdict for loop in self.loops]
-        verdicts += ["fail" for joint in self.joint for item in joint.requirements if item.passed is False]
-        if "fail" in verdicts:
-            return "fail"
-        return "pass" if "pass" in verdicts and not self.unstudied else "not applicable"
+    def verdict(self) -> Verdict:
+        """What could not be studied is not passed."""
+        found = combined([item.requirement for item in self.judged()])
+        return Verdict.NOT_APPLICABLE if found is Verdict.PASS and self.unstudied else found

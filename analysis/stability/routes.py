@@ -9,12 +9,13 @@ import numpy as np
 
 from .assessment import lowest_frequency
 from .curves import Response
+from .decibels import decibels, factor_of
 from .lifted import UNIT_CIRCLE, LiftedModel, Port
 from .linearise import Linearisation
 from .modes import modes
 from .results import Agreement, Mode, RouteA, RouteB
 
-GAIN_AGREES = 10.0 ** (0.1 / 20.0)
+GAIN_AGREES = factor_of(0.1)
 PHASE_AGREES = np.radians(0.5)
 NOT_LINEAR = 0.01  # change of L at half the amplitude
 DOUBTFUL = 0.01  # change of L with the next smaller steps of the differences
@@ -137,5 +138,5 @@ def disagreement(found: Agreement, a: RouteA, b: RouteB) -> str:
         reasons.append(f"unexcited lines answer with {b.unexcited:.2g} of the excited ones")
     if a.periodicity > NOT_LINEAR:
         reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} comes back at other frequencies)")
-    size = f"{20.0 * np.log10(found.gain):.2g} dB and {np.degrees(found.phase):.2g} deg apart"
+    size = f"{decibels(found.gain):.2g} dB and {np.degrees(found.phase):.2g} deg apart"
     return f"{size}: " + ("; ".join(reasons) or "neither route sees a reason; the operating point does not last")

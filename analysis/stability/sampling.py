@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from analysis.errors import InputError
 
 from .bench import StudyError
 from .declaration import Loop, Point
-from .followed import ONE_STEP, Margins, margins_of
+from .followed import ONE_STEP, margins_of, model_of
 from .point_study import PointStudy
 from .results import Sampled
 from .subject import Subject
@@ -32,16 +30,9 @@ def sampled(
                 study.linearise(cells, ONE_STEP)
                 if study.linear is None:
                     raise StudyError(study.why_not)
-                rows = [_row(factor * step, margins_of(study.linear, name)) for name in names]
+                rows = [Sampled(factor * step, margins_of(model_of(study.linear, name))) for name in names]
         except (InputError, StudyError) as error:
-            rows = [Sampled(factor * step, None, None, str(error))] * len(names)
+            rows = [Sampled(factor * step, None, str(error))] * len(names)
         for name, row in zip(names, rows, strict=True):
             found[name].append(row)
     return found
-
-
-def _row(step: float, margins: Margins) -> Sampled:
-    if not margins.stable:
-        return Sampled(step, None, None, "the closed loop is unstable")
-    gain = margins.gain if np.isfinite(margins.gain) else None
-    return Sampled(step, gain, margins.phase if np.isfinite(margins.phase) else None)

@@ -1,7 +1,8 @@
-"""Margins over one parameter, and the values at which they reach their limits."""
+"""Margins over one parameter, and the values at which they reach their limits or the loop becomes unstable."""
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from functools import cache
 
@@ -12,14 +13,17 @@ from analysis.cosim.system import PreparedSystem
 
 from .bench import StudyError
 from .declaration import Limits, Loop, Point, Sweep
-from .followed import ONE_STEP, Margins, margins_of
+from .followed import ONE_STEP, margins_of, model_of
+from .margin_values import Margins, Quantity
 from .point_study import PointStudy
-from .results import SweepReport
+from .results import SweepCrossing, SweepReport
 from .subject import Subject
 
 VALUES = 13
 CROSSING = 1e-3  # relative, of the value at which a limit is reached
 FAR = 1e3  # dB, deg: what an infinite margin counts as
+
+At = Callable[[float], Margins]
 
 
 def swept(
@@ -36,35 +40,31 @@ def swept(
     """
 
     @cache
-    def margins(value: float) -> Margins:
+    def at(value: float) -> Margins:
         with PointStudy(subject.changed(set={sweep.parameter: value}), point, [loop]) as study:
             study.linearise(cells, ONE_STEP)
             if study.linear is None:
                 raise StudyError(study.why_not)
-            return margins_of(study.linear, study.channels[0].name)
+            return margins_of(model_of(study.linear, study.channels[0].name))
 
     spread = np.geomspace if sweep.low > 0.0 else np.linspace
     values = [float(value) for value in spread(sweep.low, sweep.high, VALUES)]
-    found = [margins(value) for value in values]
-    wanted: dict[str, Callable[[Margins], float]] = {
-        "gain margin": lambda item: item.gain_db - limits.gain_margin_db,
-        "phase margin": lambda item: item.phase_deg - limits.phase_margin_deg,
-        "modulus margin": lambda item: item.modulus - limits.modulus_margin,
+    wanted = {
+        Quantity.GAIN: limits.gain_margin_db,
+        Quantity.PHASE: limits.phase_margin_deg,
+        Quantity.MODULUS: limits.modulus_margin,
     }
-    crossings = {}
-    for name, excess in wanted.items():
-        place = _last_change([item.stable and excess(item) >= 0.0 for item in found])
-        if place is not None:
-            crossings[name] = _crossing(margins, excess, values[place], values[place + 1])
+    crossings: list[SweepCrossing] = []
+    for low, high in itertools.pairwise(values):
+        crossings += _crossings(at, low, high, wanted)
     return SweepReport(
         name=sweep.name,
         loop=loop.name,
         parameter=sweep.parameter,
         unit=_unit(subject.at(point), sweep.parameter),
         values=np.array(values),
-        gain_margin=np.array([item.gain if item.stable else np.nan for item in found]),
-        phase_margin=np.array([item.phase if item.stable else np.nan for item in found]),
-        crossings=crossings,
+        margins=tuple(at(value) for value in values),
+        crossings=tuple(sorted(crossings, key=lambda crossing: crossing.value)),
     )
 
 
@@ -77,19 +77,35 @@ def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
     return None
 
 
-def _last_change(passes: list[bool]) -> int | None:
-    """The last place at which two neighbours differ."""
-    places = [place for place in range(len(passes) - 1) if passes[place] != passes[place + 1]]
-    return places[-1] if places else None
+def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -> list[SweepCrossing]:
+    """What is crossed between two neighbouring values.
+
+    Where the loop becomes unstable in between, limits are looked for on the stable side only: a margin that is still
+    above its limit there does not reach it, it ends.
+    """
+    found: list[SweepCrossing] = []
+    if at(low).unstable and at(high).unstable:
+        return found
+    if at(low).unstable != at(high).unstable:
+        below = at(low).unstable
+        left, right = _bisected(lambda value: at(value).unstable == below, low, high)
+        found.append(SweepCrossing(Quantity.STABILITY, 0.5 * (left + right), below))
+        low, high = (right, high) if below else (low, left)
+    for quantity, limit in wanted.items():
+
+        def excess(value: float, quantity: Quantity = quantity, limit: float = limit) -> float:
+            return float(np.clip(at(value).size(quantity) - limit, -FAR, FAR))
+
+        below = excess(low) < 0.0
+        if below != (excess(high) < 0.0):
+            value = float(brentq(excess, low, high, rtol=CROSSING, xtol=CROSSING * max(abs(low), abs(high))))
+            found.append(SweepCrossing(quantity, value, below))
+    return found
 
 
-def _crossing(
-    margins: Callable[[float], Margins], excess: Callable[[Margins], float], low: float, high: float
-) -> float:
-    """The value between ``low`` and ``high`` at which a limit is reached; an unstable loop is far below it."""
-
-    def over(value: float) -> float:
-        item = margins(value)
-        return float(np.clip(excess(item), -FAR, FAR)) if item.stable else -FAR
-
-    return float(brentq(over, low, high, rtol=CROSSING, xtol=CROSSING * max(abs(low), abs(high))))
+def _bisected(is_low: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
+    """Neighbouring values between which a condition that holds at ``low`` and not at ``high`` changes."""
+    while high - low > CROSSING * max(abs(low), abs(high)):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if is_low(middle) else (low, middle)
+    return low, high

@@ -116,9 +116,11 @@ def sampling(every: int, step: float) -> tuple[float, float | None, str]:
     return (period, period, f"; sample_period=Real:{period}") if every > 1 else (period, None, "")
 
 
-def late_double_integrator(every: int = 1, step: float = 0.25, proportional: float = 0.02) -> ExactSystem:
+def late_double_integrator(
+    every: int = 1, step: float = 0.25, proportional: float = 0.02, derivative: float = 0.22
+) -> ExactSystem:
     """Proportional and derivative control of 1/s^2 over three steps of delay; control at every n-th step."""
-    samples, kp, kd = 3, proportional, 0.22
+    samples, kp, kd = 3, proportional, derivative
     period, declared, sampled = sampling(every, step)
     parts = {
         "control": ("difference", "u", "y", f"proportional=Real:{kp}; derivative=Real:{kd}{sampled}"),

@@ -123,8 +123,8 @@ def test_half_and_twice_the_communication_step(studied):
     assert [item.step for item in report.loops[0].sampling] == [0.125, 0.25, 0.5]
     for item in report.loops[0].sampling:
         gain, phase, _ = crossings(late_double_integrator(step=item.step).loop)
-        assert item.gain_margin == pytest.approx(gain[np.argmin(abs(np.log(gain)))], rel=1e-4)
-        assert item.phase_margin == pytest.approx(np.min(abs(phase)), rel=1e-4)
+        assert item.margins.gain == pytest.approx(gain[np.argmin(abs(np.log(gain)))], rel=1e-4)
+        assert item.margins.phase == pytest.approx(np.min(abs(phase)), rel=1e-4)
 
 
 def test_a_pendulum_that_falls(exact_fmus, tmp_path):

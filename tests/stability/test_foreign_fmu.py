@@ -14,7 +14,7 @@ from foreign_fmus import build_foreign_fmus
 
 import perilune
 from analysis.cli import main
-from analysis.stability.assessment import decibel, degrees
+from analysis.stability.decibels import decibel_size, degree_size
 
 STEP, GAIN = 0.1, 4.0
 G = GAIN * STEP
@@ -35,8 +35,8 @@ def path(foreign):
 
 
 def assert_margins(loop):
-    assert decibel(loop.classical.gain_margin.value) == pytest.approx(GAIN_MARGIN, abs=0.01)
-    assert degrees(loop.classical.phase_margin.value) == pytest.approx(PHASE_MARGIN, abs=0.05)
+    assert decibel_size(loop.classical.gain_margin.value) == pytest.approx(GAIN_MARGIN, abs=0.01)
+    assert degree_size(loop.classical.phase_margin.value) == pytest.approx(PHASE_MARGIN, abs=0.05)
 
 
 @pytest.mark.parametrize("cut", ["law.y", "plant.y", "law.u"])
@@ -61,7 +61,7 @@ def test_route_a_is_not_applicable_and_says_why(path):
     assert (loop.route_a, loop.agreement, loop.structure, loop.dispersion) == (None, None, None, None)
     assert (loop.modes, loop.sampling, len(loop.poles_z)) == ((), (), 0)
     assert (loop.stable, loop.unstable_open, loop.classical.encirclements) == (None, None, None)
-    judged = {requirement.quantity: requirement.passed for requirement in loop.requirements}
+    judged = {requirement.title: requirement.passed for requirement in loop.requirements}
     assert judged == {"largest multiplier": None, "gain margin": True, "phase margin": True, "modulus margin": True}
     assert loop.verdict == report.verdict == "pass"
 

@@ -166,9 +166,9 @@ def test_robot_samples_at_its_own_period_whatever_the_communication_step(channel
         half, same, twice = loop.sampling
         assert [half.step, same.step, twice.step] == [0.0625, 0.125, 0.25]
         for item in (half, same):
-            assert DECIBEL * np.log(item.gain_margin) == pytest.approx(exact.gain, abs=0.01)
-            assert np.degrees(item.phase_margin) == pytest.approx(exact.phase, abs=0.01)
-        assert twice.gain_margin is None
+            assert DECIBEL * np.log(item.margins.gain) == pytest.approx(exact.gain, abs=0.01)
+            assert np.degrees(item.margins.phase) == pytest.approx(exact.phase, abs=0.01)
+        assert twice.margins is None
         assert "sample_period 0.125 s" in twice.note
 
 

@@ -1,0 +1,63 @@
+"""What is read off a loop's frequency response: gains as factors, angles in rad, times in s, frequencies in rad/s."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A gain or phase margin where the loop's frequency response crosses the critical ray or the unit circle.
+
+    ``value`` is the factor on the gain that makes the loop marginal (above 1: a margin upwards, below 1:
+    downwards), or the phase lag (rad, positive; negative: a lead) that does; ``frequency`` in rad/s.
+    """
+
+    value: float
+    frequency: float
+
+
+@dataclass(frozen=True)
+class Classical:
+    """Every crossing of one loop. Infinite margins are empty tuples. Encirclements of -1 are counter-clockwise."""
+
+    gain: tuple[Crossing, ...]
+    phase: tuple[Crossing, ...]
+    delay_margin: float  # s; inf: none
+    delay_frequency: float  # rad/s, at which the delay margin is reached; nan: none
+    encirclements: int | None  # None: not counted, since nothing is known about poles
+
+    @property
+    def gain_margin(self) -> Crossing | None:
+        """The crossing nearest to 1 in dB, up or down."""
+        return min(self.gain, key=lambda crossing: abs(np.log(crossing.value)), default=None)
+
+    @property
+    def phase_margin(self) -> Crossing | None:
+        """The crossing nearest to 0, lag or lead."""
+        return min(self.phase, key=lambda crossing: abs(crossing.value), default=None)
+
+
+@dataclass(frozen=True)
+class Robust:
+    """Distances from -1. Peaks of |S| and |T| with their frequencies (rad/s); disk margin alpha with skew 0."""
+
+    modulus_margin: float
+    sensitivity_peak: float
+    sensitivity_frequency: float
+    complementary_peak: float
+    complementary_frequency: float
+    disk_margin: float
+    disk_gain: float  # the factor up, and 1/factor down, that the disk margin guarantees
+    disk_phase: float  # rad
+    disk_frequency: float
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A frequency response: angular frequencies (rad/s) and complex values of L, minus the loop's transfer."""
+
+    frequency: np.ndarray
+    value: np.ndarray
