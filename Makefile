@@ -6,6 +6,7 @@ demo: .venv/ready
 	$(BIN)/python -m analysis.demo
 
 test: .venv/ready lint build
+	-@[ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null || $(MAKE) --no-print-directory browser
 	$(BIN)/python -m pytest -n 2
 
 build: .venv/ready
@@ -22,9 +23,10 @@ bench: build
 sanitize: .venv/ready
 	PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
 
-# What the tests of the HTML pages need, from Debian's packages (as root); without it they say that they are skipped.
+# What the tests of the HTML pages need, from Debian's packages (as root). `make test` tries it where it can; without a
+# browser these tests are left out, which the last lines say.
 browser:
-	command -v chromium >/dev/null || { apt-get update -qq && apt-get install -y -qq chromium >/dev/null; }
+	@command -v chromium >/dev/null || { apt-get update -qq && apt-get install -y -qq chromium >/dev/null; }
 
 lint: .venv/ready
 	$(BIN)/ruff check .

@@ -58,6 +58,18 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
                 item.add_marker(pytest.mark.skip(reason="slow: set PERILUNE_SLOW_TESTS=1"))
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_terminal_summary(terminalreporter: Any) -> None:
+    """In the last lines: what was left out for want of a browser, and what to do."""
+    skipped = terminalreporter.stats.get("skipped", [])
+    missing = [report for report in skipped if "no chromium" in str(report.longrepr)]
+    if missing:
+        terminalreporter.write_line(
+            f"{len(missing)} tests of the HTML pages were left out: there is no chromium here. "
+            "Install it (Debian: `make browser` as root) and run `make test` again."
+        )
+
+
 @contextmanager
 def one_process_at_a_time(lock: Path) -> Iterator[None]:
     """Workers of pytest-xdist take turns."""

@@ -92,7 +92,14 @@ def test_an_interruption_leaves_a_checkpoint_to_go_on_from(tmp_path):
     out = tmp_path / "out"
     program = "import sys; from analysis.cli import run; sys.argv[0] = 'perilune'; run()"
     command = [sys.executable, "-c", program, "synthesize", "network-operator", str(file), "--output", str(out)]
-    search = subprocess.Popen([*command, "--workers", "2"], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    search = subprocess.Popen(
+        [*command, "--workers", "2"],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        # a shell that runs the tests in the background hands SIGINT down as ignored
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     while not (out / "checkpoint.json").exists() and search.poll() is None:
         time.sleep(0.05)
     os.kill(search.pid, signal.SIGINT)
