@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 
 demo: .venv/ready
-	$(BIN)/python -m analysis.demo
+	$(BIN)/python -m perilune.analysis.demo.demo
 
 test: .venv/ready lint build
 	-@[ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null || $(MAKE) --no-print-directory browser

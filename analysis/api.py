@@ -7,18 +7,19 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from analysis.batch.plan import read_plan
-from analysis.batch.results import BatchResult
-from analysis.batch.runner import run_batch
-from analysis.cosim.faults import Fault
-from analysis.cosim.parameter_sets import ParameterValue
-from analysis.cosim.results import Result
-from analysis.cosim.simulation import Simulation
-from analysis.cosim.system import SystemOptions, prepare_system
-from analysis.errors import InputError, suggestion
-from analysis.stability.request import read_request
-from analysis.stability.results import StabilityReport
-from analysis.stability.study import study
+from .batch.results import BatchResult
+from .batch.runner import run_batch
+from .campaign.plan import read_plan
+from .errors import InputError, suggestion
+from .flight.faults import Fault
+from .flight.results import Result
+from .flight.simulation import Simulation
+from .stability.ask.request import read_request
+from .stability.results.report import StabilityReport
+from .stability.study import study
+from .system.options import SystemOptions
+from .system.parameter_sets import ParameterValue
+from .system.prepared import prepare_system
 
 
 def simulate(

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
-from analysis.errors import InputError
+from .errors import InputError
 
 VERBS = ("list", "validate", "run", "batch", "compare", "law", "synthesize", "stability", "benchmark", "export")
 
@@ -28,7 +28,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out one command; returns the exit status."""
     parser = Parser(prog="perilune", description="Spacecraft guidance, navigation and control as FMI components.")
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
-    modules = {verb: importlib.import_module(f"analysis.commands.{verb}") for verb in VERBS}
+    modules = {verb: importlib.import_module(f".commands.{verb}", __package__) for verb in VERBS}
     for verb, module in modules.items():
         module.add(verbs.add_parser(verb, help=module.HELP, description=module.HELP))
     options = parser.parse_args(arguments)

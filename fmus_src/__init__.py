@@ -1,1 +1,4 @@
 """Perilune's components, one Python class each, and what turns them into FMUs."""
+
+if __name__ == "fmus_src":  # a second copy of every class, whose errors nobody would catch
+    raise ImportError("fmus_src is a room of the package perilune: import perilune.fmus_src")

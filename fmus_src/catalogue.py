@@ -62,5 +62,5 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
         raise ValueError(f"{path}: importing it failed: {type(reason).__name__}: {reason}") from error
     found = blocks_of(module)
     if not found:
-        raise ValueError(f"{path}: defines no block; derive a class from fmus_src.block.Block or an interface of it")
+        raise ValueError(f"{path}: defines no block; derive a class from perilune.Block or an interface of it")
     return found

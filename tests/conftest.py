@@ -15,12 +15,11 @@ from typing import Any
 import hypothesis
 import pytest
 
-from analysis.places import BUILD, built_fmu
-from fmus_src.catalogue import catalogue
-from fmus_src.export.closure import closure_of
-from fmus_src.export.command import main as build_fmus
-
-sys.path.insert(0, str(Path(__file__).parent))  # for `from cosim.builders import ...` in every folder
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.closure import closure_of
+from perilune.fmus_src.export.command import main as build_fmus
+from perilune.fmus_src.places import BUILD, built_fmu
+from tests.support.pages.browser import NO_BROWSER, find_browser
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
 hypothesis.settings.register_profile("same", derandomize=True, deadline=None)
@@ -62,7 +61,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def pytest_terminal_summary(terminalreporter: Any) -> None:
     """In the last lines: what was left out for want of a browser, and what to do."""
     skipped = terminalreporter.stats.get("skipped", [])
-    missing = [report for report in skipped if "no chromium" in str(report.longrepr)]
+    missing = [report for report in skipped if NO_BROWSER in str(report.longrepr)]
     if missing:
         terminalreporter.write_line(
             f"{len(missing)} tests of the HTML pages were left out: there is no chromium here. "
@@ -101,7 +100,7 @@ def fmus() -> Path:
 @pytest.fixture(scope="session")
 def tiny_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The tiny FMUs of cosim/builders.py in folders `python` and `native`, built once per test run."""
-    from cosim.builders import build_tiny_fmus
+    from tests.support.builders import build_tiny_fmus
 
     base = tmp_path_factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "tiny_fmus"
@@ -122,7 +121,7 @@ def tiny(request: pytest.FixtureRequest, tiny_folder: Path) -> Path:
 @pytest.fixture(scope="session")
 def exact_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The FMUs of stability/exact_blocks.py in folders `python` and `native`, built once per test run."""
-    from stability.exact_blocks import build_exact_fmus
+    from tests.support.loops.exact_blocks import build_exact_fmus
 
     base = tmp_path_factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "exact_fmus"
@@ -143,10 +142,16 @@ def exact_fmus(exact_folder: Path) -> Path:
 @pytest.fixture(scope="session")
 def studies(exact_fmus: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
     """Reports of tiny systems as `perilune stability` makes them, studied once per test run."""
-    from tests.stability.studies import kept, make_studies
+    from tests.support.loops.studies import kept, make_studies
 
     base = tmp_path_factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "studies"
     folder.mkdir(exist_ok=True)
     with one_process_at_a_time(folder.with_name("studies.lock")):
         return kept(folder / "studies.pickle", lambda: make_studies(folder, exact_fmus))
+
+
+@pytest.fixture(scope="session")
+def browser() -> str:
+    """The path of chromium."""
+    return find_browser()

@@ -26,7 +26,13 @@ def test_the_example_is_built_and_lands(tmp_path: Path) -> None:
     subprocess.run(build, check=True, capture_output=True)
     for flavour in ("python", "native"):
         fmu = tmp_path / "fmus" / flavour / "linear_guidance.fmu"
-        command = [sys.executable, "-c", "from analysis.cli import run; run()", "run", "lunar_terminal_guidance"]
+        command = [
+            sys.executable,
+            "-c",
+            "from perilune.analysis.cli import run; run()",
+            "run",
+            "lunar_terminal_guidance",
+        ]
         flown = subprocess.run(
             [*command, "--use", f"guidance={fmu}", "--json", "-"], capture_output=True, text=True, cwd=ROOT, check=False
         )

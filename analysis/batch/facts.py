@@ -6,10 +6,9 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from analysis.cosim.system import PreparedSystem
-
-from .campaign import Metric
-from .plan import BatchPlan
+from ..campaign.campaign import Metric
+from ..campaign.plan import BatchPlan
+from ..system.prepared import PreparedSystem
 
 TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 

@@ -8,13 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from analysis.cosim.fmu import LOADING
-from analysis.cosim.parameter_sets import ParameterValue
-from analysis.cosim.results import Flight, Result
-from analysis.cosim.simulation import Simulation
-
-from .metrics import evaluate_metrics, succeeded
-from .plan import BatchPlan, VariantNames, variant_names
+from ..campaign.metrics import evaluate_metrics, succeeded
+from ..campaign.plan import BatchPlan, VariantNames, variant_names
+from ..flight.instance import LOADING
+from ..flight.results import Flight, Result
+from ..flight.simulation import Simulation
+from ..system.parameter_sets import ParameterValue
 from .trials import Trials
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from .plan import BatchPlan
+from ..campaign.plan import BatchPlan
 from .summary import summarise, summary_text
 from .trials import Trials
 

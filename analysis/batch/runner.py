@@ -9,8 +9,8 @@ from typing import Any
 import pyarrow
 from tqdm import tqdm
 
+from ..campaign.plan import BatchPlan, check_plan
 from .facts import campaign_facts
-from .plan import BatchPlan, check_plan
 from .results import BatchResult, make_result, write_parquet
 from .trials import Trials, joined
 from .workers import fly_all, tasks_of, worker_count

@@ -12,10 +12,9 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from analysis.errors import InputError
-
-from .campaign import Metric
-from .expressions import Expression
+from ..campaign.campaign import Metric
+from ..campaign.expressions import Expression
+from ..errors import InputError
 from .results import batch_digest, trace_path
 from .trials import Trials
 

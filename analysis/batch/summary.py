@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .campaign import Metric
+from ..campaign.campaign import Metric
 from .interval import success_interval
 
 CONFIDENCE = 0.95

@@ -12,10 +12,9 @@ from typing import TypeVar
 
 from loky import ProcessPoolExecutor
 
-from analysis.errors import InputError
-
+from ..campaign.plan import BatchPlan
+from ..errors import InputError
 from .flyer import Flyer
-from .plan import BatchPlan
 from .trials import Trials
 
 Task = tuple[str, range]

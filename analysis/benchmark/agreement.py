@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from .contestant import Contestant, Values
+from .contestants.contestant import Contestant, Values
 
 TOLERANCE = 1e-9
 

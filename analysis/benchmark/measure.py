@@ -10,15 +10,14 @@ from typing import Any
 
 from tqdm import tqdm
 
-from analysis.cosim.archive import system_names
-from analysis.errors import InputError, suggestion
-from analysis.places import BUILD, SYSTEMS
-from fmus_src.export.ssp_package import pack_system
-
+from ...fmus_src.export.ssp_package import pack_system
+from ...fmus_src.places import BUILD, SYSTEMS
+from ..errors import InputError, suggestion
+from ..system.archive import system_names
 from .agreement import strangers
-from .contestant import Unavailable, Values
-from .contestants import CONTESTANTS, OURS
-from .course import Course
+from .contestants.all import CONTESTANTS, OURS
+from .contestants.contestant import Unavailable, Values
+from .contestants.course import Course
 from .machine import machine, versions
 from .promises import promised_ratios
 from .times import Times

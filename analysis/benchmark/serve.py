@@ -11,11 +11,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from analysis.errors import InputError
-
-from .contestant import Fly, Unavailable
-from .contestants import CONTESTANTS
-from .course import Course
+from ..errors import InputError
+from .contestants.all import CONTESTANTS
+from .contestants.contestant import Fly, Unavailable
+from .contestants.course import Course
 from .trials import fly_batch
 
 # Flights are repeated until there are so many and so much time has passed: some take long to start, and unevenly.

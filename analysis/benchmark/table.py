@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .contestants import CONTESTANTS, OURS
+from .contestants.all import CONTESTANTS, OURS
 
 
 def benchmark_text(document: dict[str, Any]) -> str:

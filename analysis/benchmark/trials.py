@@ -5,10 +5,9 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from analysis.batch.plan import read_plan
-from analysis.batch.runner import run_batch
-from analysis.cosim.system import SystemOptions
-
+from ..batch.runner import run_batch
+from ..campaign.plan import read_plan
+from ..system.options import SystemOptions
 from .worker import Worker
 
 CAMPAIGN = "paper"

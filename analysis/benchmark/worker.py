@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from .contestant import Unavailable
+from .contestants.contestant import Unavailable
 
 
 class WorkerError(Exception):

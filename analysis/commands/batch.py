@@ -10,14 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from analysis.batch.expressions import Expression
-from analysis.batch.flyer import Flyer
-from analysis.batch.plan import BatchPlan, check_plan, read_plan
-from analysis.batch.runner import run_batch
-from analysis.batch.summary import TrialColumns, requirement_values, summarise
-from analysis.errors import InputError, suggestion
-from analysis.reports.batch_report import write_batch_report
-
+from ..batch.flyer import Flyer
+from ..batch.runner import run_batch
+from ..batch.summary import TrialColumns, requirement_values, summarise
+from ..campaign.expressions import Expression
+from ..campaign.plan import BatchPlan, check_plan, read_plan
+from ..errors import InputError, suggestion
+from ..reports.batch.batch_report import write_batch_report
 from .options import add_json, add_system, pairs, plain, system_options, write_json
 
 HELP = "fly a campaign: many trials, variants compared on the same draws"

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from analysis.benchmark.measure import run_benchmark
-from analysis.benchmark.table import benchmark_text
-
+from ..benchmark.measure import run_benchmark
+from ..benchmark.table import benchmark_text
 from .options import add_json, write_json
 
 HELP = "time a communication step against other importers"

@@ -6,9 +6,8 @@ import argparse
 import shlex
 from pathlib import Path
 
-from analysis.batch.side_by_side import compare
-from analysis.reports.comparison_page import write_comparison_page
-
+from ..compare.side_by_side import compare
+from ..reports.compare.page import write_comparison_page
 from .options import add_json, write_json
 
 HELP = "compare the variants of one or several stored batches on the same trials"

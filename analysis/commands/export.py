@@ -6,17 +6,16 @@ import argparse
 import tempfile
 from pathlib import Path
 
-from analysis.cosim.archive import SystemArchive, open_system, system_names
-from analysis.cosim.documents import parse_xml
-from analysis.cosim.system import FLAVOURS
-from analysis.errors import InputError, suggestion
-from fmus_src.block import Block
-from fmus_src.catalogue import catalogue
-from fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
-from fmus_src.export.native_fmu import build_native_fmu
-from fmus_src.export.pythonfmu_fmu import build_python_fmu
-from fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
-
+from ...fmus_src.block import Block
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
+from ...fmus_src.export.native_fmu import build_native_fmu
+from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
+from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
+from ..errors import InputError, suggestion
+from ..system.archive import SystemArchive, open_system, system_names
+from ..system.documents import parse_xml
+from ..system.options import FLAVOURS
 from .options import add_json, write_json
 
 HELP = "build an FMU, or a self-contained .ssp of a system, for a chosen platform"

@@ -5,13 +5,12 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from analysis.errors import InputError
-from analysis.synthesis.atomic import write_atomically
-from analysis.synthesis.formula import formula, formula_text
-from analysis.synthesis.graph import law_svg
-from analysis.synthesis.law import named_law, read_law
-from analysis.synthesis.parameter_set import parameter_set
-
+from ..atomic import write_atomically
+from ..errors import InputError
+from ..laws.formula import formula, formula_text
+from ..laws.graph import law_svg
+from ..laws.law import named_law, read_law
+from ..laws.parameter_set import parameter_set
 from .options import add_json, write_json
 
 HELP = "print a network operator's law as a formula, or write it as parameter set or drawing"

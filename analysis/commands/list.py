@@ -8,14 +8,13 @@ from typing import Any
 
 from fmpy import read_model_description
 
-from analysis.cosim.archive import SystemArchive, open_system, system_names
-from analysis.cosim.description import read_description
-from analysis.places import BUILD, LAWS
-from analysis.stability.reading import read_declaration
-from fmus_src.block import Block
-from fmus_src.catalogue import catalogue
-from fmus_src.export.ssp_package import CAMPAIGN_FOLDER
-
+from ...fmus_src.block import Block
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
+from ...fmus_src.places import BUILD, LAWS
+from ..stability.ask.reading import read_declaration
+from ..system.archive import SystemArchive, open_system, system_names
+from ..system.description import read_description
 from .options import add_json, write_json
 
 HELP = "list systems, with parameter sets, campaigns and loops, laws and FMUs"

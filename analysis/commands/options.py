@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from analysis.cosim.system import ALGORITHMS, FLAVOURS, SystemOptions
-from analysis.errors import InputError
+from ..errors import InputError
+from ..system.options import ALGORITHMS, FLAVOURS, SystemOptions
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:

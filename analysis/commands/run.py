@@ -6,11 +6,10 @@ import argparse
 import sys
 from pathlib import Path
 
-from analysis.cosim.simulation import Simulation
-from analysis.cosim.system import prepare_system
-from analysis.errors import InputError
-from analysis.reports.run_report import write_run_report
-
+from ..errors import InputError
+from ..flight.simulation import Simulation
+from ..reports.run.run_report import write_run_report
+from ..system.prepared import prepare_system
 from .options import add_json, add_system, plain, system_options, write_json
 
 HELP = "fly a system once"

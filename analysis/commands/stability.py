@@ -7,15 +7,15 @@ import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from analysis.reports.stability_page import write_stability_page
-from analysis.stability.bench import StudyError
-from analysis.stability.document import document
-from analysis.stability.margin_values import MARGINS, UNLIMITED, Quantity
-from analysis.stability.request import read_request
-from analysis.stability.requirement import Requirement, Verdict
-from analysis.stability.results import JointReport, LoopReport, SweepCrossing, SweepReport
-from analysis.stability.study import study
-
+from ..loops.margin_values import MARGINS, UNLIMITED, Quantity
+from ..reports.stability.page import write_stability_page
+from ..stability.ask.request import read_request
+from ..stability.bench.bench import StudyError
+from ..stability.results.document import document
+from ..stability.results.loop import JointReport, LoopReport
+from ..stability.results.requirement import Requirement, Verdict
+from ..stability.results.varied import SweepCrossing, SweepReport
+from ..stability.study import study
 from .options import add_json, add_system, system_options, write_json
 
 HELP = "report on the stability of a system's loops"

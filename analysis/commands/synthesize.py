@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from analysis.synthesis.synthesis import run_synthesis
-from analysis.synthesis.synthesis_file import read_synthesis
-
+from ..synthesis.synthesis import run_synthesis
+from ..synthesis.synthesis_file import read_synthesis
 from .options import add_json, write_json
 
 HELP = "search for a control law, every candidate flown in its system"

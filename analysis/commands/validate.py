@@ -9,17 +9,17 @@ from typing import Any
 
 from fmpy.validation import validate_fmu
 
-from analysis.batch.campaign_file import SYNTHESIS, read_campaign
-from analysis.batch.toml_table import read_toml
-from analysis.cosim.archive import DEFAULT_VARIANT, open_system
-from analysis.cosim.fmu import load_fmu
-from analysis.cosim.parameter_sets import read_parameter_file
-from analysis.cosim.system import SystemOptions, prepare_system
-from analysis.errors import InputError
-from analysis.stability.reading import read_declaration
-from analysis.synthesis.law import read_law
-from analysis.synthesis.synthesis_file import read_synthesis
-
+from ..campaign.file import SYNTHESIS, read_campaign
+from ..campaign.toml_table import read_toml
+from ..errors import InputError
+from ..laws.law import read_law
+from ..stability.ask.reading import read_declaration
+from ..synthesis.synthesis_file import read_synthesis
+from ..system.archive import DEFAULT_VARIANT, open_system
+from ..system.fmu import load_fmu
+from ..system.options import SystemOptions
+from ..system.parameter_sets import read_parameter_file
+from ..system.prepared import prepare_system
 from .options import add_json, write_json
 
 HELP = "check systems, FMUs, parameter sets and campaigns"

@@ -12,21 +12,22 @@ from typing import Any
 
 from loky import ProcessPoolExecutor
 
-from analysis.batch.workers import worker_count
-from analysis.cosim.system import PreparedSystem
-from analysis.errors import InputError
-
-from .bench import StudyError
-from .channels import Channel
-from .declaration import Point
-from .dispersion import dispersed
-from .limit_cycles import element_report
-from .point_study import PointStudy
-from .request import Request
-from .results import Dispersion, JointReport, LoopReport, PointReport, StabilityReport, Unstudied
-from .sampling import sampled
-from .subject import Subject
-from .sweep import swept
+from ..batch.workers import worker_count
+from ..errors import InputError
+from ..system.prepared import PreparedSystem
+from .ask.channels import Channel
+from .ask.declaration import Point
+from .ask.request import Request
+from .ask.subject import Subject
+from .bench.bench import StudyError
+from .point.limit_cycles import element_report
+from .point.point_study import PointStudy
+from .results.loop import JointReport, LoopReport
+from .results.report import PointReport, StabilityReport, Unstudied
+from .results.varied import Dispersion
+from .vary.dispersion import dispersed
+from .vary.sampling import sampled
+from .vary.sweep import swept
 
 
 @dataclass

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..laws.law import Matrix
 from .candidate import Genes
 from .gray_code import Coding
-from .law import Matrix
 from .variations import Variation, random_variation, varied
 
 MOST_FLIPS = 3  # bits in which half of the random genes differ from their basis

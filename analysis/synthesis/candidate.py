@@ -6,8 +6,8 @@ import hashlib
 import json
 from typing import NamedTuple
 
+from ..laws.law import Matrix
 from .gray_code import Coding
-from .law import Matrix
 from .variations import Variation, edges_out, pruned, varied
 
 PARAMETER_NODES = (1, 3, 5)  # the sources q1, q2, q3, counted from 0

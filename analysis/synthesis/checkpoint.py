@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from analysis.errors import InputError
-
-from .atomic import write_atomically
+from ..atomic import write_atomically
+from ..errors import InputError
 from .candidate import Candidate, Evaluation, Genes
 from .genetic import SearchState
 from .variations import Variation

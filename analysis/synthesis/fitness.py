@@ -7,17 +7,16 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from analysis.batch.expressions import Expression
-from analysis.batch.flyer import Flyer, TrialResult
-from analysis.batch.plan import BatchPlan
-from analysis.batch.workers import FlyerPool
-from analysis.cosim.parameter_sets import ParameterValue
-from analysis.errors import InputError
-
+from ..batch.flyer import Flyer, TrialResult
+from ..batch.workers import FlyerPool
+from ..campaign.expressions import Expression
+from ..campaign.plan import BatchPlan
+from ..errors import InputError
+from ..laws.law import Law
+from ..laws.parameter_set import law_parameters
+from ..system.parameter_sets import ParameterValue
 from .candidate import Evaluation
 from .evaluator import Bar, Task
-from .law import Law
-from .parameter_set import law_parameters
 
 VARIANT = "default"
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..laws.law import Matrix
 from .breeding import crossed, mutated, random_genes
 from .candidate import Candidate, Evaluation, Genes, Phenotype, phenotype
 from .evaluator import Bar, Evaluator, Task
-from .law import Matrix
 from .pareto import ParetoOrder, dominated, dominators
 from .search_settings import SearchSettings
 from .variations import NO_VARIATION, varied

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .atomic import write_atomically
+from ..atomic import write_atomically
+from ..laws.formula import formula, formula_text
+from ..laws.graph import law_svg
+from ..laws.law import Law
+from ..laws.parameter_set import parameter_set
 from .candidate import Candidate
-from .formula import formula, formula_text
 from .genetic import Search
-from .graph import law_svg
-from .law import Law
-from .parameter_set import parameter_set
 from .synthesis_file import Synthesis
 
 FORMAT, VERSION = "perilune-pareto-set", 1

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..laws.law import PARAMETERS
 from .gray_code import Coding
-from .law import PARAMETERS
 
 
 @dataclass(frozen=True)

@@ -9,18 +9,17 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from analysis.batch.flyer import Flyer
-from analysis.batch.plan import BatchPlan, check_plan
-from analysis.batch.runner import write_draws
-from analysis.batch.workers import worker_count
-from analysis.cosim.system import PreparedSystem
-from analysis.errors import InputError, suggestion
-
+from ..batch.flyer import Flyer
+from ..batch.runner import write_draws
+from ..batch.workers import worker_count
+from ..campaign.plan import BatchPlan, check_plan
+from ..errors import InputError, suggestion
+from ..laws.parameter_set import law_parameters
+from ..system.prepared import PreparedSystem
 from .checkpoint import read_checkpoint, write_checkpoint
 from .fitness import VARIANT, FlightEvaluator
 from .genetic import Search, SearchState
 from .outcome import SynthesisResult, write_log
-from .parameter_set import law_parameters
 from .synthesis_file import Synthesis
 
 CHECKPOINT = "checkpoint.json"

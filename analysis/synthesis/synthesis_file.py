@@ -8,16 +8,15 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
-from analysis.batch.campaign import Campaign
-from analysis.batch.campaign_file import SYNTHESIS, parse_campaign
-from analysis.batch.expressions import Expression
-from analysis.batch.plan import BatchPlan
-from analysis.batch.toml_table import Table, expression, integer, number, read_toml, text
-from analysis.cosim.system import SystemOptions
-from analysis.errors import InputError
-
-from .law import Law, named_law, read_law
-from .parameter_set import law_parameters
+from ..campaign.campaign import Campaign
+from ..campaign.expressions import Expression
+from ..campaign.file import SYNTHESIS, parse_campaign
+from ..campaign.plan import BatchPlan
+from ..campaign.toml_table import Table, expression, integer, number, read_toml, text
+from ..errors import InputError
+from ..laws.law import Law, named_law, read_law
+from ..laws.parameter_set import law_parameters
+from ..system.options import SystemOptions
 from .search_settings import SearchSettings
 from .variations import OUTPUTS, SIZE, SOURCES, edges_in, edges_out
 

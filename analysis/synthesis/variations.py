@@ -14,9 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fmus_src.mathlib.network_operator import SIZE, SOURCES
-
-from .law import Matrix
+from ...fmus_src.mathlib.network_operator import SIZE, SOURCES
+from ..laws.law import Matrix
 
 OUTPUTS = (14, 15)  # nodes counted from 0, as everywhere but on the screen
 NOTHING, CHANGE_UNARY, CHANGE_BINARY, ADD_EDGE, REMOVE_EDGE = range(5)

@@ -40,7 +40,7 @@ def identifier(name: str) -> str:
 
 
 def module_prefix(module: str) -> str:
-    """``fmus_src.mathlib.rng`` -> ``rng``."""
+    """``perilune.fmus_src.mathlib.rng`` -> ``rng``."""
     return re.sub(r"\W", "_", module.split(".")[-1])
 
 

@@ -39,7 +39,7 @@ class Closure:
 
     def packed(self) -> dict[str, bytes]:
         """The files with imports of the source package renamed, below the package's folder."""
-        pattern = re.compile(rf"^(\s*(?:from|import)\s+){SOURCE_PACKAGE}\b".encode(), re.MULTILINE)
+        pattern = re.compile(rf"^(\s*(?:from|import)\s+){re.escape(SOURCE_PACKAGE)}\b".encode(), re.MULTILINE)
         replacement = rb"\g<1>" + self.package.encode()
         return {f"{self.package}/{name}": pattern.sub(replacement, text) for name, text in self.files.items()}
 
@@ -108,8 +108,8 @@ def _imported(text: bytes, module: str, path: Path, allowed: set[str]) -> list[s
         if isinstance(node, ast.ImportFrom) and node.level > 0:
             base = package[: len(package) - (node.level - 1)]
             found += _with_submodules([*base, *(node.module or "").split(".")], node.names)
-        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == SOURCE_PACKAGE:
-            found += _with_submodules((node.module or "").split(".")[1:], node.names)
+        elif isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"{SOURCE_PACKAGE}."):
+            found += _with_submodules((node.module or "").removeprefix(SOURCE_PACKAGE).split("."), node.names)
         elif isinstance(node, ast.Import | ast.ImportFrom):
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else [node.module or ""]
             for name in names:

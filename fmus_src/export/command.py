@@ -9,12 +9,12 @@ from pathlib import Path
 
 from ..block import Block
 from ..catalogue import blocks_in_file, catalogue
+from ..places import BUILD, SYSTEMS
 from .compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
 from .native_fmu import build_native_fmu
 from .pythonfmu_fmu import build_python_fmu
 from .ssp_package import pack_system
 
-ROOT = Path(__file__).parents[2]
 FLAVOURS = ("native", "python")
 
 
@@ -22,7 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Build FMUs and systems; returns the exit status: 0 done, 1 compilation failed, 2 wrong input."""
     parser = argparse.ArgumentParser(prog="build_fmus.py", description="Build every FMU and pack every system.")
     parser.add_argument("--blocks", type=Path, metavar="FILE", help="build the blocks of this file only")
-    parser.add_argument("--output", type=Path, metavar="DIR", default=ROOT / "build", help="default: build")
+    parser.add_argument("--output", type=Path, metavar="DIR", default=BUILD, help="default: build")
     parser.add_argument("--flavour", choices=(*FLAVOURS, "all"), default="all")
     parser.add_argument(
         "--platform",
@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             ", ".join(f"{count} {flavour} FMUs" for flavour, count in counts.items()), f"in {options.output / 'fmus'}"
         )
         if options.blocks is None:
-            for folder in sorted(path.parent for path in (ROOT / "ssp_systems").glob("*/SystemStructure.ssd")):
+            for folder in sorted(path.parent for path in SYSTEMS.glob("*/SystemStructure.ssd")):
                 print(
                     pack_system(
                         folder, [options.output / "fmus" / flavour for flavour in flavours], options.output / "ssp"

@@ -30,7 +30,7 @@ class Source:
 
     @property
     def module(self) -> str:
-        """Full name of the module, as ``fmus_src.mathlib.vectors``."""
+        """Full name of the module, as ``perilune.fmus_src.mathlib.vectors``."""
         return self.function.__module__
 
     @property
@@ -91,7 +91,7 @@ def label(path: Path) -> str:
     """A file's name as it stands in C comments and fault messages; the same on every machine."""
     resolved = path.resolve()
     if resolved.is_relative_to(PACKAGE_ROOT):
-        return resolved.relative_to(PACKAGE_ROOT.parent).as_posix()
+        return f"fmus_src/{resolved.relative_to(PACKAGE_ROOT).as_posix()}"
     return resolved.name
 
 

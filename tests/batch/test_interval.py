@@ -1,11 +1,11 @@
-"""analysis.batch.interval against the beta distribution and by counting its coverage."""
+"""perilune.analysis.batch.interval against the beta distribution and by counting its coverage."""
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from analysis.batch.interval import success_interval
+from perilune.analysis.batch.interval import success_interval
 
 
 @given(st.integers(1, 5000), st.floats(0, 1))

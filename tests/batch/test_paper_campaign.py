@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from analysis.batch.campaign_file import read_campaign
-from analysis.batch.draws import draw_table
-from fmus_src.catalogue import catalogue
+from perilune.analysis.campaign.draws import draw_table
+from perilune.analysis.campaign.file import read_campaign
+from perilune.fmus_src.catalogue import catalogue
 
 CAMPAIGNS = Path(__file__).parents[2] / "ssp_systems" / "lunar_terminal_guidance" / "campaigns"
 NAMES = ("paper", "noisy")

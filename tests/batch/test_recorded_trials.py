@@ -11,11 +11,11 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from analysis.batch.campaign_file import read_campaign
-from analysis.batch.expressions import Expression
-from analysis.errors import InputError
-from analysis.places import SYSTEMS
-from fmus_src.plants.flat_moon_lander import FlatMoonLander
+from perilune.analysis.campaign.expressions import Expression
+from perilune.analysis.campaign.file import read_campaign
+from perilune.analysis.errors import InputError
+from perilune.fmus_src.places import SYSTEMS
+from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
 
 SYSTEM = "lunar_terminal_guidance"
 PAPER = SYSTEMS / SYSTEM / "campaigns" / "paper.toml"

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import perilune
-from analysis.batch.flyer import Flyer
-from analysis.batch.plan import read_plan
-from analysis.batch.trials import joined
-from analysis.batch.workers import tasks_of
-from analysis.cosim.system import SystemOptions
+from perilune.analysis.batch.flyer import Flyer
+from perilune.analysis.batch.trials import joined
+from perilune.analysis.batch.workers import tasks_of
+from perilune.analysis.campaign.plan import read_plan
+from perilune.analysis.system.options import SystemOptions
 
 SYSTEM = "lunar_terminal_guidance"
 TRIALS = 10

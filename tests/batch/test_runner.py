@@ -13,15 +13,15 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from analysis.batch.campaign_file import read_campaign
-from analysis.batch.draws import draw_table
-from analysis.batch.expressions import Expression
-from analysis.batch.plan import read_plan
-from analysis.batch.runner import run_batch
-from analysis.batch.summary import requirement_values
-from analysis.cosim.system import SystemOptions
-from analysis.errors import InputError
-from analysis.places import SYSTEMS
+from perilune.analysis.batch.runner import run_batch
+from perilune.analysis.batch.summary import requirement_values
+from perilune.analysis.campaign.draws import draw_table
+from perilune.analysis.campaign.expressions import Expression
+from perilune.analysis.campaign.file import read_campaign
+from perilune.analysis.campaign.plan import read_plan
+from perilune.analysis.errors import InputError
+from perilune.analysis.system.options import SystemOptions
+from perilune.fmus_src.places import SYSTEMS
 
 SYSTEM = "lunar_terminal_guidance"
 PAPER = SYSTEMS / SYSTEM / "campaigns" / "paper.toml"
@@ -116,7 +116,7 @@ def test_draws_are_written_first(tmp_path, monkeypatch):
     def die(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("analysis.batch.runner.fly_all", die)
+    monkeypatch.setattr("perilune.analysis.batch.runner.fly_all", die)
     plan = read_plan(SYSTEM, "paper", SystemOptions(), trials=5)
     with pytest.raises(KeyboardInterrupt):
         run_batch(plan, workers=1, output=tmp_path / "out")

@@ -1,4 +1,4 @@
-"""analysis.batch.stored and side_by_side: a batch read back and checked, several put side by side, or refused.
+"""perilune.analysis.batch.stored and side_by_side: a batch read back and checked, several put side by side, or refused.
 
 Truth: the batch in memory that was written; the rule that whatever is missing, damaged, or of two batches is
 refused in one line that names the file.
@@ -11,11 +11,11 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 import pytest
-from reports.comparison_samples import CAMPAIGN, sample_batch, write_sample
 
-from analysis.batch.side_by_side import compare
-from analysis.batch.stored import read_batch
-from analysis.errors import InputError
+from perilune.analysis.batch.stored import read_batch
+from perilune.analysis.compare.side_by_side import compare
+from perilune.analysis.errors import InputError
+from tests.support.pages.comparison_samples import CAMPAIGN, sample_batch, write_sample
 
 
 @pytest.fixture(scope="module")

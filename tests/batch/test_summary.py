@@ -1,4 +1,4 @@
-"""analysis.batch.summary"""
+"""perilune.analysis.batch.summary"""
 
 import json
 import math
@@ -6,10 +6,10 @@ import math
 import numpy as np
 import pytest
 
-from analysis.batch.campaign import Metric
-from analysis.batch.expressions import Expression
-from analysis.batch.interval import success_interval
-from analysis.batch.summary import TrialColumns, requirement_values, summarise, summary_text
+from perilune.analysis.batch.interval import success_interval
+from perilune.analysis.batch.summary import TrialColumns, requirement_values, summarise, summary_text
+from perilune.analysis.campaign.campaign import Metric
+from perilune.analysis.campaign.expressions import Expression
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
 GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})

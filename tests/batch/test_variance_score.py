@@ -1,11 +1,11 @@
-"""analysis.batch.variance_score against closed forms and by counting its interval's coverage."""
+"""perilune.analysis.batch.variance_score against closed forms and by counting its interval's coverage."""
 
 import numpy as np
 import pytest
 from scipy import signal
 
-from analysis.batch.variance_score import split_blocks, variance_score
-from analysis.errors import InputError
+from perilune.analysis.batch.variance_score import split_blocks, variance_score
+from perilune.analysis.errors import InputError
 
 
 def test_a_pure_gain_scores_its_square_without_doubt():

@@ -6,11 +6,11 @@ import math
 
 import pytest
 
-from analysis.benchmark.agreement import strangers
-from analysis.benchmark.contestant import Contestant
-from analysis.benchmark.course import Course
-from analysis.benchmark.promises import promised_ratios
-from analysis.benchmark.times import Times
+from perilune.analysis.benchmark.agreement import strangers
+from perilune.analysis.benchmark.contestants.contestant import Contestant
+from perilune.analysis.benchmark.contestants.course import Course
+from perilune.analysis.benchmark.promises import promised_ratios
+from perilune.analysis.benchmark.times import Times
 
 
 def contestant(name: str, algorithm: str | None = "sequential", exact: bool = False) -> Contestant:

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from analysis import cli
-from analysis.benchmark import trials
-from analysis.benchmark.contestants import CONTESTANTS
-from analysis.benchmark.measure import run_benchmark
-from analysis.benchmark.table import benchmark_text
-from analysis.errors import InputError
-from analysis.places import BUILD
-from fmus_src.export.command import main as build_fmus
+from perilune.analysis import cli
+from perilune.analysis.benchmark import trials
+from perilune.analysis.benchmark.contestants.all import CONTESTANTS
+from perilune.analysis.benchmark.measure import run_benchmark
+from perilune.analysis.benchmark.table import benchmark_text
+from perilune.analysis.errors import InputError
+from perilune.fmus_src.export.command import main as build_fmus
+from perilune.fmus_src.places import BUILD
 
 PROMISED_TIMES = {
     "fmpy_simulate_ssp",

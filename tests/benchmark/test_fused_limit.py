@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from cosim.builders import component, connection, document, inline, pack, system
 
-from analysis.benchmark import fused_limit, perilune_loop
-from analysis.benchmark.contestant import Unavailable
-from analysis.benchmark.course import Course
-from fmus_src.block import Block
-from fmus_src.catalogue import blocks_in_file
+from perilune.analysis.benchmark.contestants import fused_limit, perilune_loop
+from perilune.analysis.benchmark.contestants.contestant import Unavailable
+from perilune.analysis.benchmark.contestants.course import Course
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import blocks_in_file
+from tests.support.builders import component, connection, document, inline, pack, system
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""The life cycle of a component (`fmus_src.runtime.Component`) against the FMI co-simulation rules.
+"""The life cycle of a component (`perilune.fmus_src.runtime.Component`) against the FMI co-simulation rules.
 
 Truth: blocks written here whose behaviour is known by construction (accumulators, logs of their calls),
 exact fractions for sample instants, and real blocks compared with themselves: a repeated initialisation
@@ -13,14 +13,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fmus_src.block import Block, Input, Output, Parameter, State
-from fmus_src.catalogue import catalogue
-from fmus_src.disturbances.forming_filter import FormingFilter
-from fmus_src.guidance.analytic import AnalyticGuidance
-from fmus_src.mathlib.rng import seed_streams, uniform
-from fmus_src.navigation.noisy import NoisyNavigation
-from fmus_src.plants.flat_moon_lander import FlatMoonLander
-from fmus_src.runtime import Component, StepError
+from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.disturbances.forming_filter import FormingFilter
+from perilune.fmus_src.guidance.analytic import AnalyticGuidance
+from perilune.fmus_src.mathlib.rng import seed_streams, uniform
+from perilune.fmus_src.navigation.noisy import NoisyNavigation
+from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
+from perilune.fmus_src.runtime import Component, StepError
 
 
 class Probe(Block):

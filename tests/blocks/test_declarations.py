@@ -1,11 +1,11 @@
 """Declarations of variables: names of elements, and inconsistent declarations refused where they stand.
 
-Truth: FMI 2.0, section 2.2.9 (structured naming convention: a[1], a[2,3]), and the rules of `fmus_src.block`.
+Truth: FMI 2.0, section 2.2.9 (structured naming convention: a[1], a[2,3]), and the rules of `perilune.fmus_src.block`.
 """
 
 import pytest
 
-from fmus_src.block import Block, DeclarationError, Input, Parameter
+from perilune.fmus_src.block import Block, DeclarationError, Input, Parameter
 
 
 def refusal(**variables):

@@ -10,7 +10,7 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from analysis.cli import main
+from perilune.analysis.cli import main
 
 SYSTEM = "lunar_terminal_guidance"
 SMALL = ["batch", SYSTEM, "--campaign", "paper", "--trials", "10", "--workers", "1"]

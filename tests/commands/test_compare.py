@@ -9,11 +9,11 @@ import shutil
 import numpy as np
 import pyarrow.parquet
 import pytest
-from reports.checks import assert_self_contained, data_values, text_of
 
 import perilune
-from analysis.cli import VERBS, main
-from analysis.places import SYSTEMS
+from perilune.analysis.cli import VERBS, main
+from perilune.fmus_src.places import SYSTEMS
+from tests.support.pages.checks import assert_self_contained, data_values, text_of
 
 SYSTEM = "lunar_terminal_guidance"
 VARIANTS = ("analytic_guidance", "astar_guidance", "astar_modified_guidance")

@@ -10,9 +10,9 @@ import pytest
 from lxml import etree
 
 import perilune
-from analysis.cli import main
-from analysis.cosim.parameter_sets import read_parameter_file
-from analysis.synthesis.law import named_law
+from perilune.analysis.cli import main
+from perilune.analysis.laws.law import named_law
+from perilune.analysis.system.parameter_sets import read_parameter_file
 
 pytestmark = pytest.mark.usefixtures("fmus")
 

@@ -6,11 +6,11 @@ Truth: the catalogue, the folders on disk, documents broken in one place.
 import json
 
 import pytest
-from cosim.builders import component, connection, document, pack, parameter_set, retouched, system
 
-from analysis.cli import main
-from analysis.places import BUILD, SYSTEMS
-from fmus_src.catalogue import catalogue
+from perilune.analysis.cli import main
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.places import BUILD, SYSTEMS
+from tests.support.builders import component, connection, document, pack, parameter_set, retouched, system
 
 pytestmark = pytest.mark.usefixtures("fmus")
 

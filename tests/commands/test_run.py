@@ -9,7 +9,7 @@ import json
 import pytest
 
 import perilune
-from analysis.cli import main
+from perilune.analysis.cli import main
 
 SYSTEM = "lunar_terminal_guidance"
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -49,7 +49,7 @@ def test_json_to_a_file_and_talk_to_the_terminal(tmp_path, capsys):
 
 
 def test_packed_and_unpacked_fly_alike(tmp_path):
-    from analysis.places import BUILD
+    from perilune.fmus_src.places import BUILD
 
     finals = []
     for system in (SYSTEM, BUILD / "ssp" / f"{SYSTEM}.ssp"):

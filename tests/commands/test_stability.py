@@ -12,10 +12,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analysis.cli import main
-from tests.stability.exact_margins import crossings, disk_margin
-from tests.stability.exact_robot import translation_loop
-from tests.stability.exact_systems import late_double_integrator
+from perilune.analysis.cli import main
+from tests.support.loops.exact_margins import crossings, disk_margin
+from tests.support.loops.exact_robot import translation_loop
+from tests.support.loops.exact_systems import late_double_integrator
 
 DECIBEL = 20.0 / np.log(10.0)
 LATE = late_double_integrator()

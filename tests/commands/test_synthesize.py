@@ -11,11 +11,11 @@ import sys
 import time
 
 import pytest
-from synthesis.campaign_text import CAMPAIGN, TEXT
 
-from analysis.cli import main
-from analysis.synthesis.synthesis import run_synthesis
-from analysis.synthesis.synthesis_file import read_synthesis
+from perilune.analysis.cli import main
+from perilune.analysis.synthesis.synthesis import run_synthesis
+from perilune.analysis.synthesis.synthesis_file import read_synthesis
+from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 
 pytestmark = pytest.mark.usefixtures("fmus")
 
@@ -90,7 +90,7 @@ def test_an_interruption_leaves_a_checkpoint_to_go_on_from(tmp_path):
     file = tmp_path / "search.toml"
     file.write_text(TEXT.replace("generations = 3", "generations = 400"))
     out = tmp_path / "out"
-    program = "import sys; from analysis.cli import run; sys.argv[0] = 'perilune'; run()"
+    program = "import sys; from perilune.analysis.cli import run; sys.argv[0] = 'perilune'; run()"
     command = [sys.executable, "-c", program, "synthesize", "network-operator", str(file), "--output", str(out)]
     search = subprocess.Popen(
         [*command, "--workers", "2"],

@@ -4,12 +4,12 @@ Truth: the exit statuses 0 (built), 2 (wrong input); flights of what was built, 
 """
 
 import pytest
-from cosim.builders import BLOCKS, component, document, fly, pack, system
 
-from fmus_src.export.command import main
+from perilune.fmus_src.export.command import main
+from tests.support.builders import BLOCKS, component, document, fly, pack, system
 
 GUIDANCE = '''
-from fmus_src.interfaces.terminal_guidance import GOOD, TerminalGuidance
+from perilune.fmus_src.interfaces.terminal_guidance import GOOD, TerminalGuidance
 
 
 class StraightUp(TerminalGuidance):
@@ -54,7 +54,7 @@ def test_blocks_of_one_file_in_any_name(built, tmp_path):
     assert fly(path)["ramp.y"].tolist() == [1.0, 1.5, 2.0, 2.5, 3.0]
 
 
-HEAD = "from fmus_src.block import Block, Output, Parameter\n"
+HEAD = "from perilune.fmus_src.block import Block, Output, Parameter\n"
 WRONG = {
     "no Python": ("def", "mine.py: importing it failed: SyntaxError"),
     "no block": ("x = 1\n", "mine.py: defines no block"),

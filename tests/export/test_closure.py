@@ -9,10 +9,10 @@ import sys
 
 import pytest
 
-from fmus_src.catalogue import blocks_in_file, catalogue
-from fmus_src.export.closure import ClosureError, closure_of
+from perilune.fmus_src.catalogue import blocks_in_file, catalogue
+from perilune.fmus_src.export.closure import ClosureError, closure_of
 
-HEAD = "from fmus_src.block import Block, Output\n"
+HEAD = "from perilune.fmus_src.block import Block, Output\n"
 BODY = '''
 
 class Outside(Block):
@@ -53,11 +53,15 @@ def runs(closure, folder, class_name="Outside"):
 
 
 IMPORTS = {
-    "a function": ("from fmus_src.mathlib.vectors import norm\n", "norm([3.0, 4.0, 0.0])", 5.0),
-    "a module": ("from fmus_src.mathlib import vectors\n", "vectors.norm([3.0, 4.0, 0.0])", 5.0),
-    "a module by another name": ("from fmus_src.mathlib import vectors as v\n", "v.norm([0.0, 0.0, 2.0])", 2.0),
+    "a function": ("from perilune.fmus_src.mathlib.vectors import norm\n", "norm([3.0, 4.0, 0.0])", 5.0),
+    "a module": ("from perilune.fmus_src.mathlib import vectors\n", "vectors.norm([3.0, 4.0, 0.0])", 5.0),
+    "a module by another name": (
+        "from perilune.fmus_src.mathlib import vectors as v\n",
+        "v.norm([0.0, 0.0, 2.0])",
+        2.0,
+    ),
     "several modules": (
-        "from fmus_src.mathlib import rotation, vectors\n",
+        "from perilune.fmus_src.mathlib import rotation, vectors\n",
         "vectors.norm([0.0, 2.0, 0.0]) + 0.0 * len(rotation.__name__)",
         2.0,
     ),
@@ -82,7 +86,12 @@ def test_a_file_may_have_any_name(tmp_path, name):
 
 @pytest.mark.parametrize(
     "imports",
-    ["import requests\n", "from analysis import api\n", "import helper\n", "import fmus_src.mathlib.vectors\n"],
+    [
+        "import requests\n",
+        "from perilune.analysis import api\n",
+        "import helper\n",
+        "import perilune.fmus_src.mathlib.vectors\n",
+    ],
 )
 def test_what_cannot_be_packed_is_refused_with_its_line(tmp_path, imports):
     path = tmp_path / "outside.py"

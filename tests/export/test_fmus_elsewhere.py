@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from fmus_src.catalogue import catalogue
+from perilune.fmus_src.catalogue import catalogue
 
 BLOCKS = catalogue()
 STEPS = 20

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import samples
-from comparison import Pair, fly
-from language_blocks import Faults, Language
-
-from fmus_src.catalogue import catalogue
-from fmus_src.export.c_translate import translate
-from fmus_src.export.subset import check
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.c_translate import translate
+from perilune.fmus_src.export.subset import check
+from tests.support.kernels import samples
+from tests.support.kernels.comparison import Pair, fly
+from tests.support.kernels.language_blocks import Faults, Language
 
 
 def test_blocks_are_in_the_subset() -> None:

@@ -11,12 +11,12 @@ from functools import cache
 from random import Random
 
 import pytest
-import samples
-from native_instance import load
 
-from fmus_src.export.compilers import CompilerMissing
-from fmus_src.export.native_fmu import HERE
-from fmus_src.export.subset_table import MATH_FUNCTIONS
+from perilune.fmus_src.export.compilers import CompilerMissing
+from perilune.fmus_src.export.native_fmu import HERE
+from perilune.fmus_src.export.subset_table import MATH_FUNCTIONS
+from tests.support.kernels import samples
+from tests.support.kernels.native_instance import load
 
 SAMPLES = samples.size(20000)
 INT64 = 2**63

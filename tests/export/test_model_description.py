@@ -12,10 +12,10 @@ from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from fmus_src.block import Block, Input, Output, Parameter, State
-from fmus_src.catalogue import catalogue
-from fmus_src.export.model_description import literal, model_description
-from fmus_src.units import UNITS
+from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.model_description import literal, model_description
+from perilune.fmus_src.units import UNITS
 
 BLOCKS = catalogue()
 BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")

@@ -7,12 +7,12 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-import samples
-from comparison import draw, elements
-from native_instance import OK, NativeInstance
 
-from fmus_src.block import Block, Input
-from fmus_src.catalogue import catalogue
+from perilune.fmus_src.block import Block, Input
+from perilune.fmus_src.catalogue import catalogue
+from tests.support.kernels import samples
+from tests.support.kernels.comparison import draw, elements
+from tests.support.kernels.native_instance import OK, NativeInstance
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STATM = Path("/proc/self/statm")

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
-import samples
-from comparison import Pair, fly, only_switches
 
-from fmus_src.block import Block
-from fmus_src.catalogue import catalogue
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import catalogue
+from tests.support.kernels import samples
+from tests.support.kernels.comparison import Pair, fly, only_switches
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = samples.size(1000)

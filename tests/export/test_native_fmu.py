@@ -10,15 +10,16 @@ from pathlib import Path
 import fmpy
 import pytest
 from fmpy.validation import validate_fmu
-from native_instance import CACHE
 
-from fmus_src.block import Block
-from fmus_src.catalogue import catalogue
-from fmus_src.export import compilers
-from fmus_src.export.c_names import WRAPPER_NAMES
-from fmus_src.export.compilers import CompilationFailed, CompilerMissing, local_platform, shared_library
-from fmus_src.export.native_fmu import HERE, STANDARD_HEADERS, WRAPPER_FILES, build_native_fmu
-from fmus_src.runtime import Component
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export import compilers
+from perilune.fmus_src.export.c_names import WRAPPER_NAMES
+from perilune.fmus_src.export.compilers import CompilationFailed, CompilerMissing, local_platform, shared_library
+from perilune.fmus_src.export.native_fmu import HERE, STANDARD_HEADERS, WRAPPER_FILES, build_native_fmu
+from perilune.fmus_src.runtime import Component
+from tests.support import kernels
+from tests.support.kernels.native_instance import CACHE
 
 BLOCK = catalogue()["forming_filter"]
 
@@ -102,7 +103,7 @@ def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
     names = {line.split()[0].split("/")[-1].split(".")[0] for line in needed.splitlines()}
     assert names <= {"linux-vdso", "libc", "libm", "ld-linux-x86-64"}
     program = tmp_path / "step_fmu"
-    source = Path(__file__).with_name("step_fmu.c")
+    source = Path(kernels.__file__).with_name("step_fmu.c")
     subprocess.run(["cc", "-I", tmp_path / "sources", "-o", program, source, "-ldl"], check=True)
     component = Component(BLOCK)
     references = [i for i, (_, key) in enumerate(component.slots) if key in ("disturbance", "disturbance_rate")]

@@ -8,11 +8,11 @@ import threading
 from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_uint, c_void_p
 
 import pytest
-from native_instance import ERROR, GUID, OK, NativeInstance, library
 
-from fmus_src.block import Block, Input, Output, Parameter, State
-from fmus_src.catalogue import catalogue
-from fmus_src.runtime import Component, StepError
+from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.runtime import Component, StepError
+from tests.support.kernels.native_instance import ERROR, GUID, OK, NativeInstance, library
 
 DISCARD = 2
 

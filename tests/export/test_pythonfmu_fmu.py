@@ -13,15 +13,16 @@ import sys
 
 import numpy as np
 import pytest
-from cosim.builders import component, document, fly, pack, system
 
-from analysis.cosim.fmu import instantiate, load_fmu
-from analysis.places import ROOT
-from fmus_src.catalogue import catalogue
-from fmus_src.export.command import main
-from fmus_src.export.pythonfmu_fmu import build_python_fmu
-from fmus_src.plants.flat_moon_lander import FlatMoonLander
-from fmus_src.runtime import Component
+from perilune.analysis.flight.instance import instantiate
+from perilune.analysis.system.fmu import load_fmu
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.command import main
+from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
+from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
+from perilune.fmus_src.runtime import Component
+from tests.support.builders import component, document, fly, pack, system
 
 
 def run(code, *arguments, cwd=ROOT, isolated=False):
@@ -32,9 +33,9 @@ def run(code, *arguments, cwd=ROOT, isolated=False):
 BUILD_ALL = """
 import sys
 from pathlib import Path
-from fmus_src.catalogue import catalogue
-from fmus_src.export.command import main
-from fmus_src.export.pythonfmu_fmu import build_python_fmu
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.command import main
+from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 for name, block in catalogue().items():
     build_python_fmu(block, Path(sys.argv[1]) / f"{name}.fmu")
 """
@@ -84,7 +85,7 @@ def test_an_fmu_keeps_the_code_it_was_built_with(fmus, tmp_path):
     path = pack(tmp_path / "both.ssp", tmp_path / "flat", document(system(*elements), stop=10.0, step=0.5))
     code = (
         "import json, os, sys\n"
-        "import fmus_src.plants.flat_moon_lander as newer\n"
+        "import perilune.fmus_src.plants.flat_moon_lander as newer\n"
         "assert '2.0 * self.thrust' in open(newer.__file__).read()\n"
         f"sys.path.append({str(ROOT)!r})\n"
         "import perilune\n"
@@ -142,8 +143,8 @@ BUILD_AND_FLY = """
 import os, sys
 from pathlib import Path
 import perilune
-from fmus_src.export.pythonfmu_fmu import build_python_fmu
-from fmus_src.plants.flat_moon_lander import FlatMoonLander
+from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
+from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
 for k in range(8):
     for _ in range(3):
         perilune.simulate("lunar_terminal_guidance", flavour="python", stop_time=0.2)
@@ -190,7 +191,7 @@ def test_an_exception_in_a_step_comes_with_its_traceback(tiny_folder, tmp_path):
 
 
 PERCENT = '''
-from fmus_src.block import Block, Output
+from perilune.fmus_src.block import Block, Output
 
 
 class Percent(Block):
@@ -214,7 +215,7 @@ def test_messages_are_not_read_as_formats(tmp_path):
 
 FLIGHT = """
 import sys
-from analysis.cli import run
+from perilune.analysis.cli import run
 sys.argv[1:] = sys.argv[1:] or ["run", "lunar_terminal_guidance", "--flavour", "python", "--stop-time", "2"]
 run()
 """

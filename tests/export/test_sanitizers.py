@@ -10,14 +10,15 @@ import warnings
 from pathlib import Path
 
 import pytest
-import samples
-from native_instance import GUID
 
-from fmus_src.block import Block
-from fmus_src.catalogue import catalogue
-from fmus_src.export.native_fmu import native_sources
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.native_fmu import native_sources
+from tests.support import kernels
+from tests.support.kernels import samples
+from tests.support.kernels.native_instance import GUID
 
-DRIVER = Path(__file__).with_name("sanitize_fmu.c")
+DRIVER = Path(kernels.__file__).with_name("sanitize_fmu.c")
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = samples.size(200)
 # Kernels divide and convert through checked helpers, so these two, allowed by IEEE 754 or left out of

@@ -12,14 +12,14 @@ from pathlib import Path
 
 import fmpy
 import pytest
-import samples
-from comparison import Pair, fly
-from native_instance import CACHE, LOGGER, Callbacks, NativeInstance, opened
 
-from fmus_src.block import Block
-from fmus_src.catalogue import catalogue
-from fmus_src.export.compilers import local_platform
-from fmus_src.export.native_fmu import build_native_fmu
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.compilers import local_platform
+from perilune.fmus_src.export.native_fmu import build_native_fmu
+from tests.support.kernels import samples
+from tests.support.kernels.comparison import Pair, fly
+from tests.support.kernels.native_instance import CACHE, LOGGER, Callbacks, NativeInstance, opened
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = samples.size(200)

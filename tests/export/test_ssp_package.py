@@ -6,10 +6,10 @@ Truth: the SSP 1.0 layout; zipfile; the folder's own files.
 import zipfile
 
 import pytest
-from cosim.builders import component, document, fly, parameter_set, system
 
-from analysis.places import BUILD, SYSTEMS
-from fmus_src.export.ssp_package import pack_system, system_files
+from perilune.fmus_src.export.ssp_package import pack_system, system_files
+from perilune.fmus_src.places import BUILD, SYSTEMS
+from tests.support.builders import component, document, fly, parameter_set, system
 
 
 @pytest.fixture

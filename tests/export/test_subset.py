@@ -7,16 +7,16 @@ import importlib.util
 import warnings
 from pathlib import Path
 
-import bad_kernels
 import pytest
 
-from fmus_src.block import Block, Output
-from fmus_src.catalogue import catalogue
-from fmus_src.export.subset import SubsetError, analysed_kernel, check
-from fmus_src.export.subset_table import REFUSED_FUNCTIONS, REFUSED_SYNTAX, RULES, Rule
+from perilune.fmus_src.block import Block, Output
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.subset import SubsetError, analysed_kernel, check
+from perilune.fmus_src.export.subset_table import REFUSED_FUNCTIONS, REFUSED_SYNTAX, RULES, Rule
+from tests.support.kernels import bad_kernels
 
 TEMPLATE = '''import math
-from fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.block import Block, Input, Output, Parameter, State
 
 
 def helper(value: float) -> float:

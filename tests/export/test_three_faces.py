@@ -11,16 +11,17 @@ from random import Random
 from typing import Any
 
 import pytest
-import samples
-from comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches
 
-from analysis.cosim.fmu import Instance, instantiate, load_fmu
-from fmus_src.block import Block, Input, Parameter
-from fmus_src.catalogue import catalogue
-from fmus_src.export.compilers import local_platform
-from fmus_src.export.native_fmu import build_native_fmu
-from fmus_src.export.pythonfmu_fmu import build_python_fmu
-from fmus_src.runtime import Component
+from perilune.analysis.flight.instance import Instance, instantiate
+from perilune.analysis.system.fmu import load_fmu
+from perilune.fmus_src.block import Block, Input, Parameter
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.export.compilers import local_platform
+from perilune.fmus_src.export.native_fmu import build_native_fmu
+from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
+from perilune.fmus_src.runtime import Component
+from tests.support.kernels import samples
+from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = samples.size(1000)

@@ -1,4 +1,4 @@
-"""The Moon's sphere seen from the landing site: `fmus_src.mathlib.gravity`.
+"""The Moon's sphere seen from the landing site: `perilune.fmus_src.mathlib.gravity`.
 
 Truth: exact cases above, beside and below the site, and gravity as the gradient of mu/distance by central
 differences of numpy (tolerance 1e-8 relative, the differences' own error); its size mu/distance^2 to 1e-14.
@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from fmus_src.mathlib.gravity import altitude_of, central_gravity
+from perilune.fmus_src.mathlib.gravity import altitude_of, central_gravity
 
 RADIUS = 1.7374e6
 MU = 4.9028e12

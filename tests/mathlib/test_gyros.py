@@ -1,4 +1,4 @@
-"""Gyro cluster: `fmus_src.mathlib.gyros` against linear algebra and root finding.
+"""Gyro cluster: `perilune.fmus_src.mathlib.gyros` against linear algebra and root finding.
 
 Truth: the jacobian by complex steps, numpy's determinant, pseudo-inverse and solutions of linear systems,
 scipy's brentq on the distribution law in its implicit form, and the published isotropic angles.
@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from fmus_src.mathlib.gyros import (
+from perilune.fmus_src.mathlib.gyros import (
     ISOTROPIC_ANGLES,
     ISOTROPIC_RHO,
     cluster_jacobian,

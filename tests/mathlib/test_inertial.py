@@ -1,4 +1,4 @@
-"""Inertial navigation: `fmus_src.mathlib.inertial` against an ODE solver and full matrices.
+"""Inertial navigation: `perilune.fmus_src.mathlib.inertial` against an ODE solver and full matrices.
 
 Truth: `scipy.integrate.solve_ivp` with a specific force linear in time under central gravity (1 mm and 1e-5 m/s
 after 280 s, and the stated 7 mm when it is taken as constant in each step); F P F' + Q by numpy with the derivatives of
@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from fmus_src.mathlib.inertial import dead_reckon, predict_errors, sensor_addition
+from perilune.fmus_src.mathlib.inertial import dead_reckon, predict_errors, sensor_addition
 
 RADIUS = 1.7374e6
 MU = 4.9028e12

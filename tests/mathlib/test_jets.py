@@ -1,4 +1,4 @@
-"""Eight jets: `fmus_src.mathlib.jets` against linear algebra and linear programming.
+"""Eight jets: `perilune.fmus_src.mathlib.jets` against linear algebra and linear programming.
 
 Truth: the 6 x 8 matrix built from the published nozzle axes and arms with cross products, numpy's rank, null
 space and pseudo-inverse, scipy's HiGHS for the attainable set and the least propellant, and a
@@ -18,7 +18,7 @@ from scipy import sparse
 from scipy.linalg import null_space
 from scipy.optimize import linprog
 
-from fmus_src.mathlib.jets import (
+from perilune.fmus_src.mathlib.jets import (
     WALSH,
     jet_strengths,
     jet_wrench,

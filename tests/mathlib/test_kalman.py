@@ -1,4 +1,4 @@
-"""Kalman filter: `fmus_src.mathlib.kalman` against filterpy, random systems of one to fifteen states.
+"""Kalman filter: `perilune.fmus_src.mathlib.kalman` against filterpy, random systems of one to fifteen states.
 
 Truth: `filterpy.kalman.KalmanFilter` with its matrix inverse, and the information form of the update by
 numpy; tolerance 1e-10 of the largest element. The covariance stays symmetric to 1e-12 of its largest
@@ -12,7 +12,7 @@ from filterpy.kalman import KalmanFilter
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fmus_src.mathlib.kalman import correct, innovation_variance, normalised_square, predict, update
+from perilune.fmus_src.mathlib.kalman import correct, innovation_variance, normalised_square, predict, update
 
 
 def random_system(generator, n):

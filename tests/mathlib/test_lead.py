@@ -1,4 +1,4 @@
-"""Lead compensator by Tustin's rule: `fmus_src.mathlib.lead` against scipy's bilinear discretisation.
+"""Lead compensator by Tustin's rule: `perilune.fmus_src.mathlib.lead` against scipy's bilinear discretisation.
 
 Truth: `scipy.signal.cont2discrete` (bilinear) and `lfilter` on random inputs; python-control's frequency response of
 the sampled system; at a change of law the output as the old law would have given it.
@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import signal
 
-from fmus_src.mathlib.lead import advance_lead, change_lead, lead_output, tustin_lead
+from perilune.fmus_src.mathlib.lead import advance_lead, change_lead, lead_output, tustin_lead
 
 gains = st.floats(0.01, 10.0)
 times = st.floats(0.1, 100.0)

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fmus_src.mathlib import network_operator as no
+from perilune.fmus_src.mathlib import network_operator as no
 
 LARGE = 1e8
 ROUNDING = 4 * 2.0**-53

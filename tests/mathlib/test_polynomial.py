@@ -1,4 +1,4 @@
-"""Roots of polynomials: `fmus_src.mathlib.polynomial` against polynomials made from chosen roots, and `numpy.roots`.
+"""Roots of polynomials: mathlib.polynomial against polynomials made from chosen roots, and `numpy.roots`.
 
 Tolerance 1e-12 relative for roots that are chosen well apart, 1e-9 for those that numpy finds.
 """
@@ -12,7 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 
-from fmus_src.mathlib.polynomial import LARGEST, evaluate, first_crossing, positive_roots, quadratic_roots, root_between
+from perilune.fmus_src.mathlib.polynomial import (
+    LARGEST,
+    evaluate,
+    first_crossing,
+    positive_roots,
+    quadratic_roots,
+    root_between,
+)
 
 numbers = st.integers(-1000, 1000).filter(lambda number: number != 0).map(float)
 scales = st.sampled_from([1e-9, 1e-3, 1.0, 1e3, 1e9])

@@ -1,4 +1,4 @@
-"""A direction that follows a moving goal: `fmus_src.mathlib.pursuit`.
+"""A direction that follows a moving goal: `perilune.fmus_src.mathlib.pursuit`.
 
 Truth: closed forms for a goal at rest (a straight line down to the knee angle limit * response, an
 exponential after it) and for a goal that turns steadily (angle response * rate); scipy's DOP853 at 1e-12 for
@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from fmus_src.mathlib.pursuit import follow, goal_at
+from perilune.fmus_src.mathlib.pursuit import follow, goal_at
 
 START = np.array([0.6, 0.0, 0.8])
 BASE = np.array([-0.48, 0.6, 0.64])  # 1.35 rad away

@@ -1,4 +1,4 @@
-"""Quaternions: `fmus_src.mathlib.quaternion` against rotations of scipy and exact cases.
+"""Quaternions: `perilune.fmus_src.mathlib.quaternion` against rotations of scipy and exact cases.
 
 Truth: `scipy.spatial.transform.Rotation` (matrices, rotation vectors, products), the matrix exponential for
 the kinematic sign, and quarter turns whose results are whole numbers. Tolerance 1e-14 for components
@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from fmus_src.mathlib.quaternion import (
+from perilune.fmus_src.mathlib.quaternion import (
     angle_error,
     conjugate,
     copy4,

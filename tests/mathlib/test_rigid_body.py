@@ -1,12 +1,12 @@
-"""`fmus_src.mathlib.rigid_body` against numpy's products."""
+"""`perilune.fmus_src.mathlib.rigid_body` against numpy's products."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmus_src.mathlib.rigid_body import total_momentum
-from fmus_src.mathlib.vectors import cross
+from perilune.fmus_src.mathlib.rigid_body import total_momentum
+from perilune.fmus_src.mathlib.vectors import cross
 
 vectors = st.lists(st.floats(-1e3, 1e3), min_size=3, max_size=3)
 

@@ -1,4 +1,4 @@
-"""Random numbers: `fmus_src.mathlib.rng` against the published generator.
+"""Random numbers: `perilune.fmus_src.mathlib.rng` against the published generator.
 
 Truth: the recurrences of MRG32k3a (L'Ecuyer 1999) in exact Python integers; its streams and substreams
 (L'Ecuyer, Simard, Chen and Kelton 2002) as powers 2^127 and 2^76 of the transition matrices, worked out
@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from fmus_src.mathlib.rng import M1, M2, multiply_modulo, normal, seed_streams, uniform
+from perilune.fmus_src.mathlib.rng import M1, M2, multiply_modulo, normal, seed_streams, uniform
 
 P1 = 2**32 - 209
 P2 = 2**32 - 22853

@@ -1,4 +1,4 @@
-"""Turning unit vectors: `fmus_src.mathlib.rotation` against quaternion rotations of scipy.
+"""Turning unit vectors: `perilune.fmus_src.mathlib.rotation` against quaternion rotations of scipy.
 
 Truth: `scipy.spatial.transform.Rotation` about the common normal, and exact cases along the axes.
 Tolerance 1e-12 (rad and unit vectors), 1e-8 within 1e-6 rad of opposite vectors, where the axis itself
@@ -13,7 +13,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from fmus_src.mathlib.rotation import turn_towards
+from perilune.fmus_src.mathlib.rotation import turn_towards
 
 AXES = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 

@@ -1,4 +1,4 @@
-"""Splines of degree 5 and 6 and the rotation between directions: `fmus_src.mathlib.spline`.
+"""Splines of degree 5 and 6 and the rotation between directions: `perilune.fmus_src.mathlib.spline`.
 
 Truth: the conditions at both ends, by numpy's own polynomials and their derivatives, which leave no freedom
 (six of degree 5, seven of degree 6, solved as a linear system); the turn of the paper, s^3 (20 - 45 s + 36 s^2 -
@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 from scipy.spatial.transform import Rotation
 
-from fmus_src.mathlib.rotation import rotation_between
-from fmus_src.mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
+from perilune.fmus_src.mathlib.rotation import rotation_between
+from perilune.fmus_src.mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
 
 ordinary = st.floats(-1e3, 1e3)
 durations = st.floats(0.1, 1e4)

@@ -1,4 +1,4 @@
-"""Thrust linear in time: `fmus_src.mathlib.terminal` against the boundary conditions it must meet.
+"""Thrust linear in time: `perilune.fmus_src.mathlib.terminal` against the boundary conditions it must meet.
 
 Truth: coasting motion by scipy's integrator and the six boundary conditions, solved by numpy as a linear
 system for a0 and a1 and integrated in closed form (numpy polynomials); the times-to-go against
@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 from scipy.integrate import solve_ivp
 
-from fmus_src.mathlib.terminal import (
+from perilune.fmus_src.mathlib.terminal import (
     cubic_time,
     effort_rises,
     impulse_and_miss,
@@ -25,7 +25,7 @@ from fmus_src.mathlib.terminal import (
     quadratic_time,
     steady,
 )
-from tests.terminal_guidance import GRAVITY, TARGET, UP, box, states_of_the_box
+from tests.support.flights.terminal_guidance import GRAVITY, TARGET, UP, box, states_of_the_box
 
 ZERO = [0.0, 0.0, 0.0]
 arrivals = st.lists(st.integers(-20000, 20000).map(lambda number: number / 1000.0), min_size=3, max_size=3)

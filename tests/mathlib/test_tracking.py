@@ -1,4 +1,4 @@
-"""Covariance of value, rate and disturbance: `fmus_src.mathlib.tracking` against filterpy.
+"""Covariance of value, rate and disturbance: `perilune.fmus_src.mathlib.tracking` against filterpy.
 
 Truth: `filterpy.kalman.KalmanFilter` with `Q_continuous_white_noise`, to 1e-10 relative; the steady state by
 scipy's discrete Riccati equation; a straight line fitted to samples by least squares where there is no noise
@@ -11,7 +11,7 @@ from filterpy.common import Q_continuous_white_noise
 from filterpy.kalman import KalmanFilter
 from scipy.linalg import solve_discrete_are
 
-from fmus_src.mathlib.tracking import measure_chain, predict_chain
+from perilune.fmus_src.mathlib.tracking import measure_chain, predict_chain
 
 
 def matrices(rate_noise, disturbance_noise, h, n):

@@ -1,4 +1,4 @@
-"""Vectors of three components: `fmus_src.mathlib.vectors` against exact rational arithmetic.
+"""Vectors of three components: `perilune.fmus_src.mathlib.vectors` against exact rational arithmetic.
 
 Truth: Python fractions (exact sums of products) and exact cases. Tolerance: 4 rounding errors of the
 largest term.
@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmus_src.mathlib.vectors import clip, copy3, dot, norm
+from perilune.fmus_src.mathlib.vectors import clip, copy3, dot, norm
 
 ROUNDING = 2.0**-53
 components = st.floats(-1e6, 1e6).filter(lambda value: value == 0.0 or abs(value) > 1e-100)

@@ -14,7 +14,7 @@ import pytest
 from scipy import stats
 
 import perilune
-from tests.independent_descent import LEGACY, TRUE, encoded_law, fly, printed_law
+from tests.support.flights.independent_descent import LEGACY, TRUE, encoded_law, fly, printed_law
 
 SYSTEM = "lunar_descent_2d"
 NINE = [(altitude, angle) for altitude in (16648.0, 18148.0, 19648.0) for angle in (-1.65, -1.6, -1.55)]

@@ -6,11 +6,11 @@ The agreement asked for is 0.1 dB and 0.5 deg; rounding allows far more.
 
 import numpy as np
 import pytest
-from exact_margins import crossings, disk_margin, opened
-from exact_systems import coupled_pair, late_double_integrator, pendulum, resonance
-from sampled_loops import outside, response_of
 
 import perilune
+from tests.support.loops.exact_margins import crossings, disk_margin, opened
+from tests.support.loops.exact_systems import coupled_pair, late_double_integrator, pendulum, resonance
+from tests.support.loops.sampled_loops import outside, response_of
 
 DECIBEL = 20.0 / np.log(10.0)
 SYSTEMS = {

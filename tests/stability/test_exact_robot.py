@@ -9,7 +9,7 @@ import pytest
 from scipy.optimize import brentq
 
 import perilune
-from tests.stability.exact_robot import attitude_loop, translation_loop
+from tests.support.loops.exact_robot import attitude_loop, translation_loop
 
 PER_SECOND = 8  # communication points
 TICKS = 100

@@ -9,12 +9,12 @@ import math
 
 import numpy as np
 import pytest
-from cosim.builders import component, connection, document, pack, system
-from foreign_fmus import build_foreign_fmus
 
 import perilune
-from analysis.cli import main
-from analysis.stability.decibels import decibel_size, degree_size
+from perilune.analysis.cli import main
+from perilune.analysis.loops.decibels import decibel_size, degree_size
+from tests.support.builders import component, connection, document, pack, system
+from tests.support.loops.foreign_fmus import build_foreign_fmus
 
 STEP, GAIN = 0.1, 4.0
 G = GAIN * STEP

@@ -7,12 +7,12 @@ several times per period is one; matrices whose modes can be read off.
 import control
 import numpy as np
 import pytest
-from exact_periodic import STATES, exact_model, flown_response, hyperperiod
-from sampled_loops import held, response_of
 
-from analysis.stability.channels import Channel
-from analysis.stability.lifted import LiftedModel, Port, reached
-from analysis.stability.modes import modes, structure
+from perilune.analysis.stability.ask.channels import Channel
+from perilune.analysis.stability.linear.lifted import LiftedModel, Port, reached
+from perilune.analysis.stability.linear.modes import modes, structure
+from tests.support.loops.exact_periodic import STATES, exact_model, flown_response, hyperperiod
+from tests.support.loops.sampled_loops import held, response_of
 
 
 def port(count, seconds=0.5, first=0):

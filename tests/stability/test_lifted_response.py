@@ -6,9 +6,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from stability.sampled_loops import HeldDoubleIntegrator, response_of
 
-from analysis.stability.lifted import LiftedModel, Port
+from perilune.analysis.stability.linear.lifted import LiftedModel, Port
+from tests.support.loops.sampled_loops import HeldDoubleIntegrator, response_of
 
 
 def port(seconds: float, first: int, count: int) -> Port:

@@ -6,19 +6,20 @@ Truth: exact_periodic.py; python-control; the times at which flights are where a
 import control
 import numpy as np
 import pytest
-from cosim.builders import component, connection, document, pack, system
-from exact_periodic import EVERY, HYPERPERIOD, STATES, STEP, description, exact_model, hyperperiod
-from exact_systems import difference, ring, with_stability
-from sampled_loops import delay, held, response_of
 
 import perilune
-from analysis.cosim.system import SystemOptions, prepare_system
-from analysis.errors import InputError
-from analysis.stability.bench import Bench, StudyError
-from analysis.stability.channels import channels_of
-from analysis.stability.declaration import Loop, Point
-from analysis.stability.linearise import linearise
-from analysis.stability.operating_point import OperatingPoint
+from perilune.analysis.errors import InputError
+from perilune.analysis.stability.ask.channels import channels_of
+from perilune.analysis.stability.ask.declaration import Loop, Point
+from perilune.analysis.stability.bench.bench import Bench, StudyError
+from perilune.analysis.stability.bench.operating_point import OperatingPoint
+from perilune.analysis.stability.linear.linearise import linearise
+from perilune.analysis.system.options import SystemOptions
+from perilune.analysis.system.prepared import prepare_system
+from tests.support.builders import component, connection, document, pack, system
+from tests.support.loops.exact_periodic import EVERY, HYPERPERIOD, STATES, STEP, description, exact_model, hyperperiod
+from tests.support.loops.exact_systems import difference, ring, with_stability
+from tests.support.loops.sampled_loops import delay, held, response_of
 
 LOOPS = [
     Loop("first", "first.y", ("there",), period=EVERY[0] * STEP),

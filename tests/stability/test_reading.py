@@ -4,14 +4,14 @@ Truth: the declaration as written, and the number of the line on which its wrong
 """
 
 import pytest
-from cosim.builders import component, document, pack, system
-from exact_systems import ring, with_stability
 
 import perilune
-from analysis.cosim.description import Reader
-from analysis.errors import InputError
-from analysis.stability.declaration import Declaration, Element, Limits, Loop, Point, Sweep
-from analysis.stability.reading import read_declaration
+from perilune.analysis.errors import InputError
+from perilune.analysis.stability.ask.declaration import Declaration, Element, Limits, Loop, Point, Sweep
+from perilune.analysis.stability.ask.reading import read_declaration
+from perilune.analysis.system.description import Reader
+from tests.support.builders import component, document, pack, system
+from tests.support.loops.exact_systems import ring, with_stability
 
 SSD = document(system(component("plant", "held_mass", "input u Real; output position Real")))
 POINT = '<Point name="hold" time="20"/>'

@@ -6,11 +6,11 @@ describing function (Gelb and Vander Velde 1968, appendix B), and the flight's F
 
 import numpy as np
 import pytest
-from exact_systems import relay_loop
-from sampled_loops import response_of
 from scipy.optimize import brentq
 
 import perilune
+from tests.support.loops.exact_systems import relay_loop
+from tests.support.loops.sampled_loops import response_of
 
 LEVEL, DEAD_ZONE = 0.06, 0.02
 

@@ -7,13 +7,13 @@ import json
 from pathlib import Path
 
 import pytest
-from synthesis.regression import FormulaEvaluator, near
-from synthesis.test_genetic import SMALL, search
 
-from analysis.errors import InputError
-from analysis.synthesis.atomic import write_atomically
-from analysis.synthesis.checkpoint import read_checkpoint, state_document, state_of, write_checkpoint
-from analysis.synthesis.genetic import Search
+from perilune.analysis.atomic import write_atomically
+from perilune.analysis.errors import InputError
+from perilune.analysis.synthesis.checkpoint import read_checkpoint, state_document, state_of, write_checkpoint
+from perilune.analysis.synthesis.genetic import Search
+from tests.support.laws.regression import FormulaEvaluator, near
+from tests.synthesis.test_genetic import SMALL, search
 
 FACTS = {"seed": 3, "fmus": {"plant": "abc"}, "step": 0.1}
 

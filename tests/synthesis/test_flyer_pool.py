@@ -7,9 +7,9 @@ import threading
 
 import pytest
 
-from analysis.batch.plan import read_plan
-from analysis.batch.workers import FlyerPool
-from analysis.cosim.system import SystemOptions
+from perilune.analysis.batch.workers import FlyerPool
+from perilune.analysis.campaign.plan import read_plan
+from perilune.analysis.system.options import SystemOptions
 
 COUNTED = []
 LOCK = threading.Lock()

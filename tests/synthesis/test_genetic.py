@@ -8,14 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from synthesis.regression import POINTS, TOLERANCE, FormulaEvaluator, near
-from synthesis.test_pareto import dominates
 
-from analysis.synthesis.candidate import Phenotype
-from analysis.synthesis.expression_tree import evaluate_tree
-from analysis.synthesis.genetic import Search, SearchState
-from analysis.synthesis.law import Law, named_law, read_law
-from analysis.synthesis.search_settings import SearchSettings
+from perilune.analysis.laws.expression_tree import evaluate_tree
+from perilune.analysis.laws.law import Law, named_law, read_law
+from perilune.analysis.synthesis.candidate import Phenotype
+from perilune.analysis.synthesis.genetic import Search, SearchState
+from perilune.analysis.synthesis.search_settings import SearchSettings
+from tests.support.laws.regression import POINTS, TOLERANCE, FormulaEvaluator, near
+from tests.synthesis.test_pareto import dominates
 
 BASIC = read_law(named_law("diveev_2013_basic"))
 SMALL = SearchSettings(population=32, generations=12, crossovers=20, elites=4, renewal=5, stop=False)

@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from analysis.synthesis.pareto import ParetoOrder, dominated, dominators, ranks
+from perilune.analysis.synthesis.pareto import ParetoOrder, dominated, dominators, ranks
 
 VALUES = st.sampled_from([0.0, 1.0, 2.0, 3.0, 5.0, math.inf])  # few, so that many are equal
 POINTS = st.integers(1, 3).flatmap(

@@ -9,14 +9,14 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
-from synthesis.campaign_text import CAMPAIGN, TEXT
 
-from analysis.batch.campaign_file import read_campaign
-from analysis.errors import InputError
-from analysis.places import LAWS
-from analysis.synthesis.law import named_law, read_law
-from analysis.synthesis.search_settings import SearchSettings
-from analysis.synthesis.synthesis_file import LIMITS, read_synthesis
+from perilune.analysis.campaign.file import read_campaign
+from perilune.analysis.errors import InputError
+from perilune.analysis.laws.law import named_law, read_law
+from perilune.analysis.synthesis.search_settings import SearchSettings
+from perilune.analysis.synthesis.synthesis_file import LIMITS, read_synthesis
+from perilune.fmus_src.places import LAWS
+from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 
 DOCS = (Path(__file__).parents[2] / "docs" / "synthesis.md").read_text(encoding="utf-8")
 

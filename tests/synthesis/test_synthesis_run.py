@@ -7,14 +7,14 @@ workers, or without interruption.
 import json
 
 import pytest
-from synthesis.campaign_text import CAMPAIGN, TEXT
 
 import perilune
-from analysis.errors import InputError
-from analysis.synthesis import fitness
-from analysis.synthesis.law import read_law
-from analysis.synthesis.synthesis import run_synthesis
-from analysis.synthesis.synthesis_file import read_synthesis
+from perilune.analysis.errors import InputError
+from perilune.analysis.laws.law import read_law
+from perilune.analysis.synthesis import fitness
+from perilune.analysis.synthesis.synthesis import run_synthesis
+from perilune.analysis.synthesis.synthesis_file import read_synthesis
+from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 
 pytestmark = pytest.mark.usefixtures("fmus")
 

@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from synthesis.networks import SIZE, SOURCES, depends, matrices
 
-from analysis.synthesis.law import named_law, read_law
-from analysis.synthesis.variations import (
+from perilune.analysis.laws.law import named_law, read_law
+from perilune.analysis.synthesis.variations import (
     ADD_EDGE,
     CHANGE_BINARY,
     CHANGE_UNARY,
@@ -25,7 +24,8 @@ from analysis.synthesis.variations import (
     random_variation,
     varied,
 )
-from fmus_src.mathlib import network_operator
+from perilune.fmus_src.mathlib import network_operator
+from tests.support.laws.networks import SIZE, SOURCES, depends, matrices
 
 BASIC = read_law(named_law("diveev_2013_basic")).matrix
 SEEDS = st.integers(0, 2**32)

@@ -1,0 +1,1 @@
+"""The ways of flying a system that the benchmark times: ours, other importers, the limit."""

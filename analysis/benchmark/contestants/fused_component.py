@@ -1,0 +1,127 @@
+"""One component of a system as a C unit without FMI: its kernel, its instance, its life cycle."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ....fmus_src.block import Block, Output, State
+from ....fmus_src.export.c_names import identifier, literal
+from ....fmus_src.export.c_translate import translate
+from ....fmus_src.export.native_fmu import native_sources
+from ...system.fmu import Fmu
+from ...system.parameter_sets import ParameterValue
+from .contestant import Unavailable
+
+WRAPPER = '#include "fmi2_wrapper.c"\n'
+STRUCT = re.compile(r"^typedef struct (\w+) \{\n.*?^\} \1;\n", re.DOTALL | re.MULTILINE)
+
+# What fmi2_component.h does, for one instance and without what an importer may do wrong.
+LIFE_CYCLE = """\
+/* ---- without FMI: one instance ---- */
+
+{type} {instance};
+static double start;
+static int64_t tick; /* samples taken since the start */
+
+/* Declared starts and the system's parameters. */
+void {instance}_restart(double start_time)
+{{
+    {instance} = STARTS;
+    start = start_time;
+{parameters}}}
+
+/* Run initialize from the declared starts of states and outputs. Returns what went wrong, or NULL. */
+const char *{instance}_settle(void)
+{{
+{starts}    tick = 0;
+    model_set_start_time(&{instance}, start);
+    Fault fault = {{NULL, NULL, 0}};
+    model_initialize(&{instance}, &fault);
+    return fault.what;
+}}
+
+/* Advance from t to t + h; a sampled block steps at its sample instants only. */
+const char *{instance}_step(double t, double h)
+{{
+    const double period = model_sample_period(&{instance});
+    if (period > 0.0) {{
+        const double margin = SAMPLE_TOLERANCE * period + TIME_TOLERANCE * fabs(t + h);
+        const double due = start + (double)(tick + 1) * period;
+        if (t + h < due - margin) return NULL;
+        if (t + h >= due + period - margin) return "StepError: communication step holds more than one sample";
+        tick += 1;
+    }}
+    Fault fault = {{NULL, NULL, 0}};
+    model_step(&{instance}, &fault, t, h);
+    return fault.what;
+}}
+"""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A component in C: ``instance`` names its struct, ``members`` the place of each variable in it."""
+
+    component: str
+    instance: str
+    type_name: str
+    struct: str
+    members: Mapping[str, str]
+    unit: str
+
+    @property
+    def file(self) -> str:
+        return f"{self.instance}.c"
+
+
+def write_part(
+    component: str, number: int, fmu: Fmu, blocks: Mapping[str, type[Block]], parameters: Mapping[str, ParameterValue]
+) -> Part:
+    """The unit of the ``number``-th component; raises `Unavailable` where its FMU is not one of ``blocks``."""
+    if fmu.name not in blocks:
+        raise Unavailable(f"{component}: its FMU {fmu.name} is no block of the catalogue")
+    block_class = blocks[fmu.name]
+    _check_sources(component, fmu, block_class)
+    text = translate(block_class, fmu.description.guid)
+    struct = STRUCT.search(text)
+    assert struct is not None
+    assert text.endswith(WRAPPER)
+    instance = f"c{number}_{re.sub(r'[^0-9A-Za-z_]', '_', component)}"
+    members = {element: member for elements in _members(block_class).values() for element, member in elements.items()}
+    life_cycle = LIFE_CYCLE.format(
+        type=struct[1],
+        instance=instance,
+        parameters="".join(
+            f"    {instance}.{members[name]} = {literal(value)};\n"  # type: ignore[arg-type]
+            for name, value in parameters.items()
+        ),
+        starts="".join(
+            f"    {instance}.{member} = STARTS.{member};\n"
+            for variable, elements in _members(block_class).items()
+            for member in elements.values()
+            if isinstance(block_class.variables[variable], State | Output)
+        ),
+    )
+    return Part(component, instance, struct[1], struct[0], members, text.removesuffix(WRAPPER) + life_cycle)
+
+
+def _check_sources(component: str, fmu: Fmu, block_class: type[Block]) -> None:
+    """Refuse a native FMU compiled from other sources than ours now: it would be compared with another program."""
+    folder = fmu.folder / "sources"
+    if folder.is_dir():
+        compiled = {path.name: path.read_bytes() for path in folder.iterdir()}
+        if compiled != native_sources(block_class, fmu.description.guid):
+            raise Unavailable(f"{component}: its FMU {fmu.name} is of other sources; run build_fmus.py")
+
+
+def _members(block_class: type[Block]) -> dict[str, dict[str, str]]:
+    """By variable, the member of the struct by the name of its FMI variable: ``position[1]`` is ``position[0]``."""
+    found: dict[str, dict[str, str]] = {}
+    for name, variable in block_class.variables.items():
+        places = [
+            f"{identifier(name)}[{place}]" if variable.is_vector else identifier(name) for place in range(variable.size)
+        ]
+        found[name] = dict(zip(variable.element_names(), places, strict=True))
+    return found

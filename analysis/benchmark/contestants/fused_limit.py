@@ -1,0 +1,86 @@
+"""What the co-simulation could cost at best: the blocks fused into one compiled function, without FMI."""
+
+from __future__ import annotations
+
+import ctypes
+import subprocess
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+from ....fmus_src import export
+from ....fmus_src.block import Block
+from ....fmus_src.catalogue import catalogue
+from ....fmus_src.export.compilers import FLAGS, PLATFORMS, CompilerMissing, compiler_for, local_platform
+from .contestant import Fly, Unavailable, Values
+from .course import Course
+from .fused_component import Part, write_part
+from .fused_main import FILE, write_main
+
+HEADERS = Path(export.__file__).parent
+# Over the FMUs' own flags: all units optimised as one, and nothing but the entry point visible from outside.
+FUSING = ("-flto", "-fvisibility=hidden")
+
+
+def prepare(course: Course, blocks: Mapping[str, type[Block]] | None = None) -> Fly:
+    """The same blocks, parameters and connections in the same order, inlined into each other as the compiler likes.
+
+    Same C and same floating-point flags as the native FMUs, so the values are equal to the last
+    bit. It checks for NaN and infinity as our loop does, and records the first and the last point.
+    ``blocks`` by FMU name are the catalogue's unless given. Raises `Unavailable` for a component
+    that is not one of them.
+    """
+    library = ctypes.CDLL(str(compile_system(course, catalogue() if blocks is None else blocks)))
+    function = library.fly
+    function.argtypes = (ctypes.c_double, ctypes.c_double, ctypes.c_int64, ctypes.POINTER(ctypes.c_double))
+    function.restype = ctypes.c_char_p
+    names = course.names
+    record = (ctypes.c_double * (2 * len(names)))()
+    start, step = course.prepared.start, course.prepared.step
+
+    def fly(steps: int) -> Values:
+        problem = function(start, step, steps, record)
+        if problem is not None:
+            raise RuntimeError(problem.decode())
+        return dict(zip(names, record[len(names) :], strict=True))
+
+    return fly
+
+
+def compile_system(course: Course, blocks: Mapping[str, type[Block]]) -> Path:
+    """The shared library, in a new folder with its sources."""
+    platform = local_platform()
+    if platform is None:
+        raise Unavailable("there is no compiler for this platform")
+    try:
+        command = compiler_for(platform)
+    except CompilerMissing as reason:
+        raise Unavailable(str(reason)) from reason
+    parts = _parts(course, blocks)
+    units = {part.file: part.unit for part in parts} | {FILE: write_main(course, parts)}
+    folder = Path(tempfile.mkdtemp(prefix="perilune_fused_"))
+    for name, text in units.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    library = folder / f"fused{PLATFORMS[platform].extension}"
+    finished = subprocess.run(
+        [*command, *FLAGS, *FUSING, f"-I{HEADERS}", "-o", library.name, *units, "-lm"],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if finished.returncode != 0:
+        raise RuntimeError(f"{command[0]} on the fused system:\n{finished.stderr}")
+    return library
+
+
+def _parts(course: Course, blocks: Mapping[str, type[Block]]) -> list[Part]:
+    parts: list[Part] = []
+    types: dict[str, str] = {}
+    for number, (component, fmu) in enumerate(course.prepared.network.fmus.items()):
+        mine = {name: value for (owner, name), value in course.settings().items() if owner == component}
+        part = write_part(component, number, fmu, blocks, mine)
+        if types.setdefault(part.type_name, part.struct) != part.struct:
+            raise Unavailable(f"{component}: another block's class is called {part.type_name}, too")
+        parts.append(part)
+    return parts

@@ -1,0 +1,208 @@
+"""A campaign made concrete: system, options, draws and variants, checked before anything flies."""
+
+from __future__ import annotations
+
+import hashlib
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError, suggestion
+from ..system.archive import open_system
+from ..system.options import SystemOptions
+from ..system.prepared import PreparedSystem, prepare_system
+from .campaign import Campaign, Variant
+from .draws import DrawTable, draw_table, stream_numbers
+from .file import parse_campaign
+from .metrics import names_needed
+from .toml_table import Table
+
+
+@dataclass(frozen=True)
+class BatchPlan:
+    """What a batch flies; small enough to be sent to every worker.
+
+    ``options`` are the user's system options, which come after the campaign's own and win; draws
+    win over parameter sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names
+    parameters that whoever flies the plan gives anew with every flight.
+    """
+
+    system: str
+    campaign: Campaign
+    options: SystemOptions
+    campaign_sha256: str = ""
+    overlaid: tuple[str, ...] = ()
+
+    @cached_property
+    def draws(self) -> DrawTable:
+        """The table of draws of all trials."""
+        return draw_table(self.campaign)
+
+    def prepare(self, variant: Variant) -> PreparedSystem:
+        """The system as one variant flies it. Raises InputError."""
+        options = replace(
+            self.options,
+            use={**self.options.use, **variant.use},
+            parameters=(*self.campaign.parameters, *self.options.parameters),
+            set={**self.campaign.settings, **self.options.set},
+        )
+        return prepare_system(self.system, options)
+
+    def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
+        """The parameters of one trial: draws, and seed and stream of every component that has them."""
+        streams = stream_numbers(self.campaign.seed, trial, prepared.network.fmus, self.campaign.file)
+        values: dict[str, float | int] = dict(self.draws.parameters(trial))
+        for name, fmu in prepared.network.fmus.items():
+            if {"seed", "stream"} <= set(fmu.variables):
+                values[f"{name}.seed"], values[f"{name}.stream"] = streams[name]
+        return values
+
+
+def read_plan(
+    system: str | Path,
+    campaign: str,
+    options: SystemOptions,
+    *,
+    trials: int | None = None,
+    seed: int | None = None,
+    compare: Mapping[str, Sequence[str]] | None = None,
+) -> BatchPlan:
+    """Read a campaign by name or path, with the command line's changes. Raises InputError.
+
+    ``compare`` replaces the campaign's own comparison.
+    """
+    archive = open_system(system)
+    data, label = archive.campaign(campaign)
+    try:
+        table = Table(tomllib.loads(data.decode("utf-8")), label)
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
+    read = parse_campaign(table)
+    if read.system != archive.name:
+        raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
+    changes: dict = {}
+    if trials is not None:
+        changes["trials"] = trials
+    if seed is not None:
+        changes["seed"] = seed
+    if compare is not None:
+        changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
+    return BatchPlan(str(system), replace(read, **changes), options, hashlib.sha256(data).hexdigest())
+
+
+def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
+    """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
+    try:
+        _ = plan.draws
+    except MemoryError as error:
+        problem = f"the draws of {plan.campaign.trials} trials do not fit into memory"
+        raise InputError(plan.campaign.file, "trials", problem, "give fewer") from error
+    _refuse_conflicts(plan)
+    systems = {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
+    for prepared in systems.values():
+        for name in variant_names(plan, prepared).varied:
+            _check_varied(plan, prepared, name)
+    return systems
+
+
+def _refuse_conflicts(plan: BatchPlan) -> None:
+    """Refuse options that the campaign would overrule: FMUs of a compared slot, values that are drawn."""
+    for slot in plan.campaign.compare:
+        if slot in plan.options.use:
+            raise InputError("--use", slot, "the campaign compares FMUs in this slot", f"give --compare {slot}=A,B")
+    for name in plan.options.set:
+        if name in plan.draws.columns or name.endswith((".seed", ".stream")):
+            raise InputError("--set", name, "the campaign draws it in every trial", "change the campaign, or --seed")
+
+
+def _check_varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> None:
+    """Refuse a draw for what is no parameter, or with a value that the parameter cannot have."""
+    known: list[str] = []
+    for component, fmu in prepared.network.fmus.items():
+        known += [
+            f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in ("parameter", "input")
+        ]
+    if name not in known:
+        raise InputError(plan.campaign.file, name, "no such parameter in the system", suggestion(name, known))
+    if name not in plan.draws.columns:  # seed, stream or overlaid
+        return
+    values = np.asarray(plan.draws.columns[name], dtype=float)
+    component = max((part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len)
+    variable = prepared.network.fmus[component].variables[name.removeprefix(f"{component}.")]
+    if variable.type == "String":
+        raise InputError(plan.campaign.file, name, "a String cannot be drawn", "draw numbers only")
+    if variable.type != "Real" and np.any(values != np.round(values)):
+        raise InputError(plan.campaign.file, name, f"drawn values are not whole, it is {variable.type}", "use a choice")
+    low, high = (
+        limit if bound is None else float(bound) for bound, limit in ((variable.min, -np.inf), (variable.max, np.inf))
+    )
+    outside = np.flatnonzero((values < low) | (values > high))
+    if outside.size:
+        problem = f"{values[outside[0]]:g} in trial {outside[0]} is outside {low:g} to {high:g}"
+        raise InputError(plan.campaign.file, name, problem, "draw values that the parameter can have")
+
+
+@dataclass(frozen=True)
+class VariantNames:
+    """What one variant varies, records and holds constant, by name."""
+
+    varied: list[str]
+    signals: list[str]
+    statuses: list[str]
+    constants: dict[str, float]
+
+
+def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
+    """Names that a variant's simulation needs. Raises InputError for one that does not exist."""
+    campaign = plan.campaign
+    needed = names_needed(campaign.metrics, plan.draws.columns)
+    recorded = {*campaign.record.final, *campaign.record.signals}
+    needed |= recorded
+    signals: list[str] = []
+    constants: dict[str, float] = {}
+    for name in sorted(needed):
+        if _is_signal(prepared, name) or _is_output(prepared, name):
+            signals.append(name)
+        elif name in recorded:
+            raise InputError(
+                campaign.file, f"record: {name}", "not a signal of the system", "record outputs and inputs"
+            )
+        else:
+            constants[name] = _constant(plan, prepared, name)
+    statuses = [f"{name}.status" for name in prepared.network.fmus if _is_output(prepared, f"{name}.status")]
+    return VariantNames(sorted({*plan.parameters(prepared, 0), *plan.overlaid}), signals, statuses, constants)
+
+
+def _is_signal(prepared: PreparedSystem, name: str) -> bool:
+    """Whether a connector's value comes from a connection or is a system's input."""
+    node = prepared.network.nodes.get(name)
+    if node is None or node.kind in ("parameter", "calculatedParameter"):
+        return False
+    return name in prepared.network.driver or name in prepared.settings.nodes
+
+
+def _is_output(prepared: PreparedSystem, name: str) -> bool:
+    return any(
+        name.startswith(f"{component}.")
+        and getattr(fmu.variables.get(name[len(component) + 1 :]), "causality", "") == "output"
+        for component, fmu in prepared.network.fmus.items()
+    )
+
+
+def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:
+    """The value of a parameter that metrics refer to."""
+    for component, fmu in prepared.network.fmus.items():
+        variable = fmu.variables.get(name.removeprefix(f"{component}."))
+        if name.startswith(f"{component}.") and variable is not None and variable.start is not None:
+            value = prepared.settings.variables.get((component, variable.name), variable.start)
+            return float({"true": 1, "false": 0}.get(str(value).lower(), value))
+    raise InputError(
+        plan.campaign.file,
+        name,
+        "neither a signal nor a parameter of the system",
+        "correct the name, as component.variable",
+    )

@@ -1,0 +1,1 @@
+"""Stored batches and their variants side by side, on the same trials."""

@@ -1,0 +1,195 @@
+"""Variants of one or several stored batches side by side: rates, metrics, and pairs on the same trials."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..batch.interval import success_interval
+from ..batch.stored import StoredBatch
+from ..batch.summary import CONFIDENCE, TrialColumns, aligned, summarise
+from ..batch.trials import Trials
+from ..campaign.campaign import Metric
+from .paired import PairedRates, PairedValues, paired_rates, paired_values
+
+SUCCESS = "success"
+
+
+@dataclass(frozen=True)
+class Contender:
+    """One variant of one batch; ``batch`` and ``variant`` number them, for looks that tell which is which."""
+
+    label: str
+    stored: StoredBatch
+    name: str
+    batch: int
+    variant: int
+
+    @property
+    def trials(self) -> Trials:
+        return self.stored.variants[self.name]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Contenders by label and batches by their folders' names, all flown on the same draws.
+
+    ``reference`` is the variant that others are put against; ``notes`` say where the batches differ
+    other than by what was to be compared.
+    """
+
+    contenders: dict[str, Contender]
+    batches: dict[str, StoredBatch]
+    reference: str
+    notes: tuple[str, ...] = ()
+
+    @property
+    def first(self) -> StoredBatch:
+        """The batch of the first folder."""
+        return next(iter(self.batches.values()))
+
+    @cached_property
+    def metrics(self) -> list[Metric]:
+        """The metrics of all batches in order of appearance, those that are rates left out."""
+        return [metric for metric in self._all_metrics if metric.name not in self._truths]
+
+    @cached_property
+    def rates(self) -> list[Metric | None]:
+        """What is a yes or a no in every trial: success (None), then metrics that are true or false."""
+        return [None, *(metric for metric in self._all_metrics if metric.name in self._truths)]
+
+    @cached_property
+    def _all_metrics(self) -> list[Metric]:
+        found: dict[str, Metric] = {}
+        for batch in self.batches.values():
+            for metric in batch.metrics:
+                found.setdefault(metric.name, metric)
+        return list(found.values())
+
+    @cached_property
+    def _truths(self) -> set[str]:
+        """Metrics that are true or false by their expression, or that take both 0 and 1 and nothing else."""
+        found = set()
+        for metric in self._all_metrics:
+            facts = [batch.document["metrics"].get(metric.name) for batch in self.batches.values()]
+            values = np.concatenate([self.values(label, metric.name) for label in self.contenders])
+            values = values[np.isfinite(values)]
+            declared = all(fact.get("truth") for fact in facts if fact is not None)
+            if np.all((values == 0.0) | (values == 1.0)) and (
+                declared or (metric.unit == "1" and np.unique(values).size == 2)
+            ):
+                found.add(metric.name)
+        return found
+
+    def values(self, label: str, metric: str) -> np.ndarray:
+        """A metric in every trial of a contender; nan where its batch does not have that metric."""
+        trials = self.contenders[label].trials
+        return np.asarray(trials.metrics.get(metric, np.full(len(trials.trial), np.nan)), dtype=float)
+
+    def outcomes(self, label: str, rate: Metric | None) -> np.ndarray:
+        """Whether each trial of a contender is a yes; one whose metric is not finite is a no."""
+        if rate is None:
+            return self.contenders[label].trials.success
+        values = self.values(label, rate.name)
+        return np.isfinite(values) & (values != 0.0)
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """Per contender what a batch's summary has, and ``rates``: count, rate and interval by name."""
+        columns = {
+            label: TrialColumns(
+                contender.trials.statuses,
+                contender.trials.success,
+                {metric.name: self.values(label, metric.name) for metric in self.metrics},
+            )
+            for label, contender in self.contenders.items()
+        }
+        found = summarise(columns, self.metrics)
+        for label, entry in found.items():
+            entry["rates"] = {name_of(rate): self._rate(label, rate) for rate in self.rates}
+        return found
+
+    def _rate(self, label: str, rate: Metric | None) -> dict[str, Any]:
+        yes = self.outcomes(label, rate)
+        count = int(yes.sum())
+        interval = list(success_interval(count, yes.size, CONFIDENCE))
+        return {"count": count, "trials": yes.size, "rate": count / yes.size, "interval": interval}
+
+    @cached_property
+    def pairs(self) -> list[tuple[str, str]]:
+        """Labels (A, B) that differ in one thing only: two variants of a batch, or a variant in two batches.
+
+        B is what comes first: the reference, else the one above in the order of contenders.
+        """
+        found = []
+        for first, second in itertools.combinations(self.contenders.values(), 2):
+            if first.batch == second.batch and second.name == self.reference:
+                found.append((first.label, second.label))
+            elif first.batch == second.batch or first.name == second.name:
+                found.append((second.label, first.label))
+        return found
+
+    def against_reference(self, pair: tuple[str, str]) -> bool:
+        """Whether B of a pair is what others are put against: the reference variant, or the first batch."""
+        first, second = (self.contenders[label] for label in pair)
+        return second.name == self.reference if first.batch == second.batch else second.batch == 0
+
+    def paired_rates(self, pair: tuple[str, str], rate: Metric | None) -> PairedRates:
+        """A rate of two contenders on the same trials."""
+        return paired_rates(self.outcomes(pair[0], rate), self.outcomes(pair[1], rate))
+
+    def paired_values(self, pair: tuple[str, str], metric: str, successful: bool) -> PairedValues:
+        """A metric of two contenders on the same trials: those in which both succeed, or all."""
+        a, b = (self.values(label, metric) for label in pair)
+        if successful:
+            both = self.outcomes(pair[0], None) & self.outcomes(pair[1], None)
+            a, b = a[both], b[both]
+        return paired_values(a, b)
+
+    def document(self) -> dict[str, Any]:
+        """The comparison as JSON: provenance of every batch, per contender its numbers, per pair theirs."""
+        return {
+            "batches": {str(batch.folder): batch.provenance for batch in self.batches.values()},
+            "notes": list(self.notes),
+            "variants": self.summary,
+            "pairs": [
+                {
+                    "a": pair[0],
+                    "b": pair[1],
+                    "rates": {name_of(rate): asdict(self.paired_rates(pair, rate)) for rate in self.rates},
+                    "metrics": {m.name: asdict(self.paired_values(pair, m.name, True)) for m in self.metrics},
+                    "metrics_all": {m.name: asdict(self.paired_values(pair, m.name, False)) for m in self.metrics},
+                }
+                for pair in self.pairs
+            ],
+        }
+
+    def text(self) -> str:
+        """The comparison for a terminal: rates with intervals, then metrics of the successful trials."""
+        names = [name_of(rate) for rate in self.rates]
+        rows = [["variant", "trials", *(f"{name} % ({100 * CONFIDENCE:g} %)" for name in names)]]
+        for label, entry in self.summary.items():
+            rows.append([label, str(entry["trials"]), *(_percent(entry["rates"][name]) for name in names)])
+        lines = aligned(rows)
+        cells = [["metric, successful trials", "variant", "mean", "std", "max", "unit"]]
+        for metric in self.metrics:
+            for label, entry in self.summary.items():
+                found = entry["metrics"][metric.name]
+                numbers = ["-" if found[key] is None else f"{found[key]:.4g}" for key in ("mean", "std", "max")]
+                cells.append([metric.name, label, *numbers, metric.unit])
+        return "\n".join([*lines, *(["", *aligned(cells)] if self.metrics else []), *self.notes])
+
+
+def _percent(rate: Mapping[str, Any]) -> str:
+    low, high = rate["interval"]
+    return f"{100 * rate['rate']:.2f} ({100 * low:.2f} to {100 * high:.2f})"
+
+
+def name_of(rate: Metric | None) -> str:
+    """The name of a rate."""
+    return SUCCESS if rate is None else rate.name

@@ -1,1 +1,0 @@
-"""Co-simulation of SSP systems: read and check, schedule, run, record."""

@@ -1,0 +1,1 @@
+"""What flies for the demonstration and for the figures of the documentation."""

@@ -1,0 +1,40 @@
+"""Draws docs/images/landing.svg: `python -m analysis.reports.readme_figure`, after build_fmus.py."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+from ...fmus_src.places import ROOT
+from ..campaign.plan import read_plan
+from ..reports.kit.svg import svg_bytes
+from ..system.options import SystemOptions
+from .landing import fly_landings, landing_figure
+
+SYSTEM, CAMPAIGN = "lunar_terminal_guidance", "paper"
+LANDING = 42  # the trial shown in full: it starts 9.5 degrees off the direction to the site
+SAMPLE = 60  # trials behind it
+
+
+def sample_trials() -> list[int]:
+    """The trials behind the landing, which is not one of them."""
+    return [trial for trial in range(SAMPLE + 1) if trial != LANDING]
+
+
+def draw_readme_figure(path: Path) -> None:
+    """Fly trials of the published campaign with its first method and write the figure."""
+    others = sample_trials()
+    plan = read_plan(SYSTEM, CAMPAIGN, SystemOptions(), trials=max(LANDING, *others) + 1)
+    flights = fly_landings(plan, plan.campaign.variants()[0], [LANDING, *others])
+    figure = landing_figure(flights[0], flights[1:])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(svg_bytes(figure, "landing", text_as_paths=True))
+
+
+if __name__ == "__main__":
+    target = ROOT / "docs" / "images" / "landing.svg"
+    draw_readme_figure(target)
+    print(target)
+    sys.stdout.flush()
+    os._exit(0)  # pythonfmu's library can crash in its destructors

@@ -1,0 +1,80 @@
+"""An FMU instantiated: one fmi2Component with its log, its C functions' addresses at hand."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import itertools
+import threading
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fmpy import fmi2
+from fmpy.logging import addLoggerProxy
+
+from ..errors import InputError
+from ..system.fmu import Fmu
+from .loop import FUNCTION_NAMES
+
+
+@dataclass
+class Instance:
+    """One fmi2Component with its log; freed with `free`."""
+
+    fmu: Fmu
+    slave: fmi2.FMU2Slave
+    messages: list[str]
+
+    @property
+    def address(self) -> int:
+        """The fmi2Component."""
+        return int(self.slave.component)
+
+    def function_addresses(self) -> list[int]:
+        """Addresses of the C functions in the order of loop.FUNCTION_NAMES."""
+        return [ctypes.cast(getattr(self.slave.dll, name), ctypes.c_void_p).value or 0 for name in FUNCTION_NAMES]
+
+    def free(self) -> None:
+        _logs.pop(self.slave.instanceName, None)
+        self.slave.freeInstance()
+
+
+# fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
+_logs: dict[str, list[str]] = {}
+_instances = itertools.count(1)
+# fmpy changes the process's working directory while it loads a library: whoever does so, or reads
+# files by relative path beside threads that do, holds this.
+LOADING = threading.RLock()
+
+
+def _log(_environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
+    log = _logs.get((instance or b"").decode(errors="replace"))
+    if log is not None and message:
+        log.append(message.decode(errors="replace").strip())
+
+
+_callbacks = fmi2.fmi2CallbackFunctions()
+_callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(_log)
+_callbacks.allocateMemory = fmi2.defaultCallbacks.allocateMemory
+_callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
+addLoggerProxy(ctypes.byref(_callbacks))
+
+
+def instantiate(fmu: Fmu, name: str) -> Instance:
+    """Instantiate an FMU; ``name`` is the component's, made unique in the process."""
+    unique = f"{name}#{next(_instances)}"
+    _logs[unique] = []
+    try:
+        with LOADING, contextlib.chdir(Path.cwd()):  # back also when loading fails
+            slave = fmi2.FMU2Slave(
+                guid=fmu.description.guid,
+                unzipDirectory=str(fmu.folder),
+                modelIdentifier=fmu.description.coSimulation.modelIdentifier,
+                instanceName=unique,
+            )
+        slave.instantiate(callbacks=_callbacks, loggingOn=True)
+    except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate
+        log = " | ".join([str(error), *_logs.pop(unique)])
+        raise InputError(fmu.label, name, f"cannot be instantiated: {log}", "see the FMU's log") from error
+    return Instance(fmu, slave, _logs[unique])

@@ -1,0 +1,170 @@
+"""From schedule and layout to the loop's instructions: what is done, in which order, in each step."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from ..system.schedule import Schedule
+from . import loop
+from .instance import Instance
+
+FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(loop.FUNCTION_NAMES)}
+
+
+class InstructionList:
+    """Collects instructions.
+
+    ``ranges`` [component][get or set function 0..5] and ``parameter_ranges`` [component][type]
+    are (first, count) of slots and parameters. ``connections`` [component] lists, for each
+    connection that feeds a component, in order, its instruction code, the component that its value
+    comes from (-1: a system's constant input), source and target slot; the last entry is for
+    system connectors.
+    Connections and ``fault_slots`` are numbered as in the program's arrays.
+    """
+
+    def __init__(
+        self,
+        instances: Sequence[Instance],
+        ranges: np.ndarray,
+        parameter_ranges: np.ndarray,
+        connections: Sequence[Sequence[tuple[int, int, int, int]]],
+        fault_slots: Sequence[int],
+    ) -> None:
+        self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
+        self.ranges = ranges
+        self.parameter_ranges = parameter_ranges
+        self.connections = connections
+        self.fault_slots = fault_slots
+        self.rows: list[list[int]] = []
+
+    def call(self, code: int, component: int, function: int, piece: Sequence[int] = (0, 0)) -> None:
+        """A call of an FMI function on a piece of slots or parameters."""
+        instance, addresses = self.instances[component]
+        self.rows.append([code, addresses[function], instance, int(piece[0]), int(piece[1]), component, function])
+
+    def connect(self, group: int, known: Collection[int] | None = None) -> None:
+        """Values over the connections that feed a component; group -1: system connectors.
+
+        With ``known`` only those whose value comes from one of these components.
+        """
+        group %= len(self.connections)
+        first = sum(len(connections) for connections in self.connections[:group])
+        run: list[int] = []
+        for number, (code, origin, source, target) in enumerate(self.connections[group], first):
+            if known is not None and origin not in known:
+                run = []
+            elif code == loop.COPY:
+                # neighbouring slots copied to neighbouring slots are one instruction
+                if run and (source, target) == (run[1] + run[4], run[3] + run[4]):
+                    run[4] += 1
+                else:
+                    run = [code, source, 0, target, 1, group, 0]
+                    self.rows.append(run)
+            elif run and run[0] == code:
+                run[4] += 1
+            else:
+                run = [code, 0, 0, number, 1, group, 0]
+                self.rows.append(run)
+
+    def inject(self, piece: Sequence[int]) -> None:
+        """The faults on a piece of slots."""
+        for number, slot in enumerate(self.fault_slots):
+            if piece[0] <= slot < piece[0] + piece[1]:
+                self.rows.append([loop.INJECT, 0, 0, number, 1, 0, 0])
+
+    def set(self, component: int, known: Collection[int] | None = None) -> None:
+        """Inputs of a component; those whose source is not ``known`` keep their start values."""
+        self.connect(component, known)
+        for function in (FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"]):
+            piece = self.ranges[component, function]
+            if piece[1]:
+                self.inject(piece)
+                code = loop.SET_REAL if function == FUNCTION["SetReal"] else loop.SET_WHOLE
+                self.call(code, component, function, piece)
+
+    def get(self, component: int) -> None:
+        """Outputs of a component, at the end of the step."""
+        for function in (FUNCTION["GetReal"], FUNCTION["GetInteger"], FUNCTION["GetBoolean"]):
+            piece = self.ranges[component, function]
+            if piece[1]:
+                code = loop.GET_REAL if function == FUNCTION["GetReal"] else loop.GET_WHOLE
+                self.call(code, component, function, piece)
+                self.inject(piece)
+
+    def step(self, component: int) -> None:
+        self.call(loop.STEP, component, FUNCTION["DoStep"])
+
+    def reset(self) -> None:
+        """Every FMU back to the state after instantiation."""
+        for component in range(len(self.instances)):
+            self.call(loop.MODE, component, FUNCTION["Reset"])
+
+    def initialise(self, order: Sequence[int]) -> None:
+        """Parameters, initialisation mode, one exchange in ``order`` that settles the start.
+
+        Who comes before its sources is given the declared start values, on which what it sends on
+        does not depend.
+        """
+        for component in range(len(self.instances)):
+            for kind, function in enumerate((FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"])):
+                if self.parameter_ranges[component, kind, 1]:
+                    code = loop.PARAMETERS if kind == 0 else loop.WHOLE_PARAMETERS
+                    self.call(code, component, function, self.parameter_ranges[component, kind])
+            self.call(loop.SETUP, component, FUNCTION["SetupExperiment"])
+            self.call(loop.MODE, component, FUNCTION["EnterInitializationMode"])
+        known = {-1}
+        for component in order:
+            self.set(component, known)
+            self.get(component)
+            known.add(component)
+        for component in range(len(self.instances)):
+            self.call(loop.MODE, component, FUNCTION["ExitInitializationMode"])
+        for component in range(len(self.instances)):
+            self.get(component)  # again: there are FMUs that compute outputs only when they leave initialisation
+
+    def sequential(self, sources_first: Sequence[int], followers: Sequence[int]) -> None:
+        """Sources, which have the inputs of t_n, all stepped, then all read; followers one by one at t_(n+1)."""
+        for component in sources_first:
+            self.step(component)
+        for component in sources_first:
+            self.get(component)
+        for component in followers:
+            self.set(component)
+            self.step(component)
+            self.get(component)
+
+    def jacobi(self) -> None:
+        """All stepped, then all read."""
+        components = range(len(self.instances))
+        for component in components:
+            self.step(component)
+        for component in components:
+            self.get(component)
+
+    def hand_over(self, components: Sequence[int]) -> None:
+        """The end of every communication point, the first one too: inputs for the next step, system connectors."""
+        for component in components:
+            self.set(component)
+        self.connect(-1)
+
+
+def write_instructions(
+    instructions: InstructionList, names: Sequence[str], schedule: Schedule, algorithm: str
+) -> tuple[np.ndarray, int, int]:
+    """The instruction array, and where resetting and initialising end in it."""
+    index = {name: position for position, name in enumerate(names)}
+    instructions.reset()
+    reset_end = len(instructions.rows)
+    sources = [index[name] for name in schedule.sources_first]
+    set_ahead = range(len(names)) if algorithm == "jacobi" else sources
+    instructions.initialise([index[name] for name in schedule.initial_order])
+    instructions.hand_over(set_ahead)
+    initial_end = len(instructions.rows)
+    if algorithm == "jacobi":
+        instructions.jacobi()
+    else:
+        instructions.sequential(sources, [index[name] for name in schedule.followers])
+    instructions.hand_over(set_ahead)
+    return np.array(instructions.rows, dtype=np.uint64).reshape(-1, loop.COLUMNS), reset_end, initial_end

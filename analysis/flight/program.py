@@ -1,0 +1,253 @@
+"""From network, settings and schedule to the arrays that the compiled loop runs on."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError, suggestion
+from ..system.assignments import Settings, numbers
+from ..system.network import Link, Network, Node
+from ..system.schedule import Schedule, origin
+from ..system.transformations import IDENTITY
+from . import loop
+from .faults import Injection
+from .instance import Instance
+from .instructions import InstructionList, write_instructions
+
+EXCHANGES = loop.FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
+TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2}
+
+
+@dataclass
+class Layout:
+    """Where everything lies: slots by name, parameters by (component, variable)."""
+
+    slots: dict[str, int]
+    types: dict[str, str]
+    units: dict[str, str | None]
+    parameters: dict[tuple[str, str], int]
+    parameter_types: dict[tuple[str, str], str]
+    real_values: np.ndarray
+    whole_values: np.ndarray
+    strings: dict[str, dict[int, str]]  # String parameters by component and value reference
+
+    def set_parameter(self, key: tuple[str, str], value: float | int | bool) -> None:
+        """Put a value into the parameter arrays, by (component, variable)."""
+        position = self.parameters[key]
+        if self.parameter_types[key] == "Real":
+            self.real_values[position] = value
+        else:
+            self.whole_values[position] = value
+
+
+def build_program(
+    network: Network,
+    settings: Settings,
+    schedule: Schedule,
+    algorithm: str,
+    instances: dict[str, Instance],
+    wanted: Collection[str] | None,
+    injections: Sequence[Injection] = (),
+) -> tuple[loop.Program, Layout]:
+    """Arrays for the loop. ``wanted`` names what is recorded (None: everything).
+
+    Only outputs that are connected or wanted are fetched.
+    """
+    builder = _Builder(network, settings, wanted, injections)
+    return builder.program(schedule, algorithm, instances), builder.layout()
+
+
+class _Builder:
+    def __init__(
+        self, network: Network, settings: Settings, wanted: Collection[str] | None, injections: Sequence[Injection]
+    ) -> None:
+        self.network = network
+        self.settings = settings
+        self.injections = injections
+        self.names = list(network.fmus)
+        self.slots: dict[str, int] = {}
+        self.references: list[int] = []
+        self.initial: list[float] = []
+        self.types: dict[str, str] = {}
+        self.units: dict[str, str | None] = {}
+        read = {link.source.name for link in network.driver.values()}
+        self.fetched = None if wanted is None else read | set(wanted) | {injection.name for injection in injections}
+        self.ranges = np.zeros((len(self.names), len(EXCHANGES), 2), dtype=np.int64)
+        for index, name in enumerate(self.names):
+            self._place_component(index, name)
+        for node in network.nodes.values():
+            known = node.name in network.driver or node.name in settings.nodes
+            if node.component is None and not self._is_parameter(node) and known:
+                unit = node.unit.name if node.unit else None
+                self._place(node.name, 0, settings.nodes.get(node.name, np.nan), node.type_name or "Real", unit)
+        self._place_parameters()
+
+    @staticmethod
+    def _is_parameter(node: Node) -> bool:
+        return node.kind in ("parameter", "calculatedParameter")
+
+    def _place(self, name: str, reference: int, initial: float, type_name: str, unit: str | None) -> None:
+        self.slots[name] = len(self.references)
+        self.types[name] = type_name
+        self.units[name] = unit
+        self.references.append(reference)
+        self.initial.append(initial)
+
+    def _place_component(self, index: int, component: str) -> None:
+        fmu = self.network.fmus[component]
+        for function in range(len(EXCHANGES)):
+            first = len(self.references)
+            causality = "input" if function % 2 == 0 else "output"
+            for variable in fmu.variables.values():
+                if variable.causality != causality or TYPE_KIND.get(variable.type) != function // 2:
+                    continue
+                name = f"{component}.{variable.name}"
+                if causality == "input" and name not in self.network.driver:
+                    continue
+                if causality == "output" and self.fetched is not None and name not in self.fetched:
+                    continue
+                initial = self._start(component, variable) if causality == "input" else np.nan
+                self._place(name, variable.valueReference, initial, variable.type, fmu.unit_of(variable))
+            self.ranges[index, function] = first, len(self.references) - first
+
+    def _start(self, component: str, variable: Any) -> float:
+        """What an input is given while its source is not known yet: the value set for it, else its FMU's start."""
+        value = self.settings.variables.get((component, variable.name), variable.start)
+        return float({"true": 1, "false": 0, "none": 0}.get(str(value).lower(), value))
+
+    def _place_parameters(self) -> None:
+        self.parameters: dict[tuple[str, str], int] = {}
+        self.parameter_types: dict[tuple[str, str], str] = {}
+        self.parameter_references: list[int] = []
+        values: list[float] = []
+        self.parameter_ranges = np.zeros((len(self.names), 3, 2), dtype=np.int64)
+        self.strings: dict[str, dict[int, str]] = {}
+        for index, component in enumerate(self.names):
+            fmu = self.network.fmus[component]
+            mine = {name: value for (owner, name), value in self.settings.variables.items() if owner == component}
+            texts = {
+                fmu.variables[name].valueReference: value for name, value in mine.items() if isinstance(value, str)
+            }
+            if texts:
+                self.strings[component] = texts
+            for kind in range(3):
+                first = len(values)
+                for name, value in mine.items():
+                    if TYPE_KIND.get(fmu.variables[name].type) == kind:
+                        self.parameters[component, name] = len(values)
+                        self.parameter_types[component, name] = fmu.variables[name].type
+                        self.parameter_references.append(fmu.variables[name].valueReference)
+                        values.append(float(value))
+                self.parameter_ranges[index, kind] = first, len(values) - first
+        self.values = np.array(values, dtype=np.float64)
+
+    def _links(self) -> list[list[Link]]:
+        """Links grouped by the component they feed, upstream first; the last group feeds system connectors."""
+        groups: list[list[Link]] = []
+        for component in self.names:
+            group: list[Link] = []
+            for name in self.slots:
+                if name in self.network.driver and name.startswith(f"{component}."):
+                    node = self.network.driver[name].target
+                    if node.component == component:
+                        self._chain(name, group)
+            groups.append(group)
+        plain: list[Link] = []
+        for node in self.network.nodes.values():
+            if node.name in self.slots and node.component is None:
+                self._chain(node.name, plain)
+        groups.append(plain)
+        return groups
+
+    def _chain(self, name: str, group: list[Link]) -> None:
+        """Append the links that bring a value to a node, those before it first, none twice."""
+        link = self.network.driver.get(name)
+        if link is None or link in group:
+            return
+        if link.source.component is None:
+            self._chain(link.source.name, group)
+        group.append(link)
+
+    def program(self, schedule: Schedule, algorithm: str, instances: dict[str, Instance]) -> loop.Program:
+        groups = self._links()
+        links = [link for group in groups for link in group]
+        tables = [numbers(self.network, link) for link in links]
+        firsts = np.cumsum([0, *(len(table) for table in tables)])
+        flat = [entry for table in tables for entry in table]
+        finished = self.network.nodes.get("finished")
+        has_finish = finished is not None and finished.kind == "output" and "finished" in self.slots
+        fault_slots = [self._fault_slot(injection) for injection in self.injections]
+        collected = InstructionList(
+            [instances[name] for name in self.names],
+            self.ranges,
+            self.parameter_ranges,
+            [[self._connection(link) for link in group] for group in groups],
+            fault_slots,
+        )
+        instructions, reset_end, initial_end = write_instructions(collected, self.names, schedule, algorithm)
+        return loop.Program(
+            instructions=instructions,
+            reset_end=reset_end,
+            initial_end=initial_end,
+            reference=np.array(self.references, dtype=np.uint32),
+            initial=np.array(self.initial, dtype=np.float64),
+            parameter_reference=np.array(self.parameter_references, dtype=np.uint32),
+            source=np.array([self.slots[link.source.name] for link in links], dtype=np.int64),
+            target=np.array([self.slots[link.target.name] for link in links], dtype=np.int64),
+            factor=np.array([link.transformation.factor for link in links], dtype=np.float64),
+            offset=np.array([link.transformation.offset for link in links], dtype=np.float64),
+            table=np.array(
+                [(first, len(table)) for first, table in zip(firsts, tables, strict=False)], dtype=np.int64
+            ).reshape(-1, 2),
+            table_from=np.array([entry[0] for entry in flat], dtype=np.float64),
+            table_to=np.array([entry[1] for entry in flat], dtype=np.float64),
+            finished_slot=self.slots["finished"] if has_finish else -1,
+            fault_slot=np.array(fault_slots, dtype=np.int64),
+            fault_kind=np.array([injection.kind_number for injection in self.injections], dtype=np.int64),
+            fault_window=np.array([injection.window for injection in self.injections], dtype=np.float64).reshape(-1, 2),
+            fault_value=np.array([injection.value for injection in self.injections], dtype=np.float64),
+        )
+
+    def _connection(self, link: Link) -> tuple[int, int, int, int]:
+        """What `InstructionList` needs to know of a connection."""
+        component = origin(self.network, link).component
+        number = -1 if component is None else self.names.index(component)
+        return _connection_code(link), number, self.slots[link.source.name], self.slots[link.target.name]
+
+    def _fault_slot(self, injection: Injection) -> int:
+        if injection.name not in self.slots or "." not in injection.name:
+            names = [name for name in self.slots if "." in name]
+            raise InputError(
+                type(injection).__name__.lower(),
+                injection.name,
+                "no such connector of a component",
+                suggestion(injection.name, names),
+            )
+        return self.slots[injection.name]
+
+    def layout(self) -> Layout:
+        whole = np.zeros(self.values.size, dtype=np.int32)
+        for key, position in self.parameters.items():
+            if self.parameter_types[key] != "Real":
+                whole[position] = int(self.values[position])
+        return Layout(
+            slots=self.slots,
+            types=self.types,
+            units=self.units,
+            parameters=self.parameters,
+            parameter_types=self.parameter_types,
+            real_values=self.values.copy(),
+            whole_values=whole,
+            strings=self.strings,
+        )
+
+
+def _connection_code(link: Link) -> int:
+    """The instruction that carries a connection's value."""
+    if link.transformation.table:
+        return loop.MAP
+    return loop.COPY if link.transformation == IDENTITY else loop.TRANSFORM

@@ -1,0 +1,275 @@
+"""A system in memory that flies again and again: instances, program, buffers."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..system.assignments import Settings
+from ..system.parameter_sets import ParameterValue, parse_value
+from ..system.prepared import PreparedSystem
+from . import loop
+from .faults import Excitation, Fault
+from .instance import Instance, instantiate
+from .program import build_program
+from .results import Flight, Result
+
+STATUS = {
+    loop.STOP_TIME: "stop_time",
+    loop.FINISHED: "finished",
+    loop.NONFINITE: "nonfinite",
+    loop.FAILED: "failed",
+    loop.UNMAPPED: "failed",
+}
+FMI_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
+FMI_FATAL = 4
+NOTHING = np.zeros((0, 0))  # no excitation
+TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding
+
+
+class Simulation:
+    """Instances of a system's FMUs, reset and reused from flight to flight.
+
+    ``varied`` names the parameters (``component.variable``) that `fly` may be given anew;
+    ``wanted`` the signals to record (None: all outputs, connected inputs and system connectors);
+    ``excited`` the connectors that `advance` may add signals to. Use it as a context manager: it
+    frees the instances. Not shared between threads.
+    """
+
+    def __init__(
+        self,
+        prepared: PreparedSystem,
+        *,
+        varied: Collection[str] = (),
+        wanted: Collection[str] | None = None,
+        faults: Sequence[Fault] = (),
+        excited: Sequence[str] = (),
+    ) -> None:
+        self.prepared = prepared
+        self.settings = prepared.settings
+        self._varied = {name: self._key(name) for name in varied}
+        self._place_varied()
+        self.instances: dict[str, Instance] = {}
+        self._wanted = wanted
+        self._faults = faults
+        self._excitations = [Excitation(name, column) for column, name in enumerate(excited)]
+        self._instantiate()
+
+    def _place_varied(self) -> None:
+        """Give every varied parameter a place in the settings, at its start value."""
+        network = self.prepared.network
+        variables = dict(self.settings.variables)
+        for name, (component, variable) in self._varied.items():
+            declared = network.fmus[component].variables[variable]
+            start = parse_value(str(declared.start), declared.type, network.fmus[component].label, name)
+            variables.setdefault((component, variable), start)
+        self.settings = Settings(variables, self.settings.nodes, self.settings.unmatched)
+
+    def _key(self, name: str) -> tuple[str, str]:
+        """(component, variable) of a parameter's name; raises InputError."""
+        for component, fmu in self.prepared.network.fmus.items():
+            variable = fmu.variables.get(name.removeprefix(f"{component}."))
+            if (
+                name.startswith(f"{component}.")
+                and variable is not None
+                and variable.causality in ("parameter", "input")
+            ):
+                return component, variable.name
+        raise InputError(self.prepared.network.file, name, "no such parameter", "see perilune list for components")
+
+    def _instantiate(self) -> None:
+        prepared = self.prepared
+        for name, fmu in prepared.network.fmus.items():
+            self.instances[name] = instantiate(fmu, name)
+        margin = TIME_MARGIN * prepared.step
+        faults = [replace(fault, start=fault.start - margin, stop=fault.stop - margin) for fault in self._faults]
+        self.program, self.layout = build_program(
+            prepared.network,
+            self.settings,
+            prepared.schedule,
+            prepared.options.algorithm,
+            self.instances,
+            self._wanted,
+            [*faults, *self._excitations],
+        )
+        self.signal_names = [name for name in self.layout.slots if self._wanted is None or name in self._wanted]
+        for name in self._wanted or ():
+            if name not in self.layout.slots:
+                raise InputError(
+                    prepared.network.file, name, "no such signal", "name a connector as component.variable"
+                )
+        self._types = {name: self.layout.types[name] for name in self.signal_names}
+        self._recorded = np.array([self.layout.slots[name] for name in self.signal_names], dtype=np.int64)
+        self.buffers = loop.Buffers(
+            values=np.zeros(len(self.layout.slots)),
+            whole=np.zeros(len(self.layout.slots), dtype=np.int32),
+            frozen=np.zeros(len(self._faults) + len(self._excitations)),
+            outcome=np.zeros(5, dtype=np.int64),
+        )
+        self._record = np.empty((0, 0))
+        self._fresh = True
+
+    def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> Result:
+        """One flight from the start, with ``values`` for varied parameters; every n-th row is kept.
+
+        The arrays of the result are the simulation's own and are overwritten by the next flight.
+        """
+        flight = self.run(values or {}, every=every)
+        return Result(
+            **vars(flight),
+            units={name: self.layout.units[name] for name in self.signal_names},
+            provenance=self.provenance(),
+        )
+
+    def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
+        """The flight alone, for batches; see `fly`."""
+        self.set(values)
+        reset = not self._fresh
+        if self.layout.strings:
+            reset = self._set_strings(reset)
+        return self._advance(-1, self.prepared.steps, every, reset, NOTHING)
+
+    def set(self, values: Mapping[str, ParameterValue]) -> None:
+        """Give varied parameters other values, from the next start on."""
+        for name, value in values.items():
+            self.layout.set_parameter(self._varied[name], value)  # type: ignore[arg-type]
+
+    def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING) -> Flight:
+        """Fly on from communication point ``first`` to ``last``, as FMUs and buffers are; rows first + 1 to last.
+
+        -1 starts anew, which adds row 0. ``excitation`` [r, e] is added to the excited connectors at the r
+        communication points behind ``first``. ``last`` may lie behind the stop time. Arrays as in `fly`.
+        """
+        reset = first < 0 and not self._fresh
+        if first < 0 and self.layout.strings:
+            reset = self._set_strings(reset)
+        return self._advance(first, last, 1, reset, excitation)
+
+    def _advance(self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray) -> Flight:
+        prepared = self.prepared
+        rows = (last - max(first, 0)) // every + 2
+        if self._record.shape[0] < rows:
+            try:
+                self._record = np.empty((rows, self._recorded.size))
+                self._times = np.empty(rows)
+            except (MemoryError, ValueError) as error:  # the latter where numpy cannot even count them
+                problem = f"{rows} rows do not fit into memory"
+                remedy = "give a longer step or an earlier --stop-time"
+                raise InputError("--step", f"{prepared.step:g}", problem, remedy) from error
+        for instance in self.instances.values():
+            instance.messages.clear()
+        function = loop.fly_unlocked if prepared.is_native else loop.fly_locked
+        count = function(
+            self.program,
+            self.buffers,
+            self.layout.real_values,
+            self.layout.whole_values,
+            reset,
+            prepared.start,
+            prepared.step,
+            prepared.start + max(prepared.steps, last) * prepared.step,
+            first,
+            last,
+            self._recorded,
+            every,
+            self._record,
+            self._times,
+            excitation if excitation.size else np.zeros((0, len(self._excitations))),
+        )
+        self._fresh = False
+        status, message = self._end()
+        flight = Flight(
+            time=self._times[:count],
+            signals={name: self._record[:count, index] for index, name in enumerate(self.signal_names)},
+            types=self._types,
+            status=status,
+            message=message,
+        )
+        if self.buffers.outcome[0] == loop.FAILED and self.buffers.outcome[3] >= FMI_FATAL:
+            self._replace_instances()
+        return flight
+
+    def _set_strings(self, reset: bool) -> bool:
+        """Reset here and set String parameters, which the compiled loop does not know; returns False."""
+        for component, instance in self.instances.items():
+            if reset:
+                instance.slave.reset()
+            texts = self.layout.strings.get(component, {})
+            if texts:
+                instance.slave.setString(list(texts), list(texts.values()))
+        return False
+
+    def _end(self) -> tuple[str, str]:
+        code, subject, function, fmi_status, row = (int(value) for value in self.buffers.outcome)
+        time = self.prepared.start + row * self.prepared.step
+        if code == loop.NONFINITE:
+            name = list(self.layout.slots)[subject]
+            return STATUS[code], f"{name} is {self.buffers.values[subject]} at t = {time:g} s"
+        if code == loop.UNMAPPED:
+            name = list(self.layout.slots)[subject]
+            value = self.buffers.values[subject]
+            return STATUS[code], f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
+        if code == loop.FAILED:
+            component = list(self.instances)[subject]
+            log = " | ".join(self.instances[component].messages) or "no message in its log"
+            call = f"{loop.FUNCTION_NAMES[function]} returned {FMI_STATUS[fmi_status]}"
+            return STATUS[code], f"{component}: {call} at t = {time:g} s: {log}"
+        return STATUS[code], ""
+
+    def _replace_instances(self) -> None:
+        """After a fatal error no instance may be used again, nor freed (FMI 2.0, fmi2Fatal)."""
+        kept = self.layout
+        self.instances = {}
+        self._instantiate()
+        self.layout.real_values[:] = kept.real_values
+        self.layout.whole_values[:] = kept.whole_values
+
+    def provenance(self) -> dict[str, Any]:
+        """Parameter values, hashes, options and version: what the result depends on."""
+        prepared = self.prepared
+        values: dict[str, ParameterValue] = {}
+        for (component, variable), value in self.settings.variables.items():
+            position = self.layout.parameters.get((component, variable))
+            if position is not None:
+                kind = self.layout.parameter_types[component, variable]
+                array = self.layout.real_values if kind == "Real" else self.layout.whole_values
+                value = array[position].item()
+                value = bool(value) if kind == "Boolean" else value
+            values[f"{component}.{variable}"] = value
+        return {
+            "system": prepared.archive.name,
+            "system_sha256": prepared.archive.digest,
+            "fmus": {
+                name: {"fmu": fmu.name, "sha256": fmu.digest, "guid": fmu.description.guid}
+                for name, fmu in prepared.network.fmus.items()
+            },
+            "parameters": values,
+            "start_time": prepared.start,
+            "step": prepared.step,
+            "stop_time": prepared.start + prepared.steps * prepared.step,
+            "variant": prepared.options.variant,
+            "no_feedthrough": list(prepared.options.no_feedthrough),
+            "faults": [
+                f"{fault.name} {fault.kind} {fault.value!r} from {fault.start!r} to {fault.stop!r} s"
+                for fault in self._faults
+            ],
+            "algorithm": prepared.options.algorithm,
+            "perilune": version("perilune"),
+        }
+
+    def close(self) -> None:
+        """Free the instances."""
+        for instance in self.instances.values():
+            instance.free()
+        self.instances = {}
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,1 @@
+"""Control laws as data: files, formulas, drawings."""

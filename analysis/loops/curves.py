@@ -1,0 +1,157 @@
+"""Frequency responses as functions: interpolated between measured lines, or sampled on a grid that resolves them.
+
+A response takes angular frequencies (rad/s, shape (n,)) and gives complex values of L, minus the loop's transfer,
+of shape (n,), or (n, m, m) for m channels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from .readings import Curve
+
+Response = Callable[[np.ndarray], np.ndarray]
+
+_PER_DECADE = 60
+_UNIFORM = 200  # further points, evenly spaced: near the Nyquist frequency a logarithmic grid is coarse in z
+_CLOSEST = 1e-10  # least relative distance of neighbours; a pole on the unit circle is not resolved further
+_SILENT = 1e-9  # gain below which nothing is resolved: a zero on the unit circle
+_HALVINGS = 16  # of the intervals around a crossing
+_NEAR = 0.5  # distance (rad, in log gain, or of -1) within which a closest approach is looked at
+_ROUNDING = 1e-9  # distance below which closest approaches are noise
+
+
+class Remembered:
+    """A response that asks another one for each frequency (rad/s) once."""
+
+    def __init__(self, response: Response) -> None:
+        self._response = response
+        self._known: dict[float, np.ndarray] = {}
+
+    def __call__(self, frequency: np.ndarray) -> np.ndarray:
+        asked = np.asarray(frequency, dtype=float).tolist()
+        new = [angular for angular in dict.fromkeys(asked) if angular not in self._known]
+        if new:
+            self._known.update(zip(new, self._response(np.array(new)), strict=True))
+        return np.array([self._known[angular] for angular in asked])
+
+
+def remembered(response: Response) -> Response:
+    """The response with a memory, for several readers of the same curve; one that has a memory is left as it is."""
+    return response if isinstance(response, Remembered) else Remembered(response)
+
+
+def interpolated(frequency: np.ndarray, value: np.ndarray, sample_period: float) -> Response:
+    """A response through measured lines: at ``frequency`` (rad/s, increasing, below pi/T) it has ``value``.
+
+    Log gain is a cubic spline of log tan(w T/2), the logarithm of Tustin's frequency, in which a sampled loop has the
+    straight asymptotes of a continuous one, the zero at z = -1 of a held plant included; unwrapped phase is one of
+    log w, in which a delay is as smooth near the Nyquist frequency as elsewhere. Of a double integrator with hold,
+    lead and one sample of delay, seen through 10 odd lines per decade, this loses at most 0.02 dB and 0.02 deg (20
+    lines: 0.003 dB, 0.001 deg); with both against log w 3 dB near Nyquist, with both against the other 8 deg, with
+    monotone splines (PCHIP) 0.01 dB and 0.14 deg. Neighbouring lines must turn less than pi, and a resonance needs
+    lines within its width. Raises ValueError for lines that cannot be joined, and when called outside of them.
+    """
+    frequency, value = np.asarray(frequency, dtype=float), np.asarray(value, dtype=complex)
+    if frequency.ndim != 1 or frequency.shape != value.shape or len(frequency) < 4:
+        raise ValueError(f"{frequency.shape} frequencies with {value.shape} values; at least 4 of each, one list each")
+    if frequency[0] <= 0.0 or not np.all(np.diff(frequency) > 0.0) or frequency[-1] * sample_period >= np.pi:
+        raise ValueError("the lines' frequencies must increase and lie between 0 and the Nyquist frequency")
+    if not np.all(np.isfinite(value)) or np.any(value == 0.0):
+        raise ValueError("a line without a finite gain above zero cannot be interpolated")
+
+    def tustin(angular: np.ndarray) -> np.ndarray:
+        return np.log(np.tan(0.5 * sample_period * angular))
+
+    gain = CubicSpline(tustin(frequency), np.log(np.abs(value)))
+    phase = CubicSpline(np.log(frequency), np.unwrap(np.angle(value)))
+    lowest, highest = frequency[0] * (1.0 - 1e-12), frequency[-1] * (1.0 + 1e-12)
+
+    def response(angular: np.ndarray) -> np.ndarray:
+        angular = np.asarray(angular, dtype=float)
+        if np.any(angular < lowest) or np.any(angular > highest):
+            raise ValueError(f"asked outside of the measured lines, {frequency[0]:g} to {frequency[-1]:g} rad/s")
+        return np.exp(gain(tustin(angular)) + 1j * phase(np.log(angular)))
+
+    return response
+
+
+def base_grid(low: float, high: float, include: Iterable[float] = ()) -> np.ndarray:
+    """Frequencies (rad/s) from ``low`` to ``high``: logarithmic, evenly spaced, and those to ``include``."""
+    if not 0.0 < low < high:
+        raise ValueError(f"frequencies from {low:g} to {high:g} rad/s; needs 0 < low < high")
+    logarithmic = np.geomspace(low, high, max(2, round(_PER_DECADE * np.log10(high / low)) + 1))
+    grid = np.concatenate([logarithmic, np.linspace(low, high, _UNIFORM), np.asarray([*include], dtype=float)])
+    grid = np.unique(grid[(grid >= low) & (grid <= high)])
+    return grid[np.concatenate([[True], np.diff(grid) > _CLOSEST * grid[:-1]])]
+
+
+def dense(
+    response: Response,
+    low: float,
+    high: float,
+    *,
+    step: float = 0.1,
+    include: Iterable[float] = (),
+    refine: bool = True,
+    most: int = 20000,
+) -> Curve:
+    """The response of one channel on a grid from ``low`` to ``high`` (rad/s) that resolves it.
+
+    Between neighbours the complex logarithm changes by at most ``step`` (1: a factor e, or one rad), unless they are
+    at a pole or zero on the unit circle. Unless ``refine`` is off, the grid is much finer where L comes nearest to
+    the unit circle, the negative real axis or -1. A resonance narrower than the first grid, about 4 %, can stay
+    unseen: ``include`` the frequencies of lightly damped poles. Raises ValueError when ``most`` points do not resolve
+    the response.
+    """
+    frequency = base_grid(low, high, include)
+    value = _finite(response, frequency)
+    while True:
+        loud = np.maximum(np.abs(value), _SILENT)
+        change = np.hypot(np.diff(np.log(loud)), np.angle(value[1:] * np.conj(value[:-1])))
+        audible = np.maximum(loud[1:], loud[:-1]) > _SILENT
+        coarse = np.flatnonzero((change > step) & audible & (np.diff(frequency) > _CLOSEST * frequency[:-1]))
+        if not coarse.size:
+            break
+        if len(frequency) + len(coarse) > most:
+            raise ValueError(f"the frequency response is not resolved by {most} points up to {high:g} rad/s")
+        frequency, value = _halve(response, frequency, value, coarse)
+    return _refined(response, frequency, value, most) if refine else Curve(frequency, value)
+
+
+def _finite(response: Response, frequency: np.ndarray) -> np.ndarray:
+    value = np.asarray(response(frequency), dtype=complex)
+    if not np.all(np.isfinite(value)):
+        where = frequency[~np.isfinite(value)][0]
+        raise ValueError(f"the frequency response is not finite at {where:g} rad/s")
+    return value
+
+
+def _halve(
+    response: Response, frequency: np.ndarray, value: np.ndarray, intervals: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    middle = 0.5 * (frequency[intervals] + frequency[intervals + 1])
+    found = _finite(response, middle)
+    return np.insert(frequency, intervals + 1, middle), np.insert(value, intervals + 1, found)
+
+
+def _refined(response: Response, frequency: np.ndarray, value: np.ndarray, most: int) -> Curve:
+    """Finer around every closest approach, which every crossing is, and so is a touch without a crossing."""
+    for _ in range(_HALVINGS):
+        gain = np.abs(np.log(np.maximum(np.abs(value), _SILENT)))
+        phase = np.abs(np.angle(-value))
+        chosen = np.zeros(len(frequency), dtype=bool)
+        for distance in (gain, phase, np.abs(1.0 + value)):
+            inner = distance[1:-1]
+            least = (inner <= distance[:-2]) & (inner < distance[2:]) & (inner < _NEAR) & (inner > _ROUNDING)
+            chosen[1:-1] |= least
+        points = np.flatnonzero(chosen)
+        intervals = np.unique(np.concatenate([points - 1, points]))
+        intervals = intervals[np.diff(frequency)[intervals] > 1e-8 * frequency[intervals]]
+        if not intervals.size or len(frequency) + len(intervals) > most:
+            break
+        frequency, value = _halve(response, frequency, value, intervals)
+    return Curve(frequency, value)

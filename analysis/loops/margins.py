@@ -1,0 +1,198 @@
+"""Margins of one loop from its frequency response: classical, and distances from the critical point.
+
+Åström and Murray, "Feedback Systems" (2008), chapter 9; disk margins: Seiler, Packard and Gahinet, "An introduction
+to disk margins", IEEE Control Systems Magazine 40 (2020), with skew 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from .curves import Response, dense, remembered
+from .encirclements import encirclements
+from .readings import Classical, Crossing, Robust
+
+# Beyond these no crossing is believed: 180 dB of gain, or a phase within rounding of the negative real axis, as that
+# of a double integrator at low frequency.
+_ROUNDING = 1e-9
+_FINEST = 4.0 * np.finfo(float).eps
+
+
+def classical(
+    response: Response,
+    low: float,
+    high: float,
+    sample_period: float,
+    unstable_open: int | None,
+    *,
+    poles_at_one: int | None = None,
+    undamped: Iterable[float] = (),
+    include: Iterable[float] = (),
+) -> Classical:
+    """All gain, phase and delay margins between ``low`` and ``high`` (rad/s), sampled with ``sample_period`` (s).
+
+    Where L is real without crossing the axis it has a gain margin too: at the Nyquist frequency when ``high`` is
+    that, and at frequency 0 (returned as such) when L without integrators levels off below ``low``. Encirclements
+    are counted when the number of open-loop poles outside of the unit circle is known; ``poles_at_one`` and
+    ``undamped`` (rad/s) are those of `encirclements`, ``include`` that of `dense`.
+
+    Crossings are bracketed on the grid and solved for on the response itself (Brent). Between the ends
+    python-control's `stability_margins` of an FRD on the same grid gives the same to 1e-6 dB and deg, as the tests
+    hold, but version 0.10.2 gives none at either end, and its polynomial route loses resonant loops (1.14 for 1.05).
+    """
+    include = [*include]
+    undamped = [*undamped]
+    response = remembered(response)
+    curve = dense(response, low, high, include=include)
+    frequency = curve.frequency
+
+    def gain(angular: float) -> float:
+        return float(np.log(np.abs(_at(response, angular))))
+
+    def phase(angular: float) -> float:
+        return float(np.angle(-_at(response, angular)))
+
+    with np.errstate(divide="ignore"):
+        gains = np.maximum(np.log(np.abs(curve.value)), -100.0)
+    phases = np.angle(-curve.value)
+    # the phase also changes its sign, by 2 pi, on the positive real axis: there is no margin
+    by_phase = _roots(phase, frequency, phases, lambda a, b: abs(a) + abs(b) < np.pi)
+    by_gain = _roots(gain, frequency, gains, lambda a, b: True)
+
+    gain_crossings = [Crossing(float(1.0 / np.abs(_at(response, w))), w) for w in by_phase]
+    ends = [_at_zero(response, low, high), _at_nyquist(response, high, sample_period)]
+    gain_crossings += [crossing for crossing in ends if crossing is not None]
+    gain_crossings = [item for item in gain_crossings if _ROUNDING < item.value < 1.0 / _ROUNDING]
+    phase_crossings = [Crossing(phase(w), w) for w in by_gain]
+    delays = [(crossing.value % (2.0 * np.pi) / crossing.frequency, crossing.frequency) for crossing in phase_crossings]
+    delay, at = min(delays, default=(np.inf, np.nan))
+    count = None
+    if unstable_open is not None:
+        count = encirclements(response, low, high, poles_at_one=poles_at_one, undamped=undamped, include=include)
+    return Classical(
+        gain=tuple(sorted(gain_crossings, key=lambda crossing: crossing.frequency)),
+        phase=tuple(phase_crossings),
+        delay_margin=delay,
+        delay_frequency=at,
+        encirclements=count,
+    )
+
+
+def robust(response: Response, low: float, high: float, *, include: Iterable[float] = ()) -> Robust:
+    """Peaks of S = 1/(1+L) and T = L/(1+L) and the disk margin, between ``low`` and ``high`` (rad/s).
+
+    They bound what the loop stands only where the closed loop is stable.
+    """
+    response = remembered(response)
+    frequency = dense(response, low, high, include=include).frequency
+
+    def sensitivity(angular: np.ndarray) -> np.ndarray:
+        return np.abs(1.0 / (1.0 + response(angular)))
+
+    def complementary(angular: np.ndarray) -> np.ndarray:
+        value = response(angular)
+        return np.abs(value / (1.0 + value))
+
+    def balanced(angular: np.ndarray) -> np.ndarray:
+        value = response(angular)
+        return np.abs(0.5 * (1.0 - value) / (1.0 + value))  # S - 1/2
+
+    with np.errstate(divide="ignore"):
+        (s_peak, s_at), (t_peak, t_at), (b_peak, b_at) = (
+            highest(size, frequency) for size in (sensitivity, complementary, balanced)
+        )
+    alpha = 1.0 / b_peak
+    return Robust(
+        modulus_margin=1.0 / s_peak,
+        sensitivity_peak=s_peak,
+        sensitivity_frequency=s_at,
+        complementary_peak=t_peak,
+        complementary_frequency=t_at,
+        disk_margin=alpha,
+        disk_gain=disk_gain(alpha),
+        disk_phase=disk_phase(alpha),
+        disk_frequency=b_at,
+    )
+
+
+def disk_gain(alpha: float) -> float:
+    """The factor on the gain, and one over it, that a disk margin with skew 0 guarantees; inf from 2 on."""
+    return (1.0 + 0.5 * alpha) / (1.0 - 0.5 * alpha) if alpha < 2.0 else np.inf
+
+
+def disk_phase(alpha: float) -> float:
+    """The change of phase (rad, either way) that a disk margin with skew 0 guarantees."""
+    return 2.0 * float(np.arctan(0.5 * alpha))
+
+
+def disk_of_gain(factor: float) -> float:
+    """The disk margin with skew 0 that guarantees a factor on the gain, and one over it."""
+    return 2.0 * (factor - 1.0) / (factor + 1.0)
+
+
+def disk_of_phase(angle: float) -> float:
+    """The disk margin with skew 0 that guarantees a change of phase (rad, either way)."""
+    return 2.0 * float(np.tan(0.5 * angle))
+
+
+def highest(size: Callable[[np.ndarray], np.ndarray], frequency: np.ndarray) -> tuple[float, float]:
+    """The highest value and its frequency (rad/s), refined between the points of a grid that shows every peak."""
+    values = size(frequency)
+    best = int(np.argmax(values))
+    found = [(float(values[best]), float(frequency[best]))]
+    neighbours = np.concatenate([[-np.inf], values, [-np.inf]])
+    peaks = (values >= neighbours[:-2]) & (values >= neighbours[2:]) & (values > 0.98 * values[best])
+    for index in np.flatnonzero(peaks).tolist():
+        left, right = frequency[max(index - 1, 0)], frequency[min(index + 1, len(frequency) - 1)]
+        result = minimize_scalar(
+            lambda angular: -float(size(np.array([angular]))[0]),
+            bounds=(left, right),
+            method="bounded",
+            options={"xatol": 1e-9 * left},
+        )
+        found.append((-float(result.fun), float(result.x)))
+    return max(found)
+
+
+def _at(response: Response, angular: float) -> complex:
+    return complex(response(np.array([angular]))[0])
+
+
+def _roots(
+    function: Callable[[float], float],
+    frequency: np.ndarray,
+    values: np.ndarray,
+    crossing: Callable[[float, float], bool],
+) -> list[float]:
+    """Zeros of ``function`` between points of different sign; points within rounding of zero have none."""
+    kept = np.abs(values) > _ROUNDING
+    frequency, values = frequency[kept], values[kept]
+    found = []
+    for i in np.flatnonzero(values[1:] * values[:-1] < 0.0):
+        if crossing(values[i], values[i + 1]):
+            root = float(brentq(function, frequency[i], frequency[i + 1], xtol=_FINEST * frequency[i], rtol=_FINEST))
+            if abs(function(root)) < 1e-3:  # else a jump, at a pole on the unit circle
+                found.append(root)
+    return found
+
+
+def _at_nyquist(response: Response, high: float, sample_period: float) -> Crossing | None:
+    if abs(high * sample_period - np.pi) > 1e-9:
+        return None
+    value = _at(response, high)
+    return Crossing(1.0 / abs(value), high) if value.real < 0.0 and abs(value.imag) < 1e-6 * abs(value) else None
+
+
+def _at_zero(response: Response, low: float, high: float) -> Crossing | None:
+    """The gain margin at frequency 0, where L(0) = a < 0. Close to it L = a + j b w - c w**2."""
+    if 2.0 * low > high:
+        return None
+    one, two = _at(response, low), _at(response, 2.0 * low)
+    levels = abs(two.real - one.real) < 0.01 * abs(one.real)
+    odd = abs(two.imag - 2.0 * one.imag) < 0.01 * abs(two.imag) + _ROUNDING * abs(one)
+    if one.real >= 0.0 or abs(one.imag) > 0.3 * abs(one.real) or not levels or not odd:
+        return None
+    return Crossing(3.0 / abs(4.0 * one.real - two.real), 0.0)

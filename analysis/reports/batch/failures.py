@@ -1,0 +1,91 @@
+"""Where in the space of draws the failures of a batch lie."""
+
+from __future__ import annotations
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+
+from ...batch.results import BatchResult
+from ..kit.style import GRID, VERMILION, WIDTH, house_style, new_figure, plain_ticks
+from ..kit.svg import inline_svg
+
+COLUMNS = 3
+GOOD = "#9a9a9a"
+MANY = 3000  # points of a panel from which on they are stored as an image, not one by one
+
+
+def successes(result: BatchResult, variant: str) -> np.ndarray:
+    """Whether each trial of a variant was a success."""
+    return result.trials[variant].success
+
+
+def telling_scores(result: BatchResult, variant: str) -> dict[str, float]:
+    """How much each draw tells about success, 0 to 1, most telling first.
+
+    The larger of two correlations with success, without their signs: of the draw's value, and of
+    its distance from its mean, which sees failures at both ends. Only draws that vary count, not
+    what is derived from them; without both failures and successes there is nothing to tell.
+    """
+    good = successes(result, variant).astype(float)
+    if good.min() == good.max():
+        return {}
+    scores = {}
+    for draw in result.plan.campaign.draws:
+        for name in draw.names:
+            values = result.plan.draws.columns[name]
+            candidates = (values, np.abs(values - values.mean()))
+            found = [abs(float(np.corrcoef(good, column)[0, 1])) for column in candidates if np.ptp(column) > 0.0]
+            if found:
+                scores[name] = max(found)
+    return dict(sorted(scores.items(), key=lambda item: -item[1]))
+
+
+def failures_figure(result: BatchResult) -> Markup | None:
+    """Failures and successes over the two most telling draws of each variant; None where nothing can be told."""
+    chosen = {variant: list(telling_scores(result, variant))[:2] for variant in result.trials}
+    chosen = {variant: names for variant, names in chosen.items() if names}
+    if not chosen:
+        return None
+    columns = min(COLUMNS, len(chosen))
+    rows = -(-len(chosen) // columns)
+    with house_style():
+        figure = new_figure(3.5 * rows, WIDTH if columns > 1 else WIDTH / 2)
+        all_axes = figure.subplots(rows, columns, squeeze=False).flatten()
+        for axes, (variant, names) in zip(all_axes, chosen.items(), strict=False):
+            _draw_panel(axes, result, variant, names)
+        for axes in all_axes[len(chosen) :]:
+            axes.remove()
+        return inline_svg(figure, "failures", "Failures over the most telling draws of " + ", ".join(chosen))
+
+
+def _draw_panel(axes: Axes, result: BatchResult, variant: str, names: list[str]) -> None:
+    good = successes(result, variant)
+    x = result.plan.draws.columns[names[0]]
+    y = result.plan.draws.columns[names[1]] if len(names) > 1 else np.arange(good.size, dtype=float)
+    image = good.size > MANY
+    size = max(0.35, min(1.0, (500.0 / good.size) ** 0.5))
+    figure = axes.get_figure()
+    assert figure is not None  # the axes have just been made in one
+    axes.plot(
+        x[good], y[good], "o", markersize=3.0 * size, color=GOOD, markeredgewidth=0.0, rasterized=image,
+        label=f"{int(good.sum())} successes",
+    )  # fmt: skip
+    axes.plot(
+        x[~good], y[~good], "x", markersize=4.5 * size, color=VERMILION, markeredgewidth=1.3 * size, rasterized=image,
+        label=f"{int((~good).sum())} failures",
+    )  # fmt: skip
+    plain_ticks(axes, x=5, y=6)
+    axes.grid(color=GRID)
+    axes.set_xlabel(names[0])
+    axes.set_ylabel(names[1] if len(names) > 1 else "trial")
+    axes.set_title(variant, loc="left", pad=24, fontweight="bold")
+    axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(-0.02, 1.0),
+        ncols=2,
+        borderpad=0.2,
+        handletextpad=0.2,
+        columnspacing=1.0,
+        markerscale=1.0 / size,
+    )

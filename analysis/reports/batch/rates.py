@@ -1,0 +1,58 @@
+"""Success rates of a batch's variants with their intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from ...batch.results import BatchResult
+from ..kit.style import INK, house_style, look, new_figure, plain_ticks
+from ..kit.svg import inline_svg
+
+RING: dict[str, Any] = {
+    "linestyle": "", "marker": "o", "markersize": 11, "markerfacecolor": "none", "markeredgecolor": INK,
+    "markeredgewidth": 1.2, "clip_on": False, "zorder": 4,
+}  # fmt: skip
+
+
+def rates_figure(result: BatchResult, published: Mapping[str, float] | None = None) -> Markup:
+    """A dot per variant at its success rate, a bar over the interval, both written beside it.
+
+    ``published`` are rates to compare with, as shares of 1, drawn as rings.
+    """
+    names = list(result.summary)
+    others = [100.0 * rate for rate in (published or {}).values()]
+    intervals = [[100.0 * end for end in result.summary[name]["success_interval"]] for name in names]
+    lowest = min([low for low, _ in intervals] + others)
+    with house_style():
+        figure = new_figure(0.75 + 0.36 * len(names) + (0.25 if others else 0.0))
+        axes = figure.subplots()
+        for index, (name, (low, high)) in enumerate(zip(names, intervals, strict=True)):
+            rate = 100.0 * result.summary[name]["success_rate"]
+            _draw_rate(axes, index, rate, low, high)
+            if published is not None and name in published:
+                axes.plot(100.0 * published[name], index, **RING)
+        axes.set_yticks(range(len(names)), names)
+        axes.set_ylim(len(names) - 0.4, -0.6)
+        axes.set_xlim(max(-2.0, lowest - 0.06 * (100.0 - lowest) - 1.0), 100.0)
+        axes.grid(visible=False, axis="y")
+        axes.tick_params(axis="y", length=0, labelsize=9)
+        plain_ticks(axes, x=8)
+        axes.set_xlabel(f"success rate, %, with its {100.0 * result.summary[names[0]]['confidence']:g} % interval")
+        if others:
+            figure.legend([Line2D([], [], **RING)], ["published rate"], loc="outside upper right", borderpad=0.1)
+        return inline_svg(figure, "rates", "Success rates of " + ", ".join(names))
+
+
+def _draw_rate(axes: Axes, index: int, rate: float, low: float, high: float) -> None:
+    colour, _, marker = look(index)
+    axes.plot([low, high], [index, index], color=colour, linewidth=2.2, solid_capstyle="butt")
+    for end in (low, high):
+        axes.plot([end, end], [index - 0.16, index + 0.16], color=colour, linewidth=1.3, clip_on=False)
+    axes.plot(rate, index, color=colour, marker=marker, markersize=7, clip_on=False, zorder=3)
+    text = f"{rate:.2f} % ({low:.2f} to {high:.2f})"
+    axes.annotate(text, (1.02, index), xycoords=("axes fraction", "data"), va="center")

@@ -1,0 +1,151 @@
+"""Quantities over time: bands of percentiles over flights, a panel per contender, one scale in all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from scipy.stats import chi2, norm
+
+from ..kit.panels import Panel, far, panel
+from ..kit.quantities import number, shown_factor, shown_unit
+from ..kit.style import FAILED, FAINT, Look, plain_ticks
+from .recorded import RATIO, Flight, Quantity, doubling, variable_of
+
+LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %
+MOST_TIMES = 300  # of a band
+FEWEST = 0.25  # share of the flights; where fewer still fly the bands end
+SINGLES, FAILURES = 4, 2  # successful and failed flights drawn one by one
+STATES = 6  # of the filter whose normalised error square is monitored: position and velocity
+REACH = 1.0  # widths of the expected band that are shown on either side of it at most
+HEIGHT = 2.1  # in
+History = tuple[np.ndarray, np.ndarray]  # times (s) and values
+
+
+@dataclass(frozen=True)
+class Bands:
+    """Percentiles (LEVELS by rows) of a quantity at ``time`` (s) over ``flights`` flights, in SI.
+
+    They are the successful ones, and where there is none the failed ones. ``singles`` are a few of
+    them one by one, ``failed`` some others that failed.
+    """
+
+    time: np.ndarray
+    percentiles: np.ndarray
+    flights: int
+    singles: list[History]
+    failed: list[History]
+
+    def shown(self) -> np.ndarray:
+        """All finite values of the bands and of the single flights in them."""
+        values = np.concatenate([self.percentiles.ravel(), *(row for _, row in self.singles)])
+        return values[np.isfinite(values)]
+
+
+def bands_of(quantity: Quantity, flights: Sequence[Flight]) -> Bands | None:
+    """Percentiles over the flights that still fly at a time; None without a flight that has the quantity.
+
+    Times are rows of the longest flight, which are rows of the others too as long as they fly; where not, a
+    value is interpolated linearly, or held if it is a whole number or a truth. A command in the last row of a
+    flight never acts and is left out. Errors over sigma are told over all flights, failed ones included.
+    """
+    good, bad = (
+        [_history(quantity, flight) for flight in flights if flight.success == success and _has(flight, quantity)]
+        for success in (True, False)
+    )
+    histories = good + bad if quantity.kind == "consistency" else good or bad
+    if not histories:
+        return None
+    longest = max((time for time, _ in histories), key=lambda time: float(time[-1]))
+    grid = longest[:: doubling(longest.size / MOST_TIMES)]
+    values = np.stack([_resampled(grid, time, row, quantity.held) for time, row in histories])
+    flying = np.sum(np.isfinite(values), axis=0)
+    enough = flying >= max(1.0, FEWEST * len(histories))
+    percentiles = np.nanpercentile(values[:, enough], LEVELS, axis=0)
+    failed = bad[:FAILURES] if good and quantity.kind != "consistency" else []
+    return Bands(grid[enough], percentiles, len(histories), histories[:SINGLES], failed)
+
+
+def _has(flight: Flight, quantity: Quantity) -> bool:
+    return flight.time.size > 1 and set(quantity.names) <= set(flight.signals)
+
+
+def _history(quantity: Quantity, flight: Flight) -> History:
+    rows = slice(0, -1 if quantity.kind == "commands" and flight.is_whole else None)
+    return flight.time[rows], quantity.values(flight.signals)[rows]
+
+
+def _resampled(grid: np.ndarray, time: np.ndarray, values: np.ndarray, held: bool) -> np.ndarray:
+    """Values at the times of a grid; nan where the flight does not fly."""
+    margin = 1e-9 * max(1.0, abs(time[-1]))
+    inside = (grid >= time[0] - margin) & (grid <= time[-1] + margin)
+    if held:
+        found = values[np.clip(np.searchsorted(time, grid + margin, side="right") - 1, 0, time.size - 1)]
+    else:
+        found = np.interp(grid, time, values)
+    return np.where(inside, found, np.nan)
+
+
+def band_panels(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[str, Look], name: str) -> list[Panel]:
+    """A panel per contender, all to one scale, which failed flights may leave.
+
+    Errors over sigma far beyond what is to be expected leave it too, and their panel says how far they go.
+    """
+    expected = expectation(quantity)
+    everything = np.concatenate([found.shown() for found in bands.values()] + [np.asarray(expected)])
+    factor, unit = shown_factor(quantity.unit), shown_unit(quantity.unit)
+    if quantity.unit == "m":
+        factor, unit = far(everything)
+    low, high = float(everything.min()), float(everything.max())
+    if expected:
+        room = REACH * (expected[-1] - expected[0])
+        low, high = max(low, expected[0] - room), min(high, expected[-1] + room)
+    margin = 0.06 * (high - low) or 0.06 * abs(high) or 1.0
+    start = min(found.time[0] for found in bands.values())
+    end = max(time[-1] for found in bands.values() for time, _ in [(found.time, None), *found.singles])
+    panels = []
+    for index, (label, found) in enumerate(bands.items()):
+
+        def draw(axes: Axes, found: Bands = found, colour: str = looks[label].colour) -> None:
+            _draw(axes, found, factor, colour, quantity.held)
+            for value in expected:
+                axes.axhline(factor * value, linewidth=0.9, **FAILED)
+            axes.set_xlim(start, end + 0.02 * (end - start))
+            axes.set_ylim(factor * (low - margin), factor * (high + margin))
+            beyond = [value for value in (found.shown().min(), found.shown().max()) if not low <= value <= high]
+            if beyond:
+                words = f"goes on to {' and '.join(number(factor * float(value), 3) for value in beyond)}"
+                axes.set_title(words, loc="right", fontsize=7.5, color=FAINT)
+            axes.set_xlabel("time, s")
+            axes.set_ylabel(unit)
+            plain_ticks(axes, x=5, y=5, whole_y=quantity.held)
+
+        description = f"{quantity.label} of {label} over time: percentiles over {found.flights} flights"
+        panels.append(panel(label, f"{name}-{index}", description, draw, HEIGHT))
+    return panels
+
+
+def _draw(axes: Axes, bands: Bands, factor: float, colour: str, held: bool) -> None:
+    rows = factor * bands.percentiles
+    style = "steps-post" if held else "default"
+    for low, high, shade in ((0, 4, 0.18), (1, 3, 0.32)):
+        axes.fill_between(
+            bands.time, rows[low], rows[high], color=colour, alpha=shade, linewidth=0.0, step="post" if held else None
+        )
+    for time, values in bands.failed:
+        axes.plot(time, factor * values, linewidth=0.6, alpha=0.45, zorder=0.9, drawstyle=style, **FAILED)
+    for time, values in bands.singles:
+        axes.plot(time, factor * values, color=FAINT, linewidth=0.6, drawstyle=style)
+    axes.plot(bands.time, rows[2], color=colour, linewidth=1.8, drawstyle=style)
+
+
+def expectation(quantity: Quantity) -> tuple[float, ...]:
+    """Where LEVELS' outer percentiles and median of a consistent filter's errors would lie; empty for others."""
+    variable = variable_of(quantity.names[0])
+    if variable == "normalised_error_square":
+        return tuple(float(chi2.ppf(level / 100.0, STATES)) for level in LEVELS[::2])
+    if variable.endswith(RATIO):
+        return tuple(float(norm.ppf(level / 100.0)) for level in LEVELS[::2])
+    return ()

@@ -1,0 +1,136 @@
+"""How far flights end from their target: scatter with covariance ellipses, a panel per contender, and a table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..kit.panels import Panel, far, panel
+from ..kit.style import FAINT, INK, Look, plain_ticks
+from .bundles import TARGET
+from .targets import Ends
+
+SIGMAS = (1.0, 2.0, 3.0)
+UNEVEN = 4.0  # scales that differ by more are shown a second time, each contender to its own
+HEIGHT = 3.1  # in
+MANY = 1000  # points from which on they are stored as an image, not one by one
+
+
+@dataclass(frozen=True)
+class Dispersion:
+    """Statistics of the ends of one contender, of the successful trials only; SI.
+
+    ``mean`` and ``std`` are of the three elements, ``axes`` the semi-axes of the horizontal 1-sigma
+    ellipse (longer first), ``radii`` the horizontal distances from the target within which half and
+    99 % of the trials end, and the largest. None where there are too few trials.
+    """
+
+    count: int
+    mean: list[float] | None
+    std: list[float] | None
+    axes: list[float] | None
+    radii: list[float] | None
+
+
+def dispersion(ends: Ends) -> Dispersion:
+    """Statistics of a contender's ends."""
+    good = ends.errors[ends.success & np.all(np.isfinite(ends.errors), axis=1)]
+    if not good.size:
+        return Dispersion(0, None, None, None, None)
+    miss = np.hypot(good[:, 0], good[:, 1])
+    radii = [*np.quantile(miss, [0.5, 0.99]).tolist(), float(miss.max())]
+    mean = good.mean(axis=0).tolist()
+    if len(good) < 2:
+        return Dispersion(len(good), mean, None, None, radii)
+    axes = np.sqrt(np.maximum(np.linalg.eigvalsh(covariance(good)), 0.0))[::-1].tolist()
+    return Dispersion(len(good), mean, good.std(axis=0, ddof=1).tolist(), axes, radii)
+
+
+def covariance(good: np.ndarray) -> np.ndarray:
+    """Sample covariance of the two horizontal elements."""
+    return np.cov(good[:, :2], rowvar=False)
+
+
+def ellipse(good: np.ndarray, sigma: float) -> np.ndarray:
+    """Points of the ``sigma`` ellipse of the horizontal elements, x and y by rows."""
+    variances, directions = np.linalg.eigh(covariance(good))
+    angle = np.linspace(0.0, 2.0 * np.pi, 73)
+    circle = np.sqrt(np.maximum(variances, 0.0))[:, np.newaxis] * np.stack([np.cos(angle), np.sin(angle)])
+    return good[:, :2].mean(axis=0)[:, np.newaxis] + sigma * directions @ circle
+
+
+def dispersion_panels(
+    ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str, name: str
+) -> tuple[list[Panel], list[Panel]]:
+    """Panels to one scale; and, where these differ much, each to its own."""
+    reaches = {label: _reach(found) for label, found in ends.items()}
+    most = max(reaches.values())
+    common = [_panel(label, found, looks[label], most, unit, f"{name}-{i}") for i, (label, found) in _numbered(ends)]
+    if most <= UNEVEN * min(reaches.values()):
+        return common, []
+    own = [
+        _panel(label, found, looks[label], reaches[label], unit, f"{name}-own-{i}")
+        for i, (label, found) in _numbered(ends)
+    ]
+    return common, own
+
+
+def _numbered(ends: Mapping[str, Ends]) -> list[tuple[int, tuple[str, Ends]]]:
+    return list(enumerate(ends.items()))
+
+
+def _shown(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
+    """Horizontal errors of successful and of failed trials; those that are not finite left out."""
+    finite = np.all(np.isfinite(ends.errors), axis=1)
+    return ends.errors[finite & ends.success], ends.errors[finite & ~ends.success]
+
+
+def _reach(ends: Ends) -> float:
+    """How far from the target a contender's panel goes: its successful trials and 3-sigma ellipse, if any."""
+    good, bad = _shown(ends)
+    points = good if good.size else bad
+    values = [np.abs(points[:, :2]).ravel()]
+    if len(good) > 1:
+        values.append(np.abs(ellipse(good, SIGMAS[-1])).ravel())
+    largest = float(np.max(np.concatenate(values), initial=0.0))
+    return 1.08 * largest or 1.0
+
+
+def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: str) -> Panel:
+    factor, shown = far(np.array([reach])) if unit == "m" else (1.0, unit)
+    good, bad = (factor * points for points in _shown(ends))
+    reach *= factor
+
+    def draw(axes: Axes) -> None:
+        size = max(1.6, min(4.0, 40.0 / max(1, len(bad)) ** 0.5))
+        axes.plot(
+            bad[:, 0], bad[:, 1], "x", color=FAINT, markersize=size, markeredgewidth=0.2 * size, alpha=0.6,
+            rasterized=len(bad) > MANY,
+        )  # fmt: skip
+        size = max(0.8, min(2.6, 40.0 / max(1, len(good)) ** 0.5))
+        axes.plot(
+            good[:, 0], good[:, 1], "o", color=style.colour, markersize=size, markeredgewidth=0.0, alpha=0.65,
+            rasterized=len(good) > MANY,
+        )  # fmt: skip
+        if len(good) > 1:
+            for sigma in SIGMAS:
+                axes.plot(*ellipse(good, sigma), color=INK, linewidth=0.9)
+            axes.plot(*good[:, :2].mean(axis=0), "+", color=INK, markersize=8, markeredgewidth=1.4)
+        axes.plot(0.0, 0.0, **TARGET)
+        outside = int(np.sum(np.any(np.abs(bad[:, :2]) > reach, axis=1)))
+        missing = len(ends.errors) - len(good) - len(bad)
+        notes = [f"{outside} failed outside"] if outside else []
+        notes += [f"{missing} without an end"] if missing else []
+        axes.set_title(", ".join(notes), loc="right", fontsize=7.5, color=FAINT)
+        axes.set_xlim(-reach, reach)
+        axes.set_ylim(-reach, reach)
+        axes.set_box_aspect(1.0)
+        axes.set_xlabel(f"x, {shown}")
+        axes.set_title(f"y, {shown}", loc="left", fontsize=8.5)
+        plain_ticks(axes, x=4, y=4)
+
+    what = ends.signal.rpartition(".")[2]
+    return panel(label, name, f"Final {what} of {label} about the target, with covariance ellipses", draw, HEIGHT)

@@ -1,0 +1,90 @@
+"""Metrics of a comparison: which are worth a panel, and their distributions, contender over contender."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from scipy.stats import norm
+
+from ...campaign.campaign import Metric
+from ...campaign.expressions import Expression
+from ...compare.comparison import Comparison
+from ..kit.distributions import draw_distribution
+from ..kit.panels import Panel, panel
+from ..kit.style import FAILED, Look
+from .consistency import is_over_sigma
+from .recorded import variable_of
+
+MASS = "kg"
+NORMAL_REACH = 3.5  # deviations that are shown at least
+NOT_EVALUATED = Expression("0")
+
+
+def all_values(comparison: Comparison, metric: Metric) -> dict[str, np.ndarray]:
+    """A metric in every trial of every contender; of errors over sigma nan for 0, which stands for no sigma."""
+    found = {label: comparison.values(label, metric.name) for label in comparison.contenders}
+    if is_over_sigma(metric):
+        return {label: np.where(values == 0.0, np.nan, values) for label, values in found.items()}
+    return found
+
+
+def distributed(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
+    """Metrics by contender, nan in failed trials; without one in kg also the final masses: they tell the propellant."""
+    contenders = comparison.contenders
+    found = {
+        metric: all_values(comparison, metric) for metric in comparison.metrics if not is_over_sigma(metric)
+    } | _final_masses(comparison)
+    return {
+        metric: {label: np.where(contenders[label].trials.success, values, np.nan) for label, values in shown.items()}
+        for metric, shown in found.items()
+    }
+
+
+def _final_masses(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
+    """Final masses that all contenders have, under the names of metrics; none if a metric is in kg."""
+    contenders = comparison.contenders
+    found: dict[Metric, dict[str, np.ndarray]] = {}
+    if any(metric.unit == MASS for metric in comparison.metrics):
+        return found
+    names = dict.fromkeys(name for contender in contenders.values() for name in contender.trials.final)
+    for name in names:
+        if variable_of(name) == "mass" and all(name in contender.trials.final for contender in contenders.values()):
+            metric = Metric(f"final {name}", NOT_EVALUATED, "final", unit=MASS)
+            found[metric] = {label: contender.trials.final[name] for label, contender in contenders.items()}
+    return found
+
+
+def sort_metrics(
+    distributed: Mapping[Metric, Mapping[str, np.ndarray]],
+) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
+    """Metrics worth a panel; those that are the same wherever they are finite, and it; those that are nowhere."""
+    drawn, still, empty = [], [], []
+    for metric, by_label in distributed.items():
+        values = np.concatenate(list(by_label.values()))
+        finite = values[np.isfinite(values)]
+        if not finite.size:
+            empty.append(metric)
+        elif finite.size > 1 and np.ptp(finite) == 0.0:
+            still.append((metric, float(finite[0])))
+        else:
+            drawn.append(metric)
+    return drawn, still, empty
+
+
+def distribution_panel(metric: Metric, values: dict[str, np.ndarray], looks: Mapping[str, Look]) -> Panel:
+    """The empirical distribution of a metric in every contender; with the normal one for errors over sigma."""
+
+    some = {label: found for label, found in values.items() if np.any(np.isfinite(found))}
+
+    def draw(axes: Axes) -> None:
+        draw_distribution(axes, metric, some, [looks[label] for label in some])
+        if is_over_sigma(metric):
+            x = np.linspace(min(-NORMAL_REACH, axes.get_xlim()[0]), max(NORMAL_REACH, axes.get_xlim()[1]), 121)
+            axes.set_xlim(x[0], x[-1])
+            axes.plot(x, 100.0 * norm.cdf(x), linewidth=1.0, **FAILED)
+        axes.set_title("share of trials, %", loc="left", fontsize=8.5)
+
+    slug = "".join(letter if letter.isalnum() else "-" for letter in metric.name)
+    return panel(metric.name, f"distribution-{slug}", f"Distributions of {metric.name}", draw)

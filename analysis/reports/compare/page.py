@@ -1,0 +1,172 @@
+"""The page that compares variants on the same trials: rates, pairs, trajectories, ends, commands, provenance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ...compare.comparison import Comparison, name_of
+from ..batch.batch_report import fmu_rows
+from ..kit.page import write_page
+from ..kit.panels import Panel, swatch
+from ..kit.style import COLOURS, DASHES, MARKERS, Look, look
+from .bands import Bands, band_panels, bands_of, expectation
+from .bundles import DRAWN, bundle_of, plan_panels, side_panels
+from .consistency import LIMITS, NORMAL, is_over_sigma, sigma_rows
+from .dispersions import Dispersion, dispersion, dispersion_panels
+from .gaps import is_biased, missing_parts
+from .metrics import all_values, distributed, distribution_panel, sort_metrics
+from .recorded import Flight, Quantity, kept_names, quantities, read_flights, sampled_trials
+from .tables import draw_ranges, metric_pairs, rate_pairs
+from .targets import UNITS, ends_of
+
+KINDS = ("commands", "motion", "consistency", "other")
+
+
+@dataclass(frozen=True)
+class History:
+    """A quantity over time: panels, or its value where it is the same throughout."""
+
+    quantity: Quantity
+    panels: list[Panel]
+    constant: float | None
+    expected: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class End:
+    """Final positions or velocities: panels to one scale and to own scales, a row of the table per contender."""
+
+    what: str
+    unit: str
+    signal: str
+    targets: list[str]
+    common: list[Panel]
+    own: list[Panel]
+    rows: dict[str, Dispersion]
+
+
+def write_comparison_page(comparison: Comparison, path: Path, command: str) -> None:
+    """Write one self-contained HTML page; the same results and command give the same bytes."""
+    looks = looks_of(comparison)
+    flights = _flights(comparison)
+    bundles = {
+        label: bundle
+        for label, found in flights.items()
+        if (bundle := bundle_of(comparison.contenders[label], found)) is not None
+    }
+    histories = _histories(comparison, flights, looks)
+    ends = [end for variable in UNITS if (end := _end(comparison, variable, looks)) is not None]
+    shown = distributed(comparison)
+    drawn, still, empty = sort_metrics(shown)
+    errors = {metric: all_values(comparison, metric) for metric in comparison.metrics if is_over_sigma(metric)}
+    first = comparison.first.document
+    paired = [metric for metric in comparison.metrics if metric in drawn]
+    write_page(
+        path,
+        Path(__file__).with_name("comparison.html"),
+        title=f"{first['system']}: {len(comparison.contenders)} variants on the same trials",
+        command=command,
+        comparison=comparison,
+        first=first,
+        summary=comparison.summary,
+        swatches={label: swatch(style) for label, style in looks.items()},
+        rates=[(name_of(rate), rate, _axis_start(comparison, name_of(rate))) for rate in comparison.rates],
+        rate_pairs=rate_pairs(comparison),
+        metric_pairs=metric_pairs(comparison, paired, successful=True),
+        metric_pairs_all=metric_pairs(comparison, paired, successful=False),
+        side=side_panels(bundles, looks) if bundles else [],
+        plan=plan_panels(bundles, looks) if bundles else [],
+        flights={label: len(found) for label, found in flights.items()},
+        most_drawn=DRAWN,
+        ends=ends,
+        distributions=[distribution_panel(metric, shown[metric], looks) for metric in drawn],
+        still=still,
+        empty=empty,
+        histories={kind: [found for found in histories if found.quantity.kind == kind] for kind in KINDS},
+        sigma_rows=sigma_rows(comparison),
+        sigma_distributions=[distribution_panel(metric, errors[metric], looks) for metric in sort_metrics(errors)[0]],
+        limits=[(limit, NORMAL[limit]) for limit in LIMITS],
+        missing=missing_parts(
+            comparison,
+            flights,
+            trajectories=bool(bundles),
+            kinds={found.quantity.kind for found in histories},
+            ends={end.what for end in ends},
+        ),
+        biased=is_biased(comparison, flights),
+        draws=draw_ranges(comparison),
+        fmus=[fmu_rows(batch.document["fmus"]) for batch in comparison.batches.values()],
+    )
+
+
+def looks_of(comparison: Comparison) -> dict[str, Look]:
+    """One look per contender. Of several batches a variant has one colour, and a batch one kind of dashes."""
+    if len(comparison.batches) == 1:
+        return {label: look(contender.variant) for label, contender in comparison.contenders.items()}
+    several = len({contender.variant for contender in comparison.contenders.values()}) > 1
+    found = {}
+    for label, contender in comparison.contenders.items():
+        hue = contender.variant if several else contender.batch
+        marker = MARKERS[contender.batch % len(MARKERS)]
+        found[label] = Look(COLOURS[hue % len(COLOURS)], DASHES[contender.batch % len(DASHES)], marker)
+    return found
+
+
+def _axis_start(comparison: Comparison, rate: str) -> float:
+    """Where the axis of a rate's intervals begins: at the tenth below the lowest."""
+    lowest = min(entry["rates"][rate]["interval"][0] for entry in comparison.summary.values())
+    return min(0.9, math.floor(10.0 * lowest) / 10.0)
+
+
+def _flights(comparison: Comparison) -> dict[str, list[Flight]]:
+    """The flights with traces that are shown, by contender."""
+    trials = sampled_trials(comparison.contenders.values())
+    return {
+        label: read_flights(contender, trials[label], kept_names(contender.stored))
+        for label, contender in comparison.contenders.items()
+    }
+
+
+def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], looks: Mapping[str, Look]) -> list[History]:
+    by_label = {quantity.label: quantity for batch in comparison.batches.values() for quantity in quantities(batch)}
+    found = []
+    for index, quantity in enumerate(by_label.values()):
+        bands = {label: bands_of(quantity, kept) for label, kept in flights.items()}
+        shown = {label: band for label, band in bands.items() if band is not None and band.time.size}
+        if not shown:
+            continue
+        constant = _constant(shown.values())
+        panels = band_panels(quantity, shown, looks, f"history{index}") if constant is None else []
+        found.append(History(quantity, panels, constant, expectation(quantity)))
+    return found
+
+
+def _constant(bands: Iterable[Bands]) -> float | None:
+    """The value that a quantity has throughout in all flights, if there is one."""
+    values = np.concatenate([band.shown() for band in bands])
+    return float(values[0]) if values.size and np.ptp(values) == 0.0 else None
+
+
+def _end(comparison: Comparison, variable: str, looks: Mapping[str, Look]) -> End | None:
+    ends = {
+        label: found
+        for label, contender in comparison.contenders.items()
+        if (found := ends_of(contender, variable)) is not None
+    }
+    if not ends:
+        return None
+    common, own = dispersion_panels(ends, looks, UNITS[variable], f"end-{variable}")
+    return End(
+        what=variable,
+        unit=UNITS[variable],
+        signal=", ".join(dict.fromkeys(found.signal for found in ends.values())),
+        targets=list(dict.fromkeys(found.target for found in ends.values())),
+        common=common,
+        own=own,
+        rows={label: dispersion(found) for label, found in ends.items()},
+    )

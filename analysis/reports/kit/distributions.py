@@ -1,0 +1,101 @@
+"""How the metrics of a batch are distributed over its trials, variant beside variant."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from ...batch.results import BatchResult
+from ...campaign.campaign import Metric
+from .quantities import labelled, shown_factor
+from .style import WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
+from .svg import inline_svg
+
+COLUMNS = 3
+DECADES = 2.0  # a metric that spans more gets a logarithmic axis
+LEGEND = 135  # characters on a legend's line over the full width
+TAIL = 0.01  # on it, this share of the smallest values may lie left of the axis
+
+
+def metric_values(result: BatchResult, metric: str) -> dict[str, np.ndarray]:
+    """A metric by variant, one value per trial, nan and inf included."""
+    return {name: found.metrics[metric] for name, found in result.trials.items()}
+
+
+def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
+    """Metrics worth a panel; those with one value in every trial, and it; those that are nowhere finite."""
+    drawn, still, empty = [], [], []
+    for metric in result.plan.campaign.metrics:
+        values = np.concatenate(list(metric_values(result, metric.name).values()))
+        finite = values[np.isfinite(values)]
+        if not finite.size:
+            empty.append(metric)
+        elif finite.size == values.size > 1 and np.all(finite == finite[0]):
+            still.append((metric, float(finite[0])))
+        else:
+            drawn.append(metric)
+    return drawn, still, empty
+
+
+def distributions_figure(result: BatchResult, metrics: Sequence[Metric]) -> Markup:
+    """Empirical distributions over all trials: the share of trials with at most that value."""
+    rows = -(-len(metrics) // COLUMNS)
+    columns = min(COLUMNS, len(metrics))
+    variants = list(result.trials)
+    with house_style():
+        figure = new_figure(0.35 + 2.3 * rows, WIDTH if columns > 1 else WIDTH / 2)
+        all_axes = figure.subplots(rows, columns, squeeze=False, sharey=True)
+        for axes, metric in zip(all_axes.flatten(), metrics, strict=False):
+            draw_distribution(axes, metric, metric_values(result, metric.name), [look(i) for i in range(len(variants))])
+        for axes in all_axes.flatten()[len(metrics) :]:
+            axes.remove()
+        for axes in all_axes[:, 0]:
+            axes.set_ylabel("share of trials, %")
+        lines = [
+            Line2D([], [], color=look(i).colour, linestyle=look(i).dashes, linewidth=1.6) for i in range(len(variants))
+        ]
+        columns = max(1, int(LEGEND * figure.get_figwidth() / WIDTH / (max(map(len, variants)) + 9)))
+        figure.legend(lines, variants, loc="outside upper left", ncols=columns, handlelength=3.2, borderpad=0.1)
+        return inline_svg(figure, "distributions", "Distributions of " + ", ".join(metric.name for metric in metrics))
+
+
+def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray], looks: Sequence[Look]) -> None:
+    """One panel: the empirical distribution of a metric in each of some series, which have a look each."""
+    shown = {name: found * shown_factor(metric.unit) for name, found in values.items()}
+    everything = np.concatenate(list(shown.values()))
+    everything = everything[np.isfinite(everything)]
+    low, high, logarithmic = _limits(everything)
+    for found, (colour, dashes, marker) in zip(shown.values(), looks, strict=True):
+        finite = np.clip(np.sort(found[np.isfinite(found)]), low, None)
+        share = 100.0 * np.arange(1, finite.size + 1) / found.size
+        x = np.concatenate([[low], finite, [high]])
+        y = np.concatenate([[0.0], share, share[-1:] if share.size else [0.0]])
+        axes.step(x, y, where="post", color=colour, linestyle=dashes, linewidth=1.6)
+        if finite.size == 1:
+            axes.plot(finite, share, color=colour, marker=marker, markersize=5)
+    if logarithmic:
+        log_ticks_x(axes)
+    else:
+        plain_ticks(axes, x=5)
+        if np.all(everything == np.round(everything)) and np.ptp(everything) < 8.0:
+            axes.set_xticks(np.arange(everything.min(), everything.max() + 1.0))
+    axes.set_xlim(low, high)
+    axes.set_ylim(-3.0, 103.0)
+    axes.set_yticks([0, 25, 50, 75, 100])
+    axes.set_xlabel(labelled(metric.name, metric.unit))
+
+
+def _limits(values: np.ndarray) -> tuple[float, float, bool]:
+    """Low and high end of an axis, and whether it is logarithmic."""
+    least, most = float(values.min()), float(values.max())
+    positive = values[values > 0.0]
+    if least >= 0.0 and positive.size:
+        start = float(np.quantile(positive, TAIL))
+        if np.log10(most / start) > DECADES:
+            return start / 1.5, most * 1.5, True
+    margin = 0.05 * (most - least) or 0.05 * abs(most) or 1.0
+    return least - margin, most + margin, False

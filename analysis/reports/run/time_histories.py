@@ -1,0 +1,130 @@
+"""Every signal of a run over time: small multiples, a figure per component, panels in order of unit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from ...flight.results import Result
+from ..kit.quantities import number, shown_factor, shown_unit
+from ..kit.signals import SignalGroup, distinct, signal_groups
+from ..kit.style import FAINT, WIDTH, house_style, look, new_figure, plain_ticks
+from ..kit.svg import inline_svg
+
+COLUMNS = 3
+SPIKE = 8.0  # a range so many times wider than the middle 98 % of the values is cut, and the panel says so
+
+
+@dataclass(frozen=True)
+class ComponentHistory:
+    """One component's section: its figure, and the signals that need no panel of their own.
+
+    ``constant`` are (label, values, unit) of groups that never change; ``copies`` are (label, label of
+    the group that has the same values throughout).
+    """
+
+    component: str
+    figure: Markup | None
+    constant: list[tuple[str, list[float | int | bool], str | None]]
+    copies: list[tuple[str, str]]
+
+
+def time_histories(result: Result) -> list[ComponentHistory]:
+    """The sections of all components in the order of the record; a run without rows has none."""
+    if not result.time.size:
+        return []
+    groups = signal_groups(result)
+    originals = distinct(groups, result)
+    final = result.final()
+    sections = []
+    for number_, component in enumerate(dict.fromkeys(group.component for group in groups)):
+        own = [group for group in groups if group.component == component]
+        still = [group for group in own if _is_constant(group, result)]
+        copies = [(group, originals[group]) for group in own if originals[group] != group and group not in still]
+        drawn = [group for group in own if group not in still and originals[group] == group]
+        title = component or "the system"
+        sections.append(
+            ComponentHistory(
+                component=component,
+                figure=_figure(drawn, result, f"history{number_}", title) if drawn else None,
+                constant=[(group.label, [final[name] for name in group.names], group.unit) for group in still],
+                copies=[(group.label, original.label) for group, original in copies],
+            )
+        )
+    return sections
+
+
+def _is_constant(group: SignalGroup, result: Result) -> bool:
+    values = group.values(result)
+    return bool(np.all(values == values[:, :1]))
+
+
+def _in_order_of_unit(groups: list[SignalGroup]) -> list[SignalGroup]:
+    """Real signals first, those of a unit together, units in order of appearance."""
+    kinds = list(dict.fromkeys((not group.is_real, group.unit) for group in groups))
+    return sorted(groups, key=lambda group: (not group.is_real, kinds.index((not group.is_real, group.unit))))
+
+
+def _figure(groups: list[SignalGroup], result: Result, name: str, title: str) -> Markup:
+    groups = _in_order_of_unit(groups)
+    rows = -(-len(groups) // COLUMNS)
+    columns = min(COLUMNS, len(groups))
+    elements = max(groups, key=lambda group: len(group.indices)).indices
+    with house_style():
+        figure = new_figure(0.25 + 1.65 * rows + (0.25 if elements else 0.0), WIDTH * columns / COLUMNS)
+        all_axes = figure.subplots(rows, columns, squeeze=False, sharex=True).flatten()
+        for axes, group in zip(all_axes, groups, strict=False):
+            draw_history(axes, group, result)
+        for axes in all_axes[len(groups) :]:
+            axes.remove()
+        for axes in all_axes[max(0, len(groups) - columns) : len(groups)]:
+            axes.tick_params(labelbottom=True)
+            axes.set_xlabel("time, s")
+        if elements:
+            lines = [Line2D([], [], color=look(i).colour, linestyle=look(i).dashes) for i in range(len(elements))]
+            labels = [f"[{index}]" for index in elements]
+            figure.legend(lines, labels, loc="outside upper left", ncols=12, handlelength=2.4, borderpad=0.1)
+        return inline_svg(figure, name, f"Time histories of {title}: {', '.join(group.variable for group in groups)}")
+
+
+def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
+    """One panel: a scalar or a vector over time; Integers and Booleans as steps."""
+    values = np.where(np.isfinite(group.values(result)), group.values(result), np.nan) * shown_factor(group.unit)
+    style = "default" if group.is_real else "steps-post"
+    for index, row in enumerate(values):
+        colour, dashes, _ = look(index)
+        marker = "." if np.count_nonzero(np.isfinite(row)) == 1 else ""
+        axes.plot(result.time, row, color=colour, linestyle=dashes, drawstyle=style, marker=marker)
+    unit = shown_unit(group.unit)
+    axes.set_title(f"{group.variable}, {unit}" if unit else group.variable, loc="left", pad=4)
+    plain_ticks(axes, x=5, y=4, whole_y=not group.is_real)
+    if group.type == "Boolean":
+        axes.set_yticks([0, 1], ["false", "true"])
+        axes.set_ylim(-0.15, 1.15)
+    elif group.is_real:
+        _cut_spikes(axes, values)
+
+
+def _cut_spikes(axes: Axes, values: np.ndarray) -> None:
+    """Keep a few extreme values from flattening the rest; say in the panel how far they go."""
+    finite = values[np.isfinite(values)]
+    if not finite.size:
+        axes.text(0.5, 0.5, "no finite value", transform=axes.transAxes, ha="center", va="center", color=FAINT)
+        return
+    low, high = np.quantile(finite, [0.01, 0.99])
+    least, most = float(finite.min()), float(finite.max())
+    if not (high > low and most - least > SPIKE * (high - low)):
+        return
+    margin = 0.15 * (high - low)
+    axes.set_ylim(low - margin, high + 3.0 * margin)  # room for the note
+    beyond = [number(value, 3) for value in (least, most) if not low - margin <= value <= high + 3.0 * margin]
+    outside = np.flatnonzero(np.any((values < low - margin) | (values > high + 3.0 * margin), axis=0))
+    early = float(np.mean(outside)) < values.shape[1] / 2
+    axes.text(
+        0.98 if early else 0.02, 0.98, f"goes on to {' and '.join(beyond)}", transform=axes.transAxes,
+        ha="right" if early else "left", va="top", fontsize=7.5, color=FAINT,
+    )  # fmt: skip

@@ -1,0 +1,99 @@
+"""The path of whatever has a position: plan and side view, with times along it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+
+from ...flight.results import Result
+from ..kit.quantities import number
+from ..kit.signals import position_groups
+from ..kit.style import FAINT, INK, Look, house_style, look, new_figure, plain_ticks
+from ..kit.svg import inline_svg
+
+MAXIMUM_STRETCH = 4.0  # axes whose ranges differ by less are drawn to one scale
+
+
+def trajectory_figure(result: Result) -> Markup | None:
+    """Plan (elements 1 and 2) and side view (3 over the wider of the two); None where nothing has a position."""
+    groups = position_groups(result)
+    if not groups or not result.time.size:
+        return None
+    paths = [group.values(result) for group in groups]
+    everything = np.concatenate(paths, axis=1)
+    scale, unit = (1e-3, "km") if np.nanmax(np.abs(everything)) >= 1e4 else (1.0, "m")
+    spans = np.ptp(everything, axis=1)
+    across = 0 if spans[0] >= spans[1] else 1
+    flat = spans[1 - across] == 0.0
+    views = [(across, 2)] if flat else [(across, 1 - across), (across, 2)]
+    marks = _marked_rows(result.time)
+    with house_style():
+        figure = new_figure(3.4)
+        panels = np.atleast_1d(figure.subplots(1, len(views)))
+        for axes, (x, y) in zip(panels, views, strict=True):
+            for index, (group, path) in enumerate(zip(groups, paths, strict=True)):
+                _draw_path(axes, scale * path[[x, y]], look(index), group.label, marks)
+            plain_ticks(axes, x=6, y=6)
+            axes.set_xlabel(f"position[{x + 1}], {unit}")
+            axes.set_ylabel(f"position[{y + 1}], {unit}")
+            _scale(axes, spans[x], spans[y])
+            _label_times(axes, scale * paths[0][[x, y]], result.time, marks)
+        if len(groups) > 1:
+            panels[0].legend(loc="best")
+        if flat:
+            constant = f"position[{2 - across}] stays at {number(float(paths[0][1 - across][0]))} m"
+            panels[0].set_title(constant, loc="left", color=FAINT)
+        return inline_svg(figure, "trajectory", f"Path of {', '.join(group.component for group in groups)}")
+
+
+def _marked_rows(time: np.ndarray) -> np.ndarray:
+    """Rows nearest to round times, about eight of them, the end always among them."""
+    if time.size == 1 or time[-1] == time[0]:
+        return np.array([0])
+    round_times = MaxNLocator(8, steps=[1, 2, 5, 10]).tick_values(time[0], time[-1])
+    interval = round_times[1] - round_times[0]
+    inside = [value for value in round_times if time[0] <= value <= time[-1] - 0.6 * interval]
+    return np.append(np.searchsorted(time, np.array(inside) - 1e-9), time.size - 1)
+
+
+def _draw_path(axes: Axes, path: np.ndarray, style: Look, label: str, marks: np.ndarray) -> None:
+    axes.plot(*path, color=style.colour, linestyle=style.dashes, label=label)
+    axes.plot(*path[:, marks], linestyle="", marker="o", markersize=3.5, color=style.colour)
+    axes.plot(*path[:, -1], marker="o", markersize=6, markerfacecolor="white", color=style.colour)
+
+
+def _label_times(axes: Axes, path: np.ndarray, time: np.ndarray, marks: np.ndarray) -> None:
+    """Times at the marks of a path, beside the line and not on each other."""
+    limits = np.array([axes.get_xlim(), axes.get_ylim()])
+    extent = np.ptp(limits, axis=1)
+    for row in marks[:-1]:
+        if np.max(np.abs(path[:, row] - path[:, -1]) / extent) < 0.1:
+            continue  # its label would lie on the end's
+        left, right = path[:, max(0, row - 1)], path[:, row + 1]
+        rising = (right[0] - left[0]) * (right[1] - left[1]) > 0.0  # then there is room above on the left
+        side = -1 if rising else 1
+        _write_time(axes, time[row], path[:, row], (5 * side, 4), color=FAINT)
+    side = 1 if path[0, -1] < limits[0].mean() else -1
+    below = path[1, marks[max(0, marks.size - 2)]] >= path[1, -1]
+    _write_time(axes, time[-1], path[:, -1], (8 * side, -13 if below else 6), color=INK, fontweight="bold")
+
+
+def _write_time(axes: Axes, time: float, point: np.ndarray, offset: tuple[int, int], **style: Any) -> None:
+    axes.annotate(
+        f"{number(float(time), 4)} s", (point[0], point[1]), xytext=offset, textcoords="offset points",
+        ha="left" if offset[0] > 0 else "right", fontsize=7.5, **style,
+    )  # fmt: skip
+
+
+def _scale(axes: Axes, width: float, height: float) -> None:
+    """One scale for both axes where that leaves something to see, else say that there are two."""
+    axes.margins(0.1, 0.12)
+    if height > 0.0 and 1.0 / MAXIMUM_STRETCH <= width / height <= MAXIMUM_STRETCH:
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_title("axes to one scale", loc="right", fontsize=7.5, color=FAINT)
+    else:
+        axes.set_title("axes to different scales", loc="right", fontsize=7.5, color=FAINT)

@@ -1,0 +1,174 @@
+"""The figures of a stability page as panels: which a loop has, their names, and what a screen reader says."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ...loops.decibels import decibels
+from ...loops.margin_values import MARGINS, UNSTABLE, Quantity
+from ...stability.results.loop import JointReport, LoopReport
+from ...stability.results.report import StabilityReport
+from ...stability.results.varied import SweepReport
+from ..kit.panels import PANEL_WIDTH, Panel, panel
+from ..kit.quantities import number
+from ..kit.style import house_style, new_figure
+from ..kit.svg import inline_svg
+from .frequency import draw_bode, draw_sensitivity, margin_words
+from .nyquist import INVERSE, Limits, draw_harmonic_balance, draw_nichols, draw_nyquist, limits_of
+from .poles import crowded, draw_cloud, draw_poles, poles_of
+from .sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
+
+HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
+LOW = 2.4  # in; of histograms
+
+
+def stacked(label: str, name: str, description: str, draw: Callable[[Axes, Axes], None]) -> Panel:
+    """A panel of two axes above each other, over the same abscissa."""
+    with house_style():
+        figure = new_figure(HEIGHT, PANEL_WIDTH)
+        upper, lower = figure.subplots(2, 1, sharex=True)
+        draw(upper, lower)
+        return Panel(label, inline_svg(figure, name, description, fill=True))
+
+
+def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
+    """Bode, Nyquist, Nichols; poles, those near z = 1, step response."""
+    margins = margin_words(loop)
+    modulus = margins if loop.margins.unstable else f"modulus margin {number(float(loop.robust.modulus_margin), 3)}"
+    found = [
+        stacked("Bode", f"{name}-bode", f"Bode diagram of {loop.name}: {margins}", lambda g, p: draw_bode(loop, g, p)),
+        panel(
+            "Nyquist",
+            f"{name}-nyquist",
+            f"Nyquist diagram of {loop.name}: {modulus}",
+            lambda axes: draw_nyquist(loop, axes),
+            HEIGHT,
+        ),
+        panel(
+            "Nichols",
+            f"{name}-nichols",
+            f"Nichols diagram of {loop.name}: {margins}",
+            lambda axes: draw_nichols(loop, axes),
+            HEIGHT,
+        ),
+    ]
+    poles = poles_of(loop)
+    if poles.size:
+        outside = int(np.sum(np.abs(poles) >= 1.0))
+        words = f"{poles.size} closed-loop poles of {loop.name}, {outside} on or outside the unit circle"
+        found.append(panel("Poles", f"{name}-poles", words, lambda axes: draw_poles(loop, axes, near=False), HEIGHT))
+        if crowded(poles):
+            words = f"Closed-loop poles of {loop.name} near z = 1"
+            draw = lambda axes: draw_poles(loop, axes, near=True)  # noqa: E731
+            found.append(panel("Poles near z = 1", f"{name}-poles-near", words, draw, HEIGHT))
+    if loop.step is not None:
+        last = float(loop.step[1][-1])
+        words = f"Step response of {loop.name}, {number(last, 3)} at {number(float(loop.step[0][-1]))} s"
+        found.append(panel("Step response", f"{name}-step", words, lambda axes: draw_step(loop, axes), HEIGHT))
+    return found
+
+
+def part_panels(loop: LoopReport, name: str) -> dict[str, list[Panel]]:
+    """The figures that belong to a table of a loop's section, by the key of its part."""
+    return {
+        "robust": [sensitivity_panel(loop, name)],
+        "dispersed": dispersion_panels(loop, name),
+        "amplitudes": amplitude_panels(loop, name),
+    } | {f"nonlinear-{index}": nonlinear_panels(loop, name, index) for index in range(len(loop.nonlinearities))}
+
+
+def sensitivity_panel(loop: LoopReport, name: str) -> Panel:
+    """Sensitivity and complementary sensitivity."""
+    peaks = [number(decibels(peak), 3) for peak in (loop.robust.sensitivity_peak, loop.robust.complementary_peak)]
+    words = f"Sensitivities of {loop.name}: peaks {peaks[0]} dB and {peaks[1]} dB"
+    limit = limits_of(loop).modulus
+    draw = lambda axes: draw_sensitivity(loop, axes, limit)  # noqa: E731
+    return panel("Sensitivities", f"{name}-sensitivity", words, draw, LOW)
+
+
+def dispersion_panels(loop: LoopReport, name: str) -> list[Panel]:
+    """Histograms of the margins over the trials of a campaign, and the cloud of poles."""
+    found = loop.dispersion
+    if found is None:
+        return []
+    limits = {item.quantity: item.limit for item in found.requirements}
+    panels = []
+    for quantity in MARGINS:
+        sizes = found.sizes(quantity)
+
+        def draw(axes: Axes, sizes: np.ndarray = sizes, quantity: Quantity = quantity) -> None:
+            unit = "" if quantity.unit == "1" else f", {quantity.unit}"
+            draw_histogram(sizes, axes, f"{quantity}{unit}", limits.get(quantity), found.worst)
+
+        words = f"Histogram of the {quantity} of {loop.name} over {found.trials} trials, {_least(sizes)}"
+        label = f"{quantity.capitalize()} over trials"
+        panels.append(panel(label, f"{name}-trials-{quantity.replace(' ', '-')}", words, draw, LOW))
+    if np.any(np.isfinite(found.poles)):
+        words = f"Closed-loop poles of {loop.name} in {found.trials} trials"
+        near = ", near z = 1" if crowded(poles_of(loop)) else ""
+        draw_poles_of_all = lambda axes: draw_cloud(loop, axes)  # noqa: E731
+        panels.append(panel(f"Poles over trials{near}", f"{name}-cloud", words, draw_poles_of_all, LOW))
+    return panels
+
+
+def _least(sizes: np.ndarray) -> str:
+    finite = sizes[np.isfinite(sizes)]
+    words = [f"least {number(float(finite.min()), 3)}"] if finite.size else []
+    unstable = int(np.sum(sizes == UNSTABLE))
+    return ", ".join([*([f"{unstable} unstable"] if unstable else []), *words]) or "none with a crossing"
+
+
+def amplitude_panels(loop: LoopReport, name: str) -> list[Panel]:
+    """Gain and phase over the amplitude, where there are several."""
+    if len(loop.amplitudes) < 2:
+        return []
+    words = f"Gain and phase of {loop.name} over {len(loop.amplitudes)} amplitudes at the cut"
+    return [stacked("Gain and phase", f"{name}-amplitudes", words, lambda g, p: draw_amplitudes(loop, g, p))]
+
+
+def nonlinear_panels(loop: LoopReport, name: str, index: int) -> list[Panel]:
+    """The describing function of one element, and harmonic balance."""
+    element = loop.nonlinearities[index]
+    cycles = len(element.cycles)
+    words = f"Describing function of {element.name} with {cycles} predicted limit cycle{'s' if cycles != 1 else ''}"
+    balance = f"L of {loop.name} and {INVERSE} of {element.name} in the complex plane"
+    return [
+        panel(
+            "Describing function",
+            f"{name}-describing-{index}",
+            words,
+            lambda axes: draw_describing(element, axes),
+            HEIGHT,
+        ),
+        panel(
+            "Harmonic balance",
+            f"{name}-balance-{index}",
+            balance,
+            lambda axes: draw_harmonic_balance(loop, element, axes),
+            HEIGHT,
+        ),
+    ]
+
+
+def joint_panel(joint: JointReport, name: str) -> Panel:
+    """The disk margin of several channels over frequency."""
+    words = f"Disk margin of {joint.name} over frequency, least {number(float(joint.disk_margin), 3)}"
+    if not joint.stable:
+        words = f"Distance of {joint.name} from the critical point over frequency; the closed loop is unstable"
+    elif math.isfinite(joint.disk_frequency):
+        words += f" at {number(float(joint.disk_frequency))} rad/s"
+    return panel(f"{joint.name}, {joint.point}", name, words, lambda axes: draw_joint(joint, axes), HEIGHT)
+
+
+def sweep_panel(sweep: SweepReport, report: StabilityReport, name: str) -> Panel:
+    """Margins over a parameter with the study's limits."""
+    limits = Limits(report.limits.get("gain_margin_db"), report.limits.get("phase_margin_deg"), None)
+    words = f"Gain and phase margin of {sweep.loop} over {sweep.parameter}, {sweep.values.size} values"
+    if unstable := sum(item.unstable for item in sweep.margins):
+        words += f", {unstable} of them unstable"
+    label = f"{sweep.loop} over {sweep.parameter}"
+    return stacked(label, name, words, lambda g, p: draw_sweep(sweep, limits, g, p))

@@ -1,0 +1,155 @@
+"""The frequency response in the complex plane and in gain over phase: how near it comes to the critical point."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Polygon
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
+
+from ...loops.decibels import decibels
+from ...loops.margin_values import Quantity
+from ...stability.results.loop import LoopReport
+from ...stability.results.nonlinear import Nonlinearity
+from ..kit.quantities import MINUS, tick
+from ..kit.style import BLUE, GREEN, INK, PURPLE, VERMILION, plain_ticks
+from .frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, in_db, margin_crossings, measured_too
+
+INVERSE = f"{MINUS}1/N"
+SHAPE = 1.2  # width over height of a panel's axes
+CRITICAL: Any = {"linestyle": "", "marker": "+", "markersize": 9, "markeredgewidth": 1.6, "color": INK, "zorder": 6}
+LIMIT: Any = {"color": VERMILION, "linewidth": 1.0, "linestyle": (0, (4, 2))}
+ARROW: Any = {
+    "arrowstyle": "-|>", "color": BLUE, "linewidth": 0.1, "mutation_scale": 12, "shrinkA": 0, "shrinkB": 0,
+}  # fmt: skip
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 361)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The limits that figures show, as they are required of the loop; None: not required."""
+
+    gain: float | None  # dB
+    phase: float | None  # deg
+    modulus: float | None
+
+
+def limits_of(loop: LoopReport) -> Limits:
+    """The limits among a loop's requirements."""
+    found = {item.quantity: item.limit for item in loop.requirements}
+    return Limits(found.get(Quantity.GAIN), found.get(Quantity.PHASE), found.get(Quantity.MODULUS))
+
+
+def _complex_plane(axes: Axes, left: float, right: float) -> None:
+    half = (right - left) / SHAPE / 2.0
+    axes.set_aspect("equal")
+    axes.set_xlim(left, right)
+    axes.set_ylim(-half, half)
+    plain_ticks(axes, x=5, y=5)
+    axes.axhline(0.0, color=INK, linewidth=0.5)
+    axes.axvline(0.0, color=INK, linewidth=0.5)
+    axes.plot(-1.0, 0.0, **CRITICAL)
+    axes.set_title("imaginary", loc="left", fontsize=8.5)
+    axes.set_xlabel("real")
+
+
+def _direction(axes: Axes, value: np.ndarray, left: float, right: float) -> None:
+    """An arrow along the curve towards higher frequencies, in the middle of what is seen of it."""
+    half = (right - left) / SHAPE / 2.0
+    inside = (value.real > left) & (value.real < right) & (np.abs(value.imag) < half)
+    seen = np.flatnonzero(inside)
+    if seen.size < 4:
+        return
+    way = np.cumsum(np.abs(np.diff(value[seen], prepend=value[seen[0]])))
+    middle = int(seen[np.searchsorted(way, 0.35 * way[-1])])
+    tail, head = value[max(middle - 1, 0)], value[min(middle + 1, len(value) - 1)]
+    axes.annotate("", (head.real, head.imag), (tail.real, tail.imag), arrowprops=ARROW)
+
+
+def draw_nyquist(loop: LoopReport, axes: Axes) -> None:
+    """L near -1 with the unit circle, the circle of the modulus margin and that of its limit."""
+    value, found, limits = loop.curve.value, margin_crossings(loop), limits_of(loop)
+    furthest = max([1.0 / item.value for item in loop.classical.gain if item.value > 0.0], default=1.0)
+    left, right = -min(max(2.6, 1.15 * furthest), 8.0), 1.4
+    axes.plot(value.real, value.imag, color=BLUE)
+    axes.plot(value.real, -value.imag, color=BLUE, linewidth=0.8, linestyle=(0, (1.2, 1.2)))
+    measured = measured_too(loop)
+    if measured is not None:
+        axes.plot(measured.value.real, measured.value.imag, **MEASURED)
+    faint_line(axes, np.cos(ANGLES), np.sin(ANGLES))
+    if not loop.margins.unstable:
+        around = loop.robust.modulus_margin
+        axes.plot(-1.0 + around * np.cos(ANGLES), around * np.sin(ANGLES), color=GREEN, linewidth=1.2)
+    if limits.modulus is not None:
+        axes.plot(-1.0 + limits.modulus * np.cos(ANGLES), limits.modulus * np.sin(ANGLES), **LIMIT)
+    for crossing in found.gain:
+        axes.plot(-1.0 / crossing.value, 0.0, **GAIN_MARK)
+    for crossing in found.phase:
+        axes.plot(-math.cos(crossing.value), -math.sin(crossing.value), **PHASE_MARK)
+    _complex_plane(axes, left, right)
+    _direction(axes, value, left, right)
+
+
+def draw_nichols(loop: LoopReport, axes: Axes) -> None:
+    """L in gain over phase (-360 to 0 deg) with the exclusion zone of the limits and the oval of the modulus limit."""
+    value, limits = loop.curve.value, limits_of(loop)
+    if limits.gain is not None and limits.phase is not None:
+        corners = [
+            (-180.0 - limits.phase, 0.0),
+            (-180.0, limits.gain),
+            (-180.0 + limits.phase, 0.0),
+            (-180.0, -limits.gain),
+        ]
+        zone: Any = {"facecolor": "#f6d5c0", "edgecolor": VERMILION, "linewidth": 1.0, "hatch": "////", "zorder": 1.6}
+        axes.add_patch(Polygon(corners, **zone))
+    if limits.modulus is not None and limits.modulus < 1.0:
+        oval = -1.0 + limits.modulus * np.exp(1j * ANGLES)
+        axes.plot(np.degrees(np.angle(-oval)) - 180.0, in_db(oval), **LIMIT)
+    axes.plot(*_wrapped(value), color=BLUE)
+    measured = measured_too(loop)
+    if measured is not None:
+        axes.plot(np.degrees(np.angle(-measured.value)) - 180.0, in_db(measured.value), **MEASURED)
+    for crossing in margin_crossings(loop).gain:
+        axes.plot(-180.0, -decibels(crossing.value), **GAIN_MARK)
+    for crossing in margin_crossings(loop).phase:
+        axes.plot(math.degrees(math.remainder(crossing.value, 2.0 * math.pi)) - 180.0, 0.0, **PHASE_MARK)
+    reach = max([abs(decibels(item.value)) for item in loop.classical.gain if item.value > 0.0], default=0.0)
+    height = min(max(20.0, 1.4 * reach), 40.0)
+    axes.plot(-180.0, 0.0, **CRITICAL)
+    axes.set_xlim(-360.0, 0.0)
+    axes.set_ylim(-height, height)
+    axes.xaxis.set_major_locator(FixedLocator([-360, -270, -180, -90, 0]))
+    axes.xaxis.set_major_formatter(FuncFormatter(tick))
+    axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
+    axes.yaxis.set_major_formatter(FuncFormatter(tick))
+    axes.set_title("gain, dB", loc="left", fontsize=8.5)
+    axes.set_xlabel("phase, deg")
+
+
+def _wrapped(value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Phase (deg, -360 to 0) and gain (dB) with gaps where the phase wraps."""
+    phase, gain = np.degrees(np.angle(-value)) - 180.0, in_db(value)
+    jumps = np.flatnonzero(np.abs(np.diff(phase)) > 180.0) + 1
+    return np.insert(phase, jumps, np.nan), np.insert(gain, jumps, np.nan)
+
+
+def draw_harmonic_balance(loop: LoopReport, element: Nonlinearity, axes: Axes) -> None:
+    """L and -1/N(a): a limit cycle is predicted where they meet."""
+    value = loop.curve.value
+    kept = np.abs(element.gain) > 0.0
+    inverse = -1.0 / element.gain[kept]
+    meets = [np.interp(2.0 * math.pi / cycle.period, loop.curve.frequency, value) for cycle in element.cycles]
+    furthest = max([1.0, *(-point.real for point in meets), *([-float(np.max(inverse.real))] if inverse.size else [])])
+    left = -2.2 * min(furthest, 1e6)
+    right = -0.45 * left
+    axes.plot(value.real, value.imag, color=BLUE, label="L")
+    axes.plot(inverse.real, inverse.imag, color=PURPLE, linewidth=2.2, linestyle=(0, (5, 1.6)), label=INVERSE)
+    for cycle, point in zip(element.cycles, meets, strict=True):
+        fill = INK if cycle.stable else "white"
+        axes.plot(point.real, point.imag, "o", markersize=6, markerfacecolor=fill, markeredgecolor=INK, zorder=6)
+    _complex_plane(axes, left, right)
+    axes.legend(loc="lower right", handlelength=2.6)

@@ -1,0 +1,155 @@
+"""The page of a stability study, in the order in which a board reads it: verdict, margins, loops, how it was made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from markupsafe import Markup
+
+from ...loops.margin_values import Quantity
+from ...stability.results.loop import LoopReport
+from ...stability.results.report import StabilityReport
+from ...stability.results.requirement import Verdict
+from ...stability.results.varied import SweepCrossing, SweepReport
+from ..kit.page import write_page
+from ..kit.panels import Panel
+from ..kit.quantities import labelled
+from .figures import joint_panel, loop_panels, part_panels, sweep_panel
+from .parts import Part, parts, without
+from .tables import (
+    Table,
+    about,
+    anchor,
+    counts,
+    facts,
+    hash_table,
+    joint_table,
+    judged,
+    limit_table,
+    point_table,
+    summary_table,
+    trim_table,
+    verdict_table,
+)
+from .words import UNSTABLE_WORD, gain_margin, phase_margin, plain, size, verdict
+
+FEW = 2  # loops; of more, only those that fail are unfolded at first
+
+
+@dataclass(frozen=True)
+class Card:
+    """A loop on the page: what is always seen, and what is folded away below it."""
+
+    loop: LoopReport
+    id: str
+    open: bool
+    verdict: Markup
+    period: Markup
+    about: list[tuple[str, str]]
+    summary: Table
+    figures: list[Panel]
+    blocks: list[list[Part]]
+    without: list[str]
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Margins over one parameter on the page."""
+
+    report: SweepReport
+    panel: Panel
+    table: Table
+    crossings: Table
+
+
+def write_stability_page(report: StabilityReport, path: Path) -> None:
+    """Write one self-contained HTML page about a stability study; the same report gives the same bytes.
+
+    How long the study took is not on the page, so that the same study gives the same page.
+    """
+    rows = judged(report)
+    summary = summary_table(report)
+    write_page(
+        path,
+        Path(__file__).with_name("stability.html"),
+        title=f"{report.system}: stability",
+        report=report,
+        verdict=verdict(report.verdict),
+        counts=counts(rows),
+        failing=verdict_table([row for row in rows if row[-1].verdict is Verdict.FAIL]),
+        requirements=verdict_table(rows),
+        summary=summary,
+        joint=joint_table(report),
+        unstudied=report.unstudied,
+        joint_panels=[joint_panel(joint, f"joint-{index + 1}") for index, joint in enumerate(report.joint)],
+        points=point_table(report.points),
+        trims=trim_table(report.points),
+        settings={
+            point.name: [(name, plain(value, digits=10)) for name, value in point.settings.items()]
+            for point in report.points
+            if point.settings
+        },
+        cards=[_card(report, summary, index) for index in range(len(report.loops))],
+        sweeps=[_sweep(report, sweep, f"sweep-{index + 1}") for index, sweep in enumerate(report.sweeps)],
+        limits=limit_table(report),
+        raw_limits=[(name, plain(value)) for name, value in report.limits.items()],
+        hashes=hash_table(report.provenance),
+        parameters=[(name, plain(value, digits=10)) for name, value in report.provenance.get("parameters", {}).items()],
+        facts=facts(report.provenance),
+        provenance=report.provenance,
+    )
+
+
+def _card(report: StabilityReport, summary: Table, index: int) -> Card:
+    loop, name = report.loops[index], anchor(index)
+    figures = part_panels(loop, name)
+    return Card(
+        loop=loop,
+        id=name,
+        open=len(report.loops) <= FEW or loop.verdict is Verdict.FAIL,
+        verdict=verdict(loop.verdict),
+        period=plain(loop.sample_period),
+        about=about(loop),
+        summary=Table(summary.head[2:-1], summary.kinds[2:-1], [summary.rows[index][2:-1]]),
+        figures=loop_panels(loop, name),
+        blocks=_blocks([replace(part, figures=figures.get(part.key, [])) for part in parts(loop)]),
+        without=without(loop),
+    )
+
+
+def _blocks(shown: list[Part]) -> list[list[Part]]:
+    """Parts that are laid out as one; the short ones beside the long table of the method go below each other."""
+    blocks: list[list[Part]] = []
+    for part in shown:
+        if part.key == "robust":
+            blocks[-1].append(part)
+        else:
+            blocks.append([part])
+    return blocks
+
+
+def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
+    rows = [
+        (
+            plain(float(value), sweep.unit),
+            gain_margin(margins),
+            phase_margin(margins),
+            size(margins.size(Quantity.MODULUS)),
+        )
+        for value, margins in zip(sweep.values, sweep.margins, strict=True)
+    ]
+    crossings = [
+        (_crossed(crossing), "below" if crossing.below else "above", plain(crossing.value, sweep.unit))
+        for crossing in sweep.crossings
+    ]
+    return Sweep(
+        sweep,
+        sweep_panel(sweep, report, name),
+        Table((sweep.parameter, "gain margin, dB", "phase margin, deg", "modulus margin"), "nnnn", rows),
+        Table(("what fails", "where", labelled(sweep.parameter, sweep.unit)), "ttn", crossings),
+    )
+
+
+def _crossed(crossing: SweepCrossing) -> str:
+    return UNSTABLE_WORD if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit"

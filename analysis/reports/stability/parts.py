@@ -1,0 +1,283 @@
+"""Parts of one loop's section on a stability page: a heading, a sentence and a table each."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from markupsafe import Markup
+
+from ...loops.margin_values import MARGINS
+from ...stability.results.loop import LoopReport
+from ...stability.results.nonlinear import Nonlinearity
+from ...stability.results.routes import Mode
+from ...stability.results.varied import LEVELS, Dispersion
+from ..kit.panels import Panel
+from ..kit.quantities import MINUS, shown_unit
+from .tables import Cell, Table
+from .words import (
+    NO_CROSSING,
+    UNSTABLE_WORD,
+    closed_loop,
+    complex_number,
+    gain_margin,
+    in_decibels,
+    in_degrees,
+    phase_margin,
+    plain,
+    samples,
+    share,
+    size,
+    state,
+)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A heading with a table; ``note`` stands below it, ``code`` is a command in a line of its own, figures follow."""
+
+    key: str
+    heading: str
+    table: Table
+    note: Cell = ""
+    code: str = ""
+    figures: list[Panel] = field(default_factory=list)
+
+
+def method(loop: LoopReport) -> Part:
+    """Both routes side by side, and whether they agree."""
+    rows: list[tuple[Cell, ...]] = []
+    if loop.route_a is not None:
+        a = loop.route_a
+        rows += [
+            ("A, Jacobian", "states", plain(a.states)),
+            ("", "period, s", plain(a.period)),
+            ("", "change between steps of the difference, %", share(a.plateau)),
+            ("", "memory with kinks or switches", ", ".join(a.doubtful) or "none"),
+            ("", "response at other frequencies, %", share(a.periodicity)),
+        ]
+    if loop.route_b is not None:
+        b = loop.route_b
+        rows += [
+            ("B, injection", f"amplitude of a line, {shown_unit(loop.unit) or '1'}", plain(b.amplitude, loop.unit)),
+            ("", "lines", plain(b.lines)),
+            ("", "periods", f"{b.periods}"),
+            ("", "period, s", plain(b.period)),
+            ("", "change at half the amplitude, %", share(b.half_amplitude_change)),
+            ("", "response on other lines, %", share(b.unexcited)),
+        ]
+    if loop.agreement is not None:
+        found = loop.agreement
+        rows += [
+            ("A against B", "largest difference of gain, dB", in_decibels(found.gain, absolute=True)),
+            ("", "largest difference of phase, deg", in_degrees(found.phase)),
+            ("", "compared up to, rad/s", plain(found.frequency)),
+            ("", "the routes agree", "yes" if found.agrees else "no"),
+        ]
+    return Part("method", "Method", Table(("route", "quantity", "value"), "ttn", rows))
+
+
+def classical(loop: LoopReport) -> Part:
+    """Every crossing, the delay margin and the encirclements."""
+    found = loop.classical
+    rows: list[tuple[Cell, ...]] = []
+    kind = "crossing" if loop.margins.unstable else "margin"
+    for crossing in found.gain:
+        name = f"gain {kind} {'up' if crossing.value >= 1.0 else 'down'}"
+        rows.append((name, in_decibels(crossing.value, absolute=True), "dB", plain(crossing.frequency)))
+    if not found.gain:
+        rows.append((f"gain {kind}", NO_CROSSING, "", ""))
+    for crossing in found.phase:
+        name = f"phase {kind}" if crossing.value >= 0.0 else f"phase {kind}, lead"
+        rows.append((name, in_degrees(crossing.value), "deg", plain(crossing.frequency)))
+    if not found.phase:
+        rows.append((f"phase {kind}", NO_CROSSING, "", ""))
+    if loop.margins.unstable:
+        rows.append(("delay margin", UNSTABLE_WORD, "", ""))
+    elif math.isfinite(found.delay_margin):
+        rows.append(("delay margin", plain(found.delay_margin), "s", plain(found.delay_frequency)))
+        rows.append(("", samples(found.delay_margin, loop.sample_period), "samples", ""))
+    else:
+        rows.append(("delay margin", NO_CROSSING, "", ""))
+    encircled = plain(found.encirclements) if found.encirclements is not None else "not counted"
+    rows.append((f"encirclements of {MINUS}1 (+ counter-clockwise)", encircled, "", ""))
+    unstable = plain(loop.unstable_open) if loop.unstable_open is not None else "not known"
+    rows.append(("unstable poles of the open loop", unstable, "", ""))
+    rows.append(("closed loop", closed_loop(loop.stable), "", ""))
+    note = "The closed loop is unstable: its crossings are not margins." if loop.margins.unstable else ""
+    return Part("classical", "Classical", Table(("quantity", "value", "unit", "at rad/s"), "tntn", rows), note)
+
+
+def robust(loop: LoopReport) -> Part:
+    """Distances from the critical point."""
+    found = loop.robust
+    word = state(loop.margins)
+    rows: list[tuple[Cell, ...]] = [
+        ("modulus margin", word or plain(found.modulus_margin), plain(found.sensitivity_frequency)),
+        ("peak of S, dB", in_decibels(found.sensitivity_peak), plain(found.sensitivity_frequency)),
+        ("peak of T, dB", in_decibels(found.complementary_peak), plain(found.complementary_frequency)),
+        ("disk margin", word or plain(found.disk_margin), plain(found.disk_frequency)),
+        ("— gain, up and down, dB", word or in_decibels(found.disk_gain, "without limit"), ""),
+        ("— phase, deg", word or in_degrees(found.disk_phase), ""),
+    ]
+    note = "Within the disk margin gain and phase may change at once."
+    if loop.margins.unstable:
+        note = "Peaks are those of the response: of an unstable closed loop they bound nothing."
+    return Part("robust", "Robust", Table(("quantity", "value", "at rad/s"), "tnn", rows), note)
+
+
+def upper(modes: tuple[Mode, ...]) -> list[Mode]:
+    """Modes without the lower ones of conjugate pairs."""
+    return [
+        mode
+        for mode in modes
+        if mode.z.imag >= 0.0 or not any(np.isclose(other.z, np.conj(mode.z)) for other in modes if other is not mode)
+    ]
+
+
+def modes(loop: LoopReport) -> Part:
+    """Closed-loop modes; of a conjugate pair one."""
+    rows: list[tuple[Cell, ...]] = [
+        (
+            complex_number(mode.z),
+            plain(abs(mode.z)),
+            complex_number(mode.s),
+            plain(mode.damping, digits=3),
+            plain(mode.frequency),
+            mode.kind,
+            plain(mode.controllability, digits=2),
+            plain(mode.observability, digits=2),
+        )
+        for mode in upper(loop.modes)
+    ]
+    head = ("z", "|z|", "s, rad/s", "damping", "frequency, rad/s", "kind", "controllability", "observability")
+    return Part(
+        "modes", "Modes", Table(head, "nnnnntnn", rows, "modes"), "A pair of conjugate modes is one line, with ±."
+    )
+
+
+def structure(loop: LoopReport) -> Part:
+    """Controllability and observability."""
+    found = loop.structure
+    assert found is not None
+    rows: list[tuple[Cell, ...]] = [
+        ("states of the complete memory", plain(found.states), ""),
+        ("controllable from the cut", plain(found.controllable), plain(found.least_controllable)),
+        ("observable at the cut", plain(found.observable), plain(found.least_observable)),
+        ("both: order of the loop", plain(found.order), ""),
+    ]
+    return Part("structure", "Structure", Table(("part", "rank", "least kept singular value"), "tnn", rows))
+
+
+def dispersed(found: Dispersion) -> Part:
+    """Least, 5 % and median margins over the campaign, and how to fly the worst case again."""
+    rows: list[tuple[Cell, ...]] = []
+    for quantity in MARGINS:
+        unit = "" if quantity.unit == "1" else f", {quantity.unit}"
+        cells = [size(value) for value in found.levels(quantity).values()]
+        rows.append((f"{quantity}{unit}", *cells, size(found.margins[found.worst].size(quantity))))
+    head = ("margin", *LEVELS, f"trial {found.worst}, the worst")
+    unstable = f"{found.unstable} of {found.trials} trials are unstable" if found.unstable else "all trials are stable"
+    note = Markup(
+        "Campaign {}: {}. Levels are margins of single trials, over all of them; an unstable trial counts below every "
+        "number, one without a crossing above. The worst trial has the least disk margin{}. It is flown again by"
+    ).format(found.campaign, unstable, ", of the unstable ones the largest multiplier" if found.unstable else "")
+    return Part("dispersed", "Dispersed", Table(head, "tnnnn", rows), note, found.replay)
+
+
+def nonlinear(found: Nonlinearity, index: int) -> Part:
+    """Limit cycles that harmonic balance predicts, and what the simulation shows."""
+    unit = shown_unit(found.unit)
+    rows: list[tuple[Cell, ...]] = []
+    for cycle in found.cycles:
+        lasting = cycle.simulated_amplitude is not None
+        rows.append(
+            (
+                plain(cycle.amplitude, found.unit),
+                plain(cycle.period),
+                "stable" if cycle.stable else "unstable",
+                plain(cycle.simulated_amplitude, found.unit) if lasting else "no lasting oscillation",
+                plain(cycle.simulated_period),
+            )
+        )
+    if not rows:
+        rows.append((NO_CYCLE, "", "", "", ""))
+    head = (
+        f"amplitude, {unit}" if unit else "amplitude", "period, s", "predicted to be",
+        f"simulated amplitude, {unit}" if unit else "simulated amplitude", "simulated period, s",
+    )  # fmt: skip
+    values = ", ".join(f"{name} {value:.6g}" for name, value in found.parameters.items())
+    about = f"{found.kind}{': ' + values if values else ''}. Amplitudes at the element's input. {found.note}"
+    return Part(f"nonlinear-{index}", f"Nonlinear: {found.name}", Table(head, "nntnn", rows), about.strip())
+
+
+NO_CYCLE = "no limit cycle predicted"
+
+
+def amplitudes(loop: LoopReport) -> Part:
+    """Gain and phase at one frequency over the amplitude of the injected signal."""
+    rows: list[tuple[Cell, ...]] = [
+        (
+            plain(point.amplitude, loop.unit),
+            in_decibels(abs(point.value)),
+            in_degrees(float(np.angle(point.value))),
+            share(point.change),
+        )
+        for point in loop.amplitudes
+    ]
+    unit = shown_unit(loop.unit)
+    head = (f"amplitude, {unit}" if unit else "amplitude", "gain, dB", "phase, deg", "change, %")
+    at = Markup("At {} rad/s; changes are relative to the smallest amplitude's.").format(
+        plain(loop.amplitude_frequency)
+    )
+    return Part("amplitudes", "Over the amplitude", Table(head, "nnnn", rows, "amplitudes"), at)
+
+
+def sampling(loop: LoopReport) -> Part:
+    """Margins with other communication steps."""
+    rows: list[tuple[Cell, ...]] = [
+        (
+            plain(item.step),
+            gain_margin(item.margins) if item.margins else plain(None),
+            phase_margin(item.margins) if item.margins else plain(None),
+            item.note,
+        )
+        for item in loop.sampling
+    ]
+    return Part(
+        "sampling", "Sampling", Table(("step, s", "gain margin, dB", "phase margin, deg", "note"), "nnnl", rows)
+    )
+
+
+def parts(loop: LoopReport) -> list[Part]:
+    """Everything that is known about a loop, in the order of the page."""
+    found = [method(loop), classical(loop), robust(loop)]
+    if loop.structure is not None:
+        found.append(structure(loop))
+    if loop.modes:
+        found.append(modes(loop))
+    if loop.dispersion is not None:
+        found.append(dispersed(loop.dispersion))
+    if loop.amplitudes:
+        found.append(amplitudes(loop))
+    found += [nonlinear(item, index) for index, item in enumerate(loop.nonlinearities)]
+    if loop.sampling:
+        found.append(sampling(loop))
+    return [part for part in found if part.table.rows]
+
+
+def without(loop: LoopReport) -> list[str]:
+    """Parts that this loop has not, and for which no reason is given either: they were not asked for."""
+    there = {
+        "route A": loop.route_a is not None,
+        "route B": loop.route_b is not None,
+        "modes": bool(loop.modes) or loop.route_a is None,
+        "structure": loop.structure is not None or loop.route_a is None,
+        "step response": loop.step is not None,
+        "dispersion": loop.dispersion is not None,
+        "amplitude sweep": bool(loop.amplitudes),
+        "nonlinear elements": bool(loop.nonlinearities),
+        "sampling": bool(loop.sampling),
+    }
+    return [name for name, is_there in there.items() if not is_there and name not in loop.not_applicable]

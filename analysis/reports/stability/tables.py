@@ -1,0 +1,224 @@
+"""Tables of a stability page: the verdict, the summary of all loops, points, limits and the header's facts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from markupsafe import Markup
+
+from ...loops.margin_values import UNSTABLE
+from ...stability.results.loop import LoopReport
+from ...stability.results.report import PointReport, StabilityReport
+from ...stability.results.requirement import Requirement, Scope, Verdict
+from ..kit.quantities import number, shown_unit
+from .words import (
+    NO_CROSSING,
+    closed_loop,
+    found,
+    gain_margin,
+    in_decibels,
+    in_degrees,
+    limit,
+    phase_margin,
+    plain,
+    samples,
+    share,
+    size,
+    state,
+    verdict,
+)
+
+TIMES = ("step", "start_time", "stop_time")  # s
+SCOPES = {Scope.NOMINAL: "nominal", Scope.DISPERSED: "dispersed", Scope.JOINT: "channels at once"}
+LONG = 30  # rows; longer tables are folded away
+Cell = Markup | str
+
+
+@dataclass(frozen=True)
+class Table:
+    """Head cells, how each column is set (``t`` text, ``s`` short text,
+    which stays on one line, ``l`` long text, ``n`` number, ``c`` code or hash), and rows of cells."""
+
+    head: tuple[str, ...]
+    kinds: str
+    rows: Sequence[tuple[Cell, ...]]
+    what: str = ""
+
+    @property
+    def is_long(self) -> bool:
+        return len(self.rows) > LONG
+
+
+def anchor(index: int) -> str:
+    """The id of a loop's card; names may hold what an id must not."""
+    return f"loop-{index + 1}"
+
+
+def link(report: StabilityReport, index: int) -> Markup:
+    """A loop's name, leading to its card."""
+    return Markup('<a href="#{}">{}</a>').format(anchor(index), report.loops[index].name)
+
+
+Row = tuple[Cell, str, Requirement]
+
+
+def judged(report: StabilityReport) -> list[Row]:
+    """Loop, operating point and requirement of everything that is judged."""
+    places = {id(loop): index for index, loop in enumerate(report.loops)}
+    return [
+        (
+            link(report, places[id(subject)]) if isinstance(subject, LoopReport) else subject.name,
+            subject.point,
+            requirement,
+        )
+        for subject, requirement in report.judged()
+    ]
+
+
+def verdict_table(rows: Sequence[Row]) -> Table:
+    """Every requirement that is given: value, limit, verdict and, where there is none, why."""
+    head = ("loop", "operating point", "scope", "quantity", "value", "limit", "verdict", "note")
+    return Table(
+        head,
+        "ssssnnsl",
+        [
+            (loop, point, SCOPES[item.scope], item.title, found(item), limit(item), verdict(item.verdict), item.note)
+            for loop, point, item in rows
+        ],
+        "requirements",
+    )
+
+
+def counts(rows: Sequence[Row]) -> dict[str, int]:
+    """How many requirements hold, fail and are not applicable."""
+    verdicts = [item.verdict for *_, item in rows]
+    return {word: verdicts.count(word) for word in Verdict}
+
+
+def summary_table(report: StabilityReport) -> Table:
+    """Loops by operating points with their margins."""
+    head = (
+        "loop", "operating point", "gain margin, dB", "phase margin, deg", "delay margin, s", "delay margin, samples",
+        "modulus margin", "disk margin", "closed loop", "verdict",
+    )  # fmt: skip
+    rows = [
+        (
+            link(report, index),
+            loop.point,
+            gain_margin(loop.margins),
+            phase_margin(loop.margins),
+            state(loop.margins) or plain(loop.classical.delay_margin, infinite=NO_CROSSING),
+            state(loop.margins) or samples(loop.classical.delay_margin, loop.sample_period),
+            state(loop.margins) or plain(loop.robust.modulus_margin, digits=3),
+            state(loop.margins) or plain(loop.robust.disk_margin, digits=3),
+            closed_loop(loop.stable),
+            verdict(loop.verdict),
+        )
+        for index, loop in enumerate(report.loops)
+    ]
+    return Table(head, "ssnnnnnnss", rows, "loops")
+
+
+def joint_table(report: StabilityReport) -> Table:
+    """Disk margins of several channels that vary at once and independently."""
+    head = (
+        "channels", "operating point", "disk margin", "gain, dB, up and down", "phase, deg", "at rad/s", "verdict",
+    )  # fmt: skip
+    rows: list[tuple[Cell, ...]] = []
+    for joint in report.joint:
+        name = Markup("<b>{}</b><br>{}").format(joint.name, ", ".join(joint.channels))
+        margins = (
+            plain(joint.disk_margin, digits=3),
+            in_decibels(joint.disk_gain, "without limit"),
+            in_degrees(joint.disk_phase),
+            plain(joint.disk_frequency),
+        )
+        none = (size(UNSTABLE),) * 3 + (plain(None),)
+        rows.append((name, joint.point, *(margins if joint.stable else none), verdict(joint.verdict)))
+    return Table(head, "ttnnnnt", rows, "joint margins")
+
+
+def point_table(points: tuple[PointReport, ...]) -> Table:
+    """Operating points: where, how far from a trim, and how long the frozen view holds."""
+    head = (
+        "operating point", "phase", "time, s", "fastest change over a period", "drift of the response, %",
+        "frozen view holds, s",
+    )  # fmt: skip
+    rows: list[tuple[Cell, ...]] = []
+    for point in points:
+        fastest = _changed(*point.trim[0]) if point.trim else Markup("nothing changes")
+        holds = plain(point.holds, infinite="does not change")
+        rows.append((point.name, point.phase, plain(point.time, digits=6), fastest, share(point.drift), holds))
+    return Table(head, "ttntnn", rows, "operating points")
+
+
+def _changed(name: str, value: float, change: float, unit: str | None) -> Markup:
+    return Markup("{} by {} {}").format(name, plain(change, unit), shown_unit(unit))
+
+
+def trim_table(points: tuple[PointReport, ...]) -> Table:
+    """What changes most at each operating point while it is taken as frozen."""
+    rows: list[tuple[Cell, ...]] = [
+        (point.name, name, plain(value, unit, 6), plain(change, unit), shown_unit(unit))
+        for point in points
+        for name, value, change, unit in point.trim
+    ]
+    return Table(
+        ("operating point", "memory", "value", "change over a period", "unit"), "ttnnt", rows, "trim residuals"
+    )
+
+
+def limit_table(report: StabilityReport) -> Table:
+    """The limits that were used, each once."""
+    rows: dict[tuple[str, ...], tuple[Cell, ...]] = {}
+    for _, item in report.judged():
+        rows.setdefault((item.title, str(item.limit)), (SCOPES[item.scope], item.title, limit(item)))
+    return Table(("scope", "quantity", "limit"), "ttn", list(rows.values()), "limits")
+
+
+def hash_table(provenance: dict[str, Any]) -> Table:
+    """Hashes of the system and its FMUs."""
+    rows: list[tuple[Cell, ...]] = []
+    if "system_sha256" in provenance:
+        rows.append(("system", str(provenance.get("system", "")), str(provenance["system_sha256"])))
+    for component, fmu in provenance.get("fmus", {}).items():
+        name, digest = (fmu.get("fmu", ""), fmu["sha256"]) if isinstance(fmu, dict) else ("", fmu)
+        rows.append((component, str(name), str(digest)))
+    return Table(("part", "name", "SHA-256"), "ttc", rows, "hashes")
+
+
+def facts(provenance: dict[str, Any]) -> list[tuple[str, Cell]]:
+    """Everything else that the study depends on: seed, step, versions and so on."""
+    shown = {"system", "system_sha256", "fmus", "parameters"}
+    return [
+        (key.replace("_", " "), fact(value) + Markup(" s") if key in TIMES else fact(value))
+        for key, value in provenance.items()
+        if key not in shown
+    ]
+
+
+def fact(value: Any) -> Cell:
+    """One fact: a number, a text, or several of them."""
+    if value is None or value in ([], {}, ()):
+        return "none"
+    if isinstance(value, dict):
+        return Markup(", ").join(Markup("{} {}").format(key, fact(entry)) for key, entry in value.items())
+    if isinstance(value, list | tuple):
+        return Markup(", ").join(Markup("{}").format(fact(entry)) for entry in value)
+    if isinstance(value, float) and not math.isfinite(value):
+        return number(None)
+    return plain(value, digits=10)
+
+
+def about(loop: LoopReport) -> list[tuple[str, str]]:
+    """Where a loop is cut, which sign it has, and what stays closed."""
+    return [
+        ("cut", loop.cut),
+        ("comes back as", "the same signal" if loop.returned == loop.cut else loop.returned),
+        ("unit", shown_unit(loop.unit) or "1"),
+        ("sign", loop.sign),
+        ("stay closed", ", ".join(loop.closed) or "no other loop is declared"),
+    ]

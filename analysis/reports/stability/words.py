@@ -1,0 +1,133 @@
+"""How a stability page words its values: dB and degrees, what is infinite, what could not be had, verdicts.
+
+The exact SI value (a factor, rad, s) stands in the markup's ``value``, as everywhere on our pages. Nothing is
+ever shown as "inf" or "nan": an infinite margin has no crossing, an unstable loop has no margins and says so,
+anything else that is not finite is a dash.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+
+from ...loops.decibels import decibel_size, decibels, degree_size
+from ...loops.margin_values import UNSTABLE, Margins
+from ...stability.results.requirement import Requirement, Verdict
+from ..kit.page import exact
+from ..kit.quantities import MINUS, NONE, number, shown_unit
+
+NO_CROSSING = "none (no crossing)"
+UNSTABLE_WORD = "unstable"
+SIGNS = {Verdict.PASS: "✓", Verdict.FAIL: "✗", Verdict.NOT_APPLICABLE: NONE}
+
+
+def _data(value: float, shown: float, digits: int, infinite: str) -> Markup:
+    if math.isinf(shown):
+        return Markup("<span>{}</span>").format(infinite)
+    if math.isnan(shown):
+        return Markup("<span>{}</span>").format(NONE)
+    return Markup('<data value="{}">{}</data>').format(repr(value), number(shown, digits))
+
+
+def plain(value: Any, unit: str | None = None, digits: int = 4, infinite: str = NONE) -> Markup:
+    """A number in the unit that is shown (degrees for radians), without the unit."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return _data(value, value, digits, infinite)
+    return exact(value, unit, digits)
+
+
+def in_decibels(factor: float | None, infinite: str = NO_CROSSING, *, absolute: bool = False) -> Markup:
+    """A factor in dB, without the unit; ``absolute``: how far from 1, up or down."""
+    if factor is None:
+        return plain(None)
+    shown = decibel_size(factor) if absolute else decibels(float(factor))
+    return _data(float(factor), shown, 4, infinite)
+
+
+def in_degrees(angle: float | None, infinite: str = NO_CROSSING) -> Markup:
+    """An angle in degrees, without the unit."""
+    return plain(None) if angle is None else plain(float(angle), "rad", infinite=infinite)
+
+
+def share(value: float | None) -> Markup:
+    """A relative change in per cent."""
+    return plain(None) if value is None else _data(float(value), 100.0 * float(value), 3, NONE)
+
+
+def complex_number(value: complex, digits: int = 4) -> Markup:
+    """A complex number in Cartesian form; of a pair with its conjugate only the upper one is ever shown, with ±."""
+    value = complex(value)
+    if not (math.isfinite(value.real) and math.isfinite(value.imag)):
+        return Markup("<span>{}</span>").format(NONE)
+    shown = number(value.real, digits)
+    if value.imag:
+        shown += f" {'±' if value.imag > 0.0 else MINUS} {number(abs(value.imag), digits)} j"
+    return Markup('<data value="{}">{}</data>').format(repr(value).strip("()"), shown)
+
+
+def state(margins: Margins) -> Markup | None:
+    """What stands in the place of margins that an unstable loop has not."""
+    return Markup("<b>{}</b>").format(UNSTABLE_WORD) if margins.unstable else None
+
+
+def gain_margin(margins: Margins) -> Markup:
+    """A gain margin in dB with its direction."""
+    return state(margins) or directed(margins.gain)
+
+
+def directed(factor: float) -> Markup:
+    """A factor on the gain in dB with its direction; inf: there is none."""
+    if not math.isfinite(factor):
+        return Markup("<span>{}</span>").format(NO_CROSSING)
+    return in_decibels(factor, absolute=True) + Markup(" {}").format("up" if factor >= 1.0 else "down")
+
+
+def phase_margin(margins: Margins) -> Markup:
+    """A phase margin in degrees; a lead is said to be one."""
+    if margins.unstable or not math.isfinite(margins.phase):
+        return state(margins) or Markup("<span>{}</span>").format(NO_CROSSING)
+    shown = _data(float(margins.phase), degree_size(margins.phase), 4, NO_CROSSING)
+    return shown + Markup("" if margins.phase >= 0.0 else " lead")
+
+
+def size(value: float | None) -> Markup:
+    """The size of a margin in its unit: a number, unstable, or without a crossing."""
+    if value == UNSTABLE:
+        return Markup("<b>{}</b>").format(UNSTABLE_WORD)
+    return plain(value, infinite=NO_CROSSING)
+
+
+def samples(delay: float, period: float) -> Markup:
+    """A delay in sample periods."""
+    return plain(float(delay) / period, infinite=NO_CROSSING)
+
+
+def verdict(word: Verdict) -> Markup:
+    """Pass, fail or not applicable: a word, a sign and a colour."""
+    return Markup('<span class="verdict {}">{} {}</span>').format(word.replace(" ", "-"), SIGNS[word], word)
+
+
+def closed_loop(stable: bool | None) -> str:
+    """Whether the closed loop is stable, in a word or two."""
+    return {True: "stable", False: "unstable", None: "not known"}[None if stable is None else bool(stable)]
+
+
+def found(requirement: Requirement) -> Markup:
+    """The value of a requirement with its unit."""
+    value = requirement.value
+    return size(value) + (_unit(requirement.unit) if value is not None and math.isfinite(value) else Markup(""))
+
+
+def limit(requirement: Requirement) -> Markup:
+    """The limit of a requirement with its unit."""
+    return plain(float(requirement.limit)) + _unit(requirement.unit)
+
+
+def _unit(unit: str) -> Markup:
+    shown = unit if unit in ("dB", "deg") else shown_unit(unit)
+    return Markup(" {}").format(shown) if shown else Markup("")

@@ -1,0 +1,1 @@
+"""What a stability study is asked: declarations in the SSD, options, channels of the cuts."""

@@ -1,0 +1,116 @@
+"""Central differences of a flight over one hyperperiod: to the memory at its start, to what is added at the cuts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ..bench.bench import StudyError
+from ..bench.operating_point import OperatingPoint
+from .lifted import Port
+
+STEPS = tuple(10.0**-power for power in range(3, 15))  # of a cell's scale or a signal's size
+LEVELS = 4  # steps in a row, from the largest on that the flight survives
+SCREEN = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)  # the first of these that the flight survives tells which cells matter at all
+GOOD = 1e-3  # relative change between neighbouring steps below which a derivative has a plateau
+
+
+class Jacobian:
+    """Derivatives about the flight of one hyperperiod from an operating point.
+
+    Memory is changed at the communication point before the operating point; a signal is added over one sample of
+    its channel. A column is the memory after the period, in units of its scale, then u and v of all channels, each
+    at its samples. ``start`` and ``end`` are the memory before and after, unchanged.
+    """
+
+    def __init__(self, operating_point: OperatingPoint) -> None:
+        self.bench = operating_point.bench
+        self.memory, self.snapshot = operating_point.memory, operating_point.snapshot
+        self.scale, self.sizes = operating_point.scale, operating_point.sizes
+        self.first, self.last = self.snapshot.point, self.snapshot.point + self.bench.period
+        self.memory.put_back(self.snapshot)
+        self.start = self.memory.read()
+        self.base = self.bench.fly(self.first, self.last)
+        self.end = self.memory.read()
+        ports: list[Port] = []
+        for channel in self.bench.channels:
+            first = ports[-1].first + ports[-1].count if ports else 0
+            seconds = channel.period * self.bench.prepared.step
+            ports.append(Port(channel, seconds, first, self.bench.period // channel.period))
+        self.ports = tuple(ports)
+
+    def _after(self, excitation: np.ndarray | None = None) -> np.ndarray:
+        """Memory, u and v of one flight from the memory as it is now."""
+        bench = self.bench
+        signals = bench.fly(self.first, self.last, excitation)
+        added = np.zeros((bench.period, len(bench.connectors))) if excitation is None else excitation
+        inside, back = [], []
+        for channel in bench.channels:
+            rows = slice(0, bench.period, channel.period)
+            inside.append(channel.injected(signals)[rows])
+            back.append(channel.back(signals, added[:, bench.columns(channel)])[rows])
+        return np.concatenate([self.memory.read() / self.scale, *inside, *back])
+
+    def cell_column(self, cell: int, step: float) -> np.ndarray:
+        """Derivative to one cell in units of its scale, of which ``step`` is the change."""
+        high = self.start[cell] + step * self.scale[cell]
+        low = self.start[cell] - step * self.scale[cell]
+        self.memory.put_back(self.snapshot, self.memory.cells[cell], high)
+        above = self._after()
+        self.memory.put_back(self.snapshot, self.memory.cells[cell], low)
+        return (above - self._after()) * (self.scale[cell] / (high - low))
+
+    def input_column(self, port: Port, sample: int, step: float) -> np.ndarray:
+        """Derivative to what is added at one sample of a channel; ``step`` is in units of the signal's size."""
+        channel = port.channel
+        size = step * (channel.amplitude or self.sizes[channel.loop])
+        ends = []
+        for sign in (1.0, -1.0):
+            added = np.zeros(self.bench.period)
+            added[sample * channel.period : (sample + 1) * channel.period] = sign * size
+            excitation = np.zeros((self.bench.period, len(self.bench.connectors)))
+            excitation[:, self.bench.columns(channel)] = channel.excitation(self.base, added)
+            self.memory.put_back(self.snapshot)
+            ends.append(self._after(excitation))
+        return (ends[0] - ends[1]) / (2.0 * size)
+
+    def screened(self, cell: int) -> np.ndarray:
+        """Derivative to a cell with one step, to see what it reaches; smaller where the flight would break."""
+        for step in SCREEN[:-1]:
+            try:
+                return self.cell_column(cell, step)
+            except StudyError:
+                continue
+        return self.cell_column(cell, SCREEN[-1])
+
+
+def plateau(column: Callable[[float], np.ndarray], steps: Sequence[float] = STEPS) -> tuple[np.ndarray, np.ndarray]:
+    """Each element of a column at the step where it changes least to the next smaller one, and its value there.
+
+    Steps that are too large bend, steps that are too small drown in rounding; in between is a plateau. A pair that
+    is 0 twice counts only where there is no plateau elsewhere: rounding can swallow a change altogether. Of a single
+    step it is the same value twice. Raises StudyError where no step leaves the flight whole.
+    """
+    values: list[np.ndarray] = []
+    for step in steps:
+        try:
+            values.append(column(step))
+        except StudyError:
+            if step == steps[-1] and not values:
+                raise
+            continue  # too large, such as a negative variance
+        if len(values) == LEVELS:
+            break
+    if len(values) == 1:
+        return values[0], values[0]
+    levels = np.array(values)
+    size = np.maximum(abs(levels[:-1]), abs(levels[1:]))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        change = np.where(size > 0.0, abs(np.diff(levels, axis=0)) / size, 0.0)
+    moving = size > 0.0
+    flat = np.any(moving & (change < GOOD), axis=0)
+    change = np.where(~moving & flat, np.inf, change)
+    every = np.arange(levels.shape[1])
+    chosen = np.argmin(change, axis=0)
+    return levels[chosen, every], levels[chosen + 1, every]

@@ -1,0 +1,205 @@
+"""The linear model of a periodic system over one hyperperiod, and the loops' frequency responses in it.
+
+A loop that passes its cut M times in a hyperperiod has M inputs and M outputs there. Driven with the samples of
+exp(jwt), a channel answers at w and, where the system is truly periodic, at frequencies apart by whole multiples of
+2 pi/hyperperiod. Its loop gain at w is minus the ratio of what comes back at w to what goes in at w, both with the
+loop closed, which is what an injection measures; where the system does not change from sample to sample it is
+the loop's transfer function.
+Source: Bittanti and Colaneri 2009, Periodic Systems, sections 2.2 (lifting) and 2.3 (exponentially modulated
+periodic responses).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.linalg
+
+from ..ask.channels import Channel
+
+RANK = 1e-6  # of the largest singular value: below, a direction counts as forgotten within a period
+SHARE = 1e-7
+LOWEST, LOOKS = 1e-4, 24  # frequencies, over the Nyquist frequency, at which shares are looked at
+QUIET = 1e-6  # response below which nothing has a share
+UNIT_CIRCLE = 1e-5  # poles this near to the unit circle count as on it
+_BLOCK = 8  # rows of a triangle that are solved one by one before the others are told at once
+_TOGETHER = 64  # frequencies: arrays stay in the cache and products below the size for which BLAS starts threads
+
+
+@dataclass(frozen=True)
+class Port:
+    """Rows and columns of one channel in the model, in order of its samples."""
+
+    channel: Channel
+    seconds: float  # s, between samples
+    first: int
+    count: int
+
+    @property
+    def rows(self) -> slice:
+        return slice(self.first, self.first + self.count)
+
+
+@dataclass
+class LiftedModel:
+    """Closed loop over one hyperperiod: x' = a x + b d, u = cu x + du d, v = cv x + dv d.
+
+    d is added at the cuts, u goes in behind them, v comes back; all are stacked over the channels' samples.
+    ``names`` are the memory cells behind x, in units that balance a. ``period`` in s.
+    """
+
+    a: np.ndarray
+    b: np.ndarray
+    cu: np.ndarray
+    du: np.ndarray
+    cv: np.ndarray
+    dv: np.ndarray
+    names: tuple[str, ...]
+    period: float
+    ports: tuple[Port, ...]
+
+    def reduced(self, ports: tuple[Port, ...]) -> LiftedModel:
+        """The part of the memory that the ports both move and are moved by, through whatever lies between.
+
+        Of that, cells whose share of what comes back is below SHARE at all frequencies are left out: they are moved by
+        rounding, or move by rounding, as the covariance of a filter does where its innovations vanish.
+        """
+        rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
+        moved = reached(self.a != 0.0, np.any(self.b[:, rows] != 0.0, axis=1))
+        heard = np.any(self.cu[rows] != 0.0, axis=0) | np.any(self.cv[rows] != 0.0, axis=0)
+        moves = reached(self.a.T != 0.0, heard)
+        connected = self._part(np.flatnonzero(moved & moves))
+        if not connected.a.size:
+            return connected
+        share = np.max([connected._shares(port) for port in ports], axis=0)
+        return connected._part(np.flatnonzero(share > SHARE))
+
+    def _part(self, kept: np.ndarray) -> LiftedModel:
+        """The model of some of the cells."""
+        return LiftedModel(
+            self.a[np.ix_(kept, kept)],
+            self.b[kept],
+            self.cu[:, kept],
+            self.du,
+            self.cv[:, kept],
+            self.dv,
+            tuple(self.names[place] for place in kept),
+            self.period,
+            self.ports,
+        )
+
+    def _shares(self, port: Port) -> np.ndarray:
+        """By cell: the largest relative change of what comes back, at any frequency, per relative change of it."""
+        shares = np.zeros(len(self.a))
+        identity = np.eye(len(self.a))
+        for w in np.geomspace(LOWEST, 1.0, LOOKS) * np.pi / port.seconds:
+            wave = np.exp(1j * w * port.seconds * np.arange(port.count))
+            shifted = np.exp(1j * w * self.period) * identity - self.a
+            moved = np.linalg.solve(shifted, self.b[:, port.rows] @ wave)
+            heard = wave.conj() @ self.cv[port.rows]
+            moves = np.linalg.solve(shifted.T, heard)
+            whole = abs(heard @ moved + wave.conj() @ (self.dv[port.rows, port.rows] @ wave))
+            shares = np.maximum(shares, abs(moved * moves) / max(whole, QUIET))
+        return shares
+
+    @cached_property
+    def lasting(self) -> LiftedModel:
+        """The same model without the directions that are forgotten within some periods (poles at z = 0).
+
+        Orthogonal steps: the range of a, then the range of a within it, until nothing is lost. What a period
+        forgets still passes from d to u and v within it and over the periods it takes, so this is for poles only.
+        """
+        if not self.a.size:
+            return self
+        a, b, cu, cv = self.a, self.b, self.cu, self.cv
+        while a.shape[0]:
+            left, sizes, _ = np.linalg.svd(a)
+            rank = int(np.sum(sizes > RANK * max(1.0, sizes[0])))
+            if rank == a.shape[0]:
+                break
+            basis = left[:, :rank]
+            a, b, cu, cv = basis.T @ a @ basis, basis.T @ b, cu @ basis, cv @ basis
+        return LiftedModel(a, b, cu, self.du, cv, self.dv, (), self.period, self.ports)
+
+    def poles(self) -> np.ndarray:
+        """Closed-loop multipliers over the hyperperiod, those at 0 left out, largest first."""
+        values = np.linalg.eigvals(self.lasting.a)
+        return values[np.argsort(-abs(values), kind="stable")]
+
+    def unstable(self) -> int:
+        """Closed-loop multipliers outside the unit circle."""
+        return int(np.sum(abs(self.poles()) > 1.0 + UNIT_CIRCLE))
+
+    def opened(self, ports: tuple[Port, ...]) -> np.ndarray:
+        """Multipliers with these ports' cuts open and the other loops closed, those at 0 left out."""
+        rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
+        inside = np.linalg.solve(self.du[np.ix_(rows, rows)], self.cu[rows])
+        a = self.a - self.b[:, rows] @ inside
+        model = LiftedModel(a, self.b, self.cu, self.du, self.cv, self.dv, (), self.period, self.ports)
+        return model.poles()
+
+    def closed_response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """What goes in (u) and comes back (v) at each frequency for a unit of d, both (n, m, m) for m ports."""
+        u = np.empty((frequency.size, len(ports), len(ports)), dtype=complex)
+        v = np.empty_like(u)
+        _, b, cu, cv = self._triangular
+        for first in range(0, frequency.size, _TOGETHER):
+            chosen = slice(first, first + _TOGETHER)
+            w = frequency[chosen]
+            # the samples of exp(jwt) at each port, (samples, frequencies)
+            waves = [np.exp(1j * np.outer(port.seconds * np.arange(port.count), w)) for port in ports]
+            for column, (source, drive) in enumerate(zip(ports, waves, strict=True)):
+                x = self._resolvent(np.exp(1j * self.period * w), b[:, source.rows] @ drive)
+                for row, (port, wave) in enumerate(zip(ports, waves, strict=True)):
+                    c = np.vstack([cu[port.rows], cv[port.rows]])
+                    d = np.vstack([self.du[port.rows, source.rows], self.dv[port.rows, source.rows]])
+                    samples = np.reshape(c @ x + d @ drive, (2, port.count, -1))
+                    u[chosen, row, column], v[chosen, row, column] = np.mean(samples * wave.conj(), axis=1)
+        return u, v
+
+    @cached_property
+    def _triangular(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Complex Schur form of a, and b, cu and cv in its basis."""
+        triangle, unitary = scipy.linalg.schur(self.a, output="complex")
+        return triangle, unitary.conj().T @ self.b, self.cu @ unitary, self.cv @ unitary
+
+    def _resolvent(self, z: np.ndarray, right: np.ndarray) -> np.ndarray:
+        """(z - triangle)^-1 right, of shape (states, n), a column for each z: substitution for all z at once."""
+        triangle = self._triangular[0]
+        shifted = z - triangle.diagonal()[:, None]
+        x = np.array(right, dtype=complex)
+        for end in range(len(x), 0, -_BLOCK):
+            start = max(0, end - _BLOCK)
+            for row in range(end - 1, start - 1, -1):
+                x[row] = (x[row] + triangle[row, row + 1 : end] @ x[row + 1 : end]) / shifted[row]
+            x[:start] += triangle[:start, start:end] @ x[start:end]
+        return x
+
+    def response(self, ports: tuple[Port, ...], frequency: np.ndarray) -> np.ndarray:
+        """L, minus the transfer from what goes in to what comes back, (n, m, m); other loops closed."""
+        u, v = self.closed_response(ports, np.asarray(frequency, dtype=float))
+        return -np.linalg.solve(np.swapaxes(u, 1, 2), np.swapaxes(v, 1, 2)).swapaxes(1, 2)
+
+    def periodicity(self, port: Port, frequency: np.ndarray) -> float:
+        """The largest share of what goes in that comes at other frequencies than the one added; 0: time-invariant."""
+        worst = 0.0
+        for w in frequency:
+            wave = np.exp(1j * w * port.seconds * np.arange(port.count))
+            x = np.linalg.solve(
+                np.exp(1j * w * self.period) * np.eye(len(self.a)) - self.a, self.b[:, port.rows] @ wave
+            )
+            samples = (self.cu[port.rows] @ x + self.du[port.rows, port.rows] @ wave) * wave.conj()
+            worst = max(worst, float(np.std(samples) / abs(np.mean(samples))))
+        return worst
+
+
+def reached(arrows: np.ndarray, start: np.ndarray) -> np.ndarray:
+    """Which cells are reached from the start over arrows [to, from]."""
+    reached = start.copy()
+    while True:
+        grown = reached | (arrows @ reached)
+        if np.array_equal(grown, reached):
+            return reached
+        reached = grown

@@ -1,0 +1,66 @@
+"""Closed-loop modes of a linear model, and what a cut can move and see of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.linalg
+
+from ..results.routes import Mode, Structure
+from .lifted import LiftedModel, Port
+
+APART = 1e-4  # of the largest: a mode that answers less does not belong to the loop, or it is rounding
+RANK = 1e-9  # of the largest singular value
+
+
+def modes(model: LiftedModel, port: Port) -> tuple[Mode, ...]:
+    """All modes of a reduced model that last, largest multiplier first."""
+    lasting = model.lasting
+    if not lasting.a.size:
+        return ()
+    values, left, right = scipy.linalg.eig(lasting.a, left=True, right=True)
+    into = np.linalg.norm(left.conj().T @ lasting.b[:, port.rows], axis=1)
+    out = np.linalg.norm(lasting.cu[port.rows] @ right, axis=0)
+    overlap = abs(np.sum(left.conj() * right, axis=0))
+    residue = into * out / np.maximum(overlap, np.finfo(float).tiny)
+    residue = residue / (np.max(residue) or 1.0)
+    into, out = into / (np.max(into) or 1.0), out / (np.max(out) or 1.0)
+    found = []
+    for place in np.argsort(-abs(values), kind="stable"):
+        z = complex(values[place])
+        s = np.log(z) / model.period
+        moved, seen = into[place] > APART, out[place] > APART
+        if residue[place] <= APART:  # the weaker side is the one that is missing
+            moved, seen = moved and into[place] >= out[place], seen and out[place] > into[place]
+        kind = {(True, True): "loop", (False, True): "not controllable", (True, False): "not observable"}
+        found.append(
+            Mode(
+                z=z,
+                s=complex(s),
+                damping=float(-s.real / abs(s)) if abs(s) > 0.0 else 1.0,
+                frequency=float(abs(s)),
+                kind=kind.get((bool(moved), bool(seen)), "neither"),
+                controllability=float(into[place]),
+                observability=float(out[place]),
+            )
+        )
+    return tuple(found)
+
+
+def structure(model: LiftedModel, port: Port, states: int) -> Structure:
+    """Ranks of [b, ab, a2b, ...] and of its dual over as many periods as there are states."""
+    lasting = model.lasting
+    controllable = _rank(lasting.a, lasting.b[:, port.rows])
+    observable = _rank(lasting.a.T, lasting.cu[port.rows].T)
+    return Structure(states, lasting.a.shape[0], controllable[0], observable[0], controllable[1], observable[1])
+
+
+def _rank(a: np.ndarray, b: np.ndarray) -> tuple[int, float]:
+    """The rank, and the smallest kept singular value relative to the largest."""
+    blocks = [b]
+    for _ in range(max(1, a.shape[0]) - 1):
+        blocks.append(a @ blocks[-1])
+    sizes = np.linalg.svd(np.hstack(blocks), compute_uv=False)
+    if not sizes.size or sizes[0] == 0.0:
+        return 0, 0.0
+    kept = sizes[sizes > RANK * sizes[0]]
+    return kept.size, float(kept[-1] / sizes[0])

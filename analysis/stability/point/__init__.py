@@ -1,0 +1,1 @@
+"""One operating point and its loops: both routes put together and judged."""

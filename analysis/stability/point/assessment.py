@@ -1,0 +1,98 @@
+"""Margins of one loop from its frequency response, and what the limits say of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...loops.curves import Response, dense, remembered
+from ...loops.margin_values import Margins, Quantity
+from ...loops.margins import classical, robust
+from ...loops.readings import Classical, Curve, Robust
+from ..ask.declaration import Limits
+from ..results.requirement import Requirement, Scope
+
+LOWEST = 1e-6  # of the Nyquist frequency: below, a linear model's integrators are not resolved
+BELOW = 0.02  # of the lowest gain crossover, from which on a loop is looked at
+COARSE = 600
+LOWER = 0.2  # step down where encirclements cannot be counted from there
+
+
+@dataclass(frozen=True)
+class Assessment:
+    """Margins with the curve that they were read from; ``notes`` say what could not be counted, and why."""
+
+    curve: Curve
+    classical: Classical
+    robust: Robust
+    notes: dict[str, str]
+
+
+def lowest_frequency(response: Response, sample_period: float) -> float:
+    """Where to begin (rad/s): well below the lowest gain crossover, as far as a model resolves it."""
+    nyquist = np.pi / sample_period
+    grid = np.geomspace(LOWEST * nyquist, nyquist, COARSE)
+    gain = abs(response(grid))
+    crossings = np.flatnonzero((gain[1:] < 1.0) != (gain[:-1] < 1.0))
+    if not crossings.size:
+        return 1e-3 * nyquist
+    return float(max(LOWEST * nyquist, BELOW * grid[crossings[0]]))
+
+
+def assess(
+    response: Response,
+    low: float,
+    high: float,
+    sample_period: float,
+    unstable_open: int | None,
+    undamped: Sequence[float] = (),
+    include: Sequence[float] = (),
+    slower: Callable[[float], int] = lambda _: 0,
+) -> Assessment:
+    """All margins between ``low`` and ``high`` (rad/s); ``undamped`` and ``include`` as in `classical`.
+
+    ``slower`` says how many unstable open-loop poles lie below a frequency: encirclements counted from there on take
+    them as integrators, so it is begun below them where that can be resolved.
+    """
+    response = remembered(response)
+    notes: dict[str, str] = {}
+    while True:
+        lowest = low <= LOWEST * high
+        try:
+            found = classical(response, low, high, sample_period, unstable_open, undamped=undamped, include=include)
+            if lowest or unstable_open is None or slower(low) == 0:
+                break
+        except ValueError as error:  # mostly slow poles that are not yet told from integrators
+            if unstable_open is None:
+                raise
+            if lowest:
+                notes["encirclements"] = str(error)
+                found = classical(response, low, high, sample_period, None, undamped=undamped, include=include)
+                break
+        low = max(LOWEST * high, LOWER * low)
+    if unstable_open is not None and (left := slower(low)) and "encirclements" not in notes:
+        notes["encirclements"] = (
+            f"{left} unstable open-loop poles are slower than {low:.2g} rad/s: taken as integrators"
+        )
+    curve = dense(response, low, high, include=include)
+    return Assessment(curve, found, robust(response, low, high, include=include), notes)
+
+
+def requirements(found: Margins, limits: Limits) -> tuple[Requirement, ...]:
+    """The project's limits against one loop."""
+    if found.stable is None:
+        note = "poles are not known without route A"
+        stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, None, 1.0, None, note)
+    else:
+        note = "" if found.stable else "the closed loop is unstable"
+        stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, found.largest, 1.0, found.stable, note)
+    wanted = {
+        Quantity.GAIN: limits.gain_margin_db,
+        Quantity.PHASE: limits.phase_margin_deg,
+        Quantity.MODULUS: limits.modulus_margin,
+    }
+    return stability, *(
+        Requirement.at_least(Scope.NOMINAL, quantity, found.size(quantity), limit) for quantity, limit in wanted.items()
+    )

@@ -1,0 +1,86 @@
+"""Elements that are not linear: their describing functions, the limit cycles predicted, and those that are flown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ...errors import InputError
+from ...flight.results import COMPLETE
+from ...flight.simulation import Simulation
+from ...loops.curves import Response
+from ...loops.describing_function import ELEMENTS, amplitude_range, complete_parameters, describing_function
+from ...loops.harmonic_balance import predict
+from ...loops.oscillation import find_oscillation
+from ...system.prepared import PreparedSystem
+from ..ask.channels import Channel
+from ..ask.declaration import Element
+from ..bench.bench import StudyError
+from ..results.nonlinear import LimitCycle, Nonlinearity
+
+POINTS = 400
+LARGEST_GAIN = 1e3
+FEWEST = 100  # communication points of a flight in which an oscillation could be seen
+
+
+def element_report(
+    element: Element,
+    channel: Channel,
+    unit: str | None,
+    response: Response,
+    low: float,
+    high: float,
+    prepare: Callable[[dict[str, str]], PreparedSystem],
+) -> Nonlinearity:
+    """Harmonic balance of an element at a cut with the linear rest of the loop, L = ``response``.
+
+    ``prepare`` gives the system with the element's own FMUs, in which its limit cycle is flown: amplitude and
+    period are read at what comes back to the cut. Raises InputError for parameters that the element cannot have.
+    """
+    try:
+        parameters = complete_parameters(element.kind, element.parameters)
+    except ValueError as error:
+        raise InputError(f"loop {channel.loop}", f"element {element.name}", str(error), "correct the SSD") from error
+    try:
+        balances = predict(response, _lowest(response, low, high), high, element.kind, parameters)
+    except ValueError as error:
+        raise StudyError(f"{channel.name}: element {element.name}: {error}") from error
+    amplitude = np.geomspace(*amplitude_range(element.kind, parameters), POINTS)
+    flown = _flown(prepare(element.use), channel) if element.use else None
+    stable = [balance for balance in balances if balance.stable]
+    cycles = []
+    for balance in balances:
+        mine = flown if stable and balance == stable[0] else None
+        cycles.append(
+            LimitCycle(
+                amplitude=balance.amplitude,
+                period=2.0 * np.pi / balance.frequency,
+                stable=balance.stable,
+                simulated_amplitude=mine[0] if mine else None,
+                simulated_period=mine[1] if mine else None,
+            )
+        )
+    note = ELEMENTS[element.kind].note
+    if flown is not None and not stable:
+        note += f". None is predicted, but the flight oscillates: {flown[0]:.4g} at a period of {flown[1]:.4g} s"
+    gain = describing_function(element.kind, amplitude, parameters)
+    return Nonlinearity(element.name, element.kind, parameters, unit, amplitude, gain, tuple(cycles), note)
+
+
+def _lowest(response: Response, low: float, high: float) -> float:
+    """Where to begin (rad/s): slower, L is so large that the element hardly moves, and integrators are only noise."""
+    frequency = np.geomspace(low, high, POINTS)
+    below = np.flatnonzero(abs(response(frequency)) < LARGEST_GAIN)
+    return float(frequency[below[0]]) if below.size else low
+
+
+def _flown(prepared: PreparedSystem, channel: Channel) -> tuple[float, float] | None:
+    """Amplitude and period (s) of what comes back to the cut in the last part of a whole flight, None if it rests."""
+    with Simulation(prepared, wanted=channel.recorded) as simulation:
+        flight = simulation.fly()
+        if flight.status not in COMPLETE or flight.time.size < FEWEST:
+            return None
+        values = channel.back(flight.signals, np.zeros((flight.time.size, len(channel.connectors))))
+        found = find_oscillation(flight.time, values)
+    return (found.amplitude, found.period) if found else None

@@ -1,0 +1,168 @@
+"""One operating point: its bench, its linear model, its loops, and how long the frozen view holds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...errors import InputError
+from ...loops.decibels import decibel_size, degree_size
+from ...loops.disk import joint_disk_margin
+from ...loops.margin_values import UNSTABLE, Quantity
+from ..ask.channels import Channel, channels_of
+from ..ask.declaration import Limits, Loop, Point
+from ..ask.subject import Subject
+from ..bench.bench import Bench, StudyError
+from ..bench.operating_point import OperatingPoint
+from ..linear.jacobian import STEPS
+from ..linear.linearise import Linearisation, linearise
+from ..results.loop import JointReport
+from ..results.report import PointReport
+from ..results.requirement import Requirement, Scope
+from .assessment import lowest_frequency
+from .loop_study import LoopStudy
+from .routes import LoopModel, loop_model
+
+MOST_TRIM = 8  # of the memory that changes most
+TENTH = 0.1  # relative change of L at which the frozen view no longer holds
+
+
+class PointStudy:
+    """The loops of one point. Use as a context manager."""
+
+    def __init__(self, subject: Subject, point: Point, loops: Sequence[Loop], varied: Sequence[str] = ()) -> None:
+        self.point, self.loops = point, tuple(loops)
+        self.prepared = subject.at(point)
+        channels = [
+            channel for loop in loops for channel in channels_of(loop, self.prepared.network, self.prepared.step)
+        ]
+        self.bench = Bench(self.prepared, point, channels, varied)
+        self.linear: Linearisation | None = None
+        self.why_not = ""
+        self._start: OperatingPoint | None = None
+        self._models: dict[str, LoopModel] = {}
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        return self.bench.channels
+
+    def linearise(self, cells: Sequence[int] | None = None, steps: Sequence[float] = STEPS) -> None:
+        """Route A, or why it cannot be taken; ``cells`` and ``steps`` as in `linearise`."""
+        try:
+            self._start = OperatingPoint(self.bench)
+            self.linear = linearise(self._start, cells, steps)
+        except (InputError, StudyError) as error:
+            self.why_not = str(error)
+
+    def model(self, channel: Channel) -> LoopModel | None:
+        """Route A of one channel; None where there is none."""
+        if self.linear is None:
+            return None
+        if channel.name not in self._models:
+            port = next(port for port in self.linear.model.ports if port.channel is channel)
+            self._models[channel.name] = loop_model(self.linear, port)
+        return self._models[channel.name]
+
+    def loop_study(self, channel: Channel, limits: Limits) -> LoopStudy:
+        notes = {} if self.linear is not None else {"route A": self.why_not}
+        return LoopStudy(self.bench, channel, self.model(channel), limits, notes)
+
+    def report(self) -> PointReport:
+        """The point, with what the memory does over one hyperperiod more."""
+        drift = holds = None
+        trim: tuple[tuple[str, float, float, str | None], ...] = ()
+        if self.linear is not None:
+            trim = tuple(self.linear.drift[:MOST_TRIM])
+            try:
+                drift = self._drift()
+                holds = TENTH / drift * self.bench.seconds if drift > 0.0 else float("inf")
+            except StudyError:
+                drift = holds = None
+        options = self.prepared.options
+        return PointReport(
+            name=self.point.name,
+            phase=self.point.phase,
+            time=self.bench.time,
+            settings={
+                **{slot: options.use[slot] for slot in self.point.use},
+                **dict.fromkeys(self.point.parameters, "parameter set"),
+                **{name: options.set[name] for name in self.point.set},
+            },
+            trim=trim,
+            drift=drift,
+            holds=holds,
+        )
+
+    def _drift(self) -> float:
+        """The largest relative change of a loop's L, near its crossovers, over one hyperperiod."""
+        assert self.linear is not None
+        assert self._start is not None
+        start = self._start.one_period_on()
+        try:
+            later = linearise(start, self.linear.cells)
+        finally:
+            start.release()
+        worst = 0.0
+        for before, after in zip(self.linear.model.ports, later.model.ports, strict=True):
+            frequency = np.geomspace(1e-3, 1.0, 60) * np.pi / before.seconds
+            first = self.linear.model.reduced((before,)).response((before,), frequency)[:, 0, 0]
+            second = later.model.reduced((after,)).response((after,), frequency)[:, 0, 0]
+            near = (abs(first) > 0.1) & (abs(first) < 10.0)
+            worst = max(worst, float(np.max(abs(second[near] / first[near] - 1.0), initial=0.0)))
+        return worst
+
+    def joint(self, loop: Loop, limits: Limits) -> JointReport | None:
+        """All channels of a loop at once, None where it has one, or no linear model.
+
+        Raises StudyError where the margin is not resolved over frequency.
+        """
+        if self.linear is None:
+            return None
+        ports = tuple(port for port in self.linear.model.ports if port.channel.loop == loop.name)
+        if len(ports) < 2:
+            return None
+        model = self.linear.model.reduced(ports)
+        seconds = ports[0].seconds
+
+        def single(frequency: np.ndarray) -> np.ndarray:
+            return model.response(ports, frequency)[:, 0, 0]
+
+        low = lowest_frequency(single, seconds)
+        try:
+            found = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
+        except ValueError as error:
+            raise StudyError(str(error)) from error
+        models = [self.model(port.channel) for port in ports]
+        stable = all(item is not None and item.stable for item in models)
+        wanted = {
+            Quantity.DISK_GAIN: (decibel_size(found.gain), limits.dispersed_gain_margin_db),
+            Quantity.DISK_PHASE: (degree_size(found.phase), limits.dispersed_phase_margin_deg),
+        }
+        return JointReport(
+            name=loop.name,
+            point=self.point.name,
+            channels=tuple(port.channel.name for port in ports),
+            stable=stable,
+            disk_margin=found.alpha,
+            disk_gain=found.gain,
+            disk_phase=found.phase,
+            disk_frequency=found.frequency,
+            frequency=found.frequencies,
+            disk_margins=found.alphas,
+            requirements=tuple(
+                Requirement.at_least(Scope.JOINT, quantity, size if stable else UNSTABLE, limit)
+                for quantity, (size, limit) in wanted.items()
+            ),
+        )
+
+    def close(self) -> None:
+        if self._start is not None:
+            self._start.release()
+        self.bench.close()
+
+    def __enter__(self) -> PointStudy:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

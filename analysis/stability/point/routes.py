@@ -1,0 +1,142 @@
+"""The two routes to a loop's frequency response, and whether they agree."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ...loops.curves import Response
+from ...loops.decibels import decibels, factor_of
+from ..linear.lifted import UNIT_CIRCLE, LiftedModel, Port
+from ..linear.linearise import Linearisation
+from ..linear.modes import modes
+from ..results.routes import Agreement, Mode, RouteA, RouteB
+from .assessment import lowest_frequency
+
+GAIN_AGREES = factor_of(0.1)
+PHASE_AGREES = np.radians(0.5)
+NOT_LINEAR = 0.01  # change of L at half the amplitude
+DOUBTFUL = 0.01  # change of L with the next smaller steps of the differences
+LEAST_LOOK = 0.03
+MOST_BLUR = 1e-3
+INTEGRATOR = 0.1  # of the lowest frequency that is looked at: 0.002 of the lowest gain crossover
+SLOW_ANGLE = np.pi / 8  # rad
+BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped oscillations
+
+
+@dataclass
+class LoopModel:
+    """Route A of one channel."""
+
+    model: LiftedModel
+    port: Port
+    modes: tuple[Mode, ...]
+    poles_open: np.ndarray
+    facts: RouteA
+
+    def response(self, frequency: np.ndarray) -> np.ndarray:
+        return self.model.response((self.port,), frequency)[:, 0, 0]
+
+    @cached_property
+    def lowest(self) -> float:
+        """Where margins are looked for from (rad/s)."""
+        return lowest_frequency(self.response, self.port.seconds)
+
+    @cached_property
+    def _unstable(self) -> np.ndarray:
+        """Rates (rad/s) of open-loop poles outside the unit circle; slower ones are integrators, split by rounding."""
+        outside = self.poles_open[abs(self.poles_open) > 1.0 + UNIT_CIRCLE].astype(complex)
+        rates = abs(np.log(outside)) / self.model.period
+        return rates[rates > INTEGRATOR * self.lowest]
+
+    @property
+    def unstable_open(self) -> int:
+        return len(self._unstable)
+
+    def slower(self, frequency: float) -> int:
+        """Unstable open-loop poles slower than a frequency (rad/s), which are not told from integrators there."""
+        return int(np.sum(self._unstable < frequency))
+
+    @property
+    def largest(self) -> float:
+        """The largest multiplier of a closed-loop mode that the cut moves and sees; 0 where none lasts."""
+        return max((abs(mode.z) for mode in self.modes if mode.kind == "loop"), default=0.0)
+
+    @property
+    def stable(self) -> bool:
+        return bool(self.largest < 1.0 + self.blur)
+
+    @property
+    def blur(self) -> float:
+        """How near to the unit circle a pole is no longer told from one on it."""
+        return max(UNIT_CIRCLE, min(10.0 * self.facts.plateau, MOST_BLUR))
+
+    def lightly_damped(self) -> tuple[list[float], list[float]]:
+        """Frequencies (rad/s) of undamped and of lightly damped open-loop poles.
+
+        Where the loop has several samples a hyperperiod, a multiplier tells the frequency of slow poles only.
+        """
+        angle = np.angle(self.poles_open)
+        most = np.pi if self.port.count == 1 else SLOW_ANGLE
+        oscillating = self.poles_open[(angle > BESIDE_ONE) & (angle < most)]
+        on_circle = abs(abs(oscillating) - 1.0) <= self.blur
+        frequencies = np.angle(oscillating) / self.model.period
+        near = (abs(oscillating) > 0.9) & ~on_circle
+        return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
+
+
+def loop_model(found: Linearisation, port: Port) -> LoopModel:
+    """The part of a linear model that belongs to one channel, and how far it can be trusted."""
+    model = found.model.reduced((port,))
+    neighbour = found.neighbour.reduced((port,))
+    nyquist = np.pi / port.seconds
+    look = np.geomspace(1e-3, 1.0, 40) * nyquist
+    a, b = model.response((port,), look)[:, 0, 0], neighbour.response((port,), look)[:, 0, 0]
+    visible = (abs(a) > LEAST_LOOK) & (abs(a) < 1.0 / LEAST_LOOK)  # margins are decided where L is about 1
+    change = float(np.max(abs(b[visible] / a[visible] - 1.0), initial=0.0))
+    facts = RouteA(
+        states=found.states,
+        period=model.period,
+        plateau=change,
+        doubtful=_doubtful(model, neighbour) if change > DOUBTFUL else (),
+        periodicity=model.periodicity(port, look[::8]),
+    )
+    return LoopModel(model, port, modes(model, port), model.opened((port,)), facts)
+
+
+def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
+    """The memory whose derivatives change most with the step."""
+    if model.a.shape != neighbour.a.shape:
+        return ("what reaches what depends on the step",)
+    change = np.max(abs(model.a - neighbour.a), axis=0)
+    worst = np.argsort(-change)[:5]
+    return tuple(model.names[place] for place in worst if change[place] > 0.0)
+
+
+def agreement(response: Response, measured: RouteB, sample_period: float) -> Agreement:
+    """Route A against route B on its lines below half the Nyquist frequency."""
+    highest = 0.5 * np.pi / sample_period
+    kept = measured.curve.frequency <= highest
+    frequency = measured.curve.frequency[kept]
+    ratio = measured.curve.value[kept] / response(frequency)
+    gain = float(np.exp(np.max(abs(np.log(abs(ratio))))))
+    phase = float(np.max(abs(np.angle(ratio))))
+    return Agreement(gain, phase, float(frequency[-1]), bool(gain <= GAIN_AGREES and phase <= PHASE_AGREES))
+
+
+def disagreement(found: Agreement, a: RouteA, b: RouteB) -> str:
+    """Why the routes differ, as far as each knows of itself."""
+    reasons = []
+    if a.plateau > DOUBTFUL:
+        names = ", ".join(a.doubtful)
+        reasons.append(f"the derivatives of route A have no plateau ({a.plateau:.2g}; {names})")
+    if b.half_amplitude_change > NOT_LINEAR:
+        reasons.append(f"L changes by {b.half_amplitude_change:.2g} when the amplitude is halved")
+    if b.unexcited > NOT_LINEAR:
+        reasons.append(f"unexcited lines answer with {b.unexcited:.2g} of the excited ones")
+    if a.periodicity > NOT_LINEAR:
+        reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} comes back at other frequencies)")
+    size = f"{decibels(found.gain):.2g} dB and {np.degrees(found.phase):.2g} deg apart"
+    return f"{size}: " + ("; ".join(reasons) or "neither route sees a reason; the operating point does not last")

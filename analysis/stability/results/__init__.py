@@ -1,0 +1,1 @@
+"""What a study finds: plain values, requirements, the document for other programs."""

@@ -1,0 +1,232 @@
+"""A study as a document for other programs: dB, deg and s, complex numbers as [real, imaginary]."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from ...loops.decibels import decibels, degree_size
+from ...loops.margin_values import UNLIMITED, UNSTABLE, Margins, Quantity
+from .loop import JointReport, LoopReport
+from .nonlinear import Nonlinearity
+from .report import PointReport, StabilityReport
+from .requirement import Requirement
+from .varied import Dispersion, SweepReport
+
+KEYS = {
+    "gain_margin_db": Quantity.GAIN,
+    "phase_margin_deg": Quantity.PHASE,
+    "modulus_margin": Quantity.MODULUS,
+    "disk_margin": Quantity.DISK,
+}
+
+
+def document(report: StabilityReport) -> dict[str, Any]:
+    """The whole report without route A's curves, ready for strict JSON.
+
+    No number is infinite: a margin is a number, "unstable", "unlimited", or null where it is not known.
+    """
+    return {
+        "system": report.system,
+        "verdict": report.verdict,
+        "limits": report.limits,
+        "points": [_point(point) for point in report.points],
+        "loops": [_loop(loop) for loop in report.loops],
+        "joint": [_joint(joint) for joint in report.joint],
+        "sweeps": [_sweep(sweep) for sweep in report.sweeps],
+        "unstudied": [asdict(item) for item in report.unstudied],
+        "provenance": report.provenance,
+    }
+
+
+def _number(value: float | None) -> float | None:
+    return None if value is None or not math.isfinite(value) else float(value)
+
+
+def _size(value: float | None) -> float | str | None:
+    """The size of a margin: a number, or what it is instead of one."""
+    if value is None:
+        return None
+    return {UNSTABLE: "unstable", UNLIMITED: "unlimited"}.get(value, float(value))
+
+
+def _margins(found: Margins | None) -> dict[str, Any]:
+    """The four margins; null where there are none to be had."""
+    return {name: _size(None if found is None else found.size(quantity)) for name, quantity in KEYS.items()}
+
+
+def _complex(values: np.ndarray) -> list[list[float]]:
+    return [[float(value.real), float(value.imag)] for value in values]
+
+
+def _loop(loop: LoopReport) -> dict[str, Any]:
+    margins = loop.margins
+
+    def held(value: float) -> float | str | None:
+        return _size(UNSTABLE if margins.unstable else value)
+
+    found: dict[str, Any] = {
+        "name": loop.name,
+        "loop": loop.loop,
+        "point": loop.point,
+        "cut": loop.cut,
+        "returned": loop.returned,
+        "unit": loop.unit,
+        "sample_period_s": loop.sample_period,
+        "closed": list(loop.closed),
+        "verdict": loop.verdict,
+        "stable": loop.stable,
+        **_margins(margins),
+        "delay_margin_s": held(loop.classical.delay_margin),
+        "disk_gain_db": held(decibels(loop.robust.disk_gain)),
+        "disk_phase_deg": held(degree_size(loop.robust.disk_phase)),
+        "sensitivity_peak": loop.robust.sensitivity_peak,
+        "complementary_peak": loop.robust.complementary_peak,
+        "gain_crossings": [
+            {"gain_db": decibels(item.value), "frequency_rad_s": item.frequency} for item in loop.classical.gain
+        ],
+        "phase_crossings": [
+            {"phase_deg": math.degrees(item.value), "frequency_rad_s": item.frequency} for item in loop.classical.phase
+        ],
+        "encirclements": loop.classical.encirclements,
+        "unstable_open": loop.unstable_open,
+        "poles_z": _complex(loop.poles_z),
+        "modes": [
+            {
+                "z": [mode.z.real, mode.z.imag],
+                "damping": _number(mode.damping),
+                "frequency_rad_s": _number(mode.frequency),
+                "kind": mode.kind,
+            }
+            for mode in loop.modes
+        ],
+        "requirements": [_requirement(item) for item in loop.requirements],
+        "not_applicable": loop.not_applicable,
+        "nonlinearities": [_element(item) for item in loop.nonlinearities],
+        "sampling": [{"step_s": item.step, **_margins(item.margins), "note": item.note} for item in loop.sampling],
+        "amplitudes": [
+            {"amplitude": item.amplitude, "L": [item.value.real, item.value.imag], "change": item.change}
+            for item in loop.amplitudes
+        ],
+    }
+    if loop.route_a is not None:
+        facts = loop.route_a
+        found["route_a"] = {
+            "states": facts.states,
+            "period_s": facts.period,
+            "plateau": facts.plateau,
+            "doubtful": list(facts.doubtful),
+            "periodicity": facts.periodicity,
+        }
+    if loop.route_b is not None:
+        facts_b = loop.route_b
+        found["route_b"] = {
+            "amplitude": facts_b.amplitude,
+            "lines": facts_b.lines,
+            "period_s": facts_b.period,
+            "half_amplitude_change": facts_b.half_amplitude_change,
+            "unexcited": facts_b.unexcited,
+            "frequency_rad_s": [float(value) for value in facts_b.curve.frequency],
+            "L": _complex(facts_b.curve.value),
+        }
+    if loop.agreement is not None:
+        found["agreement"] = {
+            "gain_db": decibels(loop.agreement.gain),
+            "phase_deg": math.degrees(loop.agreement.phase),
+            "agrees": loop.agreement.agrees,
+        }
+    if loop.dispersion is not None:
+        found["dispersion"] = _dispersion(loop.dispersion)
+    return found
+
+
+def _requirement(item: Requirement) -> dict[str, Any]:
+    return {
+        "scope": item.scope,
+        "quantity": item.quantity,
+        "value": _size(item.value),
+        "limit": item.limit,
+        "unit": item.unit,
+        "passed": item.passed,
+        "note": item.note,
+    }
+
+
+def _element(item: Nonlinearity) -> dict[str, Any]:
+    return {
+        "name": item.name,
+        "kind": item.kind,
+        "parameters": item.parameters,
+        "limit_cycles": [
+            {
+                "amplitude": cycle.amplitude,
+                "period_s": cycle.period,
+                "stable": cycle.stable,
+                "simulated_amplitude": cycle.simulated_amplitude,
+                "simulated_period_s": cycle.simulated_period,
+            }
+            for cycle in item.cycles
+        ],
+        "note": item.note,
+    }
+
+
+def _dispersion(item: Dispersion) -> dict[str, Any]:
+    levels = {
+        name: {level: _size(value) for level, value in item.levels(quantity).items()} for name, quantity in KEYS.items()
+    }
+    return {
+        "campaign": item.campaign,
+        "trials": item.trials,
+        "unstable_trials": item.unstable,
+        **levels,
+        "worst_trial": item.worst,
+        "replay": item.replay,
+        "requirements": [_requirement(entry) for entry in item.requirements],
+    }
+
+
+def _joint(joint: JointReport) -> dict[str, Any]:
+    def held(value: float) -> float | str | None:
+        return _size(value if joint.stable else UNSTABLE)
+
+    return {
+        "name": joint.name,
+        "point": joint.point,
+        "channels": list(joint.channels),
+        "stable": joint.stable,
+        "verdict": joint.verdict,
+        "disk_margin": held(joint.disk_margin),
+        "disk_gain_db": held(decibels(joint.disk_gain)),
+        "disk_phase_deg": held(degree_size(joint.disk_phase)),
+        "frequency_rad_s": joint.disk_frequency,
+        "requirements": [_requirement(item) for item in joint.requirements],
+    }
+
+
+def _sweep(sweep: SweepReport) -> dict[str, Any]:
+    return {
+        "name": sweep.name,
+        "loop": sweep.loop,
+        "parameter": sweep.parameter,
+        "values": [float(value) for value in sweep.values],
+        **{name: [_size(item.size(quantity)) for item in sweep.margins] for name, quantity in KEYS.items()},
+        "crossings": [
+            {"quantity": item.quantity, "value": item.value, "fails": "below" if item.below else "above"}
+            for item in sweep.crossings
+        ],
+    }
+
+
+def _point(point: PointReport) -> dict[str, Any]:
+    return {
+        "name": point.name,
+        "phase": point.phase,
+        "time_s": point.time,
+        "settings": {name: str(value) for name, value in point.settings.items()},
+        "drift": _number(point.drift),
+        "holds_s": _number(point.holds),
+    }

@@ -1,0 +1,77 @@
+"""A whole study: its points, loops, sweeps, and what could not be had."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from .loop import JointReport, LoopReport
+from .requirement import Requirement, Verdict, combined
+from .varied import SweepReport
+
+
+@dataclass(frozen=True)
+class PointReport:
+    """An operating point: where the system was linearised and how long the frozen view holds.
+
+    ``time`` is that of the communication point (s); ``trim`` lists, for the memory that changes most over one
+    period, name, value, change over the period and unit; ``drift`` is the largest relative change of a margin's
+    frequency response over one further period, and ``holds`` how long (s) until it would be 10 % (inf: does not
+    change).
+    """
+
+    name: str
+    phase: str
+    time: float
+    settings: dict[str, Any]
+    trim: tuple[tuple[str, float, float, str | None], ...]
+    drift: float | None
+    holds: float | None
+
+
+@dataclass(frozen=True)
+class Unstudied:
+    """Something that was asked for and could not be had: a loop at a point, its channels at once, a sweep."""
+
+    name: str
+    point: str
+    what: str
+    reason: str
+
+
+class Judged(NamedTuple):
+    """A requirement and what is judged by it."""
+
+    subject: LoopReport | JointReport
+    requirement: Requirement
+
+
+@dataclass
+class StabilityReport:
+    """Everything about one system. ``unstudied`` is what could not be had, each with its reason."""
+
+    system: str
+    provenance: dict[str, Any]
+    limits: dict[str, float]
+    points: tuple[PointReport, ...]
+    loops: tuple[LoopReport, ...]
+    joint: tuple[JointReport, ...]
+    sweeps: tuple[SweepReport, ...]
+    unstudied: tuple[Unstudied, ...]
+    seconds: float
+
+    def judged(self) -> Iterator[Judged]:
+        """Everything that is judged, with where it belongs."""
+        for loop in self.loops:
+            for requirement in loop.judged:
+                yield Judged(loop, requirement)
+        for joint in self.joint:
+            for requirement in joint.requirements:
+                yield Judged(joint, requirement)
+
+    @property
+    def verdict(self) -> Verdict:
+        """What could not be studied is not passed."""
+        found = combined([item.requirement for item in self.judged()])
+        return Verdict.NOT_APPLICABLE if found is Verdict.PASS and self.unstudied else found

@@ -1,0 +1,69 @@
+"""A limit, what was found, and whether it holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+
+from ...loops.margin_values import UNSTABLE, Quantity
+
+
+class Scope(StrEnum):
+    """Of what a requirement speaks: one loop, its trials, all channels of a loop at once."""
+
+    NOMINAL = "nominal"
+    DISPERSED = "dispersed"
+    JOINT = "joint"
+
+
+class Verdict(StrEnum):
+    PASS = "pass"
+    FAIL = "fail"
+    NOT_APPLICABLE = "not applicable"
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """``value`` and ``limit`` are in the quantity's unit, as they are shown; ``note`` says more.
+
+    The value may be `UNSTABLE` or `UNLIMITED`; None: not known, and then ``passed`` is None, not applicable.
+    """
+
+    scope: Scope
+    quantity: Quantity
+    value: float | None
+    limit: float
+    passed: bool | None
+    note: str = ""
+
+    @classmethod
+    def at_least(cls, scope: Scope, quantity: Quantity, value: float, limit: float, note: str = "") -> Requirement:
+        """That a margin is no smaller than its limit; one of an unstable loop is smaller than any."""
+        return cls(scope, quantity, value, limit, value >= limit, note)
+
+    @property
+    def verdict(self) -> Verdict:
+        return {True: Verdict.PASS, False: Verdict.FAIL, None: Verdict.NOT_APPLICABLE}[self.passed]
+
+    @property
+    def unit(self) -> str:
+        return self.quantity.unit
+
+    @property
+    def unstable(self) -> bool:
+        """Whether it fails because there is no margin, the loop being unstable."""
+        return self.value == UNSTABLE
+
+    @property
+    def title(self) -> str:
+        """As ``dispersed gain margin``."""
+        if self.quantity is Quantity.STABILITY:
+            return "largest multiplier" if self.scope is Scope.NOMINAL else "share of stable trials"
+        return self.quantity if self.scope is Scope.NOMINAL else f"{self.scope} {self.quantity}"
+
+
+def combined(requirements: Iterable[Requirement]) -> Verdict:
+    """Fail if one fails, pass if one passes; what is not applicable decides nothing."""
+    verdicts = [requirement.verdict for requirement in requirements]
+    return next((word for word in (Verdict.FAIL, Verdict.PASS) if word in verdicts), Verdict.NOT_APPLICABLE)

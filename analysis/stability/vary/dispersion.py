@@ -1,0 +1,88 @@
+"""Margins over the trials of a campaign."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from ...campaign.plan import BatchPlan
+from ...loops.margin_values import Margins, Quantity, worst_of
+from ..ask.declaration import Limits, Loop, Point
+from ..ask.subject import Subject
+from ..bench.operating_point import OperatingPoint
+from ..linear.linearise import linearise
+from ..point.point_study import PointStudy
+from ..results.requirement import Requirement, Scope
+from ..results.varied import Dispersion
+from .followed import ONE_STEP, margins_of, model_of, poles_of
+
+
+def dispersed(
+    subject: Subject,
+    plan: BatchPlan,
+    point: Point,
+    loops: Sequence[Loop],
+    limits: Limits,
+    cells: Sequence[int],
+    replay: Callable[[str, int], str],
+) -> dict[str, Dispersion]:
+    """Margins of every channel over the trials of a campaign, each linearised on its own flight.
+
+    The campaign's draws, seeds and streams are flown at the point.
+    ``cells`` is the memory that matters at the point; ``replay`` gives the command that studies one trial of one loop
+    again. Raises InputError, StudyError.
+    """
+    flown = subject.changed(parameters=plan.campaign.parameters)
+    flown = replace(flown, options=replace(flown.options, set={**plan.campaign.settings, **flown.options.set}))
+    rows: dict[str, list[Margins]] = {}
+    poles: dict[str, list[np.ndarray]] = {}
+    with PointStudy(flown, point, loops, _varied(plan)) as study:
+        for trial in range(plan.campaign.trials):
+            study.bench.set(plan.parameters(study.prepared, trial))
+            start = OperatingPoint(study.bench)
+            try:
+                linear = linearise(start, cells, ONE_STEP)
+            finally:
+                start.release()
+            for channel in study.channels:
+                model = model_of(linear, channel.name)
+                rows.setdefault(channel.name, []).append(margins_of(model))
+                poles.setdefault(channel.name, []).append(poles_of(model))
+        loop_of = {channel.name: channel.loop for channel in study.channels}
+    return {
+        name: _dispersion(plan, items, np.concatenate(poles[name]), limits, partial(replay, loop_of[name]))
+        for name, items in rows.items()
+    }
+
+
+def _varied(plan: BatchPlan) -> list[str]:
+    prepared = plan.prepare(plan.campaign.variants()[0])
+    return sorted(plan.parameters(prepared, 0))
+
+
+def _dispersion(
+    plan: BatchPlan, items: Sequence[Margins], poles: np.ndarray, limits: Limits, replay: Callable[[int], str]
+) -> Dispersion:
+    worst = worst_of(items)
+    unstable = sum(item.unstable for item in items)
+    note = f"{unstable} of {len(items)} trials unstable; the worst again: {replay(worst)}" if unstable else ""
+    share = Requirement(Scope.DISPERSED, Quantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note)
+    wanted = {
+        Quantity.GAIN: limits.dispersed_gain_margin_db,
+        Quantity.PHASE: limits.dispersed_phase_margin_deg,
+    }
+    least = [
+        Requirement.at_least(Scope.DISPERSED, quantity, min(item.size(quantity) for item in items), limit)
+        for quantity, limit in wanted.items()
+    ]
+    return Dispersion(
+        campaign=plan.campaign.file,
+        margins=tuple(items),
+        poles=poles,
+        worst=worst,
+        replay=replay(worst),
+        requirements=(share, *least),
+    )

@@ -1,0 +1,1 @@
+"""What a system is: its files read, checked and made ready to fly."""

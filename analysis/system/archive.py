@@ -1,0 +1,158 @@
+"""A system's files: an .ssp archive or a folder, read-only."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import lzma
+import posixpath
+import struct
+import zipfile
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
+from ...fmus_src.places import ROOT, SYSTEMS, built_fmu
+from ..errors import InputError, suggestion
+
+DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
+
+# what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
+UNREADABLE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    lzma.LZMAError,
+    struct.error,
+    EOFError,
+    OSError,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    OverflowError,
+)
+
+
+@dataclass(frozen=True)
+class SystemArchive:
+    """Files of a system by archive name; ``label`` names it in messages."""
+
+    name: str
+    label: str
+    path: Path
+    files: Mapping[str, Path | bytes]
+
+    def read(self, name: str, element: str) -> bytes:
+        """Content of a file the description refers to, at ``element``."""
+        return self._content(posixpath.normpath(name), element)
+
+    def _content(self, name: str, element: str) -> bytes:
+        if name not in self.files:
+            raise InputError(self.label, element, f"no file {name}", "add the file or correct the reference")
+        content = self.files[name]
+        return content if isinstance(content, bytes) else content.read_bytes()
+
+    def fmu(self, source: str, element: str, flavour: str) -> tuple[bytes, str]:
+        """An FMU's content and its name in messages.
+
+        A folder without FMUs of its own takes those that were built from this repository.
+        """
+        name = posixpath.normpath(source)
+        if name in self.files or self.path.is_file():
+            return self._content(name, element), f"{self.label}!{name}"
+        path = built_fmu(Path(source).stem, flavour)
+        if not path.is_file():
+            raise InputError(
+                self.label, element, f"no file {name}, and {path} is not built", "run build_fmus.py or add the FMU"
+            )
+        return path.read_bytes(), str(path)
+
+    def variants(self) -> list[str]:
+        """Names of the archive's SSDs, the default one included."""
+        return sorted(name.removesuffix(".ssd") for name in self.files if name.endswith(".ssd") and "/" not in name)
+
+    def description_name(self, variant: str | None) -> str:
+        """Archive name of the SSD: the default one or a variant's."""
+        name = DESCRIPTION if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
+        if name not in self.files:
+            variants = self.variants()
+            if variant is None:
+                raise InputError(
+                    self.label, DESCRIPTION, "not found", f"add it (SSDs here: {', '.join(variants) or 'none'})"
+                )
+            raise InputError(self.label, "--variant", f"no variant {variant}", suggestion(variant, variants))
+        return name
+
+    def parameter_set(self, name: str) -> tuple[bytes, str]:
+        """A parameter set by name: the system's own, else a path."""
+        return self._named(name, (f"resources/{name}", name, f"resources/{name}.ssv"), "--parameters", ".ssv")
+
+    def campaign(self, name: str) -> tuple[bytes, str]:
+        """A campaign by name: the system's own, else a path."""
+        places = (f"{CAMPAIGN_FOLDER}/{name}", f"{CAMPAIGN_FOLDER}/{name}.toml")
+        return self._named(name, places, "--campaign", ".toml")
+
+    def _named(self, name: str, places: tuple[str, ...], option: str, suffix: str) -> tuple[bytes, str]:
+        for place in places:
+            if place in self.files:
+                return self._content(place, option), f"{self.label}!{place}"
+        if Path(name).is_file():
+            return Path(name).read_bytes(), name
+        known = sorted(Path(entry).name for entry in self.files if entry.endswith(suffix))
+        raise InputError(
+            self.label, option, f"no {name} in the system, nor a file of this name", suggestion(name, known)
+        )
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 over names and contents."""
+        total = hashlib.sha256()
+        for name in sorted(self.files):
+            total.update(name.encode() + b"\0" + hashlib.sha256(self._content(name, name)).digest())
+        return total.hexdigest()
+
+
+def open_zip(data: bytes, label: str) -> zipfile.ZipFile:
+    """A zip archive whose every file reads back; raises InputError for anything else."""
+    try:
+        archive = zipfile.ZipFile(io.BytesIO(data))
+        broken = archive.testzip()
+    except UNREADABLE as error:
+        raise InputError(label, "archive", f"not a readable zip: {error}", "build or copy the file again") from error
+    if broken is not None:
+        raise InputError(label, broken, "damaged in the zip (checksum)", "build or copy the file again")
+    for name in archive.namelist():
+        parts = name.split("/")
+        if name.startswith("/") or ".." in parts or "\\" in name or ":" in parts[0]:
+            raise InputError(label, name, "a file name that leaves the archive's folder", "repack without it")
+    return archive
+
+
+def open_system(system: str | Path) -> SystemArchive:
+    """A system by name under ssp_systems, by folder or by .ssp file."""
+    text = str(system)
+    if (SYSTEMS / text).is_dir() and "/" not in text and text not in ("", ".", ".."):
+        return _folder(SYSTEMS / text)
+    path = Path(text)
+    if path.is_dir():
+        return _folder(path)
+    if path.is_file():
+        archive = open_zip(path.read_bytes(), text)
+        files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
+        return SystemArchive(path.stem, text, path, files)
+    raise InputError(text, "system", "neither a system, a folder nor a file", suggestion(text, system_names()))
+
+
+def system_names() -> list[str]:
+    """Names of the systems under ssp_systems."""
+    return sorted(entry.parent.name for entry in SYSTEMS.glob(f"*/{DESCRIPTION}"))
+
+
+def _folder(path: Path) -> SystemArchive:
+    path = path.resolve()
+    label = path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else str(path)
+    if not any(path.glob("*.ssd")):  # before the folder is searched, which may be a large one
+        raise InputError(label, DESCRIPTION, "not found", "give a folder with an SSD in it, or add one")
+    return SystemArchive(path.name, label, path, system_files(path))

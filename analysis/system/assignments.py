@@ -1,0 +1,283 @@
+"""Which value reaches which parameter or input: bindings, parameter sets, single settings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from ..errors import InputError, suggestion
+from .archive import SystemArchive
+from .description import Binding, Component, System
+from .documents import read_document
+from .network import Link, Network, Node
+from .parameter_sets import (
+    Assignment,
+    ParameterValue,
+    apply_mapping,
+    parse_value,
+    read_parameter_file,
+    read_parameter_set,
+)
+from .transformations import VALUE_TYPES, Transformation
+
+SETTABLE = ("parameter", "input")
+
+
+@dataclass
+class Settings:
+    """Values by (component, variable), and of system connectors by node name."""
+
+    variables: dict[tuple[str, str], ParameterValue] = field(default_factory=dict)
+    nodes: dict[str, float] = field(default_factory=dict)
+    unmatched: list[str] = field(default_factory=list)
+
+
+def collect_settings(
+    network: Network, archive: SystemArchive, assignments: Sequence[Assignment], allow_unmatched: bool
+) -> Settings:
+    """All values of a system: its bindings from the inside out, then ``assignments``; later ones win.
+
+    Raises InputError for a name that matches nothing (unless allowed), a value that does not
+    fit its variable, and a declared input that has neither connection nor value.
+    """
+    settings = Settings()
+    # Deeper systems first: the binding of an outer one wins.
+    for path, system in sorted(network.systems.items(), key=lambda item: -item[0].count(".")):
+        for element in system.elements.values():
+            if isinstance(element, Component):
+                for assignment in _bound(network, archive, element.bindings):
+                    _apply(network, settings, path, f"{element.name}.", assignment, allow_unmatched)
+        for assignment in _bound(network, archive, system.bindings):
+            _apply(network, settings, path, "", assignment, allow_unmatched)
+    for assignment in assignments:
+        _apply(network, settings, "", "", assignment, allow_unmatched)
+    _pass_parameters(network, settings)
+    _check_inputs(network, settings)
+    return settings
+
+
+def text_assignment(text: str) -> Assignment:
+    """``component.variable=value`` from the command line."""
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip():
+        raise InputError("--set", text, "not of the form component.variable=value", "write it so")
+    return Assignment(name.strip(), value.strip(), "Text", None, "--set", 0)
+
+
+def _bound(network: Network, archive: SystemArchive, bindings: list[Binding]) -> list[Assignment]:
+    """Assignments of parameter bindings in order; the prefix is put before names, then mapped."""
+    found: list[Assignment] = []
+    for binding in bindings:
+        element = f"ParameterBinding (line {binding.line})"
+        if binding.source is not None:
+            file = f"{archive.label}!{binding.source}"
+            values = read_parameter_file(archive.read(binding.source, element), file)
+        else:
+            assert binding.inline is not None  # the reader refuses a binding with neither
+            values = read_parameter_set(binding.inline, network.file)
+        values = [
+            Assignment(binding.prefix + value.name, value.value, value.type_name, value.unit, value.file, value.line)
+            for value in values
+        ]
+        if binding.mapping_source is not None:
+            file = f"{archive.label}!{binding.mapping_source}"
+            values = apply_mapping(
+                values, read_document(archive.read(binding.mapping_source, element), "ssm", file), file
+            )
+        elif binding.mapping_inline is not None:
+            values = apply_mapping(values, binding.mapping_inline, network.file)
+        found += values
+    return found
+
+
+def _resolve(network: Network, path: str, name: str) -> Node | tuple[str, str] | None:
+    """What a name means inside a system: a system connector, or (component, variable)."""
+    system: System = network.systems[path]
+    if name in system.connectors:
+        return network.nodes[path + name]
+    for element in system.elements.values():
+        if name.startswith(f"{element.name}."):
+            rest = name[len(element.name) + 1 :]
+            if isinstance(element, Component):
+                return path + element.name, rest
+            if isinstance(element, System):
+                return _resolve(network, f"{path}{element.name}.", rest)
+    return None
+
+
+def _apply(
+    network: Network, settings: Settings, path: str, prefix: str, assignment: Assignment, allow_unmatched: bool
+) -> None:
+    target = _resolve(network, path, prefix + assignment.name)
+    known: list[str] = []
+    if isinstance(target, Node):
+        if target.kind in SETTABLE:
+            number = _fit(assignment, target.type_name or "Real", target)
+            if isinstance(number, str):
+                raise InputError(assignment.file, assignment.where, "String signals are not supported yet", "remove it")
+            _check_bounds(assignment, None, number)
+            settings.nodes[target.name] = float(number)
+            return
+    elif target is not None:
+        component, name = target
+        fmu = network.fmus[component]
+        variable = fmu.variables.get(name)
+        known = [f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in SETTABLE]
+        if variable is not None and (variable.causality in SETTABLE or variable.initial in ("exact", "approx")):
+            items = {}
+            if variable.type == "Enumeration" and variable.declaredType is not None:
+                items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
+            unit = fmu.units.get(fmu.unit_of(variable) or "")
+            node = Node(f"{component}.{name}", variable.causality, component, name, variable.type, unit, 0, items)
+            value = _fit(assignment, variable.type, node)
+            _check_bounds(assignment, variable, value)
+            settings.variables[component, name] = value
+            return
+    if not allow_unmatched:
+        candidates = known or [f"{component}." for component in network.fmus]
+        raise InputError(
+            assignment.file,
+            assignment.where,
+            "matches no parameter",
+            f"{suggestion(path + prefix + assignment.name, candidates)}; --allow-unmatched lets it pass",
+        )
+    settings.unmatched.append(f"{assignment.file}: {assignment.where}")
+
+
+def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
+    """The assignment's value as its target needs it: type, unit, transformation."""
+    value, given = assignment.value, assignment.type_name
+    if given == "Text":
+        given = type_name
+        value = parse_value(str(value), type_name, assignment.file, assignment.where)
+    if given == "Integer" and type_name == "Real" and not isinstance(value, bool):
+        given, value = "Real", float(value)
+    if given == "String" and type_name == "Enumeration":
+        given = "Enumeration"
+    if given != type_name:
+        raise InputError(
+            assignment.file, assignment.where, f"is {given}, the variable is {type_name}", f"give a {type_name}"
+        )
+    transformation = assignment.transformation or Transformation()
+    if type_name == "Real":
+        if assignment.unit and node.unit and not assignment.suppress_unit_conversion:
+            if not assignment.unit.fits(node.unit):
+                raise InputError(
+                    assignment.file,
+                    assignment.where,
+                    f"unit {assignment.unit.name} does not fit {node.unit.name}",
+                    f"give the value in a unit that converts to {node.unit.name}",
+                )
+            transformation = transformation.after_units(assignment.unit.conversion_to(node.unit))
+        return float(value) * transformation.factor + transformation.offset
+    if transformation.table:
+        table = [
+            [parse_value(text, type_name, assignment.file, assignment.where) for text in entry]
+            for entry in transformation.table
+        ]
+        found = [target for source, target in table if source == value]
+        if not found:
+            raise InputError(assignment.file, assignment.where, f"the mapping has no entry for {value}", "add one")
+        value = found[-1]
+    if type_name == "Enumeration":
+        if str(value) in node.enumeration:
+            return node.enumeration[str(value)]
+        raise InputError(
+            assignment.file,
+            assignment.where,
+            f"no item {value} in the enumeration",
+            suggestion(str(value), node.enumeration),
+        )
+    return value
+
+
+def _check_bounds(assignment: Assignment, variable: object, value: ParameterValue) -> None:
+    """Refuse a number outside the FMU's declared minimum and maximum, or not finite."""
+    if isinstance(value, str | bool):
+        return
+    low, high = getattr(variable, "min", None), getattr(variable, "max", None)
+    if not abs(value) < float("inf"):
+        raise InputError(assignment.file, assignment.where, f"{value} is not finite", "give a finite number")
+    if isinstance(value, int) and not -(2**31) <= value < 2**31:
+        raise InputError(assignment.file, assignment.where, f"{value} has more than 32 bits", "give a smaller number")
+    if low is not None and value < float(low):
+        raise InputError(
+            assignment.file, assignment.where, f"{value} is below the minimum {low}", "give a larger value"
+        )
+    if high is not None and value > float(high):
+        raise InputError(
+            assignment.file, assignment.where, f"{value} is above the maximum {high}", "give a smaller value"
+        )
+
+
+def _pass_parameters(network: Network, settings: Settings) -> None:
+    """Carry values of system parameter connectors along their connections to components."""
+    for node in network.nodes.values():
+        if node.kind != "parameter" or node.component is None or node.name not in network.driver:
+            continue
+        chain = [network.driver[node.name]]
+        while chain[-1].source.name in network.driver:
+            chain.append(network.driver[chain[-1].source.name])
+        given = [position for position, link in enumerate(chain) if link.source.name in settings.nodes]
+        if given:  # the outermost value wins
+            value = settings.nodes[chain[given[-1]].source.name]
+            for link in reversed(chain[: given[-1] + 1]):
+                value = _passed(network, link, value)
+            kind = {"Real": float, "Boolean": bool}.get(node.type_name or "", int)
+            settings.variables[node.component or "", node.variable] = kind(value)
+
+
+def _passed(network: Network, link: Link, value: float) -> float:
+    """A parameter's value behind a connection."""
+    if not link.transformation.table:
+        return value * link.transformation.factor + link.transformation.offset
+    table = dict(numbers(network, link))
+    if value not in table:
+        where = f"connection {link.source.name} -> {link.target.name} (line {link.line})"
+        raise InputError(network.file, where, f"the mapping has no entry for {value:g}", "add one")
+    return table[value]
+
+
+def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
+    """A connection's mapping as numbers: Booleans 0 and 1, enumeration items by their values; else nothing."""
+    transformation = link.transformation
+    kind = VALUE_TYPES[transformation.kind][0]
+
+    def number(text: str, node: Node) -> float:
+        if kind == "Boolean":
+            return float(text in ("true", "1"))
+        if kind == "Integer":
+            return float(text)
+        if text not in node.enumeration:
+            where = f"connection {link.source.name} -> {link.target.name} (line {link.line})"
+            problem = f"{node.name} has no enumeration item {text}"
+            raise InputError(network.file, where, problem, suggestion(text, node.enumeration))
+        return float(node.enumeration[text])
+
+    return [(number(source, link.source), number(target, link.target)) for source, target in transformation.table]
+
+
+def _check_inputs(network: Network, settings: Settings) -> None:
+    for node in network.nodes.values():
+        given = node.name in settings.nodes or (node.component or "", node.variable) in settings.variables
+        if node.kind != "input" or node.name in network.driver or given:
+            continue
+        raise InputError(
+            network.file,
+            node.where,
+            "input is neither connected nor given a value",
+            f"connect it, or give a value: --set {node.name}=VALUE",
+        )
+    for link in network.driver.values():
+        source = link.source
+        is_signal = source.component is None and source.kind in ("inout", "output")
+        if is_signal and source.name not in network.driver:
+            raise InputError(network.file, source.where, "signal is read but never driven", "connect a source to it")
+    for node in network.nodes.values():
+        if node.component is None and node.kind == "output" and node.name not in network.driver:
+            network.notes.append(f"{node.name}: output without a source, not recorded")
+    for component, fmu in network.fmus.items():
+        for name, variable in fmu.variables.items():
+            if variable.causality == "input" and f"{component}.{name}" not in network.nodes:
+                start = settings.variables.get((component, name), variable.start)
+                network.notes.append(f"{component}.{name}: input not declared in the SSD, keeps {start}")

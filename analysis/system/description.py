@@ -1,0 +1,275 @@
+"""A SystemStructureDescription as it is written: elements, connectors, connections, bindings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from lxml import etree
+
+from ..errors import InputError
+from .archive import SystemArchive
+from .documents import child, children, read_document, tag
+from .transformations import Transformation, read_transformation
+from .units import Unit, units_of_document
+
+FMU_TYPE = "application/x-fmu-sharedlibrary"
+STEP_ANNOTATION = "org.perilune.step"  # our own: SSP 1.0 has no place for the communication step
+
+
+@dataclass
+class Connector:
+    """A declared connector; type and unit are None where the SSD does not state them."""
+
+    name: str
+    kind: str
+    type_name: str | None
+    unit: str | None
+    enumeration: str | None
+    line: int
+
+
+@dataclass
+class Connection:
+    start: tuple[str | None, str]
+    end: tuple[str | None, str]
+    suppress_unit_conversion: bool
+    transformation: Transformation
+    line: int
+
+    def __str__(self) -> str:
+        start, end = (".".join(part for part in point if part) for point in (self.start, self.end))
+        return f"connection {start} -> {end}"
+
+
+@dataclass
+class Binding:
+    """A parameter binding: a source file, or the inline element; with mapping likewise."""
+
+    prefix: str
+    source: str | None
+    inline: etree._Element | None
+    mapping_source: str | None
+    mapping_inline: etree._Element | None
+    line: int
+
+
+@dataclass
+class Element:
+    """What all elements of a system have."""
+
+    name: str
+    connectors: dict[str, Connector]
+    bindings: list[Binding]
+    line: int
+
+
+@dataclass
+class Component(Element):
+    source: str
+
+
+@dataclass
+class DictionaryReference(Element):
+    dictionary: str
+
+
+@dataclass
+class System(Element):
+    elements: dict[str, Element] = field(default_factory=dict)
+    connections: list[Connection] = field(default_factory=list)
+    dictionaries: dict[str, dict[str, Connector]] = field(default_factory=dict)
+
+
+@dataclass
+class Description:
+    """One SSD document."""
+
+    file: str
+    name: str
+    system: System
+    units: dict[str, Unit]
+    enumerations: dict[str, dict[str, int]]
+    start_time: float
+    stop_time: float | None
+    step: float | None
+    annotations: dict[str, etree._Element] = field(default_factory=dict)  # of the whole document, by type
+
+
+def read_description(archive: SystemArchive, variant: str | None = None) -> Description:
+    """The SSD of an archive, the default one or a variant's; raises InputError."""
+    name = archive.description_name(variant)
+    return Reader(f"{archive.label}/{name}", archive.read).read(archive.read(name, "SSD"))
+
+
+class Reader:
+    """Reads one SSD; ``load(name, element)`` returns the bytes of a file the SSD refers to."""
+
+    def __init__(self, file: str, load) -> None:  # type: ignore[no-untyped-def]
+        self.file = file
+        self.load = load
+        self.units: dict[str, Unit] = {}
+
+    def refuse(self, element: etree._Element, what: str, problem: str, remedy: str) -> InputError:
+        return InputError(self.file, f"{what} (line {element.sourceline})", problem, remedy)
+
+    def read(self, data: bytes) -> Description:
+        """The whole document; raises InputError."""
+        root = read_document(data, "ssd", self.file)
+        if not root.get("version", "").startswith("1."):
+            raise self.refuse(root, "version", f"SSP version {root.get('version')} is not read", "write SSP 1.0")
+        self.units = units_of_document(root, "ssd")
+        system = child(root, "ssd:System")
+        assert system is not None  # the schema requires it
+        experiment = child(root, "ssd:DefaultExperiment")
+        start = stop = None
+        if experiment is not None:
+            start, stop = experiment.get("startTime"), experiment.get("stopTime")
+        return Description(
+            file=self.file,
+            name=root.get("name", ""),
+            system=self.system(system),
+            units=self.units,
+            enumerations={
+                enumeration.get("name", ""): {
+                    item.get("name", ""): int(item.get("value", "0")) for item in children(enumeration, "ssc:Item")
+                }
+                for enumeration in children(child(root, "ssd:Enumerations"), "ssc:Enumeration")
+            },
+            start_time=float(start) if start is not None else 0.0,
+            stop_time=float(stop) if stop is not None else None,
+            step=self.step(experiment),
+            annotations={
+                annotation.get("type", ""): annotation
+                for annotation in children(child(root, "ssd:Annotations"), "ssc:Annotation")
+            },
+        )
+
+    def step(self, experiment: etree._Element | None) -> float | None:
+        """The communication step (s) of our annotation in the default experiment."""
+        for annotation in children(
+            child(experiment, "ssd:Annotations") if experiment is not None else None, "ssc:Annotation"
+        ):
+            if annotation.get("type") == STEP_ANNOTATION:
+                for item in annotation:
+                    if tag(item) == "CommunicationStep":
+                        return self.positive(item)
+        return None
+
+    def positive(self, item: etree._Element) -> float:
+        try:
+            value = float(item.get("size", ""))
+        except ValueError:
+            value = 0.0
+        if not 0.0 < value < float("inf"):
+            raise self.refuse(item, "CommunicationStep", "size is not a positive number of seconds", 'write size="0.1"')
+        return value
+
+    def system(self, element: etree._Element) -> System:
+        system = System(**self.common(element))
+        for dictionary in children(child(element, "ssd:SignalDictionaries"), "ssd:SignalDictionary"):
+            system.dictionaries[dictionary.get("name", "")] = self.dictionary(dictionary)
+        elements = child(element, "ssd:Elements")
+        for item in elements if elements is not None else ():
+            read = {"Component": self.component, "System": self.system, "SignalDictionaryReference": self.reference}
+            if tag(item) in read:
+                inner = read[tag(item)](item)
+                if inner.name in system.elements:
+                    raise self.refuse(item, inner.name, "two elements of this name in one system", "rename one")
+                system.elements[inner.name] = inner
+        for item in children(child(element, "ssd:Connections"), "ssd:Connection"):
+            system.connections.append(
+                Connection(
+                    (item.get("startElement"), item.get("startConnector", "")),
+                    (item.get("endElement"), item.get("endConnector", "")),
+                    item.get("suppressUnitConversion") in ("true", "1"),
+                    read_transformation(item),
+                    item.sourceline,
+                )
+            )
+        return system
+
+    def component(self, element: etree._Element) -> Component:
+        name = element.get("name", "")
+        kind = element.get("type", FMU_TYPE)
+        if kind != FMU_TYPE:
+            raise self.refuse(element, name, f"components of type {kind} are not supported", "use an FMU")
+        if element.get("implementation", "any") == "ModelExchange":
+            raise self.refuse(element, name, "model exchange is not supported", "use a co-simulation FMU")
+        source = element.get("source", "")
+        if not source.endswith(".fmu"):
+            raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")
+        return Component(**self.common(element), source=source)
+
+    def reference(self, element: etree._Element) -> DictionaryReference:
+        return DictionaryReference(**self.common(element), dictionary=element.get("dictionary", ""))
+
+    def common(self, element: etree._Element) -> dict:
+        connectors: dict[str, Connector] = {}
+        for item in children(child(element, "ssd:Connectors"), "ssd:Connector"):
+            connector = self.connector(item)
+            if connector.name in connectors:
+                raise self.refuse(item, connector.name, "declared twice", "remove one")
+            connectors[connector.name] = connector
+        bindings = children(child(element, "ssd:ParameterBindings"), "ssd:ParameterBinding")
+        return {
+            "name": element.get("name", ""),
+            "connectors": connectors,
+            "bindings": [self.binding(item) for item in bindings],
+            "line": element.sourceline,
+        }
+
+    def connector(self, item: etree._Element) -> Connector:
+        name, kind = item.get("name", ""), item.get("kind", "")
+        if kind == "inout":
+            raise self.refuse(item, name, "inout connectors are not supported", "declare it input or output")
+        return self.typed(item, name, kind)
+
+    def typed(self, item: etree._Element, name: str, kind: str) -> Connector:
+        type_name = unit = enumeration = None
+        for inner in item:
+            if tag(inner) == "Binary":
+                raise self.refuse(item, name, "Binary connectors are not supported", "remove the connector")
+            if tag(inner) == "String" and kind not in ("parameter", "calculatedParameter"):
+                raise self.refuse(item, name, "String signals are not supported yet", "remove the connector")
+            if tag(inner) in ("Real", "Integer", "Boolean", "String", "Enumeration"):
+                type_name, unit, enumeration = tag(inner), inner.get("unit"), inner.get("name")
+        return Connector(name, kind, type_name, unit, enumeration, item.sourceline)
+
+    def dictionary(self, element: etree._Element) -> dict[str, Connector]:
+        name, source = element.get("name", ""), element.get("source")
+        if source is not None:
+            root = read_document(self.load(source, f"signal dictionary {name}"), "ssb", source)
+        else:
+            inline = element.find("{*}SignalDictionary")
+            if inline is None:
+                raise self.refuse(element, name, "signal dictionary without source or content", "give one of them")
+            root = inline
+        self.units |= units_of_document(root, "ssb")
+        return {
+            entry.get("name", ""): self.typed(entry, entry.get("name", ""), "inout")
+            for entry in children(root, "ssb:DictionaryEntry")
+        }
+
+    def binding(self, element: etree._Element) -> Binding:
+        mapping = child(element, "ssd:ParameterMapping")
+        for part, kind in ((element, "set"), (mapping, "mapping")):
+            expected = f"application/x-ssp-parameter-{kind}"
+            if part is not None and part.get("sourceBase", "SSD") != "SSD":
+                raise self.refuse(part, "ParameterBinding", 'sourceBase="component" is not supported', "use SSD")
+            if part is not None and part.get("type", expected) != expected:
+                raise self.refuse(
+                    part, "ParameterBinding", f"type {part.get('type')} is not supported", f"use {expected}"
+                )
+        values = child(element, "ssd:ParameterValues")
+        source = element.get("source")
+        inline = values.find("{*}ParameterSet") if values is not None else None
+        if source is None and inline is None:
+            raise self.refuse(element, "ParameterBinding", "neither source nor inline values", "give one of them")
+        return Binding(
+            prefix=element.get("prefix", ""),
+            source=source,
+            inline=inline,
+            mapping_source=mapping.get("source") if mapping is not None else None,
+            mapping_inline=mapping.find("{*}ParameterMapping") if mapping is not None else None,
+            line=element.sourceline,
+        )

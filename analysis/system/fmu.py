@@ -1,0 +1,85 @@
+"""An FMU as a file: checked, unpacked, its variables, units and dependencies."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import shutil
+import tempfile
+import weakref
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import fmpy
+from fmpy import read_model_description
+
+from ..errors import InputError
+from .archive import open_zip
+from .documents import parse_xml
+from .units import Unit, units_of_fmu
+
+DESCRIPTION = "modelDescription.xml"
+
+
+@dataclass
+class Fmu:
+    """An FMI 2.0 co-simulation FMU that can run here."""
+
+    label: str
+    digest: str
+    description: Any  # fmpy ModelDescription
+    folder: Path  # unpacked; removed with the object
+    variables: dict[str, Any] = field(default_factory=dict)  # fmpy ScalarVariable by name
+    units: dict[str, Unit] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        return self.description.modelName
+
+    @property
+    def is_native(self) -> bool:
+        """Whether it runs without an execution tool such as a Python interpreter."""
+        return not self.description.coSimulation.needsExecutionTool
+
+    def unit_of(self, variable: Any) -> str | None:
+        """Name of a variable's unit, its own or its type's."""
+        declared = variable.declaredType
+        return variable.unit or (declared.unit if declared is not None else None)
+
+    def direct_dependencies(self) -> dict[str, set[str]]:
+        """Output -> inputs it depends on directly; without a declaration all inputs, as FMI says."""
+        inputs = {name for name, variable in self.variables.items() if variable.causality == "input"}
+        outputs = {name: inputs for name, variable in self.variables.items() if variable.causality == "output"}
+        for unknown in self.description.outputs:
+            if unknown.dependencies is not None:
+                outputs[unknown.variable.name] = inputs & {variable.name for variable in unknown.dependencies}
+        return outputs
+
+
+def load_fmu(data: bytes, label: str) -> Fmu:
+    """Check and unpack an FMU; raises InputError naming file and element."""
+    archive = open_zip(data, label)
+    if DESCRIPTION not in archive.namelist():
+        raise InputError(label, DESCRIPTION, "not found", "give an FMU")
+    root = parse_xml(archive.read(DESCRIPTION), f"{label}!{DESCRIPTION}")
+    version = root.get("fmiVersion")
+    if version != "2.0":
+        raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
+    try:
+        description = read_model_description(io.BytesIO(data), validate=True)
+    except Exception as error:  # fmpy raises bare Exception and lxml's errors for invalid descriptions
+        raise InputError(label, DESCRIPTION, f"not valid: {error}", "mend the FMU") from error
+    if description.coSimulation is None:
+        raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export it for co-simulation")
+    identifier = description.coSimulation.modelIdentifier
+    binary = f"binaries/{fmpy.platform}/{identifier}{fmpy.sharedLibraryExtension}"
+    if binary not in archive.namelist():
+        raise InputError(label, binary, "no binary for this platform", "compile the FMU's sources for it")
+    folder = Path(tempfile.mkdtemp(prefix="perilune_"))
+    archive.extractall(folder)
+    fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder)
+    fmu.variables = {variable.name: variable for variable in description.modelVariables}
+    fmu.units = units_of_fmu(description)
+    weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
+    return fmu

@@ -1,0 +1,131 @@
+"""A system made ready: its files read, its FMUs loaded, everything checked before the first step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...fmus_src.places import BUILD, built_fmu
+from ..errors import InputError, suggestion
+from .archive import SystemArchive, open_system
+from .assignments import Settings, collect_settings, text_assignment
+from .description import Component, read_description
+from .fmu import Fmu, load_fmu
+from .network import Network, build_network
+from .options import ALGORITHMS, FLAVOURS, SystemOptions
+from .parameter_sets import Assignment, read_parameter_file
+from .schedule import Schedule, make_schedule
+
+
+@dataclass
+class PreparedSystem:
+    """A checked system; pass it to `Simulation`. Times in s."""
+
+    archive: SystemArchive
+    options: SystemOptions
+    network: Network
+    settings: Settings
+    schedule: Schedule
+    start: float
+    step: float
+    steps: int
+
+    @property
+    def is_native(self) -> bool:
+        return all(fmu.is_native for fmu in self.network.fmus.values())
+
+
+def prepare_system(
+    system: str | Path, options: SystemOptions | None = None, loaded: dict[str, Fmu] | None = None
+) -> PreparedSystem:
+    """Read and check a system with its options. Raises InputError.
+
+    ``loaded`` keeps FMUs by their place, for a system that is prepared again and again: those in it are not read again.
+    """
+    loaded = {} if loaded is None else loaded
+    options = options or SystemOptions()
+    for name, value, known in (
+        ("--algorithm", options.algorithm, ALGORITHMS),
+        ("--flavour", options.flavour, FLAVOURS),
+    ):
+        if value is not None and value not in known:
+            raise InputError(name, str(value), "unknown", suggestion(str(value), known))
+    archive = open_system(system)
+    description = read_description(archive, options.variant)
+
+    def load(name: str, component: Component) -> Fmu:
+        if name in options.use:
+            data, label = _named_fmu(options.use[name], options.flavour)
+        else:
+            data, label = archive.fmu(component.source, f"{name} (line {component.line})", _flavour(component, options))
+        if label not in loaded:
+            loaded[label] = load_fmu(data, label)
+        return loaded[label]
+
+    network = build_network(description, load)
+    for slot in options.use:
+        if slot not in network.fmus:
+            raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
+    settings = collect_settings(network, archive, _assignments(archive, options), options.allow_unmatched)
+    schedule = make_schedule(network, options.no_feedthrough)
+    start, step, steps = _times(network, options)
+    return PreparedSystem(archive, options, network, settings, schedule, start, step, steps)
+
+
+def _flavour(component: Component, options: SystemOptions) -> str:
+    if options.flavour is not None:
+        return options.flavour
+    return "native" if built_fmu(Path(component.source).stem, "native").is_file() else "python"
+
+
+def _named_fmu(name: str, flavour: str | None) -> tuple[bytes, str]:
+    """An FMU named by its block or by a path."""
+    if name.endswith(".fmu") or "/" in name:
+        path = Path(name)
+        if not path.is_file():
+            raise InputError("--use", name, "no such file", "give a block's name or the path of an .fmu")
+        return path.read_bytes(), name
+    for candidate in FLAVOURS if flavour is None else (flavour,):
+        path = built_fmu(name, candidate)
+        if path.is_file():
+            return path.read_bytes(), str(path)
+    built = {path.stem for path in BUILD.glob("fmus/*/*.fmu")}
+    raise InputError("--use", name, "no such FMU is built", f"{suggestion(name, built)}; build_fmus.py builds them")
+
+
+def _assignments(archive: SystemArchive, options: SystemOptions) -> list[Assignment]:
+    found: list[Assignment] = []
+    for name in options.parameters:
+        found += read_parameter_file(*archive.parameter_set(name))
+    for name, value in options.set.items():
+        text = str(value).lower() if isinstance(value, bool) else str(value)
+        found.append(text_assignment(f"{name}={text}"))
+    return found
+
+
+def _times(network: Network, options: SystemOptions) -> tuple[float, float, int]:
+    """Start, step (s) and number of steps."""
+    description = network.description
+    proposed = [
+        float(fmu.description.defaultExperiment.stepSize)
+        for fmu in network.fmus.values()
+        if fmu.description.defaultExperiment is not None and fmu.description.defaultExperiment.stepSize
+    ]
+    step = next((value for value in (options.step, description.step) if value is not None), min(proposed, default=None))
+    if step is None:
+        raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give --step SECONDS")
+    if not 0.0 < step < float("inf"):
+        raise InputError("--step", str(step), "not a positive number of seconds", "give a positive step")
+    stop = options.stop_time if options.stop_time is not None else description.stop_time
+    if stop is None:
+        raise InputError(network.file, "DefaultExperiment", "no stopTime", "give --stop-time SECONDS")
+    duration = stop - description.start_time
+    steps = round(duration / step) if 0.0 <= duration / step < float("inf") else -1
+    if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
+        raise InputError(
+            "--stop-time",
+            f"{stop:g}",
+            f"{duration:g} s from the start are not a whole number of steps of {step:g} s",
+            f"for instance --stop-time {description.start_time + max(1, steps) * step:.12g}",
+        )
+    return description.start_time, step, steps

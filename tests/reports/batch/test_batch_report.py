@@ -1,0 +1,124 @@
+"""perilune.analysis.reports.batch.batch_report"""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from perilune.analysis.reports.batch.batch_report import write_batch_report
+from perilune.analysis.reports.batch.failures import failures_figure, telling_scores
+from tests.support.pages.checks import assert_self_contained, data_values, text_of
+from tests.support.pages.samples import DIGEST, METRICS, batch_result, mixed_batch
+
+
+def write(result, path):
+    write_batch_report(result, path, "Two ways")
+    return path.read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def result():
+    return mixed_batch()
+
+
+@pytest.fixture(scope="module")
+def page(result, tmp_path_factory):
+    return write(result, tmp_path_factory.mktemp("batch") / "batch.html")
+
+
+def test_stands_alone(page):
+    assert_self_contained(page)
+
+
+def test_same_result_same_bytes(page, tmp_path):
+    assert write(mixed_batch(), tmp_path / "again.html") == page
+
+
+def test_every_number_of_the_summary_is_there(result, page):
+    values = set(data_values(page))
+    for variant in result.summary.values():
+        for number in (variant["success_rate"], *variant["success_interval"], *variant["statuses"].values()):
+            assert repr(number) in values
+        for table in ("metrics", "metrics_all"):
+            for found in variant[table].values():
+                assert {repr(found[column]) for column in ("count", "mean", "std", "min", "max")} <= values
+
+
+def test_every_name_is_there(result, page):
+    text = text_of(page)
+    for name in ("steady", "shaky", "miss", "tilt", "offset", "ship.mass", "twice", "how far off", "test.toml", DIGEST):
+        assert name in text
+    assert result.plan.campaign.success.text in text
+    assert "stop_time (ship.status 2)" in text
+
+
+def test_angles_are_in_degrees_on_screen(result, page):
+    mean = result.summary["shaky"]["metrics"]["tilt"]["mean"]
+    assert f">{math.degrees(mean):.4g}</data>" in page
+    assert "tilt, deg" in text_of(page)
+
+
+def test_failures_at_both_ends_are_told_by_the_draw_that_causes_them(result):
+    scores = telling_scores(result, "shaky")
+    assert next(iter(scores)) == "offset"
+    assert set(scores) == {"offset", "ship.mass"}  # what is derived does not count
+    assert 0.6 < scores["offset"] <= 1.0
+    assert telling_scores(result, "steady") == {}
+
+
+def test_scatter_counts_its_points(result):
+    failed = sum(not good for good in result.trials["shaky"].success)
+    figure = failures_figure(result)
+    assert f"{failed} failures" in figure
+    assert f"{40 - failed} successes" in figure
+    assert "steady" not in figure
+
+
+def test_no_failures(tmp_path):
+    text = text_of(write(batch_result({"only": [(True, 0.5, 0.1)] * 5}), tmp_path / "page.html"))
+    assert "only: no trial failed" in text
+    assert "miss is 0.5 m in every trial of every variant" in text
+    assert "tilt is 5.73 deg in every trial" in text
+
+
+def test_nothing_finite(tmp_path):
+    page = write(batch_result({"only": [(False, math.nan, math.inf)] * 5}), tmp_path / "page.html")
+    assert_self_contained(page)
+    assert "miss has no finite value in any trial" in text_of(page)
+    assert "every trial failed" in text_of(page)
+
+
+def test_one_trial(tmp_path):
+    page = write(batch_result({"only": [(True, 0.5, 0.1)]}), tmp_path / "page.html")
+    assert_self_contained(page)
+    assert "distribution" in page
+    assert "2.50 to 100.00" in text_of(page)
+
+
+@pytest.mark.parametrize("good", [[True] * 4, [True, False, True, False]])
+def test_no_draws(good, tmp_path):
+    result = batch_result({"default": [(ok, 1.0, k / 7) for k, ok in enumerate(good)]}, METRICS)
+    text = text_of(write(result, tmp_path / "page.html"))
+    assert "every trial has the same parameters" in text
+    assert ("there is no space of draws" in text) == (not all(good))
+
+
+def test_no_metrics(tmp_path):
+    result = batch_result({"default": [(True, 0.0, 0.0)] * 3}, '[success]\nexpression = "1"\n')
+    assert "The campaign declares no metrics" in text_of(write(result, tmp_path / "page.html"))
+
+
+def test_one_draw(tmp_path):
+    text = '[draw.offset]\ndistribution = "uniform"\nlow = 0\nhigh = 1\n' + METRICS
+    result = batch_result({"v": [(k % 3 > 0, float(k), -float(k)) for k in range(12)]}, text)
+    assert_self_contained(write(result, tmp_path / "page.html"))
+
+
+def test_many_trials_stay_small(tmp_path):
+    source = np.random.default_rng(1)
+    rows = [(bool(source.random() < 0.7), float(source.lognormal(0, 3)), float(source.normal())) for _ in range(10_000)]
+    page = write(batch_result({"many": rows}), tmp_path / "page.html")
+    assert_self_contained(page)
+    assert len(page) < 1_000_000
+    assert re.search(r'href="data:image/png;base64', page)

@@ -1,0 +1,42 @@
+"""The comparison's page in a real browser, wide and narrow: it loads, paints, and nothing runs out of it.
+
+Truth: the page's own figures and colours; the widths that the browser lays out.
+"""
+
+import numpy as np
+import pytest
+from matplotlib import image
+
+from perilune.analysis.compare.side_by_side import compare
+from perilune.analysis.reports.compare.page import write_comparison_page
+from tests.support.pages.browser import start
+from tests.support.pages.comparison_samples import write_sample
+
+COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115))  # of the three variants
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("browser")
+    write_sample(folder / "out")
+    write_comparison_page(compare([folder / "out"]), folder / "page.html", "perilune compare out")
+    return folder / "page.html"
+
+
+@pytest.mark.parametrize(("width", "height"), [(1100, 11000), (400, 22000)])
+def test_page_renders_wide_and_narrow(browser, page, tmp_path, width, height):
+    size = f"--window-size={width},{height}"
+    start(browser, page, tmp_path, size, f"--screenshot={tmp_path / 'page.png'}")
+    pixels = image.imread(tmp_path / "page.png")[..., :3] * 255.0
+    assert pixels.shape[:2] == (height, width)
+    for colour in COLOURS:
+        assert np.count_nonzero(np.all(np.abs(pixels - colour) < 3.0, axis=-1)) > 300
+    inked = np.any(pixels < 250.0, axis=-1)
+    assert not inked[:, -8:].any()  # nothing reaches the right edge: tables scroll in themselves
+    assert not inked[-40:].any()  # the whole page was seen
+
+
+def test_every_figure_is_laid_out(browser, page, tmp_path):
+    dom = start(browser, page, tmp_path, "--dump-dom")
+    assert dom.count('class="figure"') == page.read_text().count('class="figure"') == 37
+    assert "3 variants on the same trials" in dom

@@ -1,0 +1,323 @@
+"""perilune.analysis.reports.compare.page: the numbers on the page, and what it says where something is missing.
+
+Truth: the same numbers computed here with numpy and scipy from the parquet files; batches made by hand.
+"""
+
+import json
+import math
+import re
+import warnings
+
+import numpy as np
+import pyarrow.parquet
+import pytest
+import scipy.stats
+
+from perilune.analysis.compare.side_by_side import compare
+from perilune.analysis.reports.compare.page import looks_of, write_comparison_page
+from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.comparison_samples import CAMPAIGN, DIGEST, POSITION, TARGET, VELOCITY, write_sample
+
+VARIANTS = ("alpha", "beta", "gamma")
+
+
+def write(folders, page, reference=None):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        write_comparison_page(compare(folders, reference), page, "perilune compare something")
+    return page.read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    found = tmp_path_factory.mktemp("comparison") / "quiet"
+    write_sample(found)
+    return found
+
+
+@pytest.fixture(scope="module")
+def page(folder):
+    return write([folder], folder.parent / "page.html")
+
+
+@pytest.fixture(scope="module")
+def trials(folder):
+    """Columns of trials.parquet by variant."""
+    rows = pyarrow.parquet.read_table(folder / "trials.parquet").to_pylist()
+    return {
+        variant: {name: np.array([row[name] for row in rows if row["variant"] == variant]) for name in rows[0]}
+        for variant in VARIANTS
+    }
+
+
+def section(text, heading):
+    """The section below a heading of the second level, as a tree."""
+    (found,) = (part for part in parse(text).xpath("//section") if part.xpath("h2")[0].text == heading)
+    return found
+
+
+def numbers(element):
+    return [float(value) for value in element.xpath(".//data/@value")]
+
+
+def table_rows(element, columns):
+    """Exact numbers of the rows of a section's tables that have so many."""
+    found = [numbers(row) for row in element.xpath(".//tbody/tr")]
+    return [row for row in found if len(row) == columns]
+
+
+def test_stands_alone(page):
+    assert_self_contained(page)
+    assert "<script" not in page
+
+
+def test_same_batches_same_bytes(page, folder, tmp_path):
+    assert write([folder], tmp_path / "again.html") == page
+
+
+def test_rates_and_their_intervals(page, trials):
+    expected = []
+    for name in ("success", "metric.pinpoint"):
+        for variant in VARIANTS:
+            yes = int(trials[variant][name].sum())
+            low = scipy.stats.beta.ppf(0.025, yes, 40 - yes + 1)
+            high = scipy.stats.beta.ppf(0.975, yes + 1, 40 - yes) if yes < 40 else 1.0
+            expected.append([yes / 40, low, high, yes, 40])
+    np.testing.assert_allclose(table_rows(section(page, "Rates"), 5), expected, rtol=1e-9)
+
+
+def test_metrics_of_the_successful_and_of_all_trials(page, trials):
+    expected = []
+    for chosen in (lambda found: found["success"], lambda found: np.full(40, True)):
+        for metric in ("miss", "propellant", "tilt", "x_error_over_sigma"):
+            for variant in VARIANTS:
+                values = trials[variant][f"metric.{metric}"][chosen(trials[variant])]
+                expected.append([values.mean(), values.std(ddof=1), values.min(), values.max(), len(values)])
+    np.testing.assert_allclose(table_rows(section(page, "Metrics of the successful trials"), 5), expected, rtol=1e-12)
+    tilt = trials["beta"]["metric.tilt"][trials["beta"]["success"]].mean()
+    assert f">{math.degrees(tilt):.4g}</data>" in page
+
+
+def test_pairs_of_rates(page, trials):
+    rows = []
+    for against_reference in (True, False):
+        for name in ("success", "metric.pinpoint"):
+            for a, b in (("beta", "alpha"), ("gamma", "alpha"), ("gamma", "beta")):
+                if (b == "alpha") == against_reference:
+                    x, y = (trials[variant][name].astype(bool) for variant in (a, b))
+                    table = [[np.sum(x & y), np.sum(x & ~y)], [np.sum(~x & y), np.sum(~x & ~y)]]
+                    discordant = table[0][1] + table[1][0]
+                    p = scipy.stats.binomtest(int(table[0][1]), int(discordant)).pvalue
+                    rows.append([x.mean() - y.mean(), p, table[0][0], table[0][1], table[1][0], table[1][1]])
+    tree = section(page, "Pairs on the same trials")
+    first, others = tree.xpath(".//table")[:2]  # against the reference, and what is folded away
+    found = [numbers(row) for table in (first, others) for row in table.xpath(".//tr") if numbers(row)]
+    np.testing.assert_allclose([[row[0], *row[3:]] for row in found], rows, rtol=1e-9, atol=1e-12)
+    assert all(row[1] < row[0] < row[2] for row in found)
+
+
+def test_pairs_of_metrics(page, trials):
+    tree = section(page, "Pairs on the same trials")
+    (heading,) = (part for part in tree.xpath("h3") if part.text == "Metrics, trials in which both succeed")
+    table = heading.getnext().xpath(".//table")[0]
+    expected = []
+    for metric in ("miss", "propellant", "tilt"):
+        for variant in ("beta", "gamma"):
+            both = trials[variant]["success"] & trials["alpha"]["success"]
+            x, y = (trials[name][f"metric.{metric}"][both] for name in (variant, "alpha"))
+            interval = scipy.stats.quantile_test(x - y, p=0.5).confidence_interval(0.95)
+            smaller = int(np.sum(x < y))
+            p = scipy.stats.binomtest(smaller, int(both.sum())).pvalue
+            counts = [smaller, 0, int(np.sum(x > y)), int(both.sum())]
+            expected.append([np.median(x - y), interval.low, interval.high, p, *counts])
+    found = [numbers(row) for row in table.xpath(".//tr") if len(numbers(row)) == 8]
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+
+
+def test_intervals_without_zero_are_bold_and_others_are_not(page):
+    for cell in section(page, "Pairs on the same trials").xpath(".//td[contains(@class, 'n')]"):
+        ends = numbers(cell)
+        if len(ends) == 2:
+            assert ("sure" in cell.get("class")) == (ends[0] > 0.0 or ends[1] < 0.0)
+
+
+def test_dispersions_at_the_end(page, trials):
+    expected = []
+    for names, target in ((POSITION, TARGET), (VELOCITY, np.zeros(3))):
+        for variant in VARIANTS:
+            found = trials[variant]
+            errors = np.stack([found[f"final.{name}"] for name in names], axis=1)[found["success"]] - target
+            miss = np.linalg.norm(errors[:, :2], axis=1)
+            # semi-axes of the 1-sigma ellipse are singular values of the centred points over sqrt(n - 1)
+            centred = errors[:, :2] - errors[:, :2].mean(axis=0)
+            axes = np.linalg.svd(centred, compute_uv=False) / math.sqrt(len(errors) - 1)
+            radii = [np.percentile(miss, 50), np.percentile(miss, 99), miss.max()]
+            expected.append([len(errors), *errors.mean(axis=0), *errors.std(axis=0, ddof=1), *axes, *radii])
+    np.testing.assert_allclose(table_rows(section(page, "At the end"), 12), expected, rtol=1e-9)
+
+
+def test_errors_over_sigma(page, trials):
+    expected = []
+    for variant in VARIANTS:
+        values = trials[variant]["metric.x_error_over_sigma"]
+        shares = [np.mean(np.abs(values) <= limit) for limit in (1, 2, 3)]
+        expected.append([values.mean(), values.std(ddof=1), *shares, 40])
+    found = table_rows(section(page, "Errors over the filter's own deviations"), 6)
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+    assert "normal: 68.3" in text_of(page)
+
+
+def test_every_section_and_figure_is_there(page):
+    headings = [part.text for part in parse(page).xpath("//h2")]
+    assert headings == [
+        "Rates", "Metrics of the successful trials", "Pairs on the same trials", "Trajectories", "At the end",
+        "Distributions", "Commands and motion over time", "Errors over the filter's own deviations", "How trials ended",
+        "What was drawn", "Provenance",
+    ]  # fmt: skip
+    quantities = [part.text for part in parse(page).xpath("//h4")]
+    assert quantities == [
+        "pilot.thrust", "pilot.thrust_direction above the horizontal", "ship.position[3]", "ship.velocity, magnitude",
+        "ship.mass", "pilot.status", "checker.x_error_ratio",
+    ]  # fmt: skip
+    panels = parse(page).xpath("//*[@class='panels']//figure")
+    # side, plan, end position, end velocity; metrics; quantities; errors over sigma
+    assert len(panels) == 3 * 4 + 3 + 3 * len(quantities) + 1
+    assert len(parse(page).xpath("//p[@class='empty']")) == 0
+    text = text_of(page)
+    for name in ("downrange from the target, m", "miss <= 3", "Ships that go somewhere", DIGEST, DIGEST[::-1]):
+        assert name in text
+    assert "perilune compare something" in text
+    assert text.count("12 of each") == 1
+
+
+def test_every_variant_has_one_colour_everywhere(folder, page):
+    colours = {label: look.colour for label, look in looks_of(compare([folder])).items()}
+    assert len(set(colours.values())) == 3
+    for figure in parse(page).xpath("//*[@class='panels']/figure"):
+        label = figure.xpath("figcaption")[0].text_content().strip()
+        if label in colours:
+            drawn = set(re.findall(r"#[0-9a-f]{6}", " ".join(figure.xpath(".//@style")).lower()))
+            assert colours[label].lower() in drawn
+            assert not drawn & {colour.lower() for other, colour in colours.items() if other != label}
+
+
+def test_several_folders(folder, tmp_path):
+    write_sample(tmp_path / "loud", noise=2.0)
+    comparison = compare([folder, tmp_path / "loud"])
+    looks = looks_of(comparison)
+    assert looks["quiet: beta"].colour == looks["loud: beta"].colour != looks["loud: alpha"].colour
+    assert looks["quiet: beta"].dashes != looks["loud: beta"].dashes == looks["loud: alpha"].dashes
+    page = write([folder, tmp_path / "loud"], tmp_path / "page.html")
+    assert_self_contained(page)
+    assert "6 variants" in text_of(page)
+    for label in comparison.contenders:
+        assert label in text_of(page)
+
+
+def test_reference(folder, tmp_path):
+    page = write([folder], tmp_path / "page.html", "gamma")
+    assert "B is gamma" in text_of(page)
+
+
+def lines(page):
+    return [" ".join(part.text_content().split()) for part in parse(page).xpath("//p[@class='empty']")]
+
+
+def test_what_is_not_recorded_is_said_and_not_drawn(tmp_path):
+    bare = CAMPAIGN[: CAMPAIGN.index("[metric.propellant]")] + CAMPAIGN[CAMPAIGN.index("[metric.tilt]") :]
+    bare = bare[: bare.index("[metric.x_error")] + bare[bare.index("[record]") :]
+    write_sample(tmp_path / "bare", traced=0, final=False, text=bare)
+    page = write([tmp_path / "bare"], tmp_path / "page.html")
+    assert_self_contained(page)
+    assert lines(page) == [
+        "No trajectories and no commands over time: no flight has a trace; give the campaign's [record] the keys "
+        "every, signals and trials.",
+        "No dispersion of the final position and velocity: [record] final does not keep its three elements.",
+        "No propellant: no metric is in kg, and [record] final does not keep a mass.",
+        "Nothing is recorded over time.",
+        "No errors over the filter's own deviations: no metric's name ends in _over_sigma.",
+    ]
+
+
+def test_propellant_from_final_masses_where_no_metric_tells_it(tmp_path):
+    text = CAMPAIGN[: CAMPAIGN.index("[metric.propellant]")] + CAMPAIGN[CAMPAIGN.index("[metric.tilt]") :]
+    write_sample(tmp_path / "mass", text=text)
+    page = write([tmp_path / "mass"], tmp_path / "page.html")
+    assert "final ship.mass" in text_of(page)
+    assert not lines(page)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"trials": 1},
+        {"trials": 2, "traced": 1},
+        {"variants": ("default",)},
+        {"variants": tuple(f"guidance_{k}" for k in range(9)), "trials": 8, "traced": 3},
+        {"noise": 100.0},  # no trial succeeds
+        {"noise": 0.0},  # no dispersion at all
+        {"targets": False},
+        {"variants": ("$x_1$ <b>&", "y/z")},
+        {"trials": 3000, "traced": 1, "variants": ("a", "b")},
+    ],
+    ids=["one trial", "two trials", "one variant", "many variants", "failures", "exact", "no target", "names", "many"],
+)
+def test_extremes(tmp_path, options):
+    write_sample(tmp_path / "out", **options)
+    page = write([tmp_path / "out"], tmp_path / "page.html")
+    assert_self_contained(page)
+    assert len(page) < 4_000_000
+    if "$x_1$ <b>&" in options.get("variants", ()):
+        assert "$x_1$ <b>&" in text_of(page)
+        assert not parse(page).xpath("//b[contains(text(), 'x_1')]")
+    if options.get("targets") is False:
+        assert "no parameter of the system is called target_position" in text_of(page)
+
+
+def test_metrics_that_are_not_finite(tmp_path):
+    """A flight that fails has no metrics: it counts as a failure and drops out of the rest."""
+    result = write_sample(tmp_path / "out")
+    for trials in result.trials.values():
+        for values in (*trials.metrics.values(), *trials.final.values()):
+            values[::5] = np.nan
+        trials.metrics["tilt"][1::5] = np.inf
+        trials.success[::5] = False
+    again = type(result)(result.plan, result.trials, {}, result.provenance)
+    from perilune.analysis.batch.summary import summarise
+
+    again.summary = summarise(again.trials, again.plan.campaign.metrics)
+    again.write(tmp_path / "out")
+    page = write([tmp_path / "out"], tmp_path / "page.html")
+    assert_self_contained(page)
+    assert "without an end" in page
+
+
+def test_traces_of_failures_only_are_called_biased(tmp_path):
+    result = write_sample(tmp_path / "out")
+    result.provenance["record"] = {"every": None, "signals": [], "trials": None, "traces": "failures"}
+    for trials in result.trials.values():
+        for trial in [trial for trial in trials.traces if trials.success[trial]]:
+            del trials.traces[trial]
+    result.write(tmp_path / "other")
+    from perilune.analysis.batch.runner import write_draws
+
+    write_draws(result.plan, tmp_path / "other")
+    page = write([tmp_path / "other"], tmp_path / "page.html")
+    assert "do not compare their spread" in text_of(page)
+    assert "pilot.thrust_direction above the horizontal" in text_of(page)
+    assert "pilot.status" not in [part.text for part in parse(page).xpath("//h4")]  # not among what is known by name
+
+
+def test_document_is_json_and_has_the_pages_numbers(folder, page):
+    document = compare([folder]).document()
+    json.dumps(document, allow_nan=False)
+    values = set(data_values(page))
+    for entry in document["variants"].values():
+        for rate in entry["rates"].values():
+            assert {repr(number) for number in (rate["count"], rate["rate"], *rate["interval"])} <= values
+    for pair in document["pairs"]:
+        for rate in pair["rates"].values():
+            assert {repr(rate[key]) for key in ("both", "only_a", "only_b", "neither", "difference")} <= values
+        for name in ("miss", "propellant", "tilt"):
+            for table in ("metrics", "metrics_all"):
+                assert repr(pair[table][name]["median"]) in values

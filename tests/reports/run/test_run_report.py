@@ -1,0 +1,108 @@
+"""perilune.analysis.reports.run.run_report"""
+
+import numpy as np
+import pytest
+
+from perilune.analysis.reports.run.run_report import STATUS_WORDS, write_run_report
+from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.samples import DIGEST, run_result
+
+
+def write(result, path):
+    write_run_report(result, path, "A voyage & more")
+    return path.read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    return write(run_result(), tmp_path_factory.mktemp("run") / "new" / "run.html")
+
+
+def test_stands_alone(page):
+    assert_self_contained(page)
+
+
+def test_same_result_same_bytes(page, tmp_path):
+    assert write(run_result(), tmp_path / "again.html") == page
+    assert "<metadata" not in page
+
+
+def test_header(page):
+    text = text_of(page)
+    for words in ("A voyage & more", STATUS_WORDS["finished"], "99.5 s", "0.5 s", "sequential", "0.0.1"):
+        assert words in text
+
+
+def test_every_signal_has_its_numbers(page):
+    result, text, values = run_result(), text_of(page), set(data_values(page))
+    for name, signal in result.signals.items():
+        assert name in text
+        if result.types[name] == "Real":
+            for number in (signal[0], signal.min(), signal.max(), signal[-1]):
+                assert repr(float(number)) in values, name
+
+
+def test_parameters_and_hashes(page):
+    text, values = text_of(page), data_values(page)
+    assert "ship.length = 3.25" in text
+    assert "ship.armed = false" in text
+    assert "ship.name = <b>Beagle</b>" in text  # as text, not as markup
+    assert not parse(page).xpath("//b")
+    assert {"3.25", "2", "false"} <= set(values)
+    assert DIGEST in text
+    assert text.count(DIGEST[::-1]) == 2
+
+
+def test_key_values(page):
+    rows = [" ".join(row.xpath(".//text()[normalize-space()]")) for row in parse(page).xpath("//section[1]//tbody/tr")]
+    assert rows[0] == "finished true"
+    assert any("".join(row.split()).startswith("ship.position\N{MINUS SIGN}990,4950.12,149.5m") for row in rows)
+    assert "ship.status worst of the run 2" in rows
+    assert not any(row.startswith("crew.cook.position") for row in rows)  # the same values again
+
+
+def test_angles_are_in_degrees_on_screen_and_rad_inside(page):
+    row = next(row for row in parse(page).xpath("//tr") if row[0].text_content() == "ship.tilt")
+    assert row[1].text_content() == "deg"
+    assert row[5].text_content().startswith("57.00")
+    assert float(row[5][0].get("value")) == run_result()["ship.tilt"][-1]
+
+
+def test_constants_copies_and_spikes_are_said(page):
+    text = text_of(page)
+    assert "ship.mass = 12.5 kg" in text
+    assert "crew.cook.position = ship.position" in text
+    assert "goes on to 10⁶" in text
+
+
+def test_figures_are_labelled(page):
+    labels = parse(page).xpath("//*[local-name()='svg']/@aria-label")
+    assert labels[0].startswith("Path of ship")
+    assert any("tilt" in label for label in labels)
+    assert "tilt, deg" in text_of(page)
+
+
+@pytest.mark.parametrize("status", ["nonfinite", "failed"])
+def test_a_run_that_broke_off_says_why(status, tmp_path):
+    result = run_result(status=status, message="ship.tilt is nan at t = 24.5 s")
+    result["ship.tilt"][-1] = np.nan
+    result["crew.cook.spike"][:] = np.nan
+    page = write(result, tmp_path / "run.html")
+    assert_self_contained(page)
+    assert STATUS_WORDS[status] in text_of(page)
+    assert result.message in text_of(page)
+    assert "not a number" in text_of(page)
+
+
+@pytest.mark.parametrize("rows", [0, 1, 2])
+def test_short_runs(rows, tmp_path):
+    page = write(run_result(rows=rows, status="failed", message="at once"), tmp_path / "run.html")
+    assert_self_contained(page)
+    assert ("The run ended before its first row" in text_of(page)) == (rows == 0)
+
+
+def test_no_position_no_trajectory(tmp_path):
+    result = run_result()
+    for name in [name for name in result.signals if "position" in name]:
+        del result.signals[name]
+    assert "Trajectory" not in text_of(write(result, tmp_path / "run.html"))

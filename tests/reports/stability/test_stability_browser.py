@@ -1,0 +1,64 @@
+"""The stability page in a real browser, wide and narrow, all sections open: it paints, and nothing runs out of it.
+
+Truth: the page's own figures and colours; the widths that the browser lays out.
+"""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib import image
+
+from perilune.analysis.reports.stability.page import write_stability_page
+from tests.support.pages.browser import start
+
+COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115))  # lines of L, limits, circle of the modulus margin
+MEASURE = """<script>
+onerror = message => document.body.dataset.error = message;
+addEventListener("load", () => {
+  const page = document.documentElement, inside = element => element.closest(".scroll") !== null;
+  const wide = [...document.querySelectorAll("body *")].filter(
+    element => !inside(element) && !element.closest("svg") && element.getBoundingClientRect().right > innerWidth + 1);
+  document.body.dataset.overflow = page.scrollWidth - page.clientWidth;
+  document.body.dataset.wide = wide.map(element => element.tagName + "." + element.className).join(" ");
+  document.body.dataset.closed = document.querySelectorAll("details:not([open])").length;
+});
+</script></body>"""
+
+
+@pytest.fixture(scope="module")
+def page(studies, tmp_path_factory):
+    """The page with all that is folded away unfolded."""
+    path = tmp_path_factory.mktemp("stability") / "page.html"
+    everything = studies.everything
+    few = replace(everything, loops=tuple(loop for loop in everything.loops if loop.loop != "pair"))
+    write_stability_page(few, path)
+    text = path.read_text(encoding="utf-8")
+    assert "<script" not in text
+    path.write_text(text.replace("<details>", "<details open>"), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(("width", "height"), [(1200, 14000), (400, 30000)])
+def test_page_renders_wide_and_narrow(browser, page, tmp_path, width, height):
+    size = f"--window-size={width},{height}"
+    start(browser, page, tmp_path, size, f"--screenshot={tmp_path / 'page.png'}")
+    pixels = image.imread(tmp_path / "page.png")[..., :3] * 255.0
+    assert pixels.shape[:2] == (height, width)
+    for colour in COLOURS:
+        assert np.count_nonzero(np.all(np.abs(pixels - colour) < 3.0, axis=-1)) > 300
+    inked = np.any(pixels < 250.0, axis=-1)
+    assert not inked[:, -8:].any()  # nothing reaches the right edge: tables scroll in themselves
+    assert not inked[-40:].any()  # the whole page was seen
+
+
+def test_nothing_overflows_and_no_script_fails(browser, page, tmp_path):
+    measured = tmp_path / "measured.html"
+    measured.write_text(page.read_text(encoding="utf-8").replace("</body>", MEASURE), encoding="utf-8")
+    dom = start(browser, measured, tmp_path, "--window-size=500,2000", "--dump-dom")
+    assert re.search(r"<body[^>]* data-overflow=\"0\"", dom)
+    assert re.search(r"<body[^>]* data-wide=\"\"", dom)
+    assert re.search(r"<body[^>]* data-closed=\"0\"", dom)
+    assert not re.search(r"<body[^>]* data-error", dom)
+    assert dom.count('class="figure"') == page.read_text(encoding="utf-8").count('class="figure"') > 20

@@ -1,0 +1,450 @@
+"""The page of a stability study: its numbers, its figures, and what it says where some are missing.
+
+Truth: python-control's margins and responses of the tiny systems that were studied (tests/support/loops/studies.py).
+"""
+
+import math
+import re
+import shlex
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from scipy.optimize import brentq
+
+from perilune.analysis.cli import main
+from perilune.analysis.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from perilune.analysis.loops.readings import Classical, Curve
+from perilune.analysis.reports.kit.quantities import NONE
+from perilune.analysis.reports.stability.frequency import beside, draw_bode, draw_sensitivity, phase_of
+from perilune.analysis.reports.stability.nyquist import draw_harmonic_balance, draw_nichols, draw_nyquist, limits_of
+from perilune.analysis.reports.stability.page import write_stability_page
+from perilune.analysis.reports.stability.parts import modes
+from perilune.analysis.reports.stability.poles import thinned
+from perilune.analysis.reports.stability.sets import draw_histogram, draw_joint, draw_sweep
+from perilune.analysis.reports.stability.words import complex_number, in_decibels, plain
+from perilune.analysis.stability.results.report import StabilityReport
+from perilune.analysis.stability.results.requirement import Requirement, Scope
+from perilune.analysis.stability.results.routes import Mode
+from tests.support.loops.exact_margins import crossings, disk_margin
+from tests.support.loops.exact_systems import late_double_integrator
+from tests.support.loops.sampled_loops import response_of
+from tests.support.loops.studies import LATE, PAIR, TRIALS
+from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+
+DECIBEL = 20.0 / np.log(10.0)
+
+
+def write(report, page):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        write_stability_page(report, page)
+    return page.read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def report(studies):
+    return studies.everything
+
+
+@pytest.fixture(scope="module")
+def page(report, tmp_path_factory):
+    return write(report, tmp_path_factory.mktemp("stability") / "page.html")
+
+
+def section(page, heading):
+    """The section with a heading of the second level."""
+    (found,) = (part for part in parse(page).xpath("//section") if part.xpath("h2")[0].text == heading)
+    return found
+
+
+def rows_in(place):
+    return [[cell.text_content() for cell in row.xpath("td")] for row in place.xpath(".//tbody/tr")]
+
+
+def rows_under(page, heading):
+    return rows_in(section(page, heading))
+
+
+def assert_no_infinities(page):
+    assert not re.findall(r"\b(?:nan|inf|infinity|∞|not a number)\b", text_of(page), re.IGNORECASE)
+    assert not {value for value in data_values(page) if "nan" in value or "inf" in value}
+    assert "np.float" not in page
+
+
+def test_page_stands_alone_and_has_no_infinities(page):
+    assert_self_contained(page)
+    assert_no_infinities(page)
+    figures = parse(page).xpath("//*[@class='figure']")
+    assert len(figures) > 20
+    for figure in figures:
+        assert figure.get("role") == "img"
+        assert len(figure.get("aria-label")) > 20
+    for table in parse(page).xpath("//table"):
+        assert table.xpath("thead/tr/th[@scope='col']")
+
+
+def test_same_report_same_bytes(report, page, tmp_path):
+    assert write(replace(report, seconds=99.0), tmp_path / "again.html") == page  # the time it took is not on it
+
+
+def test_verdict_comes_first_with_every_requirement(report, page):
+    headings = [element.text for element in parse(page).xpath("//h2")]
+    assert headings == ["Verdict", "Margins", "Operating points", "Loops", "Over parameters", "What was studied"]
+    wanted = [item for loop in report.loops for item in loop.requirements]
+    wanted += [item for loop in report.loops if loop.dispersion for item in loop.dispersion.requirements]
+    wanted += [item for joint in report.joint for item in joint.requirements]
+    failing = [item for item in wanted if item.passed is False]
+    assert (len(wanted), len(failing)) == (25, 6)  # 3 of the campaign, 3 of the relay's loop
+    tables = section(page, "Verdict").xpath(".//table")
+    for table, items in zip(tables, (failing, wanted), strict=True):
+        listed = [(row[3], row[5], row[6]) for row in rows_in(table)]
+        words = {True: "✓ pass", False: "✗ fail", None: f"{NONE} not applicable"}
+        units = {"1": "", "dB": " dB", "deg": " deg"}
+        expected = [(item.title, f"{item.limit:g}{units[item.unit]}", words[item.passed]) for item in items]
+        assert sorted(listed) == sorted(expected)
+    assert text_of(page).count("25 requirements: 18 hold, 6 fail, 1 not applicable.") == 1
+
+
+def test_margins_are_those_of_python_control(page):
+    gain, phase, frequency = crossings(LATE.loop)
+    (row,) = (row for row in rows_under(page, "Margins") if row[0] == "late")
+    assert float(row[2].removesuffix(" up")) == pytest.approx(np.min(abs(DECIBEL * np.log(gain))), rel=1e-3)
+    assert float(row[3]) == pytest.approx(np.degrees(np.min(abs(phase))), rel=1e-3)
+    delay = np.min(phase % (2.0 * np.pi) / frequency)
+    assert float(row[4]) == pytest.approx(delay, rel=1e-3)
+    assert float(row[5]) == pytest.approx(delay / LATE.period, rel=1e-3)
+    assert float(row[7]) == pytest.approx(disk_margin(LATE.loop), rel=1e-2)
+    exact = np.array([float(value) for value in data_values(page) if re.fullmatch(r"-?[\d.]+(e-?\d+)?", value)])
+    for value in (*gain, *phase, *frequency):
+        assert np.min(np.abs(exact - value)) < 1e-5 * abs(value)
+
+
+def test_what_is_not_applicable_is_said_with_its_reason(report, page, studies, tmp_path):
+    text = text_of(page)
+    reasons = [(part, reason) for loop in report.loops for part, reason in loop.not_applicable.items()]
+    assert reasons
+    for part, reason in reasons:
+        assert f"{part} is not applicable: {reason}" in text
+    for words in (
+        "poles are not known without route A",
+        "not counted",
+        "Not part of this study for late: nonlinear elements.",
+        "no lasting oscillation",
+    ):
+        assert words in text
+    weak = text_of(write(studies.weak, tmp_path / "weak.html"))
+    assert "none (no crossing)" in weak
+    (loop,) = studies.weak.loops
+    assert loop.margins.size(Quantity.PHASE) == UNLIMITED
+
+
+def test_worst_case_can_be_flown_again(report, page, capsys):
+    found = report.loops[0].dispersion
+    assert found.replay in text_of(page)
+    assert f"trial {found.worst}, the worst" in text_of(page)
+    assert main([*shlex.split(found.replay)[1:], "--json", "-"]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "the closed loop is unstable" in line
+    assert found.margins[found.worst].unstable
+
+
+def test_unstable_trials_are_worse_than_any_number(studies, page):
+    """The page's least margin, the requirement, the count; the median is that of a trial, unstable ones below all."""
+    (loop,) = studies.late.loops
+    spread = loop.dispersion
+    assert (spread.trials, spread.unstable) == (TRIALS, 3)
+    rows = {row[0]: row[1:] for row in rows_under(page, "Loops") if len(row) == 5}
+    for quantity, head in ((Quantity.GAIN, "gain margin, dB"), (Quantity.PHASE, "phase margin, deg")):
+        sizes = sorted(item.size(quantity) for item in spread.margins)
+        assert sizes[:3] == [UNSTABLE] * 3 != sizes[3]
+        least, low, median, worst = rows[head]
+        assert (least, low, worst) == ("unstable",) * 3
+        assert float(median) == pytest.approx(sizes[TRIALS // 2 - 1], rel=1e-3)
+    assert f"3 of {TRIALS} trials are unstable" in text_of(page)
+    found = {item.quantity: item for item in spread.requirements}
+    assert found[Quantity.STABILITY].value == pytest.approx(1.0 - 3 / TRIALS)
+    assert spread.replay in found[Quantity.STABILITY].note
+    assert [found[key].value for key in (Quantity.GAIN, Quantity.PHASE)] == [UNSTABLE] * 2
+    assert {item.passed for item in spread.requirements} == {False}
+
+
+def test_a_campaign_without_a_stable_trial(studies, tmp_path):
+    page = write(studies.lost, tmp_path / "page.html")
+    assert_self_contained(page)
+    assert_no_infinities(page)
+    assert "3 of 3 trials are unstable" in text_of(page)
+    rows = {row[0]: row[1:] for row in rows_under(page, "Loops") if len(row) == 5}
+    assert rows["disk margin"] == ["unstable"] * 4
+
+
+def test_an_unstable_loop_has_no_margins(studies, tmp_path):
+    page = write(studies.unstable, tmp_path / "page.html")
+    assert_self_contained(page)
+    assert_no_infinities(page)
+    (row,) = rows_under(page, "Margins")
+    assert row[2:] == ["unstable"] * 7 + ["✗ fail"]
+    assert {row[4] for row in rows_in(section(page, "Verdict").xpath(".//table")[0])} > {"unstable"}
+    assert "The closed loop is unstable: its crossings are not margins." in text_of(page)
+    names = [row[0] for row in rows_under(page, "Loops")]
+    assert "gain crossing up" in names
+    assert not [name for name in names if name.startswith(("gain margin", "phase margin"))]
+    labels = [figure.get("aria-label") for figure in parse(page).xpath("//*[@class='figure']")]
+    assert sum("unstable" in label for label in labels) >= 3
+
+
+def test_joint_margins_ask_for_stability(studies, page, tmp_path):
+    (joint,) = studies.pair.joint
+    (row,) = (row for row in rows_under(page, "Margins") if "pair[1], pair[2]" in row[0])
+    assert float(row[2]) == pytest.approx(disk_margin(PAIR.loop), rel=1e-2)
+    wild = write(studies.wild_pair, tmp_path / "page.html")
+    assert_no_infinities(wild)
+    (row,) = (row for row in rows_under(wild, "Margins") if "pair[1], pair[2]" in row[0])
+    assert row[2:] == ["unstable"] * 3 + [NONE, "✗ fail"]
+    assert {item.value for item in studies.wild_pair.joint[0].requirements} == {UNSTABLE}
+    axes = Figure().subplots()
+    draw_joint(joint, axes)
+    (limit,) = (line for line in axes.lines if line.get_color() == "#D55E00" and len(line.get_xdata()) == 2)
+    gain, phase = 10.0 ** (3.0 / 20.0), math.radians(20.0)
+    wanted = max(2.0 * (gain - 1.0) / (gain + 1.0), 2.0 * math.tan(phase / 2.0))
+    assert limit.get_ydata()[0] == pytest.approx(wanted)
+
+
+def exact_end(low=1.2, high=2.0):
+    """The derivative gain (s) from which on the late double integrator is unstable, by python-control."""
+
+    def largest(gain):
+        return np.max(abs(late_double_integrator(derivative=gain).closed)) - 1.0
+
+    return brentq(largest, low, high, rtol=1e-9)
+
+
+def test_a_sweep_into_instability(studies, page):
+    (sweep,) = studies.late.sweeps
+    (edge,) = (item for item in sweep.crossings if item.quantity is Quantity.STABILITY)
+    end = exact_end()
+    assert edge.value == pytest.approx(end, rel=1e-3)
+    assert not edge.below
+    assert [item.unstable for item in sweep.margins] == (sweep.values > end).tolist()
+    rows = rows_under(page, "Over parameters")
+    assert sum(row[0] == "unstable" and row[1] == "above" for row in rows) == 1
+    assert [row[1] for row in rows if len(row) == 4][-2:] == ["unstable"] * 2
+    limits = {Quantity.GAIN: 6.0, Quantity.PHASE: 30.0}
+    reached = [item for item in sweep.crossings if item.quantity in limits]
+    assert {item.quantity for item in reached} == set(limits)
+    for item in reached:
+        gain, phase, _ = crossings(late_double_integrator(derivative=item.value).loop)
+        sizes = {
+            Quantity.GAIN: np.min(abs(DECIBEL * np.log(gain))),
+            Quantity.PHASE: np.degrees(np.min(abs(phase))),
+        }
+        assert sizes[item.quantity] == pytest.approx(limits[item.quantity], rel=5e-3)
+
+
+def test_figures_show_what_is_unstable(studies):
+    """The hatched bar of a histogram counts the unstable trials; the hatched band of a sweep begins where they do."""
+    (loop,) = studies.late.loops
+    axes = Figure().subplots()
+    draw_histogram(loop.dispersion.sizes(Quantity.GAIN), axes, "gain margin, dB", 3.0, loop.dispersion.worst)
+    (bar,) = (patch for patch in axes.patches if patch.get_hatch())
+    assert bar.get_height() == 3
+    assert sum(patch.get_height() for patch in axes.patches if not patch.get_hatch()) == TRIALS - 3
+    assert any(np.allclose(line.get_xdata(), 3.0) for line in axes.lines if len(line.get_xdata()) == 2)
+    above, below = axes_pair()
+    (sweep,) = studies.late.sweeps
+    draw_sweep(sweep, limits_of(loop), above, below)
+    for axes in (above, below):
+        (band,) = axes.patches
+        assert band.get_x() == pytest.approx(exact_end(), rel=1e-3)
+        assert band.get_x() + band.get_width() == pytest.approx(2.5)
+
+
+def test_provenance(report, page):
+    text = text_of(page)
+    provenance = report.provenance
+    hashes = [provenance["system_sha256"], *(fmu["sha256"] for fmu in provenance["fmus"].values())]
+    assert len(hashes) == 4
+    for word in (*hashes, *provenance["parameters"], provenance["perilune"], "gain_margin_db = 6"):
+        assert word in text
+    for value in provenance["parameters"].values():
+        assert repr(value) in data_values(page)
+
+
+def test_text_of_others_is_escaped(report, studies, tmp_path):
+    nasty = "<b>$x_1$ & 'y'</b>"
+    requirement = Requirement(Scope.NOMINAL, Quantity.GAIN, 1.0, 2.0, False, nasty)
+    strange = replace(
+        studies.foreign.loops[0], name=nasty, loop=nasty, point=nasty, cut=nasty, sign=nasty, closed=(nasty,),
+        not_applicable={nasty: nasty}, requirements=(requirement,), nonlinearities=(),
+    )  # fmt: skip
+    point = replace(
+        report.points[0], name=nasty, phase=nasty, settings={nasty: nasty}, trim=((nasty, 1.0, 2.0, nasty),)
+    )
+    joint = replace(report.joint[0], name=nasty, channels=(nasty,))
+    sweep = replace(report.sweeps[0], name=nasty, parameter=nasty)
+    provenance = {nasty: nasty, "parameters": {nasty: nasty}, "fmus": {nasty: {"fmu": nasty, "sha256": nasty}}}
+    page = write(
+        StabilityReport(nasty, provenance, {nasty: 1.0}, (point,), (strange,), (joint,), (sweep,), (), 0.0),
+        tmp_path / "page.html",
+    )
+    assert_self_contained(page)
+    assert "<b>$" not in page
+    assert text_of(page).count(nasty) > 20
+
+
+def extreme(studies):
+    """No crossing, no limit, nothing known; poles at zero: what no tiny system happens to have."""
+    loop = studies.late.loops[0]
+    nothing = Classical((), (), math.inf, math.nan, None)
+    robust = replace(loop.robust, disk_margin=2.5, disk_gain=math.inf, disk_phase=math.inf, complementary_peak=0.0)
+    deadbeat = Mode(0j, complex(-math.inf, 0.0), math.nan, math.inf, "neither", 0.0, 0.0)
+    free = replace(
+        loop, name="free", classical=nothing, robust=robust, modes=(deadbeat,), poles_z=np.array([0j, 1.3]), step=None,
+        requirements=(Requirement.at_least(Scope.NOMINAL, Quantity.GAIN, UNLIMITED, 6.0),), dispersion=None,
+        nonlinearities=(), sampling=(),
+    )  # fmt: skip
+    start = replace(loop.classical.gain[0], value=0.9, frequency=0.0)  # L crosses the ray at its start
+    zero = replace(loop.classical, gain=(*loop.classical.gain, start))
+    bare = replace(
+        loop, name="bare", classical=zero, curve=Curve(np.array([0.1, 1.0]), np.array([1.0 + 0j, 0.5 - 0.5j])),
+        route_a=None, route_b=None, agreement=None, modes=(), poles_z=np.zeros(0), structure=None, step=None,
+        nonlinearities=(), sampling=(), requirements=(), dispersion=None,
+    )  # fmt: skip
+    point = replace(studies.late.points[0], drift=None, holds=None)
+    return StabilityReport("x", {"faults": [], "seed": None}, {}, (point,), (free, bare), (), (), (), 0.0)
+
+
+def test_extremes(studies, tmp_path):
+    page = write(extreme(studies), tmp_path / "page.html")
+    assert_self_contained(page)
+    assert_no_infinities(page)
+    text = text_of(page)
+    for words in ("without limit", "not counted", "none (no crossing)", "The study names no file."):
+        assert words in text
+
+
+def test_empty_study(tmp_path):
+    page = write(StabilityReport("x", {}, {}, (), (), (), (), (), 0.0), tmp_path / "page.html")
+    assert_self_contained(page)
+    for words in (f"{NONE} not applicable", "No requirement is set", "The study has no loop.", "No operating point."):
+        assert words in text_of(page)
+
+
+def test_summary_leads_to_every_loop(report, page):
+    tree = parse(page)
+    cards = tree.xpath("//article[@class='loop']")
+    assert len(cards) == len(report.loops)
+    assert {link.get("href")[1:] for link in tree.xpath("//table//a")} == {card.get("id") for card in cards}
+    assert len(page) < 250_000 * len(cards)  # ten loops stay a few megabytes
+
+
+def test_few_and_failing_loops_are_open(report, page, studies, tmp_path):
+    def opened(page):
+        return [bool(card.xpath("details[@open]")) for card in parse(page).xpath("//article")]
+
+    assert opened(page) == [loop.verdict == "fail" for loop in report.loops] == [True, False, False, True, False]
+    assert opened(write(studies.foreign, tmp_path / "one.html")) == [True]
+
+
+def test_many_modes_fold_away(report):
+    found = tuple(Mode(complex(0.5 + k / 100), complex(-0.1), 1.0, 0.1, "loop", 1.0, 1.0) for k in range(40))
+    table = modes(replace(report.loops[0], modes=found)).table
+    assert len(table.rows) == 40
+    assert table.is_long
+    assert not modes(replace(report.loops[0], modes=found[:30])).table.is_long
+
+
+def axes_pair():
+    return Figure().subplots(2, 1)
+
+
+def test_bode_diagram_is_python_controls(report):
+    loop = report.loops[0]
+    above, below = axes_pair()
+    draw_bode(loop, above, below)
+    response = response_of(LATE.loop)(loop.curve.frequency)
+    x, y = above.lines[0].get_data()
+    np.testing.assert_allclose(y[:-1], 20.0 * np.log10(abs(response[:-1])), atol=1e-3)  # the last one is a zero
+    np.testing.assert_allclose(x, loop.curve.frequency)
+    difference = below.lines[0].get_ydata() - np.degrees(np.unwrap(np.angle(response)))
+    visible = abs(response) > 1e-3  # below, the differences of flights lose the phase
+    np.testing.assert_allclose(difference[visible], 360.0 * np.round(difference[0] / 360.0), atol=1e-4)
+    margin = loop.classical.phase_margin
+    at = np.interp(margin.frequency, x, below.lines[0].get_ydata())
+    assert at == pytest.approx(-180.0 + math.degrees(margin.value), abs=0.02)
+
+
+def test_phase_of_measured_points_is_on_the_curves_branch():
+    curve = Curve(np.array([1.0, 2.0, 3.0, 4.0]), np.exp(-1j * np.array([3.0, 5.5, 8.0, 10.0])))
+    phase = phase_of(curve, None)
+    assert -360.0 < phase[2] <= 0.0
+    np.testing.assert_allclose(beside(curve, phase, curve), phase)
+
+
+def test_nyquist_circle_touches_the_curve(report):
+    for loop in report.loops:
+        axes = Figure().subplots()
+        draw_nyquist(loop, axes)
+        (circle,) = (line for line in axes.lines if line.get_color() == "#009E73")
+        radius = np.abs(circle.get_xdata() + 1.0 + 1j * circle.get_ydata())
+        np.testing.assert_allclose(radius, np.min(np.abs(1.0 + loop.curve.value)), rtol=1e-4)  # refined between points
+
+
+def test_nichols_zone_is_made_of_the_limits(report):
+    loop = report.loops[0]
+    axes = Figure().subplots()
+    draw_nichols(loop, axes)
+    (zone,) = axes.patches
+    assert {tuple(corner) for corner in zone.get_xy()} == {(-210, 0), (-150, 0), (-180, 6), (-180, -6)}
+    oval = axes.lines[0]
+    points = 10.0 ** (oval.get_ydata() / 20.0) * np.exp(1j * np.radians(oval.get_xdata()))
+    np.testing.assert_allclose(np.abs(1.0 + points), 0.5)
+    curve = axes.lines[1]
+    drawn = 10.0 ** (curve.get_ydata() / 20.0) * np.exp(1j * np.radians(curve.get_xdata()))
+    np.testing.assert_allclose(drawn[np.isfinite(drawn)], loop.curve.value, rtol=1e-9, atol=2e-12)
+
+
+def test_sensitivities_meet_their_peaks(report):
+    loop = report.loops[0]
+    axes = Figure().subplots()
+    draw_sensitivity(loop, axes, 0.5)
+    peak = np.max(np.abs(1.0 / (1.0 + response_of(LATE.loop)(loop.curve.frequency))))
+    assert np.max(axes.lines[0].get_ydata()) == pytest.approx(20.0 * math.log10(peak), abs=1e-6)
+    assert any(np.allclose(line.get_ydata(), 20.0 * math.log10(2.0)) for line in axes.lines)  # limit 0.5 on 1/|S|
+
+
+def test_harmonic_balance_meets_where_the_gain_margin_is(studies):
+    (loop,) = studies.relay.loops
+    axes = Figure().subplots()
+    draw_harmonic_balance(loop, loop.nonlinearities[0], axes)
+    marks = [line for line in axes.lines if line.get_marker() == "o"]
+    assert len(marks) == 2
+    for mark in marks:
+        assert mark.get_xdata()[0] == pytest.approx(-1.0 / loop.classical.gain_margin.value, rel=1e-2)
+
+
+def test_clouds_are_thinned_without_losing_their_outline():
+    generator = np.random.default_rng(1)
+    poles = generator.normal(size=200_000) * 0.2 + 1j * generator.normal(size=200_000) * 0.2
+    kept = thinned(poles, 1.12)
+    assert kept.size < 5000
+    assert set(kept) <= set(poles)
+    assert np.max(kept.real) == pytest.approx(np.max(poles.real), abs=0.05)
+
+
+def test_words():
+    assert in_decibels(2.0) == '<data value="2.0">6.021</data>'
+    assert in_decibels(math.inf) == "<span>none (no crossing)</span>"
+    assert in_decibels(0.0) == "<span>none (no crossing)</span>"
+    assert plain(np.float64(0.5)) == '<data value="0.5">0.5</data>'
+    assert plain(math.nan) == f"<span>{NONE}</span>"
+    assert "0.5 ± 0.25 j" in complex_number(0.5 + 0.25j)
+
+
+def test_lower_half_of_pairs_is_left_out(report, page):
+    poles = LATE.closed[abs(LATE.closed) > 1e-6]
+    assert np.any(poles.imag > 1e-9)
+    assert len(modes(report.loops[0]).table.rows) == np.sum(poles.imag > -1e-9)
+    assert not [value for value in data_values(page) if re.fullmatch(r"0\.\d+-0\.\d+j", value)]

@@ -1,0 +1,1 @@
+"""Flights flown without the project: independent integrations, and what blocks are flown with."""

@@ -1,0 +1,1 @@
+"""Kernels good and bad, native instances, and programs in C that drive FMUs."""

@@ -1,0 +1,267 @@
+"""Blocks that use every construct of the subset, and every arithmetic fault, for comparison with their C."""
+
+import math
+from math import floor
+
+from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+
+TABLE = (0.5, -1.25, 3.0, 8.0)
+WEIGHTS = (3, 1, 2)
+LIMIT = 5
+FRACTION = 0.1
+
+
+def power_sum(values: list, exponent: float) -> float:
+    """Sum of powers, whatever the length of the list."""
+    total = 0.0
+    for i in range(len(values)):
+        total += math.pow(abs(values[i]), exponent)
+    return total
+
+
+def scale(values: list, factor: float) -> None:
+    """Multiply every element, in place."""
+    for i in range(len(values)):
+        values[i] *= factor
+
+
+def count_down(n: int) -> int:
+    """Steps of the Collatz sequence, at most 40."""
+    steps = 0
+    while n > 1 and steps < 40:
+        if n % 2 == 0:
+            n = n // 2
+        else:
+            n = 3 * n + 1
+        steps += 1
+    return steps
+
+
+def position_of_first_above(values: list, limit: float) -> int:
+    """Index of the first element above a limit, or -1."""
+    for i in range(4):
+        if values[i] > limit:
+            return i
+    return -1
+
+
+def is_between(value: float, low: float, high: float) -> bool:
+    """Whether low < value < high."""
+    return low < value and value < high
+
+
+def spread(values: list) -> float:
+    """Sum of the distances from the mean; a list of its own does not make a function change anything."""
+    distances = [0.0] * len(values)
+    mean = 0.0
+    for i in range(len(values)):
+        mean = mean + values[i] / 4.0
+    for i in range(len(values)):
+        distances[i] = abs(values[i] - mean)
+    return distances[0] + distances[1] + distances[2] + distances[3]
+
+
+class LanguageBase(Block, interface=True):
+    """What the block below inherits and overrides."""
+
+    x = Input(0.0, description="a number")
+    k = Input(0, minimum=0, maximum=9, description="an int")
+    double = Parameter(2.0, description="a name that C reserves")
+    y = Output([0.0] * 8, direct=True, description="results")
+    n = Output([0] * 8, direct=True, description="int results")
+    flags = Output([False] * 3, direct=True, description="bool results")
+
+    def combine(self, a: float) -> float:
+        return a + self.double
+
+    def step(self, t: float, h: float) -> None:
+        self.y[0] = self.combine(t) * h
+
+
+class Language(LanguageBase):
+    """Every construct of the subset."""
+
+    memory = State([1.0, 2.0, 3.0, 4.0], description="a list that functions change")
+    int_memory = State([3, -7, 12], description="ints")
+
+    def combine(self, a: float) -> float:
+        return super().combine(a) - 0.5 * self.x
+
+    def remember(self, value: float) -> float:
+        """Changes the block and returns what it was."""
+        before = self.memory[0]
+        for i in range(3):
+            self.memory[i] = self.memory[i + 1]
+        self.memory[3] = value
+        return before
+
+    def loops(self) -> None:
+        """Loop variables that are assigned, kept, counted down; break and continue."""
+        last = 0
+        for i in range(2, 9, 3):
+            last = 10 * last + i
+            i = i + 100
+            last += i % 7
+        self.n[0] = last + i
+        total = 0
+        bound = self.k
+        for j in range(bound):
+            bound = bound - 1
+            if j == 2:
+                continue
+            if j > 6:
+                break
+            total += (j + 1) * bound
+        self.n[1] = total
+        for _ in range(3):
+            for _ in range(2):
+                total -= 1
+        for m in range(5, -self.k, -2):
+            total = total * 2 - m
+        self.n[2] = total
+
+    def ints(self) -> None:
+        """Floor division and remainder, widening, unproven indices."""
+        a = self.int_memory[0] - 40 * self.k
+        b = self.k - 5
+        if b != 0:
+            self.n[3] = a // b
+            self.n[4] = a % b
+        self.n[5] = -a // 7 + abs(a) % LIMIT - int(a > 3)
+        self.int_memory[self.k % 3] = (self.int_memory[self.k % 3] * 3 + count_down(self.k + 1)) % 1000 - 300
+        index = self.k // 3 - 2
+        self.y[1] = TABLE[index] + FRACTION * WEIGHTS[self.k % len(WEIGHTS)]
+        if index >= -4 and index < 4:
+            self.y[1] += self.memory[index]
+        self.n[6] = int(self.x * 100.0) + floor(-self.x) + math.ceil(self.x)
+        self.n[7] = position_of_first_above(self.memory, self.x)
+
+    def lists(self) -> None:
+        """Lists declared in loops and branches, passed on, of several sizes."""
+        total = 0.0
+        for i in range(3):
+            row = [0.25] * 12
+            row[i] = row[i] + self.x
+            pair = [self.x, i * self.x]
+            scale(pair, 0.5)
+            total += power_sum(row, 1.5) + power_sum(pair, 2.0)
+        if self.k > 4:
+            branch = [1.0, self.x, total]
+        else:
+            branch = [self.x] * 3
+        self.y[2] = total + power_sum(branch, 1.0) + power_sum(self.memory, 3.0) - spread(self.memory)
+        scale(self.memory, 0.75)
+
+    def conditions(self) -> None:
+        """and, or, not, if-else expressions, comparisons of all kinds."""
+        small = not (abs(self.x) > 1.0 or self.k == 3)
+        self.flags[0] = small and (self.k >= 2 or self.x < -1.0) and is_between(self.x, -2.0, 2.0)
+        self.flags[1] = small != self.flags[0]
+        self.flags[2] = self.x != 0.0 and 1.0 / self.x > 2.0
+        self.y[3] = (1.0 if small else -1.0) * (self.x if self.x > 0.0 else -self.x)
+        if self.k > 7:
+            self.y[4] = 1.0
+        elif self.x != 0.0 and 1.0 / self.x > 0.5:
+            self.y[4] = 2.0
+        elif self.k > 3:
+            pass
+        else:
+            self.y[4] = self.y[4] - 1.0
+
+    def initialize(self) -> None:
+        self.memory[1] = self.x
+
+    def step(self, t: float, h: float) -> None:
+        super().step(t, h)
+        self.loops()
+        self.ints()
+        self.lists()
+        self.conditions()
+        self.y[5] = self.remember(self.x)
+        # a comment that C keeps
+        exp: float = self.x // 0.7 - (self.x % -0.3) + (-self.x) // self.double
+        if not math.isfinite(exp):
+            return
+        self.y[6] = exp - -self.x - (self.x - (h - t)) / (3 * self.k + 1)
+        self.y[7] = math.pi * float(math.floor(self.x)) + math.fmod(self.x, 2.5) + float(int(self.x))
+
+
+class Faults(Block):
+    """One arithmetic fault per case; the line and the values left behind must be Python's."""
+
+    case = Input(0, minimum=0, maximum=24, description="what to do")
+    x = Input(0.0, description="operand; 0 in half of the cases")
+    result = Output(1.0, direct=True, description="result; unchanged by a fault")
+    values = Output([1.0, 2.0, 3.0], direct=True, description="results; unchanged by a fault")
+    count = Output(0, direct=True, description="changed before a fault, unless its argument faults")
+
+    def bump(self, amount: float) -> float:
+        self.count = self.count + 1
+        return 1.0 / amount
+
+    def inverse(self, value: float) -> float:
+        return 1.0 / value
+
+    def step(self, t: float, h: float) -> None:
+        case = self.case
+        x = self.x
+        zero = 0 * case
+        self.count = self.count % 100 + 1
+        if case == 0:
+            self.result = 1.0 / x
+        elif case == 1:
+            self.result = h // x
+        elif case == 2:
+            self.result = h % x
+        elif case == 3:
+            self.result = math.sqrt(-1.0 - abs(x)) + 1.0 / x
+        elif case == 4:
+            self.values[1] = math.log(x)
+        elif case == 5:
+            self.values[case % 2] = math.exp(710.0 + x)
+        elif case == 6:
+            self.result = math.asin(1.5 + x * x)
+        elif case == 7:
+            self.result = math.pow(x, -1.0) + math.pow(-2.0, 0.5)
+        elif case == 8:
+            self.result = 1.0 / (x * x) + math.sqrt(
+                -1.0 - x * x,
+            )
+        elif case == 9:
+            self.count = 7 // zero
+        elif case == 10:
+            self.count = 7 % zero
+        elif case == 11:
+            self.count = int(1e308 * 10.0 * x)
+        elif case == 12:
+            self.count = math.floor(1e308 * 10.0)
+        elif case == 13:
+            self.result = self.values[case % 9]
+        elif case == 14:
+            self.values[case % 4] = 1.0 + self.inverse(x)
+        elif case == 15:
+            self.result = self.bump(1.0 / x)
+        elif case == 16:
+            self.result = self.bump(x)
+        elif case == 17:
+            self.values[2] = self.inverse(1.0) + self.inverse(self.inverse(x))
+        elif case == 18:
+            if x > 3.0 or 1.0 / x > 0.0:
+                self.result = 5.0
+        elif case == 19:
+            while x < 50.0 and math.sqrt(x - 1.0) > 0.1:
+                x = x - 1.0
+        elif case == 20:
+            for i in range(int(1.0 / (x + 1.0))):
+                if i < 9:
+                    self.result = float(i)
+        elif case == 21:
+            parts = [1.0, 2.0 / x, math.sqrt(x)]
+            self.result = parts[1]
+        elif case == 22:
+            parts = [1.0 / x] * 3
+            self.result = parts[2]
+        elif case == 23:
+            self.result = x if x > 1.0 else 1.0 / x
+        else:
+            self.result = math.fmod(1.0, x) + math.sin(1e308 * 10.0)

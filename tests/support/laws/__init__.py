@@ -1,0 +1,1 @@
+"""Laws and searches small enough to be known."""

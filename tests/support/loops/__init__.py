@@ -1,0 +1,1 @@
+"""Loops known exactly, and studies of them."""

@@ -1,0 +1,1 @@
+"""Pages: what each must satisfy, results to draw, a browser."""

@@ -1,0 +1,32 @@
+"""A page in a real browser, headless: its DOM or a picture of it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+NO_BROWSER = "no chromium"  # tests/conftest.py tells at the end what was left out for it
+FLAGS = (
+    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync", "--window-size=1100,3000",
+)  # fmt: skip
+
+
+def find_browser() -> str:
+    """The path of chromium; without it the tests that ask for it are left out, which CI does not allow."""
+    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if found is None and os.environ.get("PERILUNE_REQUIRE_BROWSER") == "1":
+        pytest.fail("chromium is not installed, and PERILUNE_REQUIRE_BROWSER=1 asks for it")
+    if found is None:
+        pytest.skip(NO_BROWSER)
+    return found
+
+
+def start(browser: str, page: Path, folder: Path, *arguments: str) -> str:
+    """What the browser prints of a page, with a profile of its own in ``folder``."""
+    command = [browser, *FLAGS, f"--user-data-dir={folder / 'profile'}", *arguments, page.as_uri()]
+    return subprocess.run(command, capture_output=True, text=True, timeout=120, check=True).stdout

@@ -1,0 +1,175 @@
+"""Batches made by hand, without flying, and written as `perilune batch` writes them: what a comparison is given."""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+from perilune.analysis.batch.results import BatchResult, make_result
+from perilune.analysis.batch.runner import write_draws
+from perilune.analysis.batch.trials import Trials
+from perilune.analysis.campaign.file import parse_campaign
+from perilune.analysis.campaign.plan import BatchPlan
+from perilune.analysis.campaign.toml_table import Table
+from perilune.analysis.system.options import SystemOptions
+
+DIGEST = "0123456789abcdef" * 4
+POSITION = [f"ship.position[{i}]" for i in (1, 2, 3)]
+VELOCITY = [f"ship.velocity[{i}]" for i in (1, 2, 3)]
+DIRECTION = [f"pilot.thrust_direction[{i}]" for i in (1, 2, 3)]
+SIGNALS = [*POSITION, *VELOCITY, "ship.mass", "pilot.thrust", *DIRECTION, "pilot.status", "checker.x_error_ratio"]
+UNITS = {"position": "m", "velocity": "m/s", "mass": "kg", "thrust": "N"}
+TARGET = np.array([10.0, -20.0, 100.0])
+END = 20.0
+CAMPAIGN = """
+system = "ship"
+description = "Ships that go somewhere"
+trials = {trials}
+seed = {seed}
+[draw.offset]
+distribution = "uniform"
+low = -1
+high = 1
+[metric.miss]
+expression = "norm(ship.position[1] - 10, ship.position[2] + 20, ship.position[3] - 100)"
+reduction = "final"
+unit = "m"
+description = "how far off"
+[metric.propellant]
+expression = "100 - ship.mass"
+reduction = "final"
+unit = "kg"
+[metric.tilt]
+expression = "ship.tilt"
+reduction = "max"
+unit = "rad"
+[metric.pinpoint]
+expression = "ship.position[1] < 12 and ship.position[1] > 8"
+reduction = "final"
+[metric.x_error_over_sigma]
+expression = "checker.x_error_ratio"
+reduction = "final"
+[record]
+{final}
+{sampling}
+[success]
+expression = "miss <= 3"
+"""
+SAMPLING = "every = 2\nsignals = {signals}\ntrials = {traced}"
+
+
+def facts(campaign, variants, targets=True):
+    """What `perilune.analysis.batch.facts` would say of the hand-made batch."""
+    names = dict.fromkeys([*campaign.record.final, *campaign.record.signals])
+    target = {f"pilot.target_{kind}[{i + 1}]": float(value) for kind, at in
+              (("position", TARGET), ("velocity", np.zeros(3))) for i, value in enumerate(at)}  # fmt: skip
+    record = campaign.record
+    return {
+        "description": campaign.description,
+        "success": campaign.success.text,
+        "metrics": {
+            metric.name: {
+                "expression": metric.expression.text,
+                "reduction": metric.reduction,
+                "unit": metric.unit,
+                "description": metric.description,
+                "truth": metric.expression.is_truth,
+            }
+            for metric in campaign.metrics
+        },
+        "record": {
+            "every": record.every, "signals": list(record.signals), "trials": record.trials, "traces": record.traces,
+        },
+        "signals": {
+            name: {
+                "unit": UNITS.get(name.rpartition(".")[2].partition("[")[0]),
+                "type": "Integer" if name.endswith("status") else "Real",
+            }
+            for name in names
+        },
+        "targets": {variant: target if targets else {} for variant in variants},
+    }  # fmt: skip
+
+
+def flight(source, end, mass):
+    """Signals of a flight from 1 km before its target to ``end``, rows every 0.5 s, thinned as [record] every = 2."""
+    time = np.arange(0.0, END + 0.25, 0.5)
+    share = time / END
+    start = np.array([-1000.0 + 30.0 * source.normal(), 40.0 * source.normal(), 500.0])
+    found = {"time": time}
+    for k, name in enumerate(POSITION):
+        found[name] = start[k] + (end[k] - start[k]) * share
+    for k, name in enumerate(VELOCITY):
+        found[name] = np.full(time.size, (end[k] - start[k]) / END)
+    found["ship.mass"] = 100.0 + (mass - 100.0) * share
+    found["pilot.thrust"] = 50.0 + 5.0 * source.normal() + 10.0 * share
+    angle = 0.3 + 0.1 * source.normal() + 0.5 * share
+    found |= dict(zip(DIRECTION, (np.cos(angle), np.zeros(time.size), np.sin(angle)), strict=True))
+    found["pilot.status"] = np.where(share > 0.9, 1.0, 0.0)
+    found["checker.x_error_ratio"] = source.normal(size=time.size)
+    return {name: values[::2] for name, values in found.items()}
+
+
+def sample_batch(
+    trials=40,
+    variants=("alpha", "beta", "gamma"),
+    seed=7,
+    noise=1.0,
+    traced=12,
+    final=True,
+    text=CAMPAIGN,
+    targets=True,
+) -> BatchResult:
+    """A batch in which alpha is good, beta worse, gamma off to one side; ``noise`` scales all misses."""
+    names = [*POSITION, *VELOCITY, "ship.mass"] if final else []
+    sampling = SAMPLING.format(signals=SIGNALS, traced=traced) if traced else ""
+    campaign = parse_campaign(
+        Table(
+            tomllib.loads(
+                text.format(trials=trials, seed=seed, final=f"final = {names}" if names else "", sampling=sampling)
+            ),
+            "test.toml",
+        )
+    )
+    plan = BatchPlan("ship", campaign, SystemOptions(), DIGEST[::-1])
+    found = {}
+    for number, variant in enumerate(variants):
+        source = np.random.default_rng(100 * seed + number)
+        errors = noise * (1.0 + 0.5 * number) * source.normal(size=(trials, 3)) + [0.4 * number, 0.0, 0.0]
+        ends = TARGET + errors
+        speeds = 0.1 * source.normal(size=(trials, 3))
+        mass = 60.0 - number + 0.5 * source.normal(size=trials)
+        miss = np.linalg.norm(errors, axis=1)
+        metrics = {
+            "miss": miss,
+            "propellant": 100.0 - mass,
+            "tilt": 0.1 + 0.01 * source.random(trials),
+            "pinpoint": (np.abs(errors[:, 0]) < 2.0).astype(float),
+            "x_error_over_sigma": source.normal(size=trials),
+        }
+        columns = np.concatenate([ends, speeds, mass[:, np.newaxis]], axis=1)
+        found[variant] = Trials(
+            statuses=["finished" if value <= 3.0 else "stop_time (pilot.status 2)" for value in miss],
+            success=miss <= 3.0,
+            metrics={metric.name: metrics[metric.name] for metric in campaign.metrics},
+            trial=np.arange(trials),
+            end_time=np.full(trials, END),
+            messages={},
+            final={name: columns[:, k] for k, name in enumerate(names)},
+            traces={k: flight(source, ends[k], mass[k]) for k in range(min(traced, trials))},
+        )
+    provenance = {
+        "system": "ship", "system_sha256": DIGEST, "campaign": "test.toml", "campaign_sha256": plan.campaign_sha256,
+        "parameter_sets": [], "set": {}, "variant": None, "start_time": 0.0, "steps": 40, "trials": trials,
+        "seed": seed, "step": 0.5, "algorithm": "sequential", "perilune": "0.0.1",
+        "fmus": {variant: {"ship": DIGEST, "pilot": variant.ljust(64, "0")} for variant in variants},
+    } | facts(campaign, variants, targets)  # fmt: skip
+    return make_result(plan, found, provenance)
+
+
+def write_sample(folder: Path, **options) -> BatchResult:
+    """A sample batch in a folder, as `perilune batch --output` leaves it."""
+    result = sample_batch(**options)
+    write_draws(result.plan, folder)
+    result.write(folder)
+    return result

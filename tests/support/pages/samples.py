@@ -1,0 +1,127 @@
+"""Results made by hand, without flying: what the reports are given."""
+
+import tomllib
+
+import numpy as np
+
+from perilune.analysis.batch.results import BatchResult, make_result
+from perilune.analysis.batch.trials import Trials
+from perilune.analysis.campaign.file import parse_campaign
+from perilune.analysis.campaign.plan import BatchPlan
+from perilune.analysis.campaign.toml_table import Table
+from perilune.analysis.flight.results import Result
+from perilune.analysis.system.options import SystemOptions
+
+DIGEST = "0123456789abcdef" * 4
+HEAD = 'system = "ship"\ntrials = {trials}\nseed = 7\n'
+DRAWS = """
+[draw.offset]
+distribution = "uniform"
+low = -1
+high = 1
+[draw."ship.mass"]
+distribution = "normal"
+mean = 10
+sigma = 1
+[derive]
+twice = "2 * offset"
+"""
+METRICS = """
+[metric.miss]
+expression = "ship.position[1]"
+reduction = "final"
+unit = "m"
+description = "how far off"
+[metric.tilt]
+expression = "ship.tilt"
+reduction = "max"
+unit = "rad"
+[success]
+expression = "miss <= 1"
+"""
+
+
+def run_result(rows: int = 200, status: str = "finished", message: str = "") -> Result:
+    """A flight of a `ship` that turns, with a nested `crew.cook` and a system connector; rows may be 0."""
+    time = 0.5 * np.arange(rows)
+    spike = np.where(np.arange(rows) == 3, 1e6, np.sin(time))
+    signals = {
+        "ship.position[1]": 1000.0 - 20.0 * time,
+        "ship.position[2]": 0.5 * time**2,
+        "ship.position[3]": 50.0 + time,
+        "ship.tilt": 0.01 * time,
+        "ship.mass": np.full(rows, 12.5),
+        "ship.status": np.minimum(np.arange(rows), 2).astype(float),
+        "crew.cook.position[1]": 1000.0 - 20.0 * time,
+        "crew.cook.position[2]": 0.5 * time**2,
+        "crew.cook.position[3]": 50.0 + time,
+        "crew.cook.spike": spike,
+        "crew.cook.awake": (np.arange(rows) % 2).astype(float),
+        "finished": (np.arange(rows) == rows - 1).astype(float),
+    }
+    units = {name: "m" if "position" in name else None for name in signals} | {"ship.tilt": "rad", "ship.mass": "kg"}
+    types = dict.fromkeys(signals, "Real")
+    types |= {"ship.status": "Integer", "crew.cook.awake": "Boolean", "finished": "Boolean"}
+    provenance = {
+        "system": "ship",
+        "system_sha256": DIGEST,
+        "fmus": {
+            name: {"fmu": f"{name}_block", "sha256": DIGEST[::-1], "guid": "{}"} for name in ("ship", "crew.cook")
+        },
+        "parameters": {"ship.length": 3.25, "ship.sails": 2, "ship.armed": False, "ship.name": "<b>Beagle</b>"},
+        "start_time": 0.0,
+        "step": 0.5,
+        "algorithm": "sequential",
+        "perilune": "0.0.1",
+    }
+    return Result(
+        time=time,
+        signals=signals,
+        units=units,
+        types=types,
+        status=status,
+        message=message,
+        provenance=provenance,
+    )
+
+
+def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str = DRAWS + METRICS) -> BatchResult:
+    """A batch from (success, miss, tilt) of every trial by variant."""
+    trials = len(next(iter(outcomes.values())))
+    campaign = parse_campaign(Table(tomllib.loads(HEAD.format(trials=trials) + text), "test.toml"))
+    names = [metric.name for metric in campaign.metrics]
+    found = {
+        variant: Trials(
+            statuses=["finished" if row[0] else "stop_time (ship.status 2)" for row in rows],
+            success=np.array([row[0] for row in rows]),
+            metrics={name: np.array([row[1 + k] for row in rows]) for k, name in enumerate(names)},
+            trial=np.arange(trials),
+            end_time=np.ones(trials),
+            messages={},
+            final={},
+            traces={},
+        )
+        for variant, rows in outcomes.items()
+    }
+    provenance = {
+        "system": "ship",
+        "system_sha256": DIGEST,
+        "campaign": "test.toml",
+        "trials": trials,
+        "seed": 7,
+        "step": 0.5,
+        "algorithm": "sequential",
+        "fmus": {variant: {"ship": DIGEST, "guidance": variant} for variant in outcomes},
+        "perilune": "0.0.1",
+    }
+    return make_result(BatchPlan("ship", campaign, SystemOptions()), found, provenance)
+
+
+def mixed_batch(trials: int = 40) -> BatchResult:
+    """Two variants: one that always succeeds, one that fails where the draw `offset` is large either way."""
+    source = np.random.default_rng(5)
+    probe = batch_result({"steady": [(True, 0.0, 0.0)] * trials})
+    offset = probe.plan.draws.columns["offset"]
+    steady = [(True, float(source.lognormal(-3, 2)), float(source.normal())) for _ in range(trials)]
+    shaky = [(bool(abs(x) < 0.6), float(10 ** (4 * abs(x) - 2)), 0.1) for x in offset]
+    return batch_result({"steady": steady, "shaky": shaky})

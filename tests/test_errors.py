@@ -1,0 +1,27 @@
+"""perilune.analysis.errors"""
+
+import pickle
+
+from perilune.analysis.errors import InputError, suggestion
+
+
+def test_is_one_line_with_place_problem_and_remedy():
+    error = InputError("a.toml", "draw.x", "not\na number", "write one")
+    assert str(error) == "a.toml: draw.x: not a number; write one"
+    assert isinstance(error, ValueError)
+
+
+def test_without_an_element():
+    assert str(InputError("a.toml", "", "missing", "give it")) == "a.toml: missing; give it"
+
+
+def test_survives_pickling_between_processes():
+    error = pickle.loads(pickle.dumps(InputError("a.toml", "draw.x", "wrong", "right")))
+    assert (error.file, error.element, error.problem, error.remedy) == ("a.toml", "draw.x", "wrong", "right")
+
+
+def test_suggestion_is_nearest_first_among_many():
+    assert suggestion("b", ["a", "c"]) == "use one of a, c"
+    many = [f"plant.position[{i}]" for i in range(50)] + ["guidance.status"]
+    assert suggestion("guidance.statu", many).split(": ")[1].startswith("guidance.status")
+    assert "none to choose" in suggestion("x", [])
