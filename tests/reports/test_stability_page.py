@@ -78,15 +78,19 @@ def test_verdict_comes_first_with_every_requirement(report, page):
     headings = [element.text for element in parse(page).xpath("//h2")]
     assert headings == ["Verdict", "Margins", "Operating points", "Loops", "Over parameters", "What was studied"]
     rows = rows_under(page, "Verdict")
-    wanted = [item for loop in report.loops for item in loop.requirements]
-    wanted += [*report.loops[1].dispersion.requirements, *report.joint[0].requirements]
+    wanted = [(loop.name, "nominal", item) for loop in report.loops for item in loop.requirements]
+    wanted += [(report.loops[1].name, "dispersed", item) for item in report.loops[1].dispersion.requirements]
+    wanted += [(report.joint[0].name, "channels at once", item) for item in report.joint[0].requirements]
     words = {True: "✓ pass", False: "✗ fail", None: f"{NONE} not applicable"}
-    for item in wanted:
-        assert any(
-            row[3] == item.quantity and row[6] == words[item.passed] and row[7] == item.note and row[5][0] in "1346053"
-            for row in rows
-        ), item
-    failing = [item for item in wanted if item.passed is False]
+
+    def shown(value, unit):
+        return NONE if value is None else f"{value:.4g} {unit}".removesuffix(" 1")
+
+    for name, scope, item in wanted:
+        values = shown(item.value, item.unit), shown(item.limit, item.unit)
+        expected = [name, scope, item.quantity, *values, words[item.passed], item.note]
+        assert expected in [[row[0], *row[2:]] for row in rows], item
+    failing = [item for _, _, item in wanted if item.passed is False]
     assert failing
     assert len(rows) == len(wanted) + len(failing)  # what fails is listed once more on top
     assert text_of(page).count(f"{len(wanted)} requirements: ") == 1
