@@ -48,7 +48,10 @@ def test_flies_the_published_comparison(name):
     methods = ["analytic_guidance", "astar_guidance", "astar_modified_guidance"]
     assert [variant.use for variant in campaign.variants()] == [{"guidance": method} for method in methods]
     assert set(methods) <= catalogue().keys()
-    assert campaign.success.evaluate({"finished": 1, "position_error": 200, "velocity_error": 10}) == 1.0
+    limits = {"finished": 1, "position_error": 200, "velocity_error": 10}
+    assert campaign.success.evaluate(limits) == 1.0
+    for missed in ({"finished": 0}, {"position_error": 200.1}, {"velocity_error": 10.1}):
+        assert campaign.success.evaluate(limits | missed) == 0.0
 
 
 def test_only_the_parameters_differ():

@@ -59,6 +59,8 @@ def test_any_order_of_tasks(reference):
         expected = rows[number * TRIALS : (number + 1) * TRIALS]
         assert column.trial.tolist() == list(range(TRIALS))
         assert column.statuses == [row["status"] for row in expected], variant
+        assert column.metrics
+        assert column.final
         for name, values in column.metrics.items():
             assert values.tobytes() == np.array([row[f"metric.{name}"] for row in expected]).tobytes()
         for name, values in column.final.items():
@@ -79,7 +81,9 @@ def test_replay_is_the_trial_to_the_last_bit(reference):
         result, found = flyer.replay(variant, trial)
         row = rows[variant, trial]
         assert (found.status, found.success, found.end_time) == (row["status"], row["success"], row["end_time"])
-        assert found.metrics == {name: row[f"metric.{name}"] for name in found.metrics}
+        assert {f"metric.{name}": value for name, value in found.metrics.items()} == {
+            name: value for name, value in row.items() if name.startswith("metric.")
+        }
         assert result["plant.position[1]"][-1] == row["final.plant.position[1]"]
         assert len(result.signals) > 60
     flyer.close()
@@ -119,3 +123,10 @@ def test_another_seed_draws_and_perturbs_anew(reference):
     rows = reference.to_pylist()
     for name in ("draw.speed", "metric.position_error"):
         assert not {row[name] for row in other} & {row[name] for row in rows}
+
+    def seed_of_noise(seed):
+        plan = read_plan(SYSTEM, "noisy", SystemOptions(), trials=1, seed=seed, compare=COMPARE)
+        return plan.parameters(plan.prepare(plan.campaign.variants()[0]), 0)["navigation.seed"]
+
+    assert seed_of_noise(1) == 1
+    assert seed_of_noise(2) == 2

@@ -256,11 +256,6 @@ def test_rates_are_what_is_true_or_false(original, tmp_path):
 
 
 def test_a_metric_that_only_one_batch_has(original, tmp_path):
-    text = CAMPAIGN.replace("[metric.tilt]", "[metric.lean]")
-    sample = sample_batch()
-    assert "tilt" in sample.trials["alpha"].metrics
-    with pytest.raises(KeyError):
-        sample_batch(text=text)  # the sample has no such numbers
     cut = CAMPAIGN[: CAMPAIGN.index("[metric.tilt]")] + CAMPAIGN[CAMPAIGN.index("[metric.pinpoint]") :]
     write_sample(tmp_path / "fewer", text=cut)
     found = compare([tmp_path / "fewer", original])

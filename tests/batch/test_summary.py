@@ -65,5 +65,5 @@ def test_text_is_aligned_and_complete(summary):
     assert metrics[2].split() == ["miss", "bad", "-", "-", "-", "-", "m"]
 
 
-def test_text_without_metrics(summary):
+def test_text_without_metrics():
     assert len(summary_text(summarise({"good": GOOD}, [])).splitlines()) == 2

@@ -62,9 +62,8 @@ def test_a_tiny_run_has_every_contestant_and_all_agree(
         "python": {"1", "2"},
         "native": {"1", "2"},
     }
-    text = benchmark_text(document)
-    for name in (*times, *PROMISED_RATIOS):
-        assert f"{name} " in text
+    first = {line.split()[0] for line in benchmark_text(document).splitlines() if line}  # names are parts of others
+    assert {*times, *PROMISED_RATIOS} <= first
 
 
 @pytest.mark.parametrize(("steps", "repeats"), [(1, 5), (2500, 0)])

@@ -89,6 +89,8 @@ def test_what_ends_our_flight_ends_a_fused_one(
         connections=wired(("trouble.y", "gain.u")),
         bindings=inline(f"trouble.kind=Integer:{kind}"),
     )
+    with pytest.raises(RuntimeError, match=r"^(failed|nonfinite): "):
+        perilune_loop.prepare(flown)(5)
     fused = fused_limit.prepare(flown, blocks)
     with pytest.raises(RuntimeError, match=problem):
         fused(5)

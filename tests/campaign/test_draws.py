@@ -69,6 +69,7 @@ def test_fully_correlated_values_are_proportional(campaign):
     )
     columns = draw_table(campaign(text, trials=100)).columns
     np.testing.assert_allclose(columns["v"], 2 * columns["u"], atol=1e-7)
+    assert columns["u"].std() == pytest.approx(1.0, abs=0.25)
 
 
 def test_streams_of_different_names_and_trials_are_independent(table):

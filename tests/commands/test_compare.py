@@ -9,6 +9,7 @@ import shutil
 import numpy as np
 import pyarrow.parquet
 import pytest
+from scipy.stats import beta
 
 import perilune
 from perilune.analysis.cli import VERBS, main
@@ -65,12 +66,16 @@ def test_json_holds_rates_metrics_and_pairs(folders, capsys):
     found = json.loads(capsys.readouterr().out)
     for folder in folders:
         summary = json.loads((folder / "summary.json").read_text())
+        table = pyarrow.parquet.read_table(folder / "trials.parquet").to_pylist()
         assert found["batches"][str(folder)] == {key: value for key, value in summary.items() if key != "variants"}
         for name, entry in summary["variants"].items():
             mine = found["variants"][f"{folder.name}: {name}"]
             assert mine["success_rate"] == entry["success_rate"] == mine["rates"]["success"]["rate"]
             assert mine["metrics"]["position_error"] == entry["metrics"]["position_error"]
-            assert mine["rates"]["finished"]["interval"] == mine["rates"]["finished"]["interval"]
+            yes = sum(row["metric.finished"] for row in table if row["variant"] == name)
+            low = beta.ppf(0.025, yes, 17 - yes) if yes else 0.0
+            high = beta.ppf(0.975, yes + 1, 16 - yes) if yes < 16 else 1.0
+            assert mine["rates"]["finished"]["interval"] == pytest.approx([low, high], rel=1e-9)
     rows = pyarrow.parquet.read_table(folders[1] / "trials.parquet").to_pylist()
     good = {name: np.array([row["success"] for row in rows if row["variant"] == name]) for name in VARIANTS}
     (pair,) = (p for p in found["pairs"] if (p["a"], p["b"]) == ("noisy: astar_guidance", "noisy: analytic_guidance"))

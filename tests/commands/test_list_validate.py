@@ -26,7 +26,9 @@ def test_list(capsys):
     assert "python" in found["fmus"]["astar_guidance"]["built"]
     assert main(["list"]) == 0
     text = capsys.readouterr().out
-    assert all(name in text for name in (*catalogue(), "lunar_terminal_guidance", "noisy.ssv"))
+    first = {line.split()[0] for line in text.splitlines() if line}  # some names stand in the lines of others
+    assert {*catalogue(), "lunar_terminal_guidance"} <= first
+    assert "noisy.ssv" in text
 
 
 def test_everything_of_ours_is_valid(capsys):

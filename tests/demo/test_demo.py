@@ -9,6 +9,7 @@ from perilune.analysis.demo.demo import fly
 from perilune.analysis.demo.page import PUBLISHED
 from perilune.analysis.demo.readme_figure import draw_readme_figure
 from perilune.fmus_src.places import ROOT
+from tests.papers.test_fomichev_li import TABLE
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 
 TRIALS = 12
@@ -32,6 +33,14 @@ def test_page_stands_alone_and_its_links_lead_somewhere(demo):
 def test_reports_beside_it_stand_alone(demo):
     for name in ("landing.html", "comparison.html"):
         assert_self_contained((demo.parent / name).read_text(encoding="utf-8"))
+
+
+def test_the_published_values_are_those_of_the_table():
+    found = {
+        name: (round(100.0 * row.success_rate, 9), row.position_error, row.velocity_error)
+        for name, row in PUBLISHED.items()
+    }
+    assert found == {name: (row.success, row.miss, row.velocity) for name, row in TABLE.items()}
 
 
 def test_ours_stand_beside_the_published_values(demo):

@@ -105,7 +105,7 @@ def test_an_fmu_keeps_the_code_it_was_built_with(fmus, tmp_path):
 
 AWAY = """
 import sys, os
-assert not any(path == "" or path.endswith("main") for path in sys.path), sys.path
+assert "" not in sys.path, sys.path
 import fmpy
 for name in ("fmus_src", "analysis", "perilune"):
     try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import importlib.util
+import re
 import warnings
 from pathlib import Path
 
@@ -67,8 +68,11 @@ def refusal(folder: Path, rule: Rule, step: str, functions: str = "") -> None:
     line = next(n for n, text in enumerate(file.read_text().splitlines(), 1) if "# here" in text)
     found = [violation for violation in check(block) if violation.line == line]
     assert found, [str(violation) for violation in check(block)]
-    fixed = rule.remedy.split("{")[0]
-    assert any(violation.file == file and violation.remedy.startswith(fixed) for violation in found), found
+    fixed = re.split(r"\{\w*\}", f"{rule.what}{{}}{rule.remedy}")
+    assert any(
+        violation.file == file and all(part in f"{violation.what}; {violation.remedy}" for part in fixed)
+        for violation in found
+    ), found
     assert all(str(violation).startswith(f"{file}:{line}: ") for violation in found)
 
 

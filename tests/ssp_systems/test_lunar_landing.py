@@ -65,13 +65,15 @@ def test_the_filter_is_consistent_at_five_epochs():
     flights = len(found.trial)
     assert flights == 200
     degrees = {"nees": 6, "altitude_nis": 1, "velocity_nis": 3, "position_nis": 3}
-    outside = []
+    outside, looked_at = [], 0
     for name, values in found.metrics.items():
         kind = next((kind for kind in degrees if name.startswith(kind)), None)
         if kind is not None:
+            looked_at += 1
             low, high = stats.chi2.interval(0.95, degrees[kind] * flights)
             if not low <= np.sum(values) <= high:
                 outside.append(name)
+    assert looked_at == 17
     # of 17 sums one in twenty may lie outside of its 95 % interval
     assert len(outside) <= stats.binom.ppf(0.99, 17, 0.05), outside
 

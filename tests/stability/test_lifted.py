@@ -142,7 +142,9 @@ def test_damping_and_frequency_of_a_mode():
     loop = held(control.tf([1.0], [1.0, 2.0 * damping * rate, rate**2]), seconds)
     nothing = np.zeros((1, 2))
     model = LiftedModel(loop.A, loop.B, loop.C, np.eye(1), nothing, np.eye(1) * 0.0, ("a", "b"), seconds, (port(1),))
-    for mode in modes(model, model.ports[0]):
+    found = modes(model, model.ports[0])
+    assert len(found) == 2
+    for mode in found:
         assert (mode.damping, mode.frequency) == (pytest.approx(damping), pytest.approx(rate))
         assert mode.s.real == pytest.approx(-damping * rate)
 

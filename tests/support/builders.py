@@ -212,42 +212,6 @@ NAMESPACES = """xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescripti
 FLAVOURS = ("python", "native")
 
 
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
-FLAVOURS = ("python", "native")
-
-
 def build_tiny_fmus(folder: Path) -> None:
     """Build the FMUs above into ``folder``/FLAVOUR, with retouched ones beside them."""
     folder.mkdir(parents=True)

@@ -36,7 +36,7 @@ def test_resuming_after_every_generation_changes_nothing(tmp_path):
     assert len(whole.state.bases) == 3
 
 
-def test_infinite_objectives_survive(tmp_path):
+def test_infinite_objectives_survive():
     found = search(1)
     found.advance()
     first = found.state.population[0]

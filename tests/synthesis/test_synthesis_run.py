@@ -86,6 +86,7 @@ def test_what_is_written(whole):
     assert document["format"] == "perilune-pareto-set"
     assert document["chosen"]["law"] == law.document()
     members = [tuple(member["objectives"].values()) for member in document["members"]]
+    assert tuple(document["chosen"]["objectives"].values()) in members
     for point in members:
         assert not any(a[0] <= point[0] and a[1] <= point[1] and a != point for a in members)
     assert document["ended"] == "generations"

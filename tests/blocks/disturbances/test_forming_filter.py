@@ -200,3 +200,4 @@ def test_disturbance_rate_is_the_derivative():
 def test_overdamped_filter_takes_a_step_much_longer_than_its_time_constants():
     block = filter_of(5.0, 1.0)
     block.step(0.0, 200.0)
+    assert abs(block.disturbance) < 6.0 * math.sqrt(INTENSITY / 20.0)  # w/(4 damping) of the intensity

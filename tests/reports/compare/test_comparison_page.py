@@ -135,10 +135,13 @@ def test_pairs_of_metrics(page, trials):
 
 
 def test_intervals_without_zero_are_bold_and_others_are_not(page):
+    found = []
     for cell in section(page, "Pairs on the same trials").xpath(".//td[contains(@class, 'n')]"):
         ends = numbers(cell)
         if len(ends) == 2:
-            assert ("sure" in cell.get("class")) == (ends[0] > 0.0 or ends[1] < 0.0)
+            found.append(ends[0] > 0.0 or ends[1] < 0.0)
+            assert ("sure" in cell.get("class")) == found[-1]
+    assert set(found) == {True, False}
 
 
 def test_dispersions_at_the_end(page, trials):
@@ -154,6 +157,7 @@ def test_dispersions_at_the_end(page, trials):
             radii = [np.percentile(miss, 50), np.percentile(miss, 99), miss.max()]
             expected.append([len(errors), *errors.mean(axis=0), *errors.std(axis=0, ddof=1), *axes, *radii])
     np.testing.assert_allclose(table_rows(section(page, "At the end"), 12), expected, rtol=1e-9)
+    assert "the ellipses hold 39.3, 86.5 and 98.9 %" in text_of(page)  # test_comparison_figures.py: they do
 
 
 def test_errors_over_sigma(page, trials):
@@ -193,12 +197,16 @@ def test_every_section_and_figure_is_there(page):
 def test_every_variant_has_one_colour_everywhere(folder, page):
     colours = {label: look.colour for label, look in looks_of(compare([folder])).items()}
     assert len(set(colours.values())) == 3
+    seen = []
     for figure in parse(page).xpath("//*[@class='panels']/figure"):
         label = figure.xpath("figcaption")[0].text_content().strip()
         if label in colours:
+            seen.append(label)
             drawn = set(re.findall(r"#[0-9a-f]{6}", " ".join(figure.xpath(".//@style")).lower()))
             assert colours[label].lower() in drawn
             assert not drawn & {colour.lower() for other, colour in colours.items() if other != label}
+    assert len(seen) == 3 * 11  # paths from the side and in plan, two ends, seven quantities
+    assert set(seen) == set(colours)
 
 
 def test_several_folders(folder, tmp_path):

@@ -101,7 +101,8 @@ def test_short_runs(rows, tmp_path):
     assert ("The run ended before its first row" in text_of(page)) == (rows == 0)
 
 
-def test_no_position_no_trajectory(tmp_path):
+def test_no_position_no_trajectory(page, tmp_path):
+    assert "Trajectory" in text_of(page)
     result = run_result()
     for name in [name for name in result.signals if "position" in name]:
         del result.signals[name]
