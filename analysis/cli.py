@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from .errors import InputError
+from .process_end import leave
 
 VERBS = ("list", "validate", "run", "batch", "compare", "law", "synthesize", "stability", "benchmark", "export")
 
@@ -50,15 +51,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def run() -> NoReturn:
-    """The console script: `main`, then leave at once.
-
-    pythonfmu's library can crash in its destructors at the end of a process that used it, after
-    everything is done (1 of 6 runs), and would spoil the exit status.
-    """
+    """The console script: `main`, then leave at once."""
     try:
         status = main()
     except SystemExit as stop:  # argparse's --help and errors
         status = stop.code if isinstance(stop.code, int) else 1
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(status)
+    leave(status)

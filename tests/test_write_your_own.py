@@ -13,16 +13,29 @@ import subprocess
 import sys
 from pathlib import Path
 
+from perilune.fmus_src.export.compilers import local_platform
+
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "write_your_own.md").read_text(encoding="utf-8")
 
 
 def test_the_example_is_built_and_lands(tmp_path: Path) -> None:
+    platform = local_platform()
+    assert platform is not None
     example = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)[0]
     file = tmp_path / "linear_guidance.py"
     file.write_text(example, encoding="utf-8")
     assert len(example.splitlines()) <= 32
-    build = [sys.executable, str(ROOT / "build_fmus.py"), "--blocks", str(file), "--output", str(tmp_path)]
+    build = [
+        sys.executable,
+        str(ROOT / "build_fmus.py"),
+        "--blocks",
+        str(file),
+        "--output",
+        str(tmp_path),
+        "--platform",
+        platform,
+    ]
     subprocess.run(build, check=True, capture_output=True)
     for flavour in ("python", "native"):
         fmu = tmp_path / "fmus" / flavour / "linear_guidance.fmu"

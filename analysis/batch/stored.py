@@ -15,6 +15,7 @@ import pyarrow.parquet
 from ..campaign.campaign import Metric
 from ..campaign.expressions import Expression
 from ..errors import InputError
+from ..system.names import parted
 from .results import batch_digest, trace_path
 from .trials import Trials
 
@@ -48,6 +49,10 @@ class StoredBatch:
     def provenance(self) -> dict[str, Any]:
         """What the batch's numbers depend on: summary.json without the summary."""
         return {key: value for key, value in self.document.items() if key != "variants"}
+
+    def parted(self, name: str) -> tuple[str, str]:
+        """Component and variable of a signal or parameter of any variant."""
+        return parted(name, (component for fmus in self.document["fmus"].values() for component in fmus))
 
     def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
         """The kept signals of one flight, ``time`` (s) among them; of ``names`` those that there are, or all."""

@@ -14,6 +14,7 @@ from loky import ProcessPoolExecutor
 
 from ..campaign.plan import BatchPlan
 from ..errors import InputError
+from ..process_end import leave
 from .flyer import Flyer
 from .trials import Trials
 
@@ -112,13 +113,13 @@ def _start_process(plan: BatchPlan) -> None:
 
 
 def _leave() -> None:
-    """Remove the unpacked FMUs, then leave: pythonfmu's library can crash in its destructors afterwards."""
+    """Remove the unpacked FMUs, then leave."""
     try:
         _local.flyer.close()
         del _local.flyer
         gc.collect()
     finally:
-        os._exit(0)
+        leave(0)
 
 
 def _call(function: Callable[..., Result], task: tuple) -> Result:

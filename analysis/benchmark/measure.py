@@ -19,8 +19,7 @@ from .contestants.all import CONTESTANTS, OURS
 from .contestants.contestant import Unavailable, Values
 from .contestants.course import Course
 from .machine import machine, versions
-from .promises import promised_ratios
-from .times import Times
+from .times import Times, promised_ratios
 from .trials import ROUNDS, trials_per_second
 from .worker import Worker, WorkerError
 

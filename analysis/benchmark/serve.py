@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..process_end import leave
 from .contestants.all import CONTESTANTS
 from .contestants.contestant import Fly, Unavailable
 from .contestants.course import Course
@@ -67,8 +68,7 @@ def main() -> None:
         except Exception as error:  # a peer may raise anything; the benchmark goes on without it
             answer({"failed": f"{type(error).__name__}: {error}"})
             status = 1
-    sys.stderr.flush()
-    os._exit(status)  # pythonfmu's library can crash in its destructors
+    leave(status)
 
 
 if __name__ == "__main__":

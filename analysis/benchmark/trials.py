@@ -14,6 +14,7 @@ CAMPAIGN = "paper"
 WORKERS = (1, 2)
 SECONDS = 4.0  # about how long a batch flies
 ROUNDS = 3
+LEAST = 20  # trials beyond the warm-up, however long they take
 
 
 def trials_per_second(ssp: Path, flight: float, rounds: int = ROUNDS) -> dict[str, float]:
@@ -22,7 +23,7 @@ def trials_per_second(ssp: Path, flight: float, rounds: int = ROUNDS) -> dict[st
     A short batch and a long one are timed, each ``rounds`` times: the difference of the fastest ones
     leaves out the start of the workers. Raises `Unavailable` and `WorkerError`.
     """
-    sizes = {workers: (4 * workers, 4 * workers + max(20, round(workers * SECONDS / flight))) for workers in WORKERS}
+    sizes = {workers: (4 * workers, 4 * workers + max(LEAST, round(workers * SECONDS / flight))) for workers in WORKERS}
     best: dict[tuple[int, int], float] = {}
     with Worker("batch", ssp) as worker:
         for _ in range(rounds):

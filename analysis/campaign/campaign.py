@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ..errors import InputError
+from ..system.options import Layer
 from .distributions import Draw
 from .expressions import Expression
 
@@ -88,6 +89,11 @@ class Campaign:
                 )
         if self.seed < 0:
             raise InputError(self.file, "seed", f"{self.seed} is negative", "give a seed >= 0")
+
+    @property
+    def layer(self) -> Layer:
+        """What the campaign asks of the system, whatever it draws."""
+        return Layer(parameters=self.parameters, set=self.settings)
 
     def drawn_names(self) -> list[str]:
         """Names of all drawn and derived values."""

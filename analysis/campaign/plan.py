@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import InputError, suggestion
 from ..system.archive import open_system
-from ..system.options import SystemOptions
+from ..system.options import Layer, SystemOptions
 from ..system.prepared import PreparedSystem, prepare_system
 from .campaign import Campaign, Variant
 from .draws import DrawTable, draw_table, stream_numbers
@@ -44,12 +44,7 @@ class BatchPlan:
 
     def prepare(self, variant: Variant) -> PreparedSystem:
         """The system as one variant flies it. Raises InputError."""
-        options = replace(
-            self.options,
-            use={**self.options.use, **variant.use},
-            parameters=(*self.campaign.parameters, *self.options.parameters),
-            set={**self.campaign.settings, **self.options.set},
-        )
+        options = self.options.among(campaign=self.campaign.layer, study=Layer(use=variant.use))
         return prepare_system(self.system, options)
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:

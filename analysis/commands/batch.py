@@ -17,7 +17,7 @@ from ..campaign.expressions import Expression
 from ..campaign.plan import BatchPlan, check_plan, read_plan
 from ..errors import InputError, suggestion
 from ..reports.batch.batch_report import write_batch_report
-from .options import add_json, add_system, pairs, plain, system_options, write_json
+from .options import add_json, add_system, json_number, pairs, system_options, write_json
 
 HELP = "fly a campaign: many trials, variants compared on the same draws"
 
@@ -112,7 +112,7 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
         result, found = flyer.replay(variant, trial)
         if options.output is not None:
             result.write(options.output / f"{variant}_{trial:06d}.parquet")
-        metrics = {name: plain(value) for name, value in found.metrics.items()}
+        metrics = {name: json_number(value) for name, value in found.metrics.items()}
         document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
     if not write_json({"trial": trial, "variants": document}, options.json):
         for variant, entry in document.items():

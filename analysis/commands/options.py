@@ -54,7 +54,7 @@ def _seconds(text: str) -> float:
     return value
 
 
-def plain(value: float | int | bool) -> float | int | bool | None:
+def json_number(value: float | int | bool) -> float | int | bool | None:
     """A value as strict JSON can hold it."""
     return value if abs(value) < float("inf") else None
 

@@ -10,7 +10,7 @@ from ..errors import InputError
 from ..flight.simulation import Simulation
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
-from .options import add_json, add_system, plain, system_options, write_json
+from .options import add_json, add_system, json_number, system_options, write_json
 
 HELP = "fly a system once"
 OUTPUT_SUFFIXES = (".csv", ".parquet")
@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
         result.write(options.output)
     if options.report is not None:
         write_run_report(result, options.report, prepared.archive.name)
-    final = {name: plain(value) for name, value in result.final().items()}
+    final = {name: json_number(value) for name, value in result.final().items()}
     if not write_json(result.summary() | {"final": final}, options.json):
         end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
         print(f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows")

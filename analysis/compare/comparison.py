@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from ..batch.interval import success_interval
 from ..batch.stored import StoredBatch
-from ..batch.summary import CONFIDENCE, TrialColumns, aligned, summarise
+from ..batch.summary import CONFIDENCE, TrialColumns, aligned, success_interval, summarise
 from ..batch.trials import Trials
 from ..campaign.campaign import Metric
 from .paired import PairedRates, PairedValues, paired_rates, paired_values

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 import time
 from pathlib import Path
@@ -14,6 +13,7 @@ from ..batch.runner import run_batch
 from ..campaign.plan import BatchPlan, read_plan
 from ..errors import InputError
 from ..flight.results import Result
+from ..process_end import leave
 from ..reports.batch.batch_report import write_batch_report
 from ..reports.run.run_report import write_run_report
 from ..system.options import SystemOptions
@@ -71,7 +71,4 @@ def write_files(landing: Result, sample: list[Result], batch: BatchResult, outpu
 
 
 if __name__ == "__main__":
-    exit_status = main()
-    sys.stdout.flush()
-    sys.stderr.flush()
-    os._exit(exit_status)  # pythonfmu's library can crash in its destructors
+    leave(main())

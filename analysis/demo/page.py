@@ -9,9 +9,9 @@ import numpy as np
 
 from ..batch.results import BatchResult
 from ..flight.results import Result
+from ..reports.batch.distributions import distributions_figure
 from ..reports.batch.failures import failures_figure
 from ..reports.batch.rates import rates_figure
-from ..reports.kit.distributions import distributions_figure
 from ..reports.kit.page import write_page
 from ..reports.kit.svg import inline_svg
 from .landing import landing_figure, vector

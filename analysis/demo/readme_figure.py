@@ -1,13 +1,12 @@
-"""Draws docs/images/landing.svg: `python -m analysis.reports.readme_figure`, after build_fmus.py."""
+"""Draws docs/images/landing.svg: `python -m perilune.analysis.demo.readme_figure`, after build_fmus.py."""
 
 from __future__ import annotations
 
-import os
-import sys
 from pathlib import Path
 
 from ...fmus_src.places import ROOT
 from ..campaign.plan import read_plan
+from ..process_end import leave
 from ..reports.kit.svg import svg_bytes
 from ..system.options import SystemOptions
 from .landing import fly_landings, landing_figure
@@ -36,5 +35,4 @@ if __name__ == "__main__":
     target = ROOT / "docs" / "images" / "landing.svg"
     draw_readme_figure(target)
     print(target)
-    sys.stdout.flush()
-    os._exit(0)  # pythonfmu's library can crash in its destructors
+    leave(0)

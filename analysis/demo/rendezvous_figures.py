@@ -1,10 +1,8 @@
-"""Draws docs/images/rendezvous_*.svg: `python -m analysis.reports.rendezvous_figures`, after build_fmus.py."""
+"""Draws docs/images/rendezvous_*.svg: `python -m perilune.analysis.demo.rendezvous_figures`, after build_fmus.py."""
 
 from __future__ import annotations
 
-import os
 import re
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from ...fmus_src.places import ROOT
 from ..api import simulate
 from ..flight.results import Result
+from ..process_end import leave
 from ..reports.kit.style import BLUE, FAINT, INK, ORANGE, SKY, VERMILION, house_style, look, new_figure, plain_ticks
 from ..reports.kit.svg import DECIMALS, svg_bytes
 from .landing import vector
@@ -144,5 +143,4 @@ FIGURES = {"scene": scene_figure, "range": range_figure, "thrust": thrust_figure
 
 if __name__ == "__main__":
     print(*draw_rendezvous_figures(fly(), ROOT / "docs" / "images"), sep="\n")
-    sys.stdout.flush()
-    os._exit(0)  # pythonfmu's library can crash in its destructors
+    leave(0)

@@ -71,6 +71,33 @@ class Program(NamedTuple):
     fault_value: np.ndarray  # float64 [f]; of EXCITE the column of the excitation
 
 
+class Settings(NamedTuple):
+    """Parameter values of one run."""
+
+    real: np.ndarray  # float64 [p]
+    whole: np.ndarray  # int32 [p]
+
+
+class Span(NamedTuple):
+    """What of a flight is flown. Times in s."""
+
+    reset: bool  # whether the FMUs have flown before
+    start: float
+    step: float
+    stop: float  # what FMUs are told of the end
+    first: int  # communication point to go on from, with buffers and FMUs as they are; -1 initialises
+    last: int  # communication point to fly to
+
+
+class Recording(NamedTuple):
+    """What is kept: the slots ``slots`` of every ``stride``-th communication point, and always of the last one."""
+
+    slots: np.ndarray  # int64 [k]
+    stride: int
+    rows: np.ndarray  # float64 [r, k]
+    times: np.ndarray  # float64 [r], s
+
+
 class Buffers(NamedTuple):
     """Memory of one run in flight."""
 
@@ -80,30 +107,11 @@ class Buffers(NamedTuple):
     outcome: np.ndarray  # int64 [5]: code, component or slot, function, fmi2Status, communication point
 
 
-def _fly(  # type: ignore[no-untyped-def]
-    program,
-    buffers,
-    parameters,
-    whole_parameters,
-    reset,
-    start,
-    step,
-    stop,
-    first_point,
-    steps,
-    recorded,
-    stride,
-    record,
-    times,
-    excitation,
-):
+def _fly(program, buffers, settings, span, recording, excitation):  # type: ignore[no-untyped-def]
     """Initialise and run; returns the number of rows recorded, buffers.outcome says how it ended.
 
-    ``parameters`` and ``whole_parameters`` are float64 and int32 [p]. ``record`` takes the slots
-    ``recorded`` of every stride-th communication point and always those of the last one. ``stop`` (s) is
-    what FMUs are told of the end. A ``first_point`` of 0 or more goes on from that communication point, with
-    buffers and FMUs as they are; -1 initialises. The rows of ``excitation``, float64 [r, e], are added to the
-    excited slots at the communication points behind ``first_point``.
+    The rows of ``excitation``, float64 [r, e], are added to the excited slots at the communication points behind
+    ``span.first``.
     """
     instructions = program.instructions
     reference, parameter_reference = program.reference, program.parameter_reference
@@ -113,6 +121,9 @@ def _fly(  # type: ignore[no-untyped-def]
     fault_slot, fault_kind = program.fault_slot, program.fault_kind
     fault_window, fault_value = program.fault_window, program.fault_value
     values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
+    parameters, whole_parameters = settings.real, settings.whole
+    start, step, stop, first_point, steps = span.start, span.step, span.stop, span.first, span.last
+    recorded, stride, record, times = recording.slots, recording.stride, recording.rows, recording.times
     outcome[:] = 0
     rows = 0
     n = first_point  # -1: the initialisation
@@ -120,7 +131,7 @@ def _fly(  # type: ignore[no-untyped-def]
     if n < 0:
         values[:] = program.initial
         frozen[:] = np.nan
-        first_instruction = np.uint64(0 if reset else program.reset_end)
+        first_instruction = np.uint64(0 if span.reset else program.reset_end)
         last_instruction = np.uint64(program.initial_end)
         after = start
     else:

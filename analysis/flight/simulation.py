@@ -167,18 +167,16 @@ class Simulation:
         count = function(
             self.program,
             self.buffers,
-            self.layout.real_values,
-            self.layout.whole_values,
-            reset,
-            prepared.start,
-            prepared.step,
-            prepared.start + max(prepared.steps, last) * prepared.step,
-            first,
-            last,
-            self._recorded,
-            every,
-            self._record,
-            self._times,
+            loop.Settings(self.layout.real_values, self.layout.whole_values),
+            loop.Span(
+                reset=reset,
+                start=prepared.start,
+                step=prepared.step,
+                stop=prepared.start + max(prepared.steps, last) * prepared.step,
+                first=first,
+                last=last,
+            ),
+            loop.Recording(self._recorded, every, self._record, self._times),
             excitation if excitation.size else np.zeros((0, len(self._excitations))),
         )
         self._fresh = False

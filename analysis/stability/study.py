@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import atexit
-import os
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -14,6 +12,7 @@ from loky import ProcessPoolExecutor
 
 from ..batch.workers import worker_count
 from ..errors import InputError
+from ..process_end import leave_when_done
 from ..system.prepared import PreparedSystem
 from .ask.channels import Channel
 from .ask.declaration import Point
@@ -87,16 +86,11 @@ def study(request: Request, workers: int | None = None) -> StabilityReport:
 
 @contextmanager
 def _processes(count: int) -> Iterator[ProcessPoolExecutor]:
-    pool = ProcessPoolExecutor(count, initializer=_begin)
+    pool = ProcessPoolExecutor(count, initializer=leave_when_done)
     try:
         yield pool
     finally:
         pool.shutdown()
-
-
-def _begin() -> None:
-    """At a worker's end, leave before pythonfmu's library runs its destructors, which can crash."""
-    atexit.register(os._exit, 0)
 
 
 def study_point(request: Request, point: Point) -> PointResult:

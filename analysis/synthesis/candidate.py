@@ -1,13 +1,17 @@
-"""A candidate of the search: its genes, the law they stand for, and what flying it came to."""
+"""A candidate of the search: its genes, the law they stand for, what flying it came to, and who can tell."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
+
+import numpy as np
 
 from ..laws.law import Matrix
 from .gray_code import Coding
+from .pareto import ParetoOrder, Standing
 from .variations import Variation, edges_out, pruned, varied
 
 PARAMETER_NODES = (1, 3, 5)  # the sources q1, q2, q3, counted from 0
@@ -55,3 +59,35 @@ class Candidate(NamedTuple):
 def phenotype(genes: Genes, bases: list[Matrix], coding: Coding) -> Phenotype:
     """The law that genes stand for."""
     return Phenotype(pruned(varied(bases[genes.basis], genes.variations)), coding.decode(genes.code))
+
+
+class Bar(NamedTuple):
+    """What a candidate has to pass: it must stand before the worst of a population."""
+
+    order: ParetoOrder
+    worst: Standing
+
+    def rejects(self, objectives: Sequence[float]) -> bool:
+        """Whether sums that can only grow any further are too large already."""
+        return self.order.standing(np.array(objectives)) >= self.worst
+
+
+class Task(NamedTuple):
+    """A law to evaluate, and what is known of its first trials."""
+
+    law: Phenotype
+    known: Evaluation
+
+
+class Evaluator(Protocol):
+    """What the search needs to know of flights."""
+
+    objectives: int  # number of objectives
+    trials: int  # of an evaluation that is complete
+
+    def evaluate(self, tasks: Sequence[Task], bar: Bar | None) -> list[Evaluation]:
+        """Evaluate laws, each from the trial after the known ones; objectives are sums of numbers >= 0.
+
+        An evaluation may end early where ``bar`` rejects it, and must not otherwise.
+        """
+        ...

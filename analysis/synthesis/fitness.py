@@ -15,8 +15,7 @@ from ..errors import InputError
 from ..laws.law import Law
 from ..laws.parameter_set import law_parameters
 from ..system.parameter_sets import ParameterValue
-from .candidate import Evaluation
-from .evaluator import Bar, Task
+from .candidate import Bar, Evaluation, Task
 
 VARIANT = "default"
 

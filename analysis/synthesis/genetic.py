@@ -14,8 +14,7 @@ import numpy as np
 
 from ..laws.law import Matrix
 from .breeding import crossed, mutated, random_genes
-from .candidate import Candidate, Evaluation, Genes, Phenotype, phenotype
-from .evaluator import Bar, Evaluator, Task
+from .candidate import Bar, Candidate, Evaluation, Evaluator, Genes, Phenotype, Task, phenotype
 from .pareto import ParetoOrder, dominated, dominators
 from .search_settings import SearchSettings
 from .variations import NO_VARIATION, varied

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from .parameter_sets import ParameterValue
 
@@ -11,18 +11,29 @@ ALGORITHMS = ("sequential", "jacobi")
 FLAVOURS = ("native", "python")
 
 
-@dataclass(frozen=True)
-class SystemOptions:
-    """What the command line calls system options; see `perilune run --help`.
+# Who may ask something of a system, from the lowest to the highest: what a later one says wins. Below all of them
+# stands what the system's own description binds. All parameter sets come before all single values.
+LAYERS = ("operating_point", "campaign", "draws", "command_line", "study")
 
-    ``use`` maps a component to the FMU that takes its place, by block name or path; ``set`` maps
-    ``component.variable`` to a value, in SI units; times in s. ``flavour`` None takes native FMUs
-    where they are built.
+
+@dataclass(frozen=True)
+class Layer:
+    """What one source asks: ``use`` maps a component to the FMU that takes its place, by block name or path;
+    ``parameters`` lists parameter sets; ``set`` maps ``component.variable`` to a value, in SI units.
     """
 
     use: Mapping[str, str] = field(default_factory=dict)
     parameters: tuple[str, ...] = ()
     set: Mapping[str, ParameterValue] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class SystemOptions(Layer):
+    """What the command line calls system options; see `perilune run --help`.
+
+    Times in s. ``flavour`` None takes native FMUs where they are built.
+    """
+
     step: float | None = None
     stop_time: float | None = None
     algorithm: str = "sequential"
@@ -30,3 +41,16 @@ class SystemOptions:
     flavour: str | None = None
     allow_unmatched: bool = False
     no_feedthrough: tuple[str, ...] = ()
+
+    def among(self, **layers: Layer) -> SystemOptions:
+        """These options, the command line's, with what others ask, by the names of `LAYERS`."""
+        found: dict[str, Layer] = {"command_line": self, **layers}
+        ordered = [found.pop(name) for name in LAYERS if name in found]
+        if found:
+            raise TypeError(f"no such layer: {', '.join(found)}")
+        return replace(
+            self,
+            use={slot: fmu for layer in ordered for slot, fmu in layer.use.items()},
+            parameters=tuple(name for layer in ordered for name in layer.parameters),
+            set={name: value for layer in ordered for name, value in layer.set.items()},
+        )

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from perilune.analysis.batch.interval import success_interval
+from perilune.analysis.batch.summary import success_interval
 
 
 @given(st.integers(1, 5000), st.floats(0, 1))

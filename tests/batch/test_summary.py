@@ -6,8 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from perilune.analysis.batch.interval import success_interval
-from perilune.analysis.batch.summary import TrialColumns, requirement_values, summarise, summary_text
+from perilune.analysis.batch.summary import TrialColumns, requirement_values, success_interval, summarise, summary_text
 from perilune.analysis.campaign.campaign import Metric
 from perilune.analysis.campaign.expressions import Expression
 

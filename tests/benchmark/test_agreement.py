@@ -9,8 +9,7 @@ import pytest
 from perilune.analysis.benchmark.agreement import strangers
 from perilune.analysis.benchmark.contestants.contestant import Contestant
 from perilune.analysis.benchmark.contestants.course import Course
-from perilune.analysis.benchmark.promises import promised_ratios
-from perilune.analysis.benchmark.times import Times
+from perilune.analysis.benchmark.times import Times, promised_ratios
 
 
 def contestant(name: str, algorithm: str | None = "sequential", exact: bool = False) -> Contestant:

@@ -1,6 +1,6 @@
 """`perilune stability`: what it writes, its exit status, margins over a campaign and the command for its worst trial.
 
-Truth: margins by python-control on tests/stability/exact_systems.py with the gain that was drawn; the robot's gain
+Truth: margins by python-control on support/loops/exact_systems.py with the gain that was drawn; the robot's gain
 margin goes with its mass; the exit status promised: 0, 1 for a limit that is missed, 2 for wrong input, a line each.
 """
 

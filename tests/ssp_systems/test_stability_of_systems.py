@@ -1,6 +1,6 @@
 """The stability of robot_rendezvous and lunar_landing as they fly, both routes, against the same loops in closed form.
 
-Truth: tests/stability/exact_robot.py and exact_lunar.py, which know nothing of the FMUs, with margins by
+Truth: support/loops/exact_robot.py and exact_lunar.py, which know nothing of the FMUs, with margins by
 python-control; the robot's published designs with means taken as interpolated delays; the double integrator under
 6/T^2 and 4/T, by hand.
 """

@@ -15,6 +15,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import fmpy
 from pythonfmu import FmuBuilder
 
 from perilune.analysis.flight.results import Result
@@ -217,7 +218,7 @@ def build_tiny_fmus(folder: Path) -> None:
     folder.mkdir(parents=True)
     blocks = folder / "tiny_blocks.py"
     blocks.write_text(BLOCKS)
-    assert build_fmus(["--blocks", str(blocks), "--output", str(folder)]) == 0
+    assert build_fmus(["--blocks", str(blocks), "--output", str(folder), "--platform", fmpy.platform]) == 0
     script = folder / "stranger.py"
     script.write_text(STRANGER)
     FmuBuilder.build_FMU(script, folder)

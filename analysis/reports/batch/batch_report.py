@@ -7,8 +7,8 @@ from typing import Any
 
 from ...batch.results import BatchResult
 from ...campaign.campaign import Campaign
-from ..kit.distributions import distributions_figure, sort_metrics
 from ..kit.page import write_page
+from .distributions import distributions_figure, sort_metrics
 from .failures import failures_figure, telling_scores
 from .rates import rates_figure
 

@@ -12,7 +12,7 @@ from scipy.stats import chi2, norm
 from ..kit.panels import Panel, far, panel
 from ..kit.quantities import number, shown_factor, shown_unit
 from ..kit.style import FAILED, FAINT, Look, plain_ticks
-from .recorded import RATIO, Flight, Quantity, doubling, variable_of
+from .recorded import RATIO, Flight, Quantity, doubling
 
 LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %
 MOST_TIMES = 300  # of a band
@@ -143,7 +143,7 @@ def _draw(axes: Axes, bands: Bands, factor: float, colour: str, held: bool) -> N
 
 def expectation(quantity: Quantity) -> tuple[float, ...]:
     """Where LEVELS' outer percentiles and median of a consistent filter's errors would lie; empty for others."""
-    variable = variable_of(quantity.names[0])
+    variable = quantity.variable
     if variable == "normalised_error_square":
         return tuple(float(chi2.ppf(level / 100.0, STATES)) for level in LEVELS[::2])
     if variable.endswith(RATIO):

@@ -46,9 +46,9 @@ def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
     position = find_vector(contender.stored, names, "position", "m")
     if position is None:
         return None
-    owner = position[0].rpartition(".")[0]
-    altitudes = [name for name in names if variable_of(name) == "altitude"]
-    height = next((name for name in altitudes if name.startswith(f"{owner}.")), position[2])
+    owner = contender.stored.parted(position[0])[0]
+    altitudes = [name for name in names if variable_of(contender.stored, name) == "altitude"]
+    height = next((name for name in altitudes if contender.stored.parted(name)[0] == owner), position[2])
     target = target_of(contender, "position")
     row = {int(trial): index for index, trial in enumerate(contender.trials.trial)}
     paths = []

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import norm
 
-from ...batch.interval import success_interval
+from ...batch.summary import success_interval
 from ...campaign.campaign import Metric
 from ...compare.comparison import Comparison
 from .recorded import RATIO

@@ -132,5 +132,5 @@ def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: s
         axes.set_title(f"y, {shown}", loc="left", fontsize=8.5)
         plain_ticks(axes, x=4, y=4)
 
-    what = ends.signal.rpartition(".")[2]
+    what = ends.variable
     return panel(label, name, f"Final {what} of {label} about the target, with covariance ellipses", draw, HEIGHT)

@@ -42,7 +42,9 @@ def missing_parts(
         found["ends"] = f"No dispersion of the final {words}: [record] final does not keep its three elements."
     masses = any(metric.unit == MASS for metric in comparison.metrics)
     if not masses and not any(
-        variable_of(name) == "mass" for contender in comparison.contenders.values() for name in contender.trials.final
+        variable_of(contender.stored, name) == "mass"
+        for contender in comparison.contenders.values()
+        for name in contender.trials.final
     ):
         found["propellant"] = "No propellant: no metric is in kg, and [record] final does not keep a mass."
     if "consistency" not in kinds and not any(is_over_sigma(metric) for metric in comparison.metrics):

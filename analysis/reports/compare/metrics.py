@@ -11,7 +11,7 @@ from scipy.stats import norm
 from ...campaign.campaign import Metric
 from ...campaign.expressions import Expression
 from ...compare.comparison import Comparison
-from ..kit.distributions import draw_distribution
+from ..batch.distributions import draw_distribution
 from ..kit.panels import Panel, panel
 from ..kit.style import FAILED, Look
 from .consistency import is_over_sigma
@@ -48,9 +48,13 @@ def _final_masses(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]
     found: dict[Metric, dict[str, np.ndarray]] = {}
     if any(metric.unit == MASS for metric in comparison.metrics):
         return found
-    names = dict.fromkeys(name for contender in contenders.values() for name in contender.trials.final)
-    for name in names:
-        if variable_of(name) == "mass" and all(name in contender.trials.final for contender in contenders.values()):
+    common = [
+        name
+        for name in dict.fromkeys(name for contender in contenders.values() for name in contender.trials.final)
+        if all(name in contender.trials.final for contender in contenders.values())
+    ]
+    for name in common:
+        if any(variable_of(contender.stored, name) == "mass" for contender in contenders.values()):
             metric = Metric(f"final {name}", NOT_EVALUATED, "final", unit=MASS)
             found[metric] = {label: contender.trials.final[name] for label, contender in contenders.items()}
     return found

@@ -28,6 +28,7 @@ class Quantity:
     """A number over time: computed from ``names`` by ``values``, in SI. ``held`` between rows if not Real."""
 
     label: str
+    variable: str
     unit: str | None
     kind: str  # commands, motion, consistency or other
     names: tuple[str, ...]
@@ -46,9 +47,11 @@ class Flight:
     is_whole: bool
 
 
-def variable_of(name: str) -> str:
-    """``plant.position[1]``: ``position``."""
-    return name.rpartition(".")[2].partition("[")[0]
+def variable_of(batch: StoredBatch, name: str) -> str:
+    """``plant.position[1]`` and ``plant.position``: ``position``."""
+    variable = batch.parted(name)[1]
+    indexed = INDEXED.fullmatch(variable)
+    return indexed[1] if indexed else variable
 
 
 def kept_names(batch: StoredBatch) -> list[str]:
@@ -62,12 +65,13 @@ def kept_names(batch: StoredBatch) -> list[str]:
     if record["traces"] == "none":
         return []
     owners: dict[str, str] = {}
-    return [
-        name
-        for name in batch.document["signals"]
-        if (variable_of(name) in KNOWN or variable_of(name).endswith(RATIO))
-        and owners.setdefault(variable_of(name), name.rpartition(".")[0]) == name.rpartition(".")[0]
-    ]
+    kept = []
+    for name in batch.document["signals"]:
+        owner, variable = batch.parted(name)[0], variable_of(batch, name)
+        known = variable in KNOWN or variable.endswith(RATIO)
+        if known and owners.setdefault(variable, owner) == owner:
+            kept.append(name)
+    return kept
 
 
 def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
@@ -87,7 +91,7 @@ def find_vector(
     found = {
         base: elements
         for base, elements in vectors(names).items()
-        if variable_of(base) == variable and _unit(batch, elements[0]) == unit
+        if variable_of(batch, base) == variable and _unit(batch, elements[0]) == unit
     }
     return found.get(f"{owner}.{variable}") or next(iter(found.values()), None)
 
@@ -101,24 +105,28 @@ def quantities(batch: StoredBatch) -> list[Quantity]:
     names = kept_names(batch)
     found: list[Quantity] = []
     taken: set[str] = set()
-    altitude = any(variable_of(name) == "altitude" for name in names)
+    altitude = any(variable_of(batch, name) == "altitude" for name in names)
     for base, elements in vectors(names).items():
-        variable = variable_of(base)
+        variable = variable_of(batch, base)
         if variable in DIRECTIONS:
-            found.append(Quantity(f"{base} above the horizontal", "rad", "commands", elements, _elevation(elements)))
+            found.append(
+                Quantity(f"{base} above the horizontal", variable, "rad", "commands", elements, _elevation(elements))
+            )
         elif variable == "velocity":
-            found.append(Quantity(f"{base}, magnitude", _unit(batch, elements[0]), "motion", elements, _norm(elements)))
+            found.append(
+                Quantity(f"{base}, magnitude", variable, _unit(batch, elements[0]), "motion", elements, _norm(elements))
+            )
         elif variable == "position" and not altitude:
             unit = _unit(batch, elements[2])
-            found.append(Quantity(elements[2], unit, "motion", elements[2:], _element(elements[2])))
+            found.append(Quantity(elements[2], variable, unit, "motion", elements[2:], _element(elements[2])))
         elif variable != "position":
             continue
         taken |= set(elements)
     for name in names:
         if name not in taken:
-            kind = _kind(variable_of(name))
+            variable = variable_of(batch, name)
             held = batch.document["signals"].get(name, {}).get("type", "Real") != "Real"
-            found.append(Quantity(name, _unit(batch, name), kind, (name,), _element(name), held))
+            found.append(Quantity(name, variable, _unit(batch, name), _kind(variable), (name,), _element(name), held))
     return sorted(found, key=lambda quantity: names.index(quantity.names[0]))
 
 

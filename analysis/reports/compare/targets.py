@@ -25,6 +25,7 @@ class Ends:
     """What a contender's flights missed by at the end: final less target, trials by elements, SI."""
 
     signal: str
+    variable: str
     target: str
     errors: np.ndarray
     success: np.ndarray
@@ -36,7 +37,7 @@ def target_of(contender: Contender, variable: str) -> Target:
     known = {
         name: value
         for name, value in contender.stored.document.get("targets", {}).get(contender.name, {}).items()
-        if name.rpartition(".")[2].startswith(f"target_{variable}[")
+        if contender.stored.parted(name)[1].startswith(f"target_{variable}[")
     }
     for base, elements in vectors(known).items():
         drawn = contender.stored.draws
@@ -52,4 +53,4 @@ def ends_of(contender: Contender, variable: str) -> Ends | None:
         return None
     target = target_of(contender, variable)
     finals = np.stack([contender.trials.final[name] for name in found], axis=1)
-    return Ends(found[0].partition("[")[0], target.name, finals - target.values, contender.trials.success)
+    return Ends(found[0].removesuffix("[1]"), variable, target.name, finals - target.values, contender.trials.success)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...flight.results import Result
+from ...system.names import parted
 
 INDEXED = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 
@@ -41,19 +42,12 @@ class SignalGroup:
         return np.stack([result[name] for name in self.names])
 
 
-def component_of(name: str, components: Iterable[str]) -> str:
-    """The component that a signal belongs to; empty for the system's own connectors."""
-    owners = [component for component in components if name.startswith(f"{component}.")]
-    return max(owners, key=len, default="")
-
-
 def signal_groups(result: Result) -> list[SignalGroup]:
     """All signals in their order, elements of vectors brought together."""
     components = result.provenance["fmus"]
     found: dict[tuple[str, str, str | None, str, bool], list[tuple[str, str]]] = {}
     for name in result.signals:
-        component = component_of(name, components)
-        variable = name.removeprefix(f"{component}.") if component else name
+        component, variable = parted(name, components)
         indexed = INDEXED.fullmatch(variable)
         base, index = indexed.groups() if indexed else (variable, "")
         key = (component, base, result.units[name], result.types[name], bool(indexed))

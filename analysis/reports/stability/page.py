@@ -32,7 +32,7 @@ from .tables import (
     trim_table,
     verdict_table,
 )
-from .words import UNSTABLE_WORD, gain_margin, phase_margin, plain, size, verdict
+from .words import UNSTABLE_WORD, gain_margin, numeral, phase_margin, size, verdict
 
 FEW = 2  # loops; of more, only those that fail are unfolded at first
 
@@ -86,16 +86,18 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
         points=point_table(report.points),
         trims=trim_table(report.points),
         settings={
-            point.name: [(name, plain(value, digits=10)) for name, value in point.settings.items()]
+            point.name: [(name, numeral(value, digits=10)) for name, value in point.settings.items()]
             for point in report.points
             if point.settings
         },
         cards=[_card(report, summary, index) for index in range(len(report.loops))],
         sweeps=[_sweep(report, sweep, f"sweep-{index + 1}") for index, sweep in enumerate(report.sweeps)],
         limits=limit_table(report),
-        raw_limits=[(name, plain(value)) for name, value in report.limits.items()],
+        raw_limits=[(name, numeral(value)) for name, value in report.limits.items()],
         hashes=hash_table(report.provenance),
-        parameters=[(name, plain(value, digits=10)) for name, value in report.provenance.get("parameters", {}).items()],
+        parameters=[
+            (name, numeral(value, digits=10)) for name, value in report.provenance.get("parameters", {}).items()
+        ],
         facts=facts(report.provenance),
         provenance=report.provenance,
     )
@@ -109,7 +111,7 @@ def _card(report: StabilityReport, summary: Table, index: int) -> Card:
         id=name,
         open=len(report.loops) <= FEW or loop.verdict is Verdict.FAIL,
         verdict=verdict(loop.verdict),
-        period=plain(loop.sample_period),
+        period=numeral(loop.sample_period),
         about=about(loop),
         summary=Table(summary.head[2:-1], summary.kinds[2:-1], [summary.rows[index][2:-1]]),
         figures=loop_panels(loop, name),
@@ -132,7 +134,7 @@ def _blocks(shown: list[Part]) -> list[list[Part]]:
 def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
     rows = [
         (
-            plain(float(value), sweep.unit),
+            numeral(float(value), sweep.unit),
             gain_margin(margins),
             phase_margin(margins),
             size(margins.size(Quantity.MODULUS)),
@@ -140,7 +142,7 @@ def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
         for value, margins in zip(sweep.values, sweep.margins, strict=True)
     ]
     crossings = [
-        (_crossed(crossing), "below" if crossing.below else "above", plain(crossing.value, sweep.unit))
+        (_crossed(crossing), "below" if crossing.below else "above", numeral(crossing.value, sweep.unit))
         for crossing in sweep.crossings
     ]
     return Sweep(

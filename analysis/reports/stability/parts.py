@@ -24,10 +24,10 @@ from .words import (
     gain_margin,
     in_decibels,
     in_degrees,
+    numeral,
+    per_cent,
     phase_margin,
-    plain,
     samples,
-    share,
     size,
     state,
 )
@@ -51,28 +51,32 @@ def method(loop: LoopReport) -> Part:
     if loop.route_a is not None:
         a = loop.route_a
         rows += [
-            ("A, Jacobian", "states", plain(a.states)),
-            ("", "period, s", plain(a.period)),
-            ("", "change between steps of the difference, %", share(a.plateau)),
+            ("A, Jacobian", "states", numeral(a.states)),
+            ("", "period, s", numeral(a.period)),
+            ("", "change between steps of the difference, %", per_cent(a.plateau)),
             ("", "memory with kinks or switches", ", ".join(a.doubtful) or "none"),
-            ("", "response at other frequencies, %", share(a.periodicity)),
+            ("", "response at other frequencies, %", per_cent(a.periodicity)),
         ]
     if loop.route_b is not None:
         b = loop.route_b
         rows += [
-            ("B, injection", f"amplitude of a line, {shown_unit(loop.unit) or '1'}", plain(b.amplitude, loop.unit)),
-            ("", "lines", plain(b.lines)),
+            (
+                "B, injection",
+                f"amplitude of a line, {shown_unit(loop.unit) or '1'}",
+                numeral(b.amplitude, loop.unit),
+            ),
+            ("", "lines", numeral(b.lines)),
             ("", "periods", f"{b.periods}"),
-            ("", "period, s", plain(b.period)),
-            ("", "change at half the amplitude, %", share(b.half_amplitude_change)),
-            ("", "response on other lines, %", share(b.unexcited)),
+            ("", "period, s", numeral(b.period)),
+            ("", "change at half the amplitude, %", per_cent(b.half_amplitude_change)),
+            ("", "response on other lines, %", per_cent(b.unexcited)),
         ]
     if loop.agreement is not None:
         found = loop.agreement
         rows += [
             ("A against B", "largest difference of gain, dB", in_decibels(found.gain, absolute=True)),
             ("", "largest difference of phase, deg", in_degrees(found.phase)),
-            ("", "compared up to, rad/s", plain(found.frequency)),
+            ("", "compared up to, rad/s", numeral(found.frequency)),
             ("", "the routes agree", "yes" if found.agrees else "no"),
         ]
     return Part("method", "Method", Table(("route", "quantity", "value"), "ttn", rows))
@@ -85,24 +89,24 @@ def classical(loop: LoopReport) -> Part:
     kind = "crossing" if loop.margins.unstable else "margin"
     for crossing in found.gain:
         name = f"gain {kind} {'up' if crossing.value >= 1.0 else 'down'}"
-        rows.append((name, in_decibels(crossing.value, absolute=True), "dB", plain(crossing.frequency)))
+        rows.append((name, in_decibels(crossing.value, absolute=True), "dB", numeral(crossing.frequency)))
     if not found.gain:
         rows.append((f"gain {kind}", NO_CROSSING, "", ""))
     for crossing in found.phase:
         name = f"phase {kind}" if crossing.value >= 0.0 else f"phase {kind}, lead"
-        rows.append((name, in_degrees(crossing.value), "deg", plain(crossing.frequency)))
+        rows.append((name, in_degrees(crossing.value), "deg", numeral(crossing.frequency)))
     if not found.phase:
         rows.append((f"phase {kind}", NO_CROSSING, "", ""))
     if loop.margins.unstable:
         rows.append(("delay margin", UNSTABLE_WORD, "", ""))
     elif math.isfinite(found.delay_margin):
-        rows.append(("delay margin", plain(found.delay_margin), "s", plain(found.delay_frequency)))
+        rows.append(("delay margin", numeral(found.delay_margin), "s", numeral(found.delay_frequency)))
         rows.append(("", samples(found.delay_margin, loop.sample_period), "samples", ""))
     else:
         rows.append(("delay margin", NO_CROSSING, "", ""))
-    encircled = plain(found.encirclements) if found.encirclements is not None else "not counted"
+    encircled = numeral(found.encirclements) if found.encirclements is not None else "not counted"
     rows.append((f"encirclements of {MINUS}1 (+ counter-clockwise)", encircled, "", ""))
-    unstable = plain(loop.unstable_open) if loop.unstable_open is not None else "not known"
+    unstable = numeral(loop.unstable_open) if loop.unstable_open is not None else "not known"
     rows.append(("unstable poles of the open loop", unstable, "", ""))
     rows.append(("closed loop", closed_loop(loop.stable), "", ""))
     note = "The closed loop is unstable: its crossings are not margins." if loop.margins.unstable else ""
@@ -114,10 +118,10 @@ def robust(loop: LoopReport) -> Part:
     found = loop.robust
     word = state(loop.margins)
     rows: list[tuple[Cell, ...]] = [
-        ("modulus margin", word or plain(found.modulus_margin), plain(found.sensitivity_frequency)),
-        ("peak of S, dB", in_decibels(found.sensitivity_peak), plain(found.sensitivity_frequency)),
-        ("peak of T, dB", in_decibels(found.complementary_peak), plain(found.complementary_frequency)),
-        ("disk margin", word or plain(found.disk_margin), plain(found.disk_frequency)),
+        ("modulus margin", word or numeral(found.modulus_margin), numeral(found.sensitivity_frequency)),
+        ("peak of S, dB", in_decibels(found.sensitivity_peak), numeral(found.sensitivity_frequency)),
+        ("peak of T, dB", in_decibels(found.complementary_peak), numeral(found.complementary_frequency)),
+        ("disk margin", word or numeral(found.disk_margin), numeral(found.disk_frequency)),
         ("— gain, up and down, dB", word or in_decibels(found.disk_gain, "without limit"), ""),
         ("— phase, deg", word or in_degrees(found.disk_phase), ""),
     ]
@@ -141,13 +145,13 @@ def modes(loop: LoopReport) -> Part:
     rows: list[tuple[Cell, ...]] = [
         (
             complex_number(mode.z),
-            plain(abs(mode.z)),
+            numeral(abs(mode.z)),
             complex_number(mode.s),
-            plain(mode.damping, digits=3),
-            plain(mode.frequency),
+            numeral(mode.damping, digits=3),
+            numeral(mode.frequency),
             mode.kind,
-            plain(mode.controllability, digits=2),
-            plain(mode.observability, digits=2),
+            numeral(mode.controllability, digits=2),
+            numeral(mode.observability, digits=2),
         )
         for mode in upper(loop.modes)
     ]
@@ -162,10 +166,10 @@ def structure(loop: LoopReport) -> Part:
     found = loop.structure
     assert found is not None
     rows: list[tuple[Cell, ...]] = [
-        ("states of the complete memory", plain(found.states), ""),
-        ("controllable from the cut", plain(found.controllable), plain(found.least_controllable)),
-        ("observable at the cut", plain(found.observable), plain(found.least_observable)),
-        ("both: order of the loop", plain(found.order), ""),
+        ("states of the complete memory", numeral(found.states), ""),
+        ("controllable from the cut", numeral(found.controllable), numeral(found.least_controllable)),
+        ("observable at the cut", numeral(found.observable), numeral(found.least_observable)),
+        ("both: order of the loop", numeral(found.order), ""),
     ]
     return Part("structure", "Structure", Table(("part", "rank", "least kept singular value"), "tnn", rows))
 
@@ -194,11 +198,11 @@ def nonlinear(found: Nonlinearity, index: int) -> Part:
         lasting = cycle.simulated_amplitude is not None
         rows.append(
             (
-                plain(cycle.amplitude, found.unit),
-                plain(cycle.period),
+                numeral(cycle.amplitude, found.unit),
+                numeral(cycle.period),
                 "stable" if cycle.stable else "unstable",
-                plain(cycle.simulated_amplitude, found.unit) if lasting else "no lasting oscillation",
-                plain(cycle.simulated_period),
+                numeral(cycle.simulated_amplitude, found.unit) if lasting else "no lasting oscillation",
+                numeral(cycle.simulated_period),
             )
         )
     if not rows:
@@ -219,17 +223,17 @@ def amplitudes(loop: LoopReport) -> Part:
     """Gain and phase at one frequency over the amplitude of the injected signal."""
     rows: list[tuple[Cell, ...]] = [
         (
-            plain(point.amplitude, loop.unit),
+            numeral(point.amplitude, loop.unit),
             in_decibels(abs(point.value)),
             in_degrees(float(np.angle(point.value))),
-            share(point.change),
+            per_cent(point.change),
         )
         for point in loop.amplitudes
     ]
     unit = shown_unit(loop.unit)
     head = (f"amplitude, {unit}" if unit else "amplitude", "gain, dB", "phase, deg", "change, %")
     at = Markup("At {} rad/s; changes are relative to the smallest amplitude's.").format(
-        plain(loop.amplitude_frequency)
+        numeral(loop.amplitude_frequency)
     )
     return Part("amplitudes", "Over the amplitude", Table(head, "nnnn", rows, "amplitudes"), at)
 
@@ -238,9 +242,9 @@ def sampling(loop: LoopReport) -> Part:
     """Margins with other communication steps."""
     rows: list[tuple[Cell, ...]] = [
         (
-            plain(item.step),
-            gain_margin(item.margins) if item.margins else plain(None),
-            phase_margin(item.margins) if item.margins else plain(None),
+            numeral(item.step),
+            gain_margin(item.margins) if item.margins else numeral(None),
+            phase_margin(item.margins) if item.margins else numeral(None),
             item.note,
         )
         for item in loop.sampling

@@ -17,15 +17,15 @@ from ..kit.quantities import number, shown_unit
 from .words import (
     NO_CROSSING,
     closed_loop,
-    found,
+    found_value,
     gain_margin,
     in_decibels,
     in_degrees,
     limit,
+    numeral,
+    per_cent,
     phase_margin,
-    plain,
     samples,
-    share,
     size,
     state,
     verdict,
@@ -85,7 +85,16 @@ def verdict_table(rows: Sequence[Row]) -> Table:
         head,
         "ssssnnsl",
         [
-            (loop, point, SCOPES[item.scope], item.title, found(item), limit(item), verdict(item.verdict), item.note)
+            (
+                loop,
+                point,
+                SCOPES[item.scope],
+                item.title,
+                found_value(item),
+                limit(item),
+                verdict(item.verdict),
+                item.note,
+            )
             for loop, point, item in rows
         ],
         "requirements",
@@ -110,10 +119,10 @@ def summary_table(report: StabilityReport) -> Table:
             loop.point,
             gain_margin(loop.margins),
             phase_margin(loop.margins),
-            state(loop.margins) or plain(loop.classical.delay_margin, infinite=NO_CROSSING),
+            state(loop.margins) or numeral(loop.classical.delay_margin, infinite=NO_CROSSING),
             state(loop.margins) or samples(loop.classical.delay_margin, loop.sample_period),
-            state(loop.margins) or plain(loop.robust.modulus_margin, digits=3),
-            state(loop.margins) or plain(loop.robust.disk_margin, digits=3),
+            state(loop.margins) or numeral(loop.robust.modulus_margin, digits=3),
+            state(loop.margins) or numeral(loop.robust.disk_margin, digits=3),
             closed_loop(loop.stable),
             verdict(loop.verdict),
         )
@@ -131,12 +140,12 @@ def joint_table(report: StabilityReport) -> Table:
     for joint in report.joint:
         name = Markup("<b>{}</b><br>{}").format(joint.name, ", ".join(joint.channels))
         margins = (
-            plain(joint.disk_margin, digits=3),
+            numeral(joint.disk_margin, digits=3),
             in_decibels(joint.disk_gain, "without limit"),
             in_degrees(joint.disk_phase),
-            plain(joint.disk_frequency),
+            numeral(joint.disk_frequency),
         )
-        none = (size(UNSTABLE),) * 3 + (plain(None),)
+        none = (size(UNSTABLE),) * 3 + (numeral(None),)
         rows.append((name, joint.point, *(margins if joint.stable else none), verdict(joint.verdict)))
     return Table(head, "ttnnnnt", rows, "joint margins")
 
@@ -150,19 +159,19 @@ def point_table(points: tuple[PointReport, ...]) -> Table:
     rows: list[tuple[Cell, ...]] = []
     for point in points:
         fastest = _changed(*point.trim[0]) if point.trim else Markup("nothing changes")
-        holds = plain(point.holds, infinite="does not change")
-        rows.append((point.name, point.phase, plain(point.time, digits=6), fastest, share(point.drift), holds))
+        holds = numeral(point.holds, infinite="does not change")
+        rows.append((point.name, point.phase, numeral(point.time, digits=6), fastest, per_cent(point.drift), holds))
     return Table(head, "ttntnn", rows, "operating points")
 
 
 def _changed(name: str, value: float, change: float, unit: str | None) -> Markup:
-    return Markup("{} by {} {}").format(name, plain(change, unit), shown_unit(unit))
+    return Markup("{} by {} {}").format(name, numeral(change, unit), shown_unit(unit))
 
 
 def trim_table(points: tuple[PointReport, ...]) -> Table:
     """What changes most at each operating point while it is taken as frozen."""
     rows: list[tuple[Cell, ...]] = [
-        (point.name, name, plain(value, unit, 6), plain(change, unit), shown_unit(unit))
+        (point.name, name, numeral(value, unit, 6), numeral(change, unit), shown_unit(unit))
         for point in points
         for name, value, change, unit in point.trim
     ]
@@ -210,7 +219,7 @@ def fact(value: Any) -> Cell:
         return Markup(", ").join(Markup("{}").format(fact(entry)) for entry in value)
     if isinstance(value, float) and not math.isfinite(value):
         return number(None)
-    return plain(value, digits=10)
+    return numeral(value, digits=10)
 
 
 def about(loop: LoopReport) -> list[tuple[str, str]]:

@@ -32,7 +32,7 @@ def _data(value: float, shown: float, digits: int, infinite: str) -> Markup:
     return Markup('<data value="{}">{}</data>').format(repr(value), number(shown, digits))
 
 
-def plain(value: Any, unit: str | None = None, digits: int = 4, infinite: str = NONE) -> Markup:
+def numeral(value: Any, unit: str | None = None, digits: int = 4, infinite: str = NONE) -> Markup:
     """A number in the unit that is shown (degrees for radians), without the unit."""
     if isinstance(value, np.generic):
         value = value.item()
@@ -44,19 +44,19 @@ def plain(value: Any, unit: str | None = None, digits: int = 4, infinite: str = 
 def in_decibels(factor: float | None, infinite: str = NO_CROSSING, *, absolute: bool = False) -> Markup:
     """A factor in dB, without the unit; ``absolute``: how far from 1, up or down."""
     if factor is None:
-        return plain(None)
+        return numeral(None)
     shown = decibel_size(factor) if absolute else decibels(float(factor))
     return _data(float(factor), shown, 4, infinite)
 
 
 def in_degrees(angle: float | None, infinite: str = NO_CROSSING) -> Markup:
     """An angle in degrees, without the unit."""
-    return plain(None) if angle is None else plain(float(angle), "rad", infinite=infinite)
+    return numeral(None) if angle is None else numeral(float(angle), "rad", infinite=infinite)
 
 
-def share(value: float | None) -> Markup:
+def per_cent(value: float | None) -> Markup:
     """A relative change in per cent."""
-    return plain(None) if value is None else _data(float(value), 100.0 * float(value), 3, NONE)
+    return numeral(None) if value is None else _data(float(value), 100.0 * float(value), 3, NONE)
 
 
 def complex_number(value: complex, digits: int = 4) -> Markup:
@@ -99,12 +99,12 @@ def size(value: float | None) -> Markup:
     """The size of a margin in its unit: a number, unstable, or without a crossing."""
     if value == UNSTABLE:
         return Markup("<b>{}</b>").format(UNSTABLE_WORD)
-    return plain(value, infinite=NO_CROSSING)
+    return numeral(value, infinite=NO_CROSSING)
 
 
 def samples(delay: float, period: float) -> Markup:
     """A delay in sample periods."""
-    return plain(float(delay) / period, infinite=NO_CROSSING)
+    return numeral(float(delay) / period, infinite=NO_CROSSING)
 
 
 def verdict(word: Verdict) -> Markup:
@@ -117,7 +117,7 @@ def closed_loop(stable: bool | None) -> str:
     return {True: "stable", False: "unstable", None: "not known"}[None if stable is None else bool(stable)]
 
 
-def found(requirement: Requirement) -> Markup:
+def found_value(requirement: Requirement) -> Markup:
     """The value of a requirement with its unit."""
     value = requirement.value
     return size(value) + (_unit(requirement.unit) if value is not None and math.isfinite(value) else Markup(""))
@@ -125,7 +125,7 @@ def found(requirement: Requirement) -> Markup:
 
 def limit(requirement: Requirement) -> Markup:
     """The limit of a requirement with its unit."""
-    return plain(float(requirement.limit)) + _unit(requirement.unit)
+    return numeral(float(requirement.limit)) + _unit(requirement.unit)
 
 
 def _unit(unit: str) -> Markup:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ...system.options import Layer
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -21,7 +23,7 @@ class Point:
     """Where a system is linearised: the first communication point at ``time`` (s) or later that fits its rates.
 
     ``signal`` and ``falls_to`` choose instead the first communication point at which a signal is no larger than
-    a value. ``use``, ``parameters`` and ``set`` are system options that make the operating point. ``until`` (s):
+    a value. ``layer`` is what of the system's options makes the operating point. ``until`` (s):
     how long it lasts, for measurements; None: as long as wanted. ``phase`` says in words what the system does.
     """
 
@@ -31,9 +33,7 @@ class Point:
     falls_to: float | None = None
     until: float | None = None
     phase: str = ""
-    use: dict[str, str] = field(default_factory=dict)
-    parameters: tuple[str, ...] = ()
-    set: dict[str, str] = field(default_factory=dict)
+    layer: Layer = field(default_factory=Layer)
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from ...errors import InputError, suggestion
 from ...loops.describing_function import ELEMENTS, complete_parameters
 from ...system.description import Description
 from ...system.documents import tag
+from ...system.options import Layer
 from .declaration import Declaration, Element, Limits, Loop, Point, Sweep
 
 ANNOTATION = "org.perilune.stability"
@@ -106,9 +107,11 @@ class _Reader:
             falls_to=self.number(element, "falls_to"),
             until=until,
             phase=found.get("phase", ""),
-            use=self.uses(parts["Use"]),
-            parameters=tuple(self.attributes(item, ("source",))["source"] for item in parts["ParameterSet"]),
-            set=self.pairs(parts["Set"], "name", "value"),
+            layer=Layer(
+                use=self.uses(parts["Use"]),
+                parameters=tuple(self.attributes(item, ("source",))["source"] for item in parts["ParameterSet"]),
+                set=self.pairs(parts["Set"], "name", "value"),
+            ),
         )
 
     def uses(self, elements: list[etree._Element]) -> dict[str, str]:

@@ -12,7 +12,7 @@ from ...campaign.plan import BatchPlan, check_plan, read_plan
 from ...errors import InputError, suggestion
 from ...system.archive import open_system
 from ...system.description import Description, read_description
-from ...system.options import SystemOptions
+from ...system.options import Layer, SystemOptions
 from .declaration import Declaration, Loop, Point
 from .reading import read_declaration
 
@@ -154,8 +154,4 @@ def _drawn(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions
         raise InputError("--trial", str(trial), problem, "give one of them")
     prepared = plan.prepare(plan.campaign.variants()[0])
     drawn = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
-    return replace(
-        options,
-        parameters=(*plan.campaign.parameters, *options.parameters),
-        set={**plan.campaign.settings, **drawn, **options.set},
-    )
+    return options.among(campaign=plan.campaign.layer, draws=Layer(set=drawn))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from ...system.fmu import Fmu
-from ...system.options import SystemOptions
-from ...system.parameter_sets import ParameterValue
+from ...system.options import Layer, SystemOptions
 from ...system.prepared import PreparedSystem, prepare_system
 from .declaration import Point
 
@@ -20,31 +19,12 @@ class Subject:
     options: SystemOptions
     fmus: dict[str, Fmu] = field(default_factory=dict)
 
-    def changed(
-        self,
-        *,
-        step: float | None = None,
-        parameters: Sequence[str] = (),
-        set: Mapping[str, ParameterValue] | None = None,
-    ) -> Subject:
-        """With another communication step (s), parameter sets before the user's, values over the user's."""
-        options = replace(
-            self.options,
-            step=self.options.step if step is None else step,
-            parameters=(*parameters, *self.options.parameters),
-            set={**self.options.set, **(set or {})},
-        )
-        return replace(self, options=options)
+    def changed(self, *, step: float | None = None, **layers: Layer) -> Subject:
+        """With another communication step (s), and with what others ask, by the names of `LAYERS`."""
+        options = self.options.among(**layers)
+        return replace(self, options=options if step is None else replace(options, step=step))
 
     def at(self, point: Point, use: Mapping[str, str] | None = None) -> PreparedSystem:
-        """The system at a point, with the FMUs of ``use`` over all others. Raises InputError.
-
-        The user's --use and --set win over the point's, and the point's values over all parameter sets.
-        """
-        options = replace(
-            self.options,
-            use={**point.use, **self.options.use, **(use or {})},
-            parameters=(*point.parameters, *self.options.parameters),
-            set={**point.set, **self.options.set},
-        )
+        """The system at a point, with the FMUs of ``use`` over all others. Raises InputError."""
+        options = self.options.among(operating_point=point.layer, study=Layer(use=use or {}))
         return prepare_system(self.system, options, self.fmus)

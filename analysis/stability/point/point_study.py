@@ -85,9 +85,9 @@ class PointStudy:
             phase=self.point.phase,
             time=self.bench.time,
             settings={
-                **{slot: options.use[slot] for slot in self.point.use},
-                **dict.fromkeys(self.point.parameters, "parameter set"),
-                **{name: options.set[name] for name in self.point.set},
+                **{slot: options.use[slot] for slot in self.point.layer.use},
+                **dict.fromkeys(self.point.layer.parameters, "parameter set"),
+                **{name: options.set[name] for name in self.point.layer.set},
             },
             trim=trim,
             drift=drift,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -35,8 +34,7 @@ def dispersed(
     ``cells`` is the memory that matters at the point; ``replay`` gives the command that studies one trial of one loop
     again. Raises InputError, StudyError.
     """
-    flown = subject.changed(parameters=plan.campaign.parameters)
-    flown = replace(flown, options=replace(flown.options, set={**plan.campaign.settings, **flown.options.set}))
+    flown = subject.changed(campaign=plan.campaign.layer)
     rows: dict[str, list[Margins]] = {}
     poles: dict[str, list[np.ndarray]] = {}
     with PointStudy(flown, point, loops, _varied(plan)) as study:

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ...loops.margin_values import Margins, Quantity
+from ...system.options import Layer
 from ...system.prepared import PreparedSystem
 from ..ask.declaration import Limits, Loop, Point, Sweep
 from ..ask.subject import Subject
@@ -40,7 +41,7 @@ def swept(
 
     @cache
     def at(value: float) -> Margins:
-        with PointStudy(subject.changed(set={sweep.parameter: value}), point, [loop]) as study:
+        with PointStudy(subject.changed(study=Layer(set={sweep.parameter: value})), point, [loop]) as study:
             study.linearise(cells, ONE_STEP)
             if study.linear is None:
                 raise StudyError(study.why_not)

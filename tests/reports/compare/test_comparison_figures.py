@@ -138,7 +138,7 @@ def made(rows, value=1.0, success=True, step=1.0):
 
 
 def test_bands_end_where_few_still_fly():
-    quantity = Quantity("a.b", None, "other", ("a.b",), lambda signals: signals["a.b"])
+    quantity = Quantity("a.b", "b", None, "other", ("a.b",), lambda signals: signals["a.b"])
     flights = [made(10) for _ in range(7)] + [made(20, 2.0)]
     bands = bands_of(quantity, flights)
     assert bands.time[-1] == 9.0  # one of eight is fewer than a quarter
@@ -146,7 +146,7 @@ def test_bands_end_where_few_still_fly():
     only_failed = bands_of(quantity, [made(10, success=False)])
     assert (only_failed.flights, only_failed.failed) == (1, [])
     assert bands_of(quantity, [made(1)]) is None
-    assert bands_of(Quantity("c", None, "other", ("c",), lambda signals: signals["c"]), flights) is None
+    assert bands_of(Quantity("c", "c", None, "other", ("c",), lambda signals: signals["c"]), flights) is None
 
 
 def test_whole_numbers_are_held_and_others_interpolated():
@@ -154,7 +154,7 @@ def test_whole_numbers_are_held_and_others_interpolated():
     coarse = Flight(0, True, np.array([0.0, 2.0, 4.0]), values, False)
     fine = made(5, 0.0)
     for held, expected in ((True, [0.0, 0.0, 1.0, 1.0, 3.0]), (False, [0.0, 0.5, 1.0, 2.0, 3.0])):
-        quantity = Quantity("a.b", None, "other", ("a.b",), lambda signals: signals["a.b"], held)
+        quantity = Quantity("a.b", "b", None, "other", ("a.b",), lambda signals: signals["a.b"], held)
         bands = bands_of(quantity, [fine, coarse])
         np.testing.assert_allclose(bands.percentiles[LEVELS.index(50.0)], np.array(expected) / 2.0)
 
@@ -254,15 +254,15 @@ def test_ellipses_hold_what_the_page_says_of_normal_errors():
 
 def test_dispersion_of_few_trials():
     errors = np.array([[3.0, 4.0, 1.0], [np.nan, 0.0, 0.0], [1.0, 1.0, 1.0]])
-    one = dispersion(Ends("a", "b", errors, np.array([True, True, False])))
+    one = dispersion(Ends("a", "position", "b", errors, np.array([True, True, False])))
     assert (one.count, one.mean, one.std, one.axes, one.radii) == (1, [3.0, 4.0, 1.0], None, None, [5.0, 5.0, 5.0])
-    none = dispersion(Ends("a", "b", errors, np.array([False, True, False])))
+    none = dispersion(Ends("a", "position", "b", errors, np.array([False, True, False])))
     assert (none.count, none.mean, none.radii) == (0, None, None)
 
 
 def test_errors_far_beyond_expectation_leave_the_frame_and_the_panel_says_so():
     name = "checker.normalised_error_square"
-    quantity = Quantity(name, None, "consistency", (name,), lambda signals: signals[name])
+    quantity = Quantity(name, name.rpartition(".")[2], None, "consistency", (name,), lambda signals: signals[name])
     values = np.array([1300.0, 5.0, 6.0, 7.0])
     wild = bands_of(quantity, [Flight(0, True, np.arange(4.0), {name: values}, False)])
     calm = bands_of(quantity, [Flight(0, True, np.arange(4.0), {name: np.minimum(values, 9.0)}, False)])

@@ -24,7 +24,7 @@ from perilune.analysis.reports.stability.page import write_stability_page
 from perilune.analysis.reports.stability.parts import modes
 from perilune.analysis.reports.stability.poles import thinned
 from perilune.analysis.reports.stability.sets import draw_histogram, draw_joint, draw_sweep
-from perilune.analysis.reports.stability.words import complex_number, in_decibels, plain
+from perilune.analysis.reports.stability.words import complex_number, in_decibels, numeral
 from perilune.analysis.stability.results.report import StabilityReport
 from perilune.analysis.stability.results.requirement import Requirement, Scope
 from perilune.analysis.stability.results.routes import Mode
@@ -438,8 +438,8 @@ def test_words():
     assert in_decibels(2.0) == '<data value="2.0">6.021</data>'
     assert in_decibels(math.inf) == "<span>none (no crossing)</span>"
     assert in_decibels(0.0) == "<span>none (no crossing)</span>"
-    assert plain(np.float64(0.5)) == '<data value="0.5">0.5</data>'
-    assert plain(math.nan) == f"<span>{NONE}</span>"
+    assert numeral(np.float64(0.5)) == '<data value="0.5">0.5</data>'
+    assert numeral(math.nan) == f"<span>{NONE}</span>"
     assert "0.5 ± 0.25 j" in complex_number(0.5 + 0.25j)
 
 

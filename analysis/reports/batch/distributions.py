@@ -11,9 +11,9 @@ from matplotlib.lines import Line2D
 
 from ...batch.results import BatchResult
 from ...campaign.campaign import Metric
-from .quantities import labelled, shown_factor
-from .style import WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
-from .svg import inline_svg
+from ..kit.quantities import labelled, shown_factor
+from ..kit.style import WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
+from ..kit.svg import inline_svg
 
 COLUMNS = 3
 DECADES = 2.0  # a metric that spans more gets a logarithmic axis

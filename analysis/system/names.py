@@ -1,0 +1,15 @@
+"""Names of signals and parameters, ``component.variable``, taken apart by the components that there are.
+
+A component's name holds dots where systems are nested, and a variable's where its tool names it so
+(``motor.speed``): only the components tell where one ends and the other begins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+def parted(name: str, components: Iterable[str]) -> tuple[str, str]:
+    """Component and variable of a name; the component is empty for the system's own connectors."""
+    owner = max((component for component in components if name.startswith(f"{component}.")), key=len, default="")
+    return owner, name.removeprefix(f"{owner}.") if owner else name

@@ -1,0 +1,138 @@
+"""The rooms of docs/architecture.md: imports run down its table only, none in a circle, and no room is crowded.
+
+Truth: the table, and the imports as Python's own parser reads them.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import sys
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from perilune.fmus_src.places import ROOT
+
+PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+OURS = {"perilune", "analysis", "fmus_src"}
+EVERYWHERE = {"analysis/errors", "analysis/atomic", "analysis/process_end", "fmus_src/places"}
+KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
+MOST = 15
+LISTS = {
+    "fmus_src/mathlib",
+    "tests/mathlib",
+    *(f"fmus_src/{kind}" for kind in KINDS),
+}  # of things alike, where one looks for a name
+
+
+def table() -> dict[str, set[str]]:
+    """Room -> what it may import, in the order of the table."""
+    found: dict[str, set[str]] = {}
+    for row in re.findall(r"^\| (`(?:analysis|fmus_src)[^|]*) \|[^|]*\|([^|]*)\|$", PAGE, re.MULTILINE):
+        names, allowed = row[0], set(re.findall(r"`([^`]+)`", row[1]))
+        rooms = [f"fmus_src/{kind}" for kind in KINDS] if "..." in names else re.findall(r"`([^`]+)`", names)
+        for room in rooms:
+            found[room] = {"everything"} if "everything" in row[1] else allowed
+    return found
+
+
+ROOMS = table()
+
+
+def room_of(module: str) -> str:
+    """The most particular room of the table that a module, ``analysis.batch.flyer``, lies in."""
+    path = module.replace(".", "/")
+    inside = [room for room in (*ROOMS, *EVERYWHERE) if path == room or path.startswith(f"{room}/")]
+    return max(inside, key=len)
+
+
+def imports(file: Path) -> Iterator[str]:
+    """Modules of ours that a file imports, below perilune."""
+    relative = file.relative_to(ROOT).with_suffix("")
+    package = list(relative.parts[:-1])
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            assert not any(alias.name.split(".")[0] in ("perilune", "analysis", "fmus_src") for alias in node.names), (
+                file
+            )
+        if isinstance(node, ast.ImportFrom):
+            assert node.level or (node.module or "").split(".")[0] not in ("perilune", "analysis", "fmus_src"), file
+            if node.level:
+                base = [*package[: len(package) - (node.level - 1)], *(node.module or "").split(".")]
+                base = [part for part in base if part]
+                whole = ROOT.joinpath(*base)
+                for alias in node.names:
+                    inner = whole / alias.name
+                    is_module = inner.with_suffix(".py").is_file() or (inner / "__init__.py").is_file()
+                    yield ".".join([*base, alias.name] if is_module else base)
+
+
+FILES = sorted(
+    path for top in ("analysis", "fmus_src") for path in (ROOT / top).rglob("*.py") if path.name != "__init__.py"
+)
+
+
+@pytest.fixture(scope="module")
+def arrows() -> dict[str, set[tuple[str, str]]]:
+    """Room -> (room that it imports, file that does)."""
+    found = defaultdict(set)
+    for file in FILES:
+        here = room_of(".".join(file.relative_to(ROOT).with_suffix("").parts))
+        for module in imports(file):
+            there = room_of(module)
+            if there != here:
+                found[here].add((there, file.relative_to(ROOT).as_posix()))
+    return found
+
+
+def test_every_file_has_a_room():
+    assert len(FILES) > 200
+    for file in FILES:
+        assert room_of(".".join(file.relative_to(ROOT).with_suffix("").parts))
+
+
+def test_imports_are_those_of_the_table(arrows):
+    assert len(arrows) > 20
+    for room, targets in arrows.items():
+        allowed = ROOMS.get(room, set()) | EVERYWHERE
+        for target, file in targets:
+            assert "everything" in allowed or target in allowed, f"{file}: {room} may not import {target}"
+
+
+def test_the_table_runs_downwards():
+    order = list(ROOMS)
+    for room, allowed in ROOMS.items():
+        for target in allowed - {"everything"}:
+            assert order.index(target) > order.index(room), f"{room} -> {target}"
+
+
+def test_the_table_allows_nothing_that_is_not_used(arrows):
+    for room, allowed in ROOMS.items():
+        if room.removeprefix("fmus_src/") not in KINDS:
+            assert allowed - {"everything"} <= {target for target, _ in arrows.get(room, set())}
+
+
+def test_no_room_is_crowded():
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    count = defaultdict(int)
+    for name in listed:
+        count[str(Path(name).parent.as_posix())] += Path(name).name != "__init__.py"
+    assert len(count) > 40
+    crowded = {folder: files for folder, files in count.items() if files > MOST and folder not in LISTS}
+    assert crowded == {}
+
+
+@pytest.mark.parametrize("room", ["analysis", "fmus_src"])
+def test_a_room_is_no_package_of_its_own(room):
+    """A second copy of InputError would not be caught."""
+    done = subprocess.run(
+        [sys.executable, "-c", f"import {room}"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1] == (
+        f"ImportError: {room} is a room of the package perilune: import perilune.{room}"
+    )
