@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from .c_names import C_TYPES, Names, declaration, identifier
+from .c_names import Names, c_type, declaration, identifier
 from .c_statements import StatementWriter
 from .kernel import Function, body_of
 from .kernel_source import label
@@ -19,7 +19,7 @@ def signature(function: Function, name: str, block_type: str) -> str:
         arguments.append("Fault *fault")
     for parameter, kind in function.parameters.items():
         arguments.append(declaration(kind, identifier(parameter), parameter not in function.changed_lists))
-    returned = C_TYPES[function.returns] if function.returns else "void"
+    returned = c_type(function.returns) if function.returns else "void"
     return f"static {returned} {name}({', '.join(arguments) or 'void'})"
 
 

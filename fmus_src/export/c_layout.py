@@ -12,7 +12,9 @@ LINE_COLUMN = 92  # where the numbers of Python lines stand
 MEMBER_COLUMN = 44  # where the descriptions of struct members stand
 INDENT = "    "
 NO_BREAK = "\x00"
-TYPE_AND_NAME = re.compile(r"\b(const|double|int64_t|bool|Fault|return) ")  # stay on one line with what follows
+TYPE_AND_NAME = re.compile(
+    r"\b(const|double|int64_t|bool|Vector2|Vector3|Vector4|Fault|return) "
+)  # stay on one line with what follows
 
 
 class Lines:

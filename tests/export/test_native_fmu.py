@@ -105,7 +105,7 @@ def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
     source = Path(__file__).with_name("step_fmu.c")
     subprocess.run(["cc", "-I", tmp_path / "sources", "-o", program, source, "-ldl"], check=True)
     component = Component(BLOCK)
-    references = [i for i, (_, key) in enumerate(component.slots) if key in ("disturbance", "disturbance_rate")]
+    references = [i for i, (name, _) in enumerate(component.elements) if name in ("disturbance", "disturbance_rate")]
     guid = fmpy.read_model_description(str(path)).guid
     arguments = [str(library), guid, "0.25", "20", *map(str, references)]
     printed = subprocess.run([program, *arguments], capture_output=True, text=True, check=True).stdout

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from fmus_src.mathlib.rigid_body import total_momentum
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fmus_src.mathlib.rigid_body import total_momentum
 from fmus_src.mathlib.vectors import cross
 
 vectors = st.lists(st.floats(-1e3, 1e3), min_size=3, max_size=3)
