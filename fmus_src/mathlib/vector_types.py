@@ -19,7 +19,6 @@ class Vector:
     """What vectors of all sizes have in common; in a kernel's declaration, a vector of any size."""
 
     __slots__ = ()
-    __array_ufunc__ = None  # so that numpy's floats leave 2.0 * v to the vector
     names: ClassVar[str]
 
     def __init_subclass__(cls) -> None:
@@ -47,6 +46,16 @@ class Vector:
 
     def __repr__(self) -> str:
         return f"vector{self.elements()}"
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        """numpy's functions give arrays, but a number of numpy's times a vector is a vector."""
+        found = getattr(ufunc, method)(
+            *[list(each) if isinstance(each, Vector) else each for each in inputs], **options
+        )
+        numbers = [
+            each for each in inputs if not isinstance(each, Vector | list | tuple) and not getattr(each, "ndim", 0)
+        ]
+        return vector(*found.tolist()) if len(inputs) == 2 and len(numbers) == 1 else found
 
     def __reduce__(self) -> tuple:
         return vector, self.elements()
@@ -99,6 +108,8 @@ class Vector2(Vector):
         if factor.__class__ is Vector2:
             made.x = self.x * factor.x  # type: ignore[union-attr]
             made.y = self.y * factor.y  # type: ignore[union-attr]
+        elif isinstance(factor, Vector):
+            raise TypeError(f"a vector of 2 times one of {len(factor)}")
         else:
             made.x = self.x * factor  # type: ignore[assignment, operator]
             made.y = self.y * factor  # type: ignore[assignment, operator]
@@ -168,6 +179,8 @@ class Vector3(Vector):
             made.x = self.x * factor.x  # type: ignore[union-attr]
             made.y = self.y * factor.y  # type: ignore[union-attr]
             made.z = self.z * factor.z  # type: ignore[union-attr]
+        elif isinstance(factor, Vector):
+            raise TypeError(f"a vector of 3 times one of {len(factor)}")
         else:
             made.x = self.x * factor  # type: ignore[assignment, operator]
             made.y = self.y * factor  # type: ignore[assignment, operator]
@@ -246,6 +259,8 @@ class Vector4(Vector):
             made.x = self.x * factor.x  # type: ignore[union-attr]
             made.y = self.y * factor.y  # type: ignore[union-attr]
             made.z = self.z * factor.z  # type: ignore[union-attr]
+        elif isinstance(factor, Vector):
+            raise TypeError(f"a vector of 4 times one of {len(factor)}")
         else:
             made.w = self.w * factor  # type: ignore[assignment, operator]
             made.x = self.x * factor  # type: ignore[assignment, operator]
