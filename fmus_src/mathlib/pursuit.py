@@ -33,8 +33,8 @@ def turning(direction: Vector3, goal: Vector3, response: float, limit: float) ->
     sine = norm(slope)
     angle = math.atan2(sine, cosine)
     if cosine < 0.0 and sine < 1e-6:
-        k = smallest_component(direction)
-        slope = add_along(-direction[k] * direction, k, length * length)
+        k, smallest = smallest_component(direction)
+        slope = add_along(-smallest * direction, k, length * length)
         sine = norm(slope)
     speed = limit
     if response > 0.0 and (limit <= 0.0 or angle < limit * response):

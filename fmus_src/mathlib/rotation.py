@@ -19,8 +19,8 @@ def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vec
     if angle <= largest:
         return goal, 0.0
     if cosine < 0.0 and sine < 1e-6:
-        k = smallest_component(direction)
-        side = add_along(-direction[k] * direction, k, 1.0)
+        k, smallest = smallest_component(direction)
+        side = add_along(-smallest * direction, k, 1.0)
         sine = norm(side)
     turned = math.cos(largest) * direction + math.sin(largest) * side / sine
     return turned / norm(turned), angle - largest
@@ -36,6 +36,6 @@ def rotation_between(start: Vector3, goal: Vector3) -> tuple[Vector3, float]:
     sine = norm(axis) / size
     angle = math.atan2(sine, dot(start, goal) / size)
     if sine < ALIGNED:
-        k = smallest_component(start)
-        axis = add_along(-(start[k] / dot(start, start)) * start, k, 1.0)
+        k, smallest = smallest_component(start)
+        axis = add_along(-(smallest / dot(start, start)) * start, k, 1.0)
     return axis / norm(axis), angle

@@ -49,13 +49,13 @@ def all_below(v: Vector, limit: float) -> bool:
     return below
 
 
-def smallest_component(a: Vector3) -> int:
-    """Number of the component with the smallest size, the first of equal ones: the axis farthest from a."""
+def smallest_component(a: Vector3) -> tuple[int, float]:
+    """Number and value of the component with the smallest size, the first of equal ones: the axis farthest from a."""
     k = 0
     for i in range(3):
         if abs(a[i]) < abs(a[k]):
             k = i
-    return k
+    return k, a[k]
 
 
 def add_along(a: Vector3, k: int, amount: float) -> Vector3:

@@ -33,7 +33,7 @@ INPUTS = (
 
 def set_inputs(block, **values):
     for name, value in values.items():
-        getattr(block, name)[:] = np.asarray(value).tolist()
+        setattr(block, name, np.asarray(value).tolist())
 
 
 def skew(v):

@@ -41,8 +41,8 @@ def answer(block_class, angles, wanted, time=0.25, **settings_):
     """The block after one sample at ``time``."""
     block = block_class(**settings_)
     block.initialize()
-    block.gimbal_angles[:] = angles
-    block.torque_command[:] = wanted
+    block.gimbal_angles = angles
+    block.torque_command = wanted
     block.step(time - PERIOD, PERIOD)
     return block
 
@@ -58,8 +58,8 @@ def turned(block_class, **settings_):
     component.start()
     for k in range(400):
         wanted = INERTIA * AXIS * acceleration((k + 0.5) * PERIOD / 100.0) / 100.0**2
-        block.gimbal_angles[:] = angles
-        block.torque_command[:] = wanted
+        block.gimbal_angles = angles
+        block.torque_command = wanted
         component.do_step((k - 1) * PERIOD + PERIOD, PERIOD)
         rates = np.array(block.gimbal_rates)
         assert block.status == 0
@@ -175,11 +175,11 @@ def flown(block_class, wanted, seconds, angles=ISOTROPIC_ANGLES, **settings_):
         setattr(block, name, value)
     angles = np.array(angles)
     path, statuses = [angles], []
-    block.gimbal_angles[:] = angles
+    block.gimbal_angles = angles
     component.start()
     for k in range(int(seconds / PERIOD)):
-        block.gimbal_angles[:] = angles
-        block.torque_command[:] = wanted
+        block.gimbal_angles = angles
+        block.torque_command = wanted
         component.do_step(k * PERIOD, PERIOD)
         angles = angles + PERIOD * np.array(block.gimbal_rates)
         path.append(angles)
@@ -243,12 +243,12 @@ def test_command_that_is_no_number_stops_the_gimbals(block_class, bad, name):
 def test_rates_are_held_between_samples(block_class):
     component = Component(block_class)
     component.start()
-    component.block.torque_command[:] = [0.5, 0.0, 0.0]
+    component.block.torque_command = [0.5, 0.0, 0.0]
     component.do_step(0.0, 0.125)
     assert component.block.gimbal_rates == pytest.approx([0.0] * 4, abs=1e-15)
     component.do_step(0.125, 0.125)
     held = list(component.block.gimbal_rates)
     assert max(held) > 1e-3
-    component.block.torque_command[:] = [0.0, 0.0, 0.0]
+    component.block.torque_command = [0.0, 0.0, 0.0]
     component.do_step(0.25, 0.125)
     assert component.block.gimbal_rates == held

@@ -293,10 +293,10 @@ def test_between_inertial_samples_the_estimate_goes_on():
     for k in range(1, 2 * STEPS + 1):
         if k % 2 == 0:
             block.inertial_count += 1
-            block.velocity_increment[:] = gained[k // 2].tolist()
+            block.velocity_increment = gained[k // 2].tolist()
         if k % 101 == 0:
             block.position_count += 1
-            block.measured_position[:] = position(k * half).tolist()
+            block.measured_position = position(k * half).tolist()
         block.step((k - 1) * half, half)
         error = state_of(block) - np.concatenate([position(k * half), velocity(k * half)])
         assert np.linalg.norm(error[:3]) < 0.02

@@ -140,7 +140,7 @@ def guidance(position, velocity, mass=940.0, **parameters):
 
 
 def see(block, position, velocity, mass):
-    block.position[:], block.velocity[:], block.mass = position.tolist(), velocity.tolist(), mass
+    block.position, block.velocity, block.mass = position.tolist(), velocity.tolist(), mass
 
 
 def random_basis(generator):

@@ -164,7 +164,9 @@ def test_whether_all_components_are_finite_or_small():
 
 @given(vectors)
 def test_smallest_component_is_the_first_of_the_smallest(a):
-    assert smallest_component(a) == int(np.argmin(np.abs(list(a))))
+    k, value = smallest_component(a)
+    assert k == int(np.argmin(np.abs(list(a))))
+    assert value == a[k]
 
 
 def test_amounts_are_added_along_one_axis():
