@@ -8,14 +8,14 @@ from __future__ import annotations
 from typing import Any
 
 from .block import Block, Output, State
+from .mathlib.vector_types import vector
 
 # How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
 
-SCALAR = -1  # in place of an element's number: a variable of one element,
-WHOLE = -2  # all elements of an array
-Access = tuple[str, int, int]  # variable, element (or one of the above), how many value references it takes
+SCALAR, VECTOR, LIST = -1, -2, -3  # in place of an element's number: all of a variable
+Access = tuple[str, int, int, int]  # variable, element or one of the above, place of its values and their end
 
 
 class StepError(ValueError):
@@ -51,23 +51,30 @@ class Component:
     def accesses(self, references: list[int]) -> list[Access]:
         """Variables behind value references, in order; those of which all elements are named come as wholes."""
         key = tuple(references)
-        if key not in self.known:
-            found: list[Access] = []
-            position = 0
-            while position < len(key):
-                if key[position] < 0:
-                    raise IndexError(f"there is no value reference {key[position]}")
-                name, index = self.elements[key[position]]
-                variable = self.block.variables[name]
-                whole = range(key[position], key[position] + variable.size)
-                if index == 0 and key[position : position + variable.size] == tuple(whole):
-                    found.append((name, WHOLE, variable.size))
-                    position += variable.size
-                else:
-                    found.append((name, index, 1))
-                    position += 1
-            self.known[key] = found
-        return self.known[key]
+        found = self.known.get(key)
+        if found is None:
+            found = self.known[key] = self.find_accesses(key)
+        return found
+
+    def find_accesses(self, references: tuple[int, ...]) -> list[Access]:
+        """What `accesses` gives, worked out."""
+        found: list[Access] = []
+        position = 0
+        while position < len(references):
+            first = references[position]
+            if first < 0:
+                raise IndexError(f"there is no value reference {first}")
+            name, index = self.elements[first]
+            variable = self.block.variables[name]
+            end = position + variable.size
+            whole = index == 0 and references[position:end] == tuple(range(first, first + variable.size))
+            if whole:
+                index = VECTOR if variable.is_vector else LIST
+            else:
+                end = position + 1
+            found.append((name, index, position, end))
+            position = end
+        return found
 
     def get(self, references: list[int]) -> list:
         """Values at the given value references, settled first if initialisation is under way."""
@@ -79,10 +86,12 @@ class Component:
         """Values at the given value references, as they are."""
         held = self.block.__dict__
         values: list = []
-        for name, index, _ in self.accesses(references):
+        for name, index, _, _ in self.accesses(references):
             if index == SCALAR:
                 values.append(held[name])
-            elif index == WHOLE:
+            elif index == VECTOR:
+                values += held[name].elements()
+            elif index == LIST:
                 values += held[name]
             else:
                 values.append(held[name][index])
@@ -99,21 +108,21 @@ class Component:
             self.unsettled = True
 
     def write(self, references: list[int], values: list) -> None:
-        """Put values where the value references say."""
+        """Put values, which have their variables' types, where the value references say."""
         if len(references) != len(values):
             raise ValueError(f"{len(values)} values for {len(references)} value references")
         held = self.block.__dict__
-        position = 0
-        for name, index, size in self.accesses(references):
+        for name, index, position, end in self.accesses(references):
             if index == SCALAR:
                 held[name] = values[position]
-            elif index == WHOLE:
-                setattr(self.block, name, values[position : position + size])
+            elif index == VECTOR:
+                held[name] = vector(*values[position:end])
+            elif index == LIST:
+                held[name][:] = values[position:end]
             else:
                 changed = list(held[name])
                 changed[index] = values[position]
                 setattr(self.block, name, changed)
-            position += size
 
     def settle(self) -> None:
         """Run the block's initialisation from the declared starts of states and outputs."""

@@ -98,38 +98,30 @@ class FreeFlyingRobot(Block):
         self.gimbal_angles = self.gimbal_angles + h * self.gimbal_rates
         self.measure_gyros()
 
+    def slopes(self, q: Vector4, momentum: Vector3) -> tuple[Vector4, Vector3, Vector3]:
+        """q', torque (N m, inertial) and force (N, inertial) for attitude and momentum G."""
+        q_rate = multiply(q, quaternion(0.0, 0.5 * self.rate(q, momentum)))
+        return q_rate, to_reference(q, self.jet_torque), to_reference(q, self.jet_force)
+
     def move(self, h: float) -> None:
         """Move by h (s) under the jets' force and torque."""
         q = self.quaternion
         momentum = self.angular_momentum
-        q_sum = vector(0.0, 0.0, 0.0, 0.0)
-        torque_sum = vector(0.0, 0.0, 0.0)
-        force_sum = vector(0.0, 0.0, 0.0)
-        early_force = vector(0.0, 0.0, 0.0)
-        for stage in range(4):
-            if stage == 1 or stage == 3:
-                self.turn_gimbals(0.5 * h)
-            q_rate = multiply(q, quaternion(0.0, 0.5 * self.rate(q, momentum)))
-            torque = to_reference(q, self.jet_torque)
-            force = to_reference(q, self.jet_force)
-            weight = 1.0
-            if stage == 1 or stage == 2:
-                weight = 2.0
-            reach = 0.5 * h
-            if stage == 2:
-                reach = h
-            q_sum = q_sum + weight * q_rate
-            torque_sum = torque_sum + weight * torque
-            force_sum = force_sum + weight * force
-            if stage < 3:
-                early_force = early_force + force
-            q = self.quaternion + reach * q_rate
-            momentum = self.angular_momentum + reach * torque
+        q1, torque1, force1 = self.slopes(q, momentum)
+        self.turn_gimbals(0.5 * h)
+        q2, torque2, force2 = self.slopes(q + 0.5 * h * q1, momentum + 0.5 * h * torque1)
+        q3, torque3, force3 = self.slopes(q + 0.5 * h * q2, momentum + 0.5 * h * torque2)
+        self.turn_gimbals(0.5 * h)
+        q4, torque4, force4 = self.slopes(q + h * q3, momentum + h * torque3)
+        # the zeros make no sum of them -0
+        force = vector(0.0, 0.0, 0.0) + force1
+        torque = vector(0.0, 0.0, 0.0) + torque1 + 2.0 * torque2 + 2.0 * torque3 + torque4
+        turning = vector(0.0, 0.0, 0.0, 0.0) + q1 + 2.0 * q2 + 2.0 * q3 + q4
         # Nystroem's form of the method, for r'' without r'
-        self.position = self.position + h * (self.velocity + h * early_force / (6.0 * self.mass))
-        self.velocity = self.velocity + h * force_sum / (6.0 * self.mass)
-        self.angular_momentum = self.angular_momentum + h * torque_sum / 6.0
-        self.quaternion = normalise(self.quaternion + h * q_sum / 6.0)
+        self.position = self.position + h * (self.velocity + h * (force + force2 + force3) / (6.0 * self.mass))
+        self.velocity = self.velocity + h * (force + 2.0 * force2 + 2.0 * force3 + force4) / (6.0 * self.mass)
+        self.angular_momentum = momentum + h * torque / 6.0
+        self.quaternion = normalise(q + h * turning / 6.0)
         self.angular_velocity = self.rate(self.quaternion, self.angular_momentum)
 
     def step(self, t: float, h: float) -> None:
