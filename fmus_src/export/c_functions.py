@@ -6,7 +6,7 @@ import ast
 
 from .c_names import Names, c_type, declaration, identifier
 from .c_statements import StatementWriter
-from .kernel import Function, body_of
+from .kernel import Function, Several, Vector, body_of
 from .kernel_source import label
 
 
@@ -20,7 +20,10 @@ def signature(function: Function, name: str, block_type: str) -> str:
     for parameter, kind in function.parameters.items():
         arguments.append(declaration(kind, identifier(parameter), parameter not in function.changed_lists))
     returned = c_type(function.returns) if function.returns else "void"
-    return f"static {returned} {name}({', '.join(arguments) or 'void'})"
+    passed = [*function.parameters.values(), function.returns]
+    # vectors that are not inlined go through memory
+    hint = "inline " if any(isinstance(kind, Vector | Several) for kind in passed) else ""
+    return f"static {hint}{returned} {name}({', '.join(arguments) or 'void'})"
 
 
 def write_function(function: Function, names: Names, block_type: str) -> list[str]:

@@ -7,6 +7,13 @@
 
 #include "kernel_math.h"
 
+/* Always inlined: a vector that is passed to a function goes through memory, which costs more than the operation. */
+#if defined(__GNUC__)
+#define VECTOR_INLINE static inline __attribute__((always_inline))
+#else
+#define VECTOR_INLINE static inline
+#endif
+
 #define EACH_OF_2(component) {{component(0), component(1)}}
 #define EACH_OF_3(component) {{component(0), component(1), component(2)}}
 #define EACH_OF_4(component) {{component(0), component(1), component(2), component(3)}}
@@ -28,35 +35,35 @@
     typedef struct Vector##n { \
         double x[n]; \
     } Vector##n; \
-    static inline Vector##n add##n(Vector##n a, Vector##n b) \
+    VECTOR_INLINE Vector##n add##n(Vector##n a, Vector##n b) \
     { \
         return (Vector##n)EACH_OF_##n(SUM_OF); \
     } \
-    static inline Vector##n subtract##n(Vector##n a, Vector##n b) \
+    VECTOR_INLINE Vector##n subtract##n(Vector##n a, Vector##n b) \
     { \
         return (Vector##n)EACH_OF_##n(DIFFERENCE_OF); \
     } \
-    static inline Vector##n negative##n(Vector##n a) \
+    VECTOR_INLINE Vector##n negative##n(Vector##n a) \
     { \
         return (Vector##n)EACH_OF_##n(NEGATIVE_OF); \
     } \
-    static inline Vector##n scale##n(double factor, Vector##n a) \
+    VECTOR_INLINE Vector##n scale##n(double factor, Vector##n a) \
     { \
         return (Vector##n)EACH_OF_##n(SCALED_OF); \
     } \
-    static inline Vector##n multiply##n(Vector##n a, Vector##n b) \
+    VECTOR_INLINE Vector##n multiply##n(Vector##n a, Vector##n b) \
     { \
         return (Vector##n)EACH_OF_##n(PRODUCT_OF); \
     } \
-    static inline Vector##n divide##n(Vector##n a, double divisor) \
+    VECTOR_INLINE Vector##n divide##n(Vector##n a, double divisor) \
     { \
         return (Vector##n)EACH_OF_##n(SHARE_OF); \
     } \
-    static inline Vector##n quotient##n(Vector##n a, Vector##n b) \
+    VECTOR_INLINE Vector##n quotient##n(Vector##n a, Vector##n b) \
     { \
         return (Vector##n)EACH_OF_##n(QUOTIENT_OF); \
     } \
-    static inline Vector##n py_divide##n(Fault *fault, const char *file, int line, Vector##n a, double divisor) \
+    VECTOR_INLINE Vector##n py_divide##n(Fault *fault, const char *file, int line, Vector##n a, double divisor) \
     { \
         if (divisor == 0.0) { \
             set_fault(fault, file, line, ZERO_DIVISION); \
@@ -64,7 +71,7 @@
         } \
         return divide##n(a, divisor); \
     } \
-    static inline Vector##n py_quotient##n(Fault *fault, const char *file, int line, Vector##n a, Vector##n b) \
+    VECTOR_INLINE Vector##n py_quotient##n(Fault *fault, const char *file, int line, Vector##n a, Vector##n b) \
     { \
         if (ANY_OF_##n(IS_ZERO)) { \
             set_fault(fault, file, line, ZERO_DIVISION); \

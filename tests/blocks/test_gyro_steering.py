@@ -234,7 +234,9 @@ def test_limited_rates_keep_the_direction_of_the_torque(block_class):
 @pytest.mark.parametrize("name", ["torque_command", "gimbal_angles"])
 def test_command_that_is_no_number_stops_the_gimbals(block_class, bad, name):
     block = answer(block_class, ISOTROPIC_ANGLES, [0.3, 0.1, 0.0])
-    getattr(block, name)[2] = bad
+    values = list(getattr(block, name))
+    values[2] = bad
+    setattr(block, name, values)
     block.step(0.25, 0.25)
     assert (block.gimbal_rates, block.status) == ([0.0] * 4, 3)
 

@@ -190,7 +190,9 @@ def test_propellant_of_a_force_is_that_of_all_axes_or_of_two(seed):
 def test_command_that_is_no_number_shuts_the_jets_off(block_class, bad, name):
     component = started(block_class, CELL * [2, 0, 0], delay_fraction=0.0)
     saved = list(getattr(component.block, name))
-    getattr(component.block, name)[1] = bad
+    values = list(getattr(component.block, name))
+    values[1] = bad
+    setattr(component.block, name, values)
     component.block.command_count += 1
     component.do_step(0.0, 0.125)
     assert component.block.status == 3

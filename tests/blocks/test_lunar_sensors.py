@@ -152,7 +152,7 @@ def test_errors_do_not_depend_on_the_path_before(block_class):
     """Two flights, one of them out of range for a while: sample k has the same standard normal errors in both."""
     low, other = sensor(block_class, seed=3, stream=4), sensor(block_class, 800.0, seed=3, stream=4)
     for k in range(12):
-        other.position[2] = 3e4 if 3 <= k < 8 else 800.0 + 50.0 * k
+        other.position = [*other.position[0:2], 3e4 if 3 <= k < 8 else 800.0 + 50.0 * k]
         for block in (low, other):
             block.step(0.1 * k, 0.1)
         if not 3 <= k < 8:

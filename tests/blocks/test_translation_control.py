@@ -79,11 +79,15 @@ def test_inputs_that_are_not_finite_leave_the_force(law, name):
     fly(block, ERRORS[:3], RATES[:3], [8.0] * 3)
     held = list(block.force_command)
     block.position_error = block.planned_acceleration = [0.0] * 3
-    getattr(block, name)[1] = math.nan
+    values = list(getattr(block, name))
+    values[1] = math.nan
+    setattr(block, name, values)
     block.translation_count += 1
     block.step(0.0, 0.125)
     assert (block.status, block.force_command, block.command_count) == (1, held, 3)
-    getattr(block, name)[1] = 0.0
+    values = list(getattr(block, name))
+    values[1] = 0.0
+    setattr(block, name, values)
     block.translation_count += 1
     block.step(0.0, 0.125)
     assert (block.status, block.command_count) == (0, 4)

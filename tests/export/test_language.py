@@ -48,7 +48,7 @@ def test_generated_vectors_are_readable() -> None:
     text = translate(VectorLanguage, "{guid}")
     assert "Vector3 kept; " in text
     assert "a = add3(a, scale3(2.0, self->scale));" in text
-    assert "static Vector3 language_blocks_unit_3(" in text
+    assert "static inline Vector3 language_blocks_unit_3(" in text
     assert "typedef struct Vector3Vector3DoubleInt64Bool {" in text
 
 
