@@ -16,6 +16,7 @@ from numpy.polynomial import Polynomial
 from fmus_src.actuators.gyro_steering_explicit import GyroSteeringExplicit
 from fmus_src.actuators.gyro_steering_robust import GyroSteeringRobust
 from fmus_src.mathlib.gyros import ISOTROPIC_ANGLES, ISOTROPIC_RHO, distributed_angles
+from fmus_src.mathlib.vectors import vector
 from fmus_src.runtime import Component
 
 BLOCKS = [GyroSteeringExplicit, GyroSteeringRobust]
@@ -95,9 +96,10 @@ def test_lead_of_half_a_period_makes_the_mean_exact_to_second_order(block_class)
 @settings(max_examples=200, deadline=None)
 def test_torque_is_exact_wherever_the_law_is_used(seed, size):
     random = np.random.default_rng(seed)
-    vector = random.normal(size=3)
-    angles = list(ISOTROPIC_ANGLES)
-    assert distributed_angles((size * vector / np.linalg.norm(vector)).tolist(), ISOTROPIC_RHO, angles)
+    drawn = random.normal(size=3)
+    momentum_wanted = vector(*(size * drawn / np.linalg.norm(drawn)))
+    possible, angles = distributed_angles(momentum_wanted, ISOTROPIC_RHO, vector(*ISOTROPIC_ANGLES))
+    assert possible
     wanted = 0.3 * random.normal(size=3)
     block = answer(GyroSteeringExplicit, angles, wanted)
     assert block.status == 0

@@ -49,7 +49,7 @@ def perfect(names):
 
 def output(block):
     value = getattr(block, RANGED[type(block)][1])
-    return list(value) if isinstance(value, list) else [value]
+    return [value] if isinstance(value, float) else list(value)
 
 
 def truth(block):
