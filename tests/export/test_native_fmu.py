@@ -121,6 +121,9 @@ def test_every_name_of_the_wrapper_is_kept_from_blocks() -> None:
     text = "".join((HERE / name).read_text(encoding="utf-8") for name in WRAPPER_FILES)
     types = re.findall(r"^typedef (?:struct|enum|union) (\w+)", text, re.MULTILINE)
     functions = re.findall(r"^static (?:[\w *]+?)\b(\w+)\(", text, re.MULTILINE)
+    for size in re.findall(r"^VECTOR_TYPE\((\d)\)", text, re.MULTILINE):  # a macro for each size
+        types.append(f"Vector{size}")
+        functions += [f"{name}{size}" for name in re.findall(r"VECTOR_INLINE Vector##n (\w+)##n\(", text)]
     declared = {"Block", "model_initialize", "model_step", "model_sample_period", "model_set_start_time"}
     found = {name for name in types + functions if not name.startswith("py_")} | declared
     assert found == WRAPPER_NAMES
