@@ -1,20 +1,29 @@
 """How a component is declared: one class, its variables as class attributes.
 
 Everything else about a component (modelDescription.xml, connectors, C struct, tables in the
-docs) is derived from these declarations. Values live on the instance under the same names:
-floats, ints and bools for scalars, lists that are never rebound for vectors.
+docs) is derived from these declarations. Values live on the instance under the same names: floats, ints
+and bools; vectors (`mathlib.vector_types`) for two to four Reals; lists for everything else.
 """
 
 from __future__ import annotations
 
 import copy
+import operator
 import re
+from collections.abc import Callable
+from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from .mathlib.vector_types import VECTORS, vector
 from .units import UNITS
 
 Value = float | int | bool | list
 TYPE_NAMES = {float: "Real", int: "Integer", bool: "Boolean"}
+CONVERSIONS: dict[type, Callable[[Any], Any]] = {
+    float: float,
+    int: operator.index,
+    bool: bool,
+}  # of elements that are stored
 
 
 class DeclarationError(TypeError):
@@ -28,6 +37,10 @@ class Variable:
     key of `fmus_src.units.UNITS`; ``minimum``, ``maximum`` and ``nominal`` hold per element;
     ``frame`` names the frame that a vector's components refer to. ``columns`` makes the list a
     matrix in row order, whose elements are named by row and column.
+
+    Two to four Reals are a vector: a value that is stored as a whole, ``self.velocity = self.velocity + gained``.
+    More of them, Integers, Booleans, what has ``columns`` and what says ``vector=False`` are a list, whose
+    elements are assigned. Either takes any sequence of its size, and copies it.
     """
 
     causality: ClassVar[str]
@@ -43,6 +56,7 @@ class Variable:
         maximum: float | None = None,
         nominal: float | None = None,
         columns: int | None = None,
+        vector: bool = True,
     ) -> None:
         self.start: Value = list(start) if isinstance(start, list | tuple) else start
         self.unit = unit
@@ -52,7 +66,13 @@ class Variable:
         self.maximum = maximum
         self.nominal = nominal
         self.columns = columns
+        self.is_vector = (
+            vector and columns is None and isinstance(self.start, list) and self.size in VECTORS and self.all_reals
+        )
         self.name = ""
+        if self.is_array:
+            storing = _StoresVector if self.is_vector else _StoresList
+            self.__class__ = _that_stores(type(self), storing)  # type: ignore[arg-type]
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name
@@ -60,7 +80,7 @@ class Variable:
         kinds = {type(value) for value in self.elements}
         if len(kinds) != 1 or not kinds <= set(TYPE_NAMES):
             raise DeclarationError(f"{where}: start must be one float, int or bool, or a list of one of these")
-        if self.columns is not None and (not self.is_vector or self.columns < 1 or self.size % self.columns):
+        if self.columns is not None and (not self.is_array or self.columns < 1 or self.size % self.columns):
             raise DeclarationError(f"{where}: {self.size} elements do not make rows of {self.columns}")
         if self.unit is not None and self.unit not in UNITS:
             raise DeclarationError(f"{where}: unit {self.unit!r} is not in fmus_src/units.py; add it there")
@@ -74,8 +94,13 @@ class Variable:
         def __set__(self, instance: object, value: Any) -> None: ...
 
     @property
-    def is_vector(self) -> bool:
+    def is_array(self) -> bool:
+        """Whether there are several elements, as a vector or as a list."""
         return isinstance(self.start, list)
+
+    @property
+    def all_reals(self) -> bool:
+        return all(type(value) is float for value in self.elements)
 
     @property
     def elements(self) -> list:
@@ -93,7 +118,7 @@ class Variable:
 
     def element_names(self) -> list[str]:
         """FMI names of the elements: ``name``; ``name[1]``, ``name[2]``, ...; or ``name[1,1]``, ``name[1,2]``, ..."""
-        if not self.is_vector:
+        if not self.is_array:
             return [self.name]
         if self.columns is not None:
             places = [divmod(index, self.columns) for index in range(self.size)]
@@ -105,6 +130,42 @@ class Variable:
         other = copy.copy(self)
         other.start = list(start) if isinstance(start, list | tuple) else start
         return other
+
+    def checked(self, block: Block, values: Any) -> list:
+        """The values of any sequence as elements; raises TypeError where their number or type does not fit."""
+        where = f"{block.fmu_name}.{self.name}"
+        try:
+            found = list(values)
+        except TypeError:
+            found = []
+        if len(found) != self.size:
+            raise TypeError(f"{where}: give a list of {self.size}, or another sequence; got {values!r}")
+        try:
+            return [CONVERSIONS[type(self.elements[0])](value) for value in found]
+        except (TypeError, ValueError) as error:
+            raise TypeError(f"{where}: its elements are of type {self.type_name}; got {values!r}") from error
+
+
+class _StoresVector(Variable):
+    """A variable whose assignment stores a vector. Without __get__, reads go to the instance as they do for scalars."""
+
+    def __set__(self, instance: Any, value: Any) -> None:
+        if value.__class__ is not VECTORS[self.size]:
+            value = vector(*self.checked(instance, value))
+        instance.__dict__[self.name] = value
+
+
+class _StoresList(Variable):
+    """A variable whose list is never another: assignment copies the elements."""
+
+    def __set__(self, instance: Any, value: Any) -> None:
+        instance.__dict__.setdefault(self.name, [])[:] = self.checked(instance, value)
+
+
+@cache
+def _that_stores(kind: Any, how: Any) -> Any:
+    """The kind of variable (Input, Output, ...) with a way of storing."""
+    return type(kind.__name__, (how, kind), {})
 
 
 class Input(Variable):
@@ -157,7 +218,7 @@ class Block:
 
     Subclasses declare variables and write `initialize` (states and outputs at the start, from
     parameters and inputs; total: the declared starts alone must not fail) and `step` (outputs
-    valid at t + h). Both are kernels: the subset of Python in `fmus_src.export.subset`.
+    valid at t + h). Both are kernels: the subset of Python in `fmus_src.export.judge.subset`.
 
     A parameter ``sample_period`` makes the block sampled: `step` is called at start + k *
     sample_period only; 0 means at every communication point. An output is ``direct`` where it
@@ -198,19 +259,13 @@ class Block:
 
     def __init__(self, **parameters: Any) -> None:
         for name, variable in self.variables.items():
-            setattr(self, name, list(variable.start) if isinstance(variable.start, list) else variable.start)
+            setattr(self, name, variable.start)
         for name, value in parameters.items():
             if not isinstance(self.variables.get(name), Parameter | Input):
                 raise TypeError(f"{self.fmu_name} has no parameter or input {name!r}")
-            variable = self.variables[name]
-            count = len(value) if isinstance(value, list | tuple) else None
-            if count != (variable.size if variable.is_vector else None):
-                wanted = f"a list of {variable.size}" if variable.is_vector else "a single value"
-                raise TypeError(f"{self.fmu_name}.{name}: give {wanted}")
-            if variable.is_vector:
-                getattr(self, name)[:] = value
-            else:
-                setattr(self, name, value)
+            if not self.variables[name].is_array and hasattr(value, "__len__"):
+                raise TypeError(f"{self.fmu_name}.{name}: give a single value")
+            setattr(self, name, value)
 
     def initialize(self) -> None:
         """Compute states and outputs at the start time."""

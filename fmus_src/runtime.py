@@ -8,10 +8,14 @@ from __future__ import annotations
 from typing import Any
 
 from .block import Block, Output, State
+from .mathlib.vector_types import vector
 
 # How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
+
+SCALAR, VECTOR, LIST = -1, -2, -3  # in place of an element's number: all of a variable
+Access = tuple[str, int, int, int]  # variable, element or one of the above, place of its values and their end
 
 
 class StepError(ValueError):
@@ -36,38 +40,95 @@ class Component:
         self.unsettled = True
         self.start_time = 0.0
         self.tick = 0
-        # Each element as (container, key): lists are never rebound, scalars live in the instance's dict.
-        self.slots: list[tuple[Any, Any]] = []
-        for name, variable in block_class.variables.items():
-            if variable.is_vector:
-                self.slots += [(getattr(self.block, name), index) for index in range(variable.size)]
+        self.elements = [
+            (name, index if variable.is_array else SCALAR)
+            for name, variable in block_class.variables.items()
+            for index in range(variable.size)
+        ]
+        # For each list of value references that was asked for: the variables behind it. Importers repeat theirs.
+        self.known: dict[tuple[int, ...], list[Access]] = {}
+
+    def accesses(self, references: list[int]) -> list[Access]:
+        """Variables behind value references, in order; those of which all elements are named come as wholes."""
+        key = tuple(references)
+        found = self.known.get(key)
+        if found is None:
+            found = self.known[key] = self.find_accesses(key)
+        return found
+
+    def find_accesses(self, references: tuple[int, ...]) -> list[Access]:
+        """What `accesses` gives, worked out."""
+        found: list[Access] = []
+        position = 0
+        while position < len(references):
+            first = references[position]
+            if first < 0:
+                raise IndexError(f"there is no value reference {first}")
+            name, index = self.elements[first]
+            variable = self.block.variables[name]
+            end = position + variable.size
+            whole = index == 0 and references[position:end] == tuple(range(first, first + variable.size))
+            if whole:
+                index = VECTOR if variable.is_vector else LIST
             else:
-                self.slots.append((self.block.__dict__, name))
+                end = position + 1
+            found.append((name, index, position, end))
+            position = end
+        return found
 
     def get(self, references: list[int]) -> list:
         """Values at the given value references, settled first if initialisation is under way."""
         if self.unsettled:
             self.settle()
-        slots = self.slots
-        return [container[key] for container, key in [slots[reference] for reference in references]]
+        return self.read(references)
+
+    def read(self, references: list[int]) -> list:
+        """Values at the given value references, as they are."""
+        held = self.block.__dict__
+        values: list = []
+        for name, index, _, _ in self.accesses(references):
+            if index == SCALAR:
+                values.append(held[name])
+            elif index == VECTOR:
+                values += held[name].elements()
+            elif index == LIST:
+                values += held[name]
+            else:
+                values.append(held[name][index])
+        return values
+
+    def values(self) -> list:
+        """All values in order of value references, as they are."""
+        return self.read(list(range(len(self.elements))))
 
     def set(self, references: list[int], values: list) -> None:
         """Set inputs or parameters by value reference."""
-        slots = self.slots
-        for reference, value in zip(references, values, strict=True):
-            container, key = slots[reference]
-            container[key] = value
+        self.write(references, values)
         if self.initialising:
             self.unsettled = True
+
+    def write(self, references: list[int], values: list) -> None:
+        """Put values, which have their variables' types, where the value references say."""
+        if len(references) != len(values):
+            raise ValueError(f"{len(values)} values for {len(references)} value references")
+        held = self.block.__dict__
+        for name, index, position, end in self.accesses(references):
+            if index == SCALAR:
+                held[name] = values[position]
+            elif index == VECTOR:
+                held[name] = vector(*values[position:end])
+            elif index == LIST:
+                held[name][:] = values[position:end]
+            else:
+                changed = list(held[name])
+                changed[index] = values[position]
+                setattr(self.block, name, changed)
 
     def settle(self) -> None:
         """Run the block's initialisation from the declared starts of states and outputs."""
         for name, variable in self.block.variables.items():
             if isinstance(variable, State | Output):
-                if isinstance(variable.start, list):
-                    getattr(self.block, name)[:] = variable.start
-                else:
-                    setattr(self.block, name, variable.start)
+                setattr(self.block, name, variable.start)
         self.tick = 0
         if "start_time" in self.block.variables:
             self.block.start_time = self.start_time
@@ -99,12 +160,11 @@ class Component:
     def get_state(self) -> dict[str, Any]:
         """Complete state: every variable and the life-cycle counters."""
         return {
-            "values": [container[key] for container, key in self.slots],
+            "values": self.values(),
             "life_cycle": [self.initialising, self.unsettled, self.start_time, self.tick],
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Restore what `get_state` returned."""
-        for (container, key), value in zip(self.slots, state["values"], strict=True):
-            container[key] = value
+        self.write(list(range(len(self.elements))), state["values"])
         self.initialising, self.unsettled, self.start_time, self.tick = state["life_cycle"]

@@ -3,6 +3,7 @@
 from ..block import Parameter
 from ..interfaces.gyro_steering import NEAR_SINGULAR, GyroSteering
 from ..mathlib.gyros import ISOTROPIC_RHO, distributed_rates, robust_rates
+from ..mathlib.vectors import Vector3, Vector4
 
 
 class GyroSteeringExplicit(GyroSteering):
@@ -18,12 +19,9 @@ class GyroSteeringExplicit(GyroSteering):
     law_gain = Parameter(0.2, unit="1/s", minimum=0.0, description="rate at which the law's residual decays")
     least_divisor = Parameter(0.02, unit="1", minimum=1e-6, description="below it the law is not used")
 
-    def steer(self, angles: list, momentum_rate: list, time: float) -> None:
-        lawful = distributed_rates(
-            angles, momentum_rate, self.rho, self.law_gain, self.least_divisor, self.gimbal_rates
-        )
+    def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
+        lawful, rates = distributed_rates(angles, momentum_rate, self.rho, self.law_gain, self.least_divisor)
         if not lawful:
             self.status = NEAR_SINGULAR
-            robust_rates(
-                angles, momentum_rate, self.damping, self.damping_threshold, self.swing, time, self.gimbal_rates
-            )
+            rates, _ = robust_rates(angles, momentum_rate, self.damping, self.damping_threshold, self.swing, time)
+        self.gimbal_rates = rates

@@ -2,6 +2,7 @@
 
 from ..interfaces.gyro_steering import NEAR_SINGULAR, GyroSteering
 from ..mathlib.gyros import robust_rates
+from ..mathlib.vectors import Vector3, Vector4
 
 
 class GyroSteeringRobust(GyroSteering):
@@ -13,9 +14,9 @@ class GyroSteeringRobust(GyroSteering):
     1986; Wie 2005; see docs/robot_rendezvous.md.
     """
 
-    def steer(self, angles: list, momentum_rate: list, time: float) -> None:
-        measure = robust_rates(
-            angles, momentum_rate, self.damping, self.damping_threshold, self.swing, time, self.gimbal_rates
+    def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
+        self.gimbal_rates, measure = robust_rates(
+            angles, momentum_rate, self.damping, self.damping_threshold, self.swing, time
         )
         if measure < self.damping_threshold:
             self.status = NEAR_SINGULAR

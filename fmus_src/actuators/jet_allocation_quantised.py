@@ -6,6 +6,7 @@ from ..block import Parameter, State
 from ..interfaces.jet_allocation import SATURATED, TORQUE_LEFT_OUT, JetAllocation
 from ..mathlib.jets import nearest_levels, thrust_of_levels
 from ..mathlib.quaternion import to_body, to_reference
+from ..mathlib.vectors import vector
 
 
 class JetAllocationQuantised(JetAllocation):
@@ -23,21 +24,19 @@ class JetAllocationQuantised(JetAllocation):
     owed_impulse = State([0.0, 0.0, 0.0], unit="N.s", frame="inertial", description="wanted and not given yet")
 
     def allocate(self) -> None:
-        force = [0.0] * 3
-        levels = [0.0] * 3
-        to_body(self.attitude, self.owed_impulse, force)
+        owed = to_body(self.attitude, self.owed_impulse)
         for i in range(3):
             if self.wanted_wrench[3 + i] != 0.0 or (self.strength[i] == 0.0 and self.wanted_wrench[i] != 0.0):
                 self.status = TORQUE_LEFT_OUT
-            force[i] = self.wanted_wrench[i] + force[i] / self.translation_period
+        force = vector(*self.wanted_wrench[0:3]) + owed / self.translation_period
         highest = float(math.floor(self.maximum_thrust / self.thrust_quantum + 1e-9))
-        scale = nearest_levels(self.strength, force, self.thrust_quantum, highest, levels)
+        levels, scale = nearest_levels(self.strength, force, self.thrust_quantum, highest)
         if scale < 1.0:
             self.status = SATURATED
         thrust_of_levels(levels, self.thrust_quantum, self.new_thrust)
+        left = [0.0] * 3
         for i in range(3):
-            given = 2.0 * self.thrust_quantum * self.strength[i] * levels[i]
-            force[i] = (scale * force[i] - given) * self.translation_period
-            if self.strength[i] == 0.0:
-                force[i] = 0.0
-        to_reference(self.attitude, force, self.owed_impulse)
+            if self.strength[i] != 0.0:
+                given = 2.0 * self.thrust_quantum * self.strength[i] * levels[i]
+                left[i] = (scale * force[i] - given) * self.translation_period
+        self.owed_impulse = to_reference(self.attitude, vector(*left))

@@ -6,7 +6,7 @@ from ..block import Parameter, State
 from ..interfaces.allocation import Allocation
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.rotation import turn_towards
-from ..mathlib.vectors import clip, copy3, norm
+from ..mathlib.vectors import clip, dot, norm, vector
 
 GOOD = 0
 LIMITED = 1
@@ -55,8 +55,7 @@ class ThrustAllocation(Allocation):
         self.thrust = self.commanded_thrust
         self.pass_direction()
         if self.slew_rate_limit > 0.0:
-            for i in range(3):
-                self.thrust_direction_rate[i] = 0.0
+            self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
 
     def command_thrust(self) -> None:
         """Set commanded_thrust (N) from the demand."""
@@ -83,36 +82,26 @@ class ThrustAllocation(Allocation):
 
     def pass_direction(self) -> None:
         """Direction and timing as demanded, with their leads."""
-        copy3(self.thrust_direction, self.demanded_direction)
-        copy3(self.thrust_direction_rate, self.demanded_direction_rate)
+        self.thrust_direction = self.demanded_direction
+        self.thrust_direction_rate = self.demanded_direction_rate
         # counted from earlier, the direction is further on at any time
         self.command_time = self.demand_time - self.direction_lead
         self.burn_duration = self.duration() + self.direction_lead
 
     def slew(self, time: float, h: float) -> None:
         """Follow the demanded direction within the slew limit, from the direction flown over the last h (s)."""
-        goal = [0.0] * 3
-        now = [0.0] * 3
         since = time + h - (self.demand_time - self.direction_lead)
-        for i in range(3):
-            goal[i] = self.demanded_direction[i] + self.demanded_direction_rate[i] * since
-            now[i] = self.thrust_direction[i] + self.thrust_direction_rate[i] * (time - self.command_time)
-        goal_length = norm(goal)
-        now_length = norm(now)
-        for i in range(3):
-            goal[i] = goal[i] / goal_length
-            now[i] = now[i] / now_length
-        ahead = [0.0] * 3
-        copy3(ahead, now)
+        goal = self.demanded_direction + since * self.demanded_direction_rate
+        goal = goal / norm(goal)
+        now = self.thrust_direction + (time - self.command_time) * self.thrust_direction_rate
+        now = now / norm(now)
         # a direction and its rate cannot express a turn of 90 deg or more in one step
-        left = turn_towards(ahead, goal, clip(self.slew_rate_limit * h, 0.0, 1.5))
+        ahead, left = turn_towards(now, goal, clip(self.slew_rate_limit * h, 0.0, 1.5))
         if left > 0.0 and self.status == GOOD:
             self.status = LIMITED
-        cosine = now[0] * ahead[0] + now[1] * ahead[1] + now[2] * ahead[2]
-        for i in range(3):
-            self.thrust_direction[i] = now[i]
-            # now + rate h is parallel to ahead, and the rate is perpendicular to now
-            self.thrust_direction_rate[i] = (ahead[i] / cosine - now[i]) / h
+        self.thrust_direction = now
+        # now + rate h is parallel to ahead, and the rate is perpendicular to now
+        self.thrust_direction_rate = (ahead / dot(now, ahead) - now) / h
         self.command_time = time
         self.burn_duration = self.demand_time + self.duration() - time
 

@@ -4,9 +4,8 @@ import math
 
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.lead import advance_lead, lead_output, tustin_lead
-from ..mathlib.quaternion import to_body
-from ..mathlib.rigid_body import total_momentum
-from ..mathlib.vectors import cross
+from ..mathlib.quaternion import quaternion, to_body
+from ..mathlib.vectors import Vector3, cross, dot, is_finite, vector
 
 LEAD = 0
 GOOD = 0
@@ -64,44 +63,30 @@ class AttitudeControl(Block):
         self.period = self.sample_period
         self.command()
 
-    def correction(self, m: list) -> None:
-        """m[3] = what to take off the angular acceleration (rad/s2); moves the lead to the next tick."""
+    def correction(self) -> Vector3:
+        """What to take off the angular acceleration (rad/s2); moves the lead to the next tick."""
         if self.law == LEAD:
-            law = [0.0] * 3
-            tustin_lead(self.lead_gain, self.lead_time, self.lag_time, self.period, law)
-            lead_output(law, self.lead_state, self.attitude_error, m)
-            advance_lead(law, self.lead_state, self.attitude_error)
-        else:
-            w = self.natural_frequency
-            for i in range(3):
-                m[i] = w * (w * self.attitude_error[i] + 2.0 * self.damping * self.rate_error[i])
+            law = tustin_lead(self.lead_gain, self.lead_time, self.lag_time, self.period)
+            m = lead_output(law, self.lead_state, self.attitude_error)
+            self.lead_state = advance_lead(law, self.lead_state, self.attitude_error)
+            return m
+        w = self.natural_frequency
+        return w * (w * self.attitude_error + 2.0 * self.damping * self.rate_error)
 
-    def to_true_axes(self, v: list, result: list) -> None:
-        """result = v, given in the plan's body axes, in the true ones."""
-        e = [0.0] * 4
-        square = 0.0
-        for i in range(3):
-            square = square + self.attitude_error[i] * self.attitude_error[i]
+    def to_true_axes(self, v: Vector3) -> Vector3:
+        """A vector given in the plan's body axes, in the true ones."""
+        square = dot(self.attitude_error, self.attitude_error)
         if square > 1.0:
             square = 1.0  # the sine of an angle; angles beyond 90 deg look smaller
-        e[0] = math.sqrt(0.5 * (1.0 + math.sqrt(1.0 - square)))
-        for i in range(3):
-            e[i + 1] = self.attitude_error[i] / (2.0 * e[0])
-        to_body(e, v, result)
+        scalar = math.sqrt(0.5 * (1.0 + math.sqrt(1.0 - square)))
+        return to_body(quaternion(scalar, self.attitude_error / (2.0 * scalar)), v)
 
     def finite(self) -> bool:
         """Whether all inputs are."""
-        fine = True
-        for i in range(3):
-            if not (math.isfinite(self.attitude_error[i]) and math.isfinite(self.rate_error[i])):
-                fine = False
-            if not (math.isfinite(self.planned_angular_velocity[i]) and math.isfinite(self.gyro_momentum[i])):
-                fine = False
-            if not (math.isfinite(self.planned_angular_acceleration[i]) and math.isfinite(self.jet_torque[i])):
-                fine = False
-            if not math.isfinite(self.disturbance[i]):
-                fine = False
-        return fine
+        errors = is_finite(self.attitude_error) and is_finite(self.rate_error)
+        plan = is_finite(self.planned_angular_velocity) and is_finite(self.planned_angular_acceleration)
+        known = is_finite(self.gyro_momentum) and is_finite(self.jet_torque) and is_finite(self.disturbance)
+        return errors and plan and known
 
     def command(self) -> None:
         """Command a new torque."""
@@ -109,33 +94,20 @@ class AttitudeControl(Block):
             self.status = NOT_FINITE
             return
         self.status = GOOD
-        planned = [0.0] * 3
-        wanted = [0.0] * 3
-        turning = [0.0] * 3
-        m = [0.0] * 3
-        jets = [0.0] * 3
-        rate = [0.0] * 3
-        momentum = [0.0] * 3
         half = 0.5 * self.period
-        self.to_true_axes(self.planned_angular_velocity, planned)
-        self.to_true_axes(self.planned_angular_acceleration, wanted)
-        self.correction(m)
-        for i in range(3):
-            rate[i] = planned[i] + self.rate_error[i]
-            if self.feed_forward:
-                jets[i] = self.jet_torque[i] + self.inertia[i] * self.disturbance[i]
-        cross(planned, rate, turning)
-        for i in range(3):
-            wanted[i] = wanted[i] + turning[i] - m[i]
+        planned = self.to_true_axes(self.planned_angular_velocity)
+        wanted = self.to_true_axes(self.planned_angular_acceleration)
+        m = self.correction()
+        jets = vector(0.0, 0.0, 0.0)
+        if self.feed_forward:
+            jets = self.jet_torque + self.inertia * self.disturbance
+        rate = planned + self.rate_error
+        wanted = wanted + cross(planned, rate) - m
+        momentum = self.inertia * rate + self.gyro_momentum
         # half a period later: the momentum as seen from the turning body, and its angular velocity
-        total_momentum(self.inertia, rate, self.gyro_momentum, momentum)
-        cross(rate, momentum, turning)
-        for i in range(3):
-            momentum[i] = momentum[i] + half * (jets[i] - turning[i])
-            rate[i] = rate[i] + half * wanted[i]
-        cross(rate, momentum, turning)
-        for i in range(3):
-            self.torque_command[i] = turning[i] + self.inertia[i] * wanted[i] - jets[i]
+        momentum = momentum + half * (jets - cross(rate, momentum))
+        rate = rate + half * wanted
+        self.torque_command = cross(rate, momentum) + self.inertia * wanted - jets
 
     def step(self, t: float, h: float) -> None:
         self.period = self.sample_period

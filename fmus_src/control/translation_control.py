@@ -1,9 +1,8 @@
 """From the error of position and velocity to the force wanted."""
 
-import math
-
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.lead import advance_lead, change_lead, lead_output, tustin_lead
+from ..mathlib.vectors import Vector3, is_finite
 
 LEAD = 0
 GOOD = 0
@@ -61,39 +60,31 @@ class TranslationControl(Block):
             nearest = 1
         return nearest
 
-    def correction(self, m: list) -> None:
-        """m[3] = what to take off the acceleration (m/s2); moves the lead to the next tick."""
+    def correction(self) -> Vector3:
+        """What to take off the acceleration (m/s2); moves the lead to the next tick."""
         k = self.design()
         if self.law == LEAD:
-            law = [0.0] * 3
-            tustin_lead(self.lead_gain[k], self.lead_time[k], self.lag_time[k], self.translation_period, law)
+            law = tustin_lead(self.lead_gain[k], self.lead_time[k], self.lag_time[k], self.translation_period)
             changed = law[0] != self.last_law[0] or law[1] != self.last_law[1] or law[2] != self.last_law[2]
             if self.started and changed:
-                change_lead(self.last_law, law, self.position_error, self.lead_state)
+                self.lead_state = change_lead(self.last_law, law, self.position_error, self.lead_state)
             self.started = True
-            for i in range(3):
-                self.last_law[i] = law[i]
-            lead_output(law, self.lead_state, self.position_error, m)
-            advance_lead(law, self.lead_state, self.position_error)
-        else:
-            w = self.natural_frequency[k]
-            for i in range(3):
-                m[i] = w * (w * self.position_error[i] + 2.0 * self.damping[k] * self.velocity_error[i])
+            self.last_law = law
+            m = lead_output(law, self.lead_state, self.position_error)
+            self.lead_state = advance_lead(law, self.lead_state, self.position_error)
+            return m
+        w = self.natural_frequency[k]
+        return w * (w * self.position_error + 2.0 * self.damping[k] * self.velocity_error)
 
     def command(self) -> None:
         """Command a new force."""
-        for i in range(3):
-            if not (math.isfinite(self.position_error[i]) and math.isfinite(self.velocity_error[i])):
-                self.status = NOT_FINITE
-                return
-            if not math.isfinite(self.planned_acceleration[i]):
-                self.status = NOT_FINITE
-                return
-        m = [0.0] * 3
+        known = is_finite(self.position_error) and is_finite(self.velocity_error)
+        if not (known and is_finite(self.planned_acceleration)):
+            self.status = NOT_FINITE
+            return
         self.status = GOOD
-        self.correction(m)
-        for i in range(3):
-            self.force_command[i] = self.mass * (self.planned_acceleration[i] - m[i])
+        m = self.correction()
+        self.force_command = self.mass * (self.planned_acceleration - m)
         self.command_count = self.command_count + 1
 
     def step(self, t: float, h: float) -> None:

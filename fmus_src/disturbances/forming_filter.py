@@ -4,6 +4,7 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..mathlib.rng import normal, seed_streams
+from ..mathlib.vectors import Vector4, vector
 
 
 class FormingFilter(Block):
@@ -37,8 +38,8 @@ class FormingFilter(Block):
         self.disturbance = sigma * first
         self.disturbance_rate = w * sigma * second
 
-    def transition(self, h: float, f: list) -> None:
-        """f = exp(A h), 2 x 2 in row order, for the state (y, y')."""
+    def transition(self, h: float) -> Vector4:
+        """exp(A h), 2 x 2 in row order, for the state (y, y')."""
         w = self.natural_frequency
         decay = self.damping * w
         square = self.damping * self.damping - 1.0
@@ -58,19 +59,15 @@ class FormingFilter(Block):
                 # cosh and sinh are equal here, and overflow further on
                 c = 0.5 * math.exp((wd - decay) * h)
                 s = c / wd
-        f[0] = c + decay * s
-        f[1] = s
-        f[2] = -w * w * s
-        f[3] = c - decay * s
+        return vector(c + decay * s, s, -w * w * s, c - decay * s)
 
     def step(self, t: float, h: float) -> None:
         w = self.natural_frequency
         v = self.intensity * w / (4.0 * self.damping)
-        f = [0.0] * 4
-        self.transition(h, f)
-        q11 = v - (f[0] * f[0] + f[1] * f[1] * w * w) * v
-        q12 = -(f[0] * f[2] + f[1] * f[3] * w * w) * v
-        q22 = w * w * v - (f[2] * f[2] + f[3] * f[3] * w * w) * v
+        f11, f12, f21, f22 = self.transition(h)
+        q11 = v - (f11 * f11 + f12 * f12 * w * w) * v
+        q12 = -(f11 * f21 + f12 * f22 * w * w) * v
+        q22 = w * w * v - (f21 * f21 + f22 * f22 * w * w) * v
         l11 = 0.0
         l21 = 0.0
         if q11 > 0.0:
@@ -83,5 +80,5 @@ class FormingFilter(Block):
         second = normal(self.generator)
         y = self.disturbance
         rate = self.disturbance_rate
-        self.disturbance = f[0] * y + f[1] * rate + l11 * first
-        self.disturbance_rate = f[2] * y + f[3] * rate + l21 * first + l22 * second
+        self.disturbance = f11 * y + f12 * rate + l11 * first
+        self.disturbance_rate = f21 * y + f22 * rate + l21 * first + l22 * second

@@ -10,11 +10,11 @@ import fmpy
 
 from ..block import Block
 from .archive import content_guid, write_zip
-from .c_translate import translate
 from .compilers import PLATFORMS, shared_library
 from .model_description import model_description
+from .write.translate import translate
 
-HERE = Path(__file__).parent
+C_FILES = Path(__file__).parent / "fmi"
 WRAPPER_FILES = (
     "fmi2_block.h",
     "fmi2_component.h",
@@ -23,6 +23,7 @@ WRAPPER_FILES = (
     "fmi2_values.h",
     "fmi2_wrapper.c",
     "kernel_math.h",
+    "kernel_vectors.h",
 )
 STANDARD_HEADERS = ("fmi2FunctionTypes.h", "fmi2Functions.h", "fmi2TypesPlatform.h")  # BSD-2, licence inside
 
@@ -33,7 +34,7 @@ def native_sources(block_class: type[Block], guid: str) -> dict[str, bytes]:
     Raises `SubsetError` where the block is outside the subset of Python.
     """
     standard = Path(fmpy.__file__).parent / "c-code"
-    files = {name: (HERE / name).read_bytes() for name in WRAPPER_FILES}
+    files = {name: (C_FILES / name).read_bytes() for name in WRAPPER_FILES}
     files |= {name: (standard / name).read_bytes() for name in STANDARD_HEADERS}
     files[f"{block_class.fmu_name}.c"] = translate(block_class, guid).encode()
     return files

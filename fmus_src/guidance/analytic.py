@@ -4,7 +4,7 @@ import math
 
 from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, TerminalGuidance
 from ..mathlib.terminal import impulse_and_miss, quadratic_time
-from ..mathlib.vectors import norm
+from ..mathlib.vectors import norm, vector
 
 
 class AnalyticGuidance(TerminalGuidance):
@@ -16,37 +16,31 @@ class AnalyticGuidance(TerminalGuidance):
     """
 
     def solve(self) -> None:
-        dr = [0.0] * 3
-        dv = [0.0] * 3
-        self.remaining(dr, dv)
+        dr, dv = self.remaining()
         time = self.planned_time(quadratic_time(dr, self.velocity, dv, self.gravity))
         self.time_to_go = time
         self.status = GOOD
         if time > 0.0:
-            a = [0.0] * 3
-            b = [0.0] * 3
-            impulse_and_miss(dr, self.velocity, dv, self.gravity, time, a, b)
-            px = 3.0 * b[0] - a[0] * time
-            py = 3.0 * b[1] - a[1] * time
-            pz = 3.0 * b[2] - a[2] * time
-            horizontal = px * px + py * py
+            a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
+            p = 3.0 * b - time * a
+            horizontal = p.x * p.x + p.y * p.y
             if horizontal > 0.0:
                 forward = math.sqrt(horizontal)
-                yaw = math.atan2(py, px)
-                yaw_rate = -3.0 * (a[0] * b[1] - a[1] * b[0]) / horizontal
-                # the published cos(yaw)/px is 1/forward, which holds across px = 0 too
-                pitch = math.atan(pz / forward)
-                pitch_rate = 3.0 / time * (a[2] * time - 2.0 * b[2]) / forward
+                yaw = math.atan2(p.y, p.x)
+                yaw_rate = -3.0 * (a.x * b.y - a.y * b.x) / horizontal
+                # the published cos(yaw)/p.x is 1/forward, which holds across p.x = 0 too
+                pitch = math.atan(p.z / forward)
+                pitch_rate = 3.0 / time * (a.z * time - 2.0 * b.z) / forward
                 self.thrust_acceleration = norm(a) / time
                 cp = math.cos(pitch)
                 sp = math.sin(pitch)
                 cy = math.cos(yaw)
                 sy = math.sin(yaw)
-                self.thrust_direction[0] = cp * cy
-                self.thrust_direction[1] = cp * sy
-                self.thrust_direction[2] = sp
-                self.thrust_direction_rate[0] = -sp * cy * pitch_rate - cp * sy * yaw_rate
-                self.thrust_direction_rate[1] = -sp * sy * pitch_rate + cp * cy * yaw_rate
-                self.thrust_direction_rate[2] = cp * pitch_rate
+                self.thrust_direction = vector(cp * cy, cp * sy, sp)
+                self.thrust_direction_rate = vector(
+                    -sp * cy * pitch_rate - cp * sy * yaw_rate,
+                    -sp * sy * pitch_rate + cp * cy * yaw_rate,
+                    cp * pitch_rate,
+                )
             else:
                 self.status = NO_SOLUTION

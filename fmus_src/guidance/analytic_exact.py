@@ -21,19 +21,15 @@ class AnalyticExactGuidance(CertainTime):
     terminal_step = CertainTime.terminal_step.with_start(1)
 
     def solve(self) -> None:
-        dr = [0.0] * 3
-        dv = [0.0] * 3
-        self.remaining(dr, dv)
+        dr, dv = self.remaining()
         time = self.time_left(dr, dv)
         self.time_to_go = time
         self.status = GOOD
         if time > 0.0:
-            a = [0.0] * 3
-            b = [0.0] * 3
-            impulse_and_miss(dr, self.velocity, dv, self.gravity, time, a, b)
-            acceleration = linear_thrust(
-                a, b, time, self.burn_span(time), self.thrust_direction, self.thrust_direction_rate
+            a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
+            span = self.burn_span(time)
+            self.thrust_acceleration, self.thrust_direction, self.thrust_direction_rate = linear_thrust(
+                a, b, time, span, self.thrust_direction, self.thrust_direction_rate
             )
             if not self.least_effort:
-                acceleration = norm(a) / time
-            self.thrust_acceleration = acceleration
+                self.thrust_acceleration = norm(a) / time

@@ -3,7 +3,7 @@
 from ..block import State
 from ..interfaces.terminal_guidance import NO_SOLUTION, NOT_CONVERGED
 from ..mathlib.terminal import impulse_and_miss
-from ..mathlib.vectors import norm
+from ..mathlib.vectors import Vector3, dot, norm, vector
 from .astar_programme import AstarProgramme
 
 
@@ -18,25 +18,23 @@ class AstarGuidance(AstarProgramme):
 
     last_root = State(0.0, unit="s", description="where Newton's method starts; 0: from 2 R/V")
 
-    def root(self, dr: list, v: list, dv: list, start: float) -> float:
+    def root(self, dr: Vector3, v: Vector3, dv: Vector3, start: float) -> float:
         """The root reached from ``start`` (s), or 0 without convergence."""
         g = self.gravity
+        slope_p = dv + 3.0 * v
+        slope_q = dv + 2.0 * v
         time = start
         converged = False
         for _ in range(50):
             if not converged:
-                value = 0.0
-                slope = 0.0
-                for i in range(3):
-                    # A T - 3 B and A T - 2 B with their derivatives; gravity acts on the third axis
-                    p = (dv[i] + 3.0 * v[i]) * time - 3.0 * dr[i]
-                    q = (dv[i] + 2.0 * v[i]) * time - 2.0 * dr[i]
-                    p_slope = dv[i] + 3.0 * v[i]
-                    if i == 2:
-                        p = p - 0.5 * g * time * time
-                        p_slope = p_slope - g * time
-                    value = value + p * q
-                    slope = slope + p_slope * q + p * (dv[i] + 2.0 * v[i])
+                # A T - 3 B and A T - 2 B with their derivatives; gravity acts on the third axis
+                p = slope_p * time - 3.0 * dr
+                p = vector(p.x, p.y, p.z - 0.5 * g * time * time)
+                q = slope_q * time - 2.0 * dr
+                first = vector(slope_p.x, slope_p.y, slope_p.z - g * time) * q
+                second = p * slope_q
+                value = 0.0 + dot(p, q)
+                slope = 0.0 + first.x + second.x + first.y + second.y + first.z + second.z
                 change = 0.0
                 if slope != 0.0:
                     change = value / slope
@@ -46,7 +44,7 @@ class AstarGuidance(AstarProgramme):
             return time
         return 0.0
 
-    def newton_time(self, dr: list, dv: list) -> float:
+    def newton_time(self, dr: Vector3, dv: Vector3) -> float:
         """Time-to-go (s) from what is to gain, or 0, and the status where it is."""
         speed = norm(self.velocity)
         self.status = NO_SOLUTION
@@ -59,15 +57,11 @@ class AstarGuidance(AstarProgramme):
         return 0.0
 
     def solve(self) -> None:
-        dr = [0.0] * 3
-        dv = [0.0] * 3
-        self.remaining(dr, dv)
+        dr, dv = self.remaining()
         time = self.newton_time(dr, dv)
         time = self.planned_time(time)
         if time > 0.0:
-            a = [0.0] * 3
-            b = [0.0] * 3
-            impulse_and_miss(dr, self.velocity, dv, self.gravity, time, a, b)
+            a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
             acceleration = 2.0 * norm(b) / (time * time)
             if acceleration > 0.0:
                 self.last_root = time

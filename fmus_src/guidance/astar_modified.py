@@ -5,7 +5,7 @@ import math
 from ..block import Parameter
 from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION
 from ..mathlib.terminal import impulse_and_miss
-from ..mathlib.vectors import norm
+from ..mathlib.vectors import Vector3, norm
 from .astar_programme import AstarProgramme
 
 
@@ -18,16 +18,16 @@ class AstarModifiedGuidance(AstarProgramme):
 
     exhaust_speed = Parameter(3100.0, unit="m/s", minimum=1.0, description="effective exhaust speed of the engine")
 
-    def formula_time(self, dr: list, dv: list) -> float:
+    def formula_time(self, dr: Vector3, dv: Vector3) -> float:
         """Time-to-go (s) from what is to gain, and the status: good, or no solution and 0."""
         g = self.gravity
         distance = norm(dr)
         speed_sum = norm(self.velocity) + norm(self.target_velocity)
         self.status = NO_SOLUTION
         if speed_sum > 0.0:
-            lift = dv[2] + 2.0 * g * distance / speed_sum
-            e = math.sqrt(dv[0] * dv[0] + dv[1] * dv[1] + lift * lift)
-            closing = norm(self.velocity) - dr[2] * g / speed_sum - 0.5 * e + e * e / (12.0 * self.exhaust_speed)
+            lift = dv.z + 2.0 * g * distance / speed_sum
+            e = math.sqrt(dv.x * dv.x + dv.y * dv.y + lift * lift)
+            closing = norm(self.velocity) - dr.z * g / speed_sum - 0.5 * e + e * e / (12.0 * self.exhaust_speed)
             if closing != 0.0:
                 # close to the target the formula can give a negative time, which ends the flight
                 self.status = GOOD
@@ -35,16 +35,12 @@ class AstarModifiedGuidance(AstarProgramme):
         return 0.0
 
     def solve(self) -> None:
-        dr = [0.0] * 3
-        dv = [0.0] * 3
-        self.remaining(dr, dv)
+        dr, dv = self.remaining()
         time = self.formula_time(dr, dv)
         time = self.planned_time(time)
         self.time_to_go = time
         if time > 0.0:
-            a = [0.0] * 3
-            b = [0.0] * 3
-            impulse_and_miss(dr, self.velocity, dv, self.gravity, time, a, b)
+            a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
             acceleration = 2.0 * norm(b) / (time * time)
             if acceleration > 0.0:
                 self.point(a, b, time, acceleration)

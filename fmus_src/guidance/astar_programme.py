@@ -4,7 +4,7 @@ import math
 
 from ..block import Output
 from ..interfaces.terminal_guidance import CLAMPED, GOOD, TerminalGuidance
-from ..mathlib.vectors import clip, norm
+from ..mathlib.vectors import Vector3, clip, norm, vector
 
 
 class AstarProgramme(TerminalGuidance, interface=True):
@@ -29,18 +29,17 @@ class AstarProgramme(TerminalGuidance, interface=True):
             self.status = CLAMPED
         return math.asin(clip(sine, -1.0, 1.0))
 
-    def add_direction(self, theta: float, psi: float, weight: float) -> None:
-        """Add weight times the unit vector of the angles to thrust_direction, landing-site frame."""
-        self.thrust_direction[0] = self.thrust_direction[0] + weight * math.cos(theta) * math.cos(psi)
-        self.thrust_direction[1] = self.thrust_direction[1] + weight * math.sin(psi)
-        self.thrust_direction[2] = self.thrust_direction[2] + weight * math.sin(theta) * math.cos(psi)
+    def weighted(self, weight: float, theta: float, psi: float) -> Vector3:
+        """Weight times the unit vector of the angles, landing-site frame."""
+        forward = weight * math.cos(theta) * math.cos(psi)
+        return vector(forward, weight * math.sin(psi), weight * math.sin(theta) * math.cos(psi))
 
-    def point(self, a: list, b: list, time: float, acceleration: float) -> None:
+    def point(self, a: Vector3, b: Vector3, time: float, acceleration: float) -> None:
         """Set the command from A, B (landing-site frame), time-to-go (s) and acceleration (m/s2)."""
-        ay = a[2]
-        az = -a[1]
-        by = b[2]
-        bz = -b[1]
+        ay = a.z
+        az = -a.y
+        by = b.z
+        bz = -b.y
         w = acceleration
         self.status = GOOD
         psi = self.angle((2.0 * az / time - 6.0 * bz / (time * time)) / w)
@@ -52,23 +51,24 @@ class AstarProgramme(TerminalGuidance, interface=True):
         st = math.sin(theta)
         climb = 6.0 * ay / (time * time) - 12.0 * by / (time * time * time)
         theta_rate = (climb + w * psi_rate * st * spsi) / (w * ct * cpsi)
-        for i in range(3):
-            self.thrust_direction[i] = 0.0
         self.thrust_acceleration = w
+        direction = vector(0.0, 0.0, 0.0)
         span = clip(time, 0.0, self.cycle)
         if (abs(psi_rate) + abs(theta_rate)) * span > 1.0:
             half = 0.5 * span
-            self.add_direction(theta, psi, 1.0 / 6.0)
-            self.add_direction(theta + theta_rate * half, psi + psi_rate * half, 4.0 / 6.0)
-            self.add_direction(theta + theta_rate * span, psi + psi_rate * span, 1.0 / 6.0)
-            share = norm(self.thrust_direction)
+            direction = direction + self.weighted(1.0 / 6.0, theta, psi)
+            direction = direction + self.weighted(4.0 / 6.0, theta + theta_rate * half, psi + psi_rate * half)
+            direction = direction + self.weighted(1.0 / 6.0, theta + theta_rate * span, psi + psi_rate * span)
+            share = norm(direction)
             self.thrust_acceleration = w * share
-            for i in range(3):
-                if share > 0.0:
-                    self.thrust_direction[i] = self.thrust_direction[i] / share
-                self.thrust_direction_rate[i] = 0.0
+            if share > 0.0:
+                direction = direction / share
+            self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
         else:
-            self.add_direction(theta, psi, 1.0)
-            self.thrust_direction_rate[0] = -st * cpsi * theta_rate - ct * spsi * psi_rate
-            self.thrust_direction_rate[1] = cpsi * psi_rate
-            self.thrust_direction_rate[2] = ct * cpsi * theta_rate - st * spsi * psi_rate
+            direction = direction + self.weighted(1.0, theta, psi)
+            self.thrust_direction_rate = vector(
+                -st * cpsi * theta_rate - ct * spsi * psi_rate,
+                cpsi * psi_rate,
+                ct * cpsi * theta_rate - st * spsi * psi_rate,
+            )
+        self.thrust_direction = direction

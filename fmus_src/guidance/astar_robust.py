@@ -23,23 +23,18 @@ class AstarRobustGuidance(AstarProgramme, CertainTime):
     terminal_step = AstarProgramme.terminal_step.with_start(1)
 
     def solve(self) -> None:
-        dr = [0.0] * 3
-        dv = [0.0] * 3
-        self.remaining(dr, dv)
+        dr, dv = self.remaining()
         time = self.time_left(dr, dv)
         self.time_to_go = time
         self.status = GOOD
         if time > 0.0:
-            a = [0.0] * 3
-            b = [0.0] * 3
-            impulse_and_miss(dr, self.velocity, dv, self.gravity, time, a, b)
-            p = [0.0] * 3
-            for i in range(3):
-                p[i] = 3.0 * b[i] - a[i] * time
+            a, b = impulse_and_miss(dr, self.velocity, dv, self.gravity, time)
+            p = 3.0 * b - time * a
             size = norm(p)
-            if self.least_effort or p[0] <= FORWARD * size:
-                self.thrust_acceleration = linear_thrust(
-                    a, b, time, self.burn_span(time), self.thrust_direction, self.thrust_direction_rate
+            if self.least_effort or p.x <= FORWARD * size:
+                span = self.burn_span(time)
+                self.thrust_acceleration, self.thrust_direction, self.thrust_direction_rate = linear_thrust(
+                    a, b, time, span, self.thrust_direction, self.thrust_direction_rate
                 )
             else:
                 self.point(a, b, time, 2.0 * size / (time * time))

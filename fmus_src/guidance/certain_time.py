@@ -3,6 +3,7 @@
 from ..block import State
 from ..interfaces.terminal_guidance import TerminalGuidance
 from ..mathlib.terminal import cubic_time, effort_rises, least_effort_time, steady
+from ..mathlib.vectors import Vector3
 
 AGREEMENT = 0.05  # of the time; where the two times are this close, a flight of least effort goes over to braking
 # With less than ENDING (s) to go and no root, a least effort of more than CHASE times that would only chase errors
@@ -30,7 +31,7 @@ class CertainTime(TerminalGuidance, interface=True):
     braking = State(False, description="the flight takes its time from |A| T = 2 |B|")
     least_effort = State(False, description="the last command took the time of least effort")
 
-    def time_left(self, dr: list, dv: list) -> float:
+    def time_left(self, dr: Vector3, dv: Vector3) -> float:
         """Time-to-go (s) from what is to gain, and with it least_effort; 0 where there is none."""
         if self.plan_frozen():
             self.least_effort = True

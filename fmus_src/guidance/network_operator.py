@@ -5,8 +5,8 @@ import math
 from ..block import Parameter, State
 from ..interfaces.network_operator_law import NetworkOperatorLaw
 from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, UNLIMITED, TerminalGuidance
-from ..mathlib.gravity import STANDARD_GRAVITY
-from ..mathlib.vectors import dot, norm
+from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, from_centre
+from ..mathlib.vectors import Vector3, dot, norm
 
 LEAST_HORIZONTAL_SPEED = 0.5  # m/s; below it the horizontal direction is held
 
@@ -43,47 +43,32 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     forward = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal direction of flight")
 
     def initialize(self) -> None:
-        centred = [0.0] * 3
-        for i in range(3):
-            centred[i] = self.target_position[i]
-        centred[2] = centred[2] + self.moon_radius
-        self.final_altitude = norm(centred) - self.moon_radius
+        self.final_altitude = altitude_of(self.target_position, self.moon_radius)
         self.command_time = self.start_time
         self.decode_law()
         self.solve()
 
     def solve(self) -> None:
-        centred = [0.0] * 3
-        for i in range(3):
-            centred[i] = self.position[i]
-        centred[2] = centred[2] + self.moon_radius
+        centred = from_centre(self.position, self.moon_radius)
         radius = norm(centred)
         if self.edge_count >= 0 and self.mass > 0.0 and radius > 0.0:
-            for i in range(3):
-                centred[i] = centred[i] / radius
             self.altitude = radius - self.moon_radius
-            self.command_thrust(centred)
+            self.command_thrust(centred / radius)
             self.status = GOOD
         else:
             self.status = NO_SOLUTION
 
-    def command_thrust(self, up: list) -> None:
+    def command_thrust(self, up: Vector3) -> None:
         """Command from the law, with the local vertical ``up``."""
         vertical_speed = dot(self.velocity, up)
-        horizontal = [0.0] * 3
-        for i in range(3):
-            horizontal[i] = self.velocity[i] - vertical_speed * up[i]
+        horizontal = self.velocity - vertical_speed * up
         horizontal_speed = norm(horizontal)
         if horizontal_speed >= LEAST_HORIZONTAL_SPEED:
-            for i in range(3):
-                self.forward[i] = horizontal[i] / horizontal_speed
+            self.forward = horizontal / horizontal_speed
         self.evaluate_law(-math.atan2(horizontal_speed, vertical_speed), self.altitude, self.final_altitude)
         angle = self.law_angle()
-        for i in range(3):
-            self.thrust_direction[i] = math.cos(angle) * up[i] - math.sin(angle) * self.forward[i]
-        length = norm(self.thrust_direction)
-        for i in range(3):
-            self.thrust_direction[i] = self.thrust_direction[i] / length
+        direction = math.cos(angle) * up - math.sin(angle) * self.forward
+        self.thrust_direction = direction / norm(direction)
         self.thrust_acceleration = self.law_thrust() / self.mass
         self.estimate_time()
 

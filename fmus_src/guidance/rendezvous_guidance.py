@@ -6,6 +6,7 @@ from ..block import Block, Output, Parameter, State
 from ..mathlib.quaternion import from_rotation_vector
 from ..mathlib.rotation import rotation_between
 from ..mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
+from ..mathlib.vectors import Vector3, norm, vector
 
 GOOD = 0
 NO_PLAN = 1
@@ -89,7 +90,7 @@ class RendezvousGuidance(Block):
     def initialize(self) -> None:
         if not (self.turn_start > 0.0 and self.turn_start < self.turn_end and self.turn_end < self.arrival_time):
             self.status = NO_PLAN
-        if self.spin_axis[0] == 0.0 and self.spin_axis[1] == 0.0 and self.spin_axis[2] == 0.0:
+        if self.spin_axis.x == 0.0 and self.spin_axis.y == 0.0 and self.spin_axis.z == 0.0:
             self.status = NO_PLAN
         if self.status == GOOD:
             self.make_plan()
@@ -98,55 +99,49 @@ class RendezvousGuidance(Block):
 
     def make_plan(self) -> None:
         """Acceleration of phase 1, splines of phase 3 and the turn."""
-        camera = [1.0, 0.0, 0.0]
-        axis = [0.0] * 3
-        angle = rotation_between(camera, self.spin_axis, axis)
+        self.turn_axis, angle = rotation_between(vector(1.0, 0.0, 0.0), self.spin_axis)
         spline(0.0, 0.0, angle, 0.0, self.turn_end - self.turn_start, 6, self.turn_polynomial)
-        spin = math.sqrt(
-            self.spin_axis[0] * self.spin_axis[0]
-            + self.spin_axis[1] * self.spin_axis[1]
-            + self.spin_axis[2] * self.spin_axis[2]
-        )
+        spin = norm(self.spin_axis)
         approach = self.arrival_time - self.turn_end
         # the way per acceleration: phases 1 and 2, and half of phase 3 with the velocity of phase 2
         reach = self.turn_start * (self.turn_end - 0.5 * self.turn_start + 0.5 * approach)
+        there = self.target_position + self.arrival_time * self.target_velocity
+        self.place = there - self.final_distance * self.spin_axis / spin
+        self.acceleration = (self.place - 0.5 * approach * self.target_velocity) / reach
+        coasting = self.turn_start * self.acceleration
+        begin = (self.turn_end - 0.5 * self.turn_start) * coasting
         c = [0.0] * 7
         for i in range(3):
-            self.turn_axis[i] = axis[i]
-            self.place[i] = (
-                self.target_position[i]
-                + self.arrival_time * self.target_velocity[i]
-                - self.final_distance * self.spin_axis[i] / spin
-            )
-            self.acceleration[i] = (self.place[i] - 0.5 * approach * self.target_velocity[i]) / reach
-            coasting = self.acceleration[i] * self.turn_start
-            begin = coasting * (self.turn_end - 0.5 * self.turn_start)
-            spline(begin, coasting, self.place[i], self.target_velocity[i], approach, self.spline_degree, c)
+            spline(begin[i], coasting[i], self.place[i], self.target_velocity[i], approach, self.spline_degree, c)
             for k in range(7):
                 self.splines[7 * i + k] = c[k]
 
-    def move(self, time: float, axis: int) -> float:
-        """Planned velocity (m/s) along an inertial axis; sets the planned position there."""
+    def motion(self, time: float) -> tuple[Vector3, Vector3]:
+        """Planned position (m) and velocity (m/s)."""
         if self.status != GOOD:
-            self.planned_position[axis] = 0.0
-            return 0.0
+            return vector(0.0, 0.0, 0.0), vector(0.0, 0.0, 0.0)
         if time <= self.turn_start:
-            self.planned_position[axis] = 0.5 * self.acceleration[axis] * time * time
-            return self.acceleration[axis] * time
+            return 0.5 * self.acceleration * time * time, time * self.acceleration
         if time <= self.turn_end:
-            coasting = self.acceleration[axis] * self.turn_start
-            self.planned_position[axis] = coasting * (time - 0.5 * self.turn_start)
-            return coasting
+            coasting = self.turn_start * self.acceleration
+            return (time - 0.5 * self.turn_start) * coasting, coasting
         if time < self.arrival_time:
-            duration = self.arrival_time - self.turn_end
-            s = (time - self.turn_end) / duration
-            c = [0.0] * 7
+            return self.approach(time)
+        return self.place + (time - self.arrival_time) * self.target_velocity, self.target_velocity
+
+    def approach(self, time: float) -> tuple[Vector3, Vector3]:
+        """Position (m) and velocity (m/s) on the splines."""
+        duration = self.arrival_time - self.turn_end
+        s = (time - self.turn_end) / duration
+        position = [0.0] * 3
+        velocity = [0.0] * 3
+        c = [0.0] * 7
+        for i in range(3):
             for k in range(7):
-                c[k] = self.splines[7 * axis + k]
-            self.planned_position[axis] = spline_value(c, s)
-            return spline_rate(c, s, duration)
-        self.planned_position[axis] = self.place[axis] + self.target_velocity[axis] * (time - self.arrival_time)
-        return self.target_velocity[axis]
+                c[k] = self.splines[7 * i + k]
+            position[i] = spline_value(c, s)
+            velocity[i] = spline_rate(c, s, duration)
+        return vector(*position), vector(*velocity)
 
     def turn(self, time: float) -> None:
         """Planned attitude, its rate, and its acceleration half a period of attitude control later."""
@@ -164,12 +159,9 @@ class RendezvousGuidance(Block):
                 rate = spline_rate(self.turn_polynomial, s, duration)
             if ahead > 0.0 and ahead < 1.0:
                 acceleration = spline_acceleration(self.turn_polynomial, ahead, duration)
-        rotation = [0.0] * 3
-        for i in range(3):
-            rotation[i] = angle * self.turn_axis[i]
-            self.planned_angular_velocity[i] = rate * self.turn_axis[i]
-            self.planned_angular_acceleration[i] = acceleration * self.turn_axis[i]
-        from_rotation_vector(rotation, self.planned_quaternion)
+        self.planned_quaternion = from_rotation_vector(angle * self.turn_axis)
+        self.planned_angular_velocity = rate * self.turn_axis
+        self.planned_angular_acceleration = acceleration * self.turn_axis
 
     def tick(self, time: float) -> None:
         """A tick of translation control: its period, and what is to be planned for it."""
@@ -190,22 +182,19 @@ class RendezvousGuidance(Block):
         end = (float(following) + self.delay_fraction) * self.fast_period
         if following < change:
             end = float(following) * self.fast_period + self.delay_fraction * self.translation_period
-        for i in range(3):
-            self.planned_acceleration[i] = 0.0
-            if end > begin:
-                velocity = self.move(end, i)
-                self.planned_acceleration[i] = (velocity - self.granted_velocity[i]) / (end - begin)
-                self.granted_velocity[i] = velocity
+        self.planned_acceleration = vector(0.0, 0.0, 0.0)
+        if end > begin:
+            _, velocity = self.motion(end)
+            self.planned_acceleration = (velocity - self.granted_velocity) / (end - begin)
+            self.granted_velocity = velocity
         self.next_tick = following
         self.translation_count = self.translation_count + 1
 
     def publish(self, time: float) -> None:
         """Put the plan of ``time`` (s) on the outputs."""
-        for i in range(3):
-            velocity = self.move(time, i)
-            self.planned_velocity[i] = velocity
-            target = self.target_position[i] + self.target_velocity[i] * time
-            self.planned_relative_position[i] = target - self.planned_position[i]
+        self.planned_position, self.planned_velocity = self.motion(time)
+        target = self.target_position + time * self.target_velocity
+        self.planned_relative_position = target - self.planned_position
         self.turn(time)
         self.phase = 4
         if time < self.turn_start:

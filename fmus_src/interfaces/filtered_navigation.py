@@ -3,8 +3,9 @@
 import math
 
 from ..block import Output, Parameter, State
+from ..mathlib.gravity import from_centre
 from ..mathlib.inertial import sensor_addition
-from ..mathlib.vectors import norm
+from ..mathlib.vectors import norm, vector
 from .inertial_navigation import InertialNavigation
 
 GOOD = 0
@@ -122,20 +123,16 @@ class FilteredNavigation(InertialNavigation, interface=True):
 
     def compensate(self) -> None:
         """Take the estimated errors of the inertial sensor off the specific force."""
-        added = [0.0] * 3
-        sensor_addition(self.sensor_errors, self.force, added)
-        for i in range(3):
-            self.force[i] = self.force[i] - added[i]
+        self.force = self.force - sensor_addition(self.sensor_errors, self.force)
 
     def altitude(self, row: list) -> float:
         """Estimated altitude (m); row[0:3] = its derivative by position."""
-        for i in range(3):
-            row[i] = self.estimated_position[i]
-        row[2] = row[2] + self.moon_radius
-        distance = norm(row)
+        up = from_centre(self.estimated_position, self.moon_radius)
+        distance = norm(up)
         if distance > 0.0:
-            for i in range(3):
-                row[i] = row[i] / distance
+            up = up / distance
+        for i in range(3):
+            row[i] = up[i]
         return distance - self.moon_radius
 
     def consider(self, sensor: int, row: list, innovation: float, sigma: float) -> float:
@@ -158,9 +155,8 @@ class FilteredNavigation(InertialNavigation, interface=True):
             s = self.weigh(row, ph, variance)
         correction = [0.0] * 15
         self.take_in(row, ph, innovation, s, variance, correction)
-        for i in range(3):
-            self.estimated_position[i] = self.estimated_position[i] + correction[i]
-            self.estimated_velocity[i] = self.estimated_velocity[i] + correction[3 + i]
+        self.estimated_position = self.estimated_position + vector(*correction[0:3])
+        self.estimated_velocity = self.estimated_velocity + vector(*correction[3:6])
         for i in range(9):
             self.sensor_errors[i] = self.sensor_errors[i] + correction[6 + i]
         return square
@@ -213,8 +209,8 @@ class FilteredNavigation(InertialNavigation, interface=True):
     def publish(self) -> None:
         """Put sigmas, covariance, bias and status on the outputs."""
         self.status = GOOD
+        self.estimated_bias = vector(*self.sensor_errors[0:3])
         for i in range(3):
-            self.estimated_bias[i] = self.sensor_errors[i]
             if self.rejected_in_a_row[i] >= self.rejection_limit:
                 self.status = LOCKED_OUT
             elif self.rejected_in_a_row[i] > 0 and self.status == GOOD:
@@ -227,13 +223,12 @@ class FilteredNavigation(InertialNavigation, interface=True):
         for i in range(15):
             if not self.covariance[16 * i] >= 0.0:
                 self.status = NOT_POSITIVE
-        for i in range(3):
-            self.position_estimate_sigma[i] = 0.0
-            self.velocity_estimate_sigma[i] = 0.0
+        sigmas = [0.0] * 6
+        for i in range(6):
             if self.covariance[16 * i] > 0.0:
-                self.position_estimate_sigma[i] = math.sqrt(self.covariance[16 * i])
-            if self.covariance[16 * (i + 3)] > 0.0:
-                self.velocity_estimate_sigma[i] = math.sqrt(self.covariance[16 * (i + 3)])
+                sigmas[i] = math.sqrt(self.covariance[16 * i])
+        self.position_estimate_sigma = vector(*sigmas[0:3])
+        self.velocity_estimate_sigma = vector(*sigmas[3:6])
 
     def step(self, t: float, h: float) -> None:
         self.sense(h)

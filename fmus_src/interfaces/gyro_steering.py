@@ -2,6 +2,7 @@
 
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.gyros import ISOTROPIC_ANGLES, singularity_measure
+from ..mathlib.vectors import Vector3, Vector4, all_below, vector
 
 GOOD = 0
 NEAR_SINGULAR = 1
@@ -57,34 +58,22 @@ class GyroSteering(Block, interface=True):
 
     start_time = State(0.0, unit="s", description="start of the flight")
 
-    def steer(self, angles: list, momentum_rate: list, time: float) -> None:
+    def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
         """Set gimbal_rates (rad/s) and status for a rate of the momentum (1/s, in units of one rotor's)."""
 
     def sample(self, time: float) -> None:
         """Rates for the torque and angles of ``time`` (s)."""
-        momentum_rate = [0.0] * 3
-        finite = True
-        for i in range(3):
-            momentum_rate[i] = -self.torque_command[i] / self.rotor_momentum
-            if not abs(momentum_rate[i]) < LARGEST:
-                finite = False
-        for i in range(4):
-            if not abs(self.gimbal_angles[i]) < LARGEST:
-                finite = False
-        if finite:
+        momentum_rate = -self.torque_command / self.rotor_momentum
+        if all_below(momentum_rate, LARGEST) and all_below(self.gimbal_angles, LARGEST):
             self.singularity = singularity_measure(self.gimbal_angles)
             self.turn(self.gimbal_angles, momentum_rate, time)
             if self.torque_lead > 0.0:
-                ahead = [0.0] * 4
-                for i in range(4):
-                    ahead[i] = self.gimbal_angles[i] + self.torque_lead * self.gimbal_rates[i]
-                self.turn(ahead, momentum_rate, time)
+                self.turn(self.gimbal_angles + self.torque_lead * self.gimbal_rates, momentum_rate, time)
         else:
             self.status = NOT_FINITE
-            for i in range(4):
-                self.gimbal_rates[i] = 0.0
+            self.gimbal_rates = vector(0.0, 0.0, 0.0, 0.0)
 
-    def turn(self, angles: list, momentum_rate: list, time: float) -> None:
+    def turn(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
         """Rates within their limit for gimbal angles (rad)."""
         self.status = GOOD
         self.steer(angles, momentum_rate, time)
@@ -94,12 +83,12 @@ class GyroSteering(Block, interface=True):
         """Scale the rates into their limit."""
         largest = 0.0
         for i in range(4):
-            if abs(self.gimbal_rates[i]) > largest:
-                largest = abs(self.gimbal_rates[i])
+            size = abs(self.gimbal_rates[i])
+            if size > largest:
+                largest = size
         if self.gimbal_rate_limit > 0.0 and largest > self.gimbal_rate_limit:
             self.status = LIMITED
-            for i in range(4):
-                self.gimbal_rates[i] = self.gimbal_rates[i] * (self.gimbal_rate_limit / largest)
+            self.gimbal_rates = self.gimbal_rate_limit / largest * self.gimbal_rates
 
     def initialize(self) -> None:
         self.sample(self.start_time)

@@ -3,6 +3,7 @@
 from ..block import Parameter, State
 from ..mathlib.inertial import dead_reckon
 from ..mathlib.rng import normal, seed_streams
+from ..mathlib.vectors import vector
 from .navigation import Navigation
 
 
@@ -34,38 +35,35 @@ class InertialNavigation(Navigation, interface=True):
         """The first knowledge: truth with errors."""
         generator = [0.0] * 6
         seed_streams(generator, self.seed, self.stream)
+        errors = [0.0] * 6
         for i in range(3):
-            error = normal(generator)
-            self.estimated_position[i] = self.position[i] + self.first_position_sigma * error
-            error = normal(generator)
-            self.estimated_velocity[i] = self.velocity[i] + self.first_velocity_sigma * error
+            errors[i] = normal(generator)
+            errors[3 + i] = normal(generator)
+        self.estimated_position = self.position + self.first_position_sigma * vector(*errors[0:3])
+        self.estimated_velocity = self.velocity + self.first_velocity_sigma * vector(*errors[3:6])
         self.inertial_taken = self.inertial_count
 
     def sense(self, h: float) -> None:
         """Set force (m/s2) to the mean specific force that was measured over the last h (s), or is extrapolated."""
         self.since_sample = self.since_sample + h
-        new = self.inertial_count != self.inertial_taken
-        for i in range(3):
-            self.force_before[i] = self.force[i]
-            if new:
-                self.force[i] = (self.velocity_increment[i] - self.assumed_increment[i]) / h
-                self.last_force[i] = self.velocity_increment[i] / self.since_sample
-                self.assumed_increment[i] = 0.0
-            else:
-                self.force[i] = self.last_force[i]
-                self.assumed_increment[i] = self.assumed_increment[i] + h * self.last_force[i]
-        if new:
+        self.force_before = self.force
+        if self.inertial_count != self.inertial_taken:
+            self.force = (self.velocity_increment - self.assumed_increment) / h
+            self.last_force = self.velocity_increment / self.since_sample
+            self.assumed_increment = vector(0.0, 0.0, 0.0)
             self.inertial_taken = self.inertial_count
             self.since_sample = 0.0
             self.sample_count = self.sample_count + 1
+        else:
+            self.force = self.last_force
+            self.assumed_increment = self.assumed_increment + h * self.last_force
 
     def move(self, h: float) -> None:
         """Move the estimate by h (s) with the mean specific force."""
         if not self.under_way:
             self.under_way = True
-            for i in range(3):
-                self.force_before[i] = self.force[i]
-        dead_reckon(
+            self.force_before = self.force
+        self.estimated_position, self.estimated_velocity = dead_reckon(
             self.estimated_position,
             self.estimated_velocity,
             self.force,

@@ -4,7 +4,8 @@ import math
 
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.jets import JETS, jet_strengths, jet_wrench
-from ..mathlib.quaternion import copy4, normalise, to_body
+from ..mathlib.quaternion import normalise, to_body
+from ..mathlib.vectors import vector
 
 GOOD = 0
 SATURATED = 1
@@ -71,15 +72,12 @@ class JetAllocation(Block, interface=True):
     def want(self) -> bool:
         """attitude and wanted_wrench (body) from the command; returns whether it is finite, with an attitude."""
         finite = self.translation_period > 0.0 and self.translation_period < LARGEST
-        length = 0.0
-        for i in range(4):
-            length = length + abs(self.quaternion[i])
+        q = self.quaternion
+        length = abs(q.w) + abs(q.x) + abs(q.y) + abs(q.z)
         if not (length > 0.0 and length < LARGEST):
             finite = False
-        copy4(self.attitude, self.quaternion)
-        normalise(self.attitude)
-        force = [0.0] * 3
-        to_body(self.attitude, self.force_command, force)
+        self.attitude = normalise(q)
+        force = to_body(self.attitude, self.force_command)
         for i in range(3):
             self.wanted_wrench[i] = force[i]
             self.wanted_wrench[3 + i] = self.torque_command[i]
@@ -111,9 +109,8 @@ class JetAllocation(Block, interface=True):
             jet_wrench(self.strength, self.new_thrust, wrench)
             for p in range(JETS):
                 self.jet_thrust[p] = self.new_thrust[p]
-            for i in range(3):
-                self.allocated_force[i] = wrench[i]
-                self.allocated_torque[i] = wrench[3 + i]
+            self.allocated_force = vector(*wrench[0:3])
+            self.allocated_torque = vector(*wrench[3:6])
 
     def initialize(self) -> None:
         jet_strengths(self.jet_tilt, self.jet_azimuth, self.jet_arm, self.strength)

@@ -2,6 +2,7 @@
 
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.gravity import central_gravity
+from ..mathlib.vectors import Vector3, vector
 
 GOOD = 0
 CLAMPED = 1
@@ -105,22 +106,19 @@ class TerminalGuidance(Block, interface=True):
     def solve(self) -> None:
         """Set the command, time_to_go and status from position and velocity."""
 
-    def remaining(self, dr: list, dv: list) -> None:
-        """dr (m) and dv (m/s): position and velocity still to gain, landing-site frame."""
-        for i in range(3):
-            dr[i] = self.target_position[i] - self.position[i]
-            dv[i] = self.target_velocity[i] - self.velocity[i]
+    def remaining(self) -> tuple[Vector3, Vector3]:
+        """Position (m) and velocity (m/s) still to gain, landing-site frame."""
+        dr = self.target_position - self.position
+        dv = self.target_velocity - self.velocity
         if self.gravity_correction and self.expected_time > 0.0:
             time = self.expected_time
-            here = [0.0] * 3
-            there = [0.0] * 3
-            central_gravity(self.position, self.moon_radius, self.gravitational_parameter, here)
-            central_gravity(self.target_position, self.moon_radius, self.gravitational_parameter, there)
-            for i in range(3):
-                dv[i] = dv[i] - time * 0.5 * (here[i] + there[i])
-                dr[i] = dr[i] - time * time * (here[i] / 3.0 + there[i] / 6.0)
-            dv[2] = dv[2] - time * self.gravity
-            dr[2] = dr[2] - 0.5 * time * time * self.gravity
+            here = central_gravity(self.position, self.moon_radius, self.gravitational_parameter)
+            there = central_gravity(self.target_position, self.moon_radius, self.gravitational_parameter)
+            dv = dv - time * 0.5 * (here + there)
+            dr = dr - time * time * (here / 3.0 + there / 6.0)
+            dv = vector(dv.x, dv.y, dv.z - time * self.gravity)
+            dr = vector(dr.x, dr.y, dr.z - 0.5 * time * time * self.gravity)
+        return dr, dv
 
     def plan_frozen(self) -> bool:
         """Whether the plan is held, so that time_to_go never runs out."""

@@ -6,20 +6,23 @@ is at (0, 0, -radius).
 
 import math
 
+from .vectors import Vector3, dot, norm, vector
+
 STANDARD_GRAVITY = 9.80665  # m/s2, which specific impulse refers to
 
 
-def altitude_of(position: list, radius: float) -> float:
+def from_centre(position: Vector3, radius: float) -> Vector3:
+    """The position (m) from the Moon's centre."""
+    return vector(position.x, position.y, position.z + radius)
+
+
+def altitude_of(position: Vector3, radius: float) -> float:
     """Altitude (m) above the sphere of ``radius`` (m)."""
-    z = position[2] + radius
-    return math.sqrt(position[0] * position[0] + position[1] * position[1] + z * z) - radius
+    return norm(from_centre(position, radius)) - radius
 
 
-def central_gravity(position: list, radius: float, gravitational_parameter: float, gravity: list) -> None:
-    """gravity (m/s2) = that of a central field at ``position`` (m); not at the centre itself."""
-    z = position[2] + radius
-    square = position[0] * position[0] + position[1] * position[1] + z * z
-    scale = gravitational_parameter / (square * math.sqrt(square))
-    gravity[0] = -scale * position[0]
-    gravity[1] = -scale * position[1]
-    gravity[2] = -scale * z
+def central_gravity(position: Vector3, radius: float, gravitational_parameter: float) -> Vector3:
+    """Gravity (m/s2) of a central field at ``position`` (m); not at the centre itself."""
+    centred = from_centre(position, radius)
+    square = dot(centred, centred)
+    return -(gravitational_parameter / (square * math.sqrt(square))) * centred

@@ -10,20 +10,25 @@ Derivations: docs/robot_rendezvous.md. Source: Somov 2013; Somov, Platonov and S
 
 import math
 
+from .vectors import Vector2, Vector3, Vector4, vector
+
 ISOTROPIC_RHO = 0.9797958971132712  # 2 sqrt(6)/5: the three axes are alike where the momentum is 0
 # acos(1/sqrt(3)) off -x and x: the angles of zero momentum under the law with ISOTROPIC_RHO
 ISOTROPIC_ANGLES = (0.6154797086703873, -0.6154797086703873, 3.7570723622601803, 2.5261129449194057)
 LEAST_SQUARE = 1e-12  # of a and b: nearer to a pair's surface y = 2 or z = 2 counts as on it
 
 
-def cluster_momentum(angles: list, momentum: list) -> None:
-    """momentum[3] of the cluster over that of one rotor."""
-    momentum[0] = math.cos(angles[0]) + math.cos(angles[1]) + math.cos(angles[2]) + math.cos(angles[3])
-    momentum[1] = math.sin(angles[0]) + math.sin(angles[1])
-    momentum[2] = math.sin(angles[2]) + math.sin(angles[3])
+def cluster_momentum(angles: Vector4) -> Vector3:
+    """Momentum of the cluster over that of one rotor."""
+    first, second, third, fourth = angles
+    return vector(
+        math.cos(first) + math.cos(second) + math.cos(third) + math.cos(fourth),
+        math.sin(first) + math.sin(second),
+        math.sin(third) + math.sin(fourth),
+    )
 
 
-def cluster_jacobian(angles: list, jacobian: list) -> None:
+def cluster_jacobian(angles: Vector4, jacobian: list) -> None:
     """jacobian[3 x 4] = derivative of the momentum by the gimbal angles, row order."""
     for i in range(4):
         jacobian[i] = -math.sin(angles[i])
@@ -40,57 +45,60 @@ def nearest_turn(angle: float, reference: float) -> float:
     return angle + math.tau * float(math.floor(turns + 0.5))
 
 
-def distributed_angles(momentum: list, rho: float, angles: list) -> bool:
-    """angles[4] that give a momentum under the distribution law, by whole turns nearest to those in the list.
+def distributed_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[bool, Vector4]:
+    """Whether there are angles that give a momentum under the distribution law, and they or those of ``near``.
 
-    Returns whether there are any; if not, the list is left as it is.
+    They are by whole turns nearest to ``near``.
     """
-    a_square = 4.0 - momentum[1] * momentum[1]
-    b_square = 4.0 - momentum[2] * momentum[2]
+    a_square = 4.0 - momentum.y * momentum.y
+    b_square = 4.0 - momentum.z * momentum.z
     if not (a_square > LEAST_SQUARE and b_square > LEAST_SQUARE):
-        return False
+        return False, near
     a = math.sqrt(a_square)
     b = math.sqrt(b_square)
-    weight = momentum[0] + b * rho
-    linear = a + b + rho * momentum[0]
+    weight = momentum.x + b * rho
+    linear = a + b + rho * momentum.x
     root = linear * linear - 4.0 * a * rho * weight
     if not (root >= 0.0 and linear > 0.0):
-        return False
+        return False, near
     u = 2.0 * weight / (linear + math.sqrt(root))
     if not (abs(u) <= 1.0 and 1.0 - rho * u > 0.0):
-        return False
+        return False, near
     v = (u - rho) / (1.0 - rho * u)
-    pair_angles(u * a, momentum[1], angles, 0)
-    pair_angles(v * b, momentum[2], angles, 2)
-    return True
+    first, second = pair_angles(u * a, momentum.y, near[0:2])
+    third, fourth = pair_angles(v * b, momentum.z, near[2:4])
+    return True, vector(first, second, third, fourth)
 
 
-def pair_angles(along: float, across: float, angles: list, first: int) -> None:
-    """Angles first and first + 1 of a pair from its momentum along x and across, nearest to those in the list."""
+def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
+    """Angles of a pair from its momentum along x and across, nearest to those of ``near``."""
     half = 0.5 * math.sqrt(along * along + across * across)
     if half > 1.0:
         half = 1.0  # by a rounding error
     direction = math.atan2(across, along)
     opening = math.acos(half)
-    angles[first] = nearest_turn(direction + opening, angles[first])
-    angles[first + 1] = nearest_turn(direction - opening, angles[first + 1])
+    return vector(nearest_turn(direction + opening, near.x), nearest_turn(direction - opening, near.y))
 
 
-def distributed_rates(angles: list, momentum_rate: list, rho: float, gain: float, least: float, rates: list) -> bool:
-    """rates[4] (rad/s) that change the momentum at momentum_rate[3] (1/s) and keep the distribution law.
+def distributed_rates(
+    angles: Vector4, momentum_rate: Vector3, rho: float, gain: float, least: float
+) -> tuple[bool, Vector4]:
+    """Whether the law has rates (rad/s) that change the momentum at momentum_rate (1/s) and keep it, and they.
 
-    The law's residual f is led to 0 by f' = -gain f. Returns False, with rates undefined, where a
+    The law's residual f is led to 0 by f' = -gain f. False, with rates of 0, where a
     divisor is less than ``least``: the sines of the angle between the rotors of each pair (1 where they are
     best to steer), and those of the law, 2 at the isotropic angles.
     """
-    x1 = math.cos(angles[0]) + math.cos(angles[1])
-    x2 = math.cos(angles[2]) + math.cos(angles[3])
-    y = math.sin(angles[0]) + math.sin(angles[1])
-    z = math.sin(angles[2]) + math.sin(angles[3])
+    first, second, third, fourth = angles
+    none = vector(0.0, 0.0, 0.0, 0.0)
+    x1 = math.cos(first) + math.cos(second)
+    x2 = math.cos(third) + math.cos(fourth)
+    y = math.sin(first) + math.sin(second)
+    z = math.sin(third) + math.sin(fourth)
     a_square = 4.0 - y * y
     b_square = 4.0 - z * z
     if not (a_square > LEAST_SQUARE and b_square > LEAST_SQUARE):
-        return False
+        return False, none
     a = math.sqrt(a_square)
     b = math.sqrt(b_square)
     u = x1 / a
@@ -99,24 +107,25 @@ def distributed_rates(angles: list, momentum_rate: list, rho: float, gain: float
     p = 1.0 + rho * v
     q = 1.0 - rho * u
     common = a * q + b * p
-    sine_1 = math.sin(angles[1] - angles[0])
-    sine_2 = math.sin(angles[3] - angles[2])
+    sine_1 = math.sin(second - first)
+    sine_2 = math.sin(fourth - third)
     if not (abs(sine_1) >= least and abs(sine_2) >= least and abs(common) >= least and least > 0.0):
-        return False
+        return False, none
     # what is left to x1 and x2 where y and z change at constant u and v
-    fall_1 = u * y * momentum_rate[1] / a
-    fall_2 = v * z * momentum_rate[2] / b
-    u_rate = (q * (momentum_rate[0] + fall_1 + fall_2) - b * gain * residual) / common
+    fall_1 = u * y * momentum_rate.y / a
+    fall_2 = v * z * momentum_rate.z / b
+    u_rate = (q * (momentum_rate.x + fall_1 + fall_2) - b * gain * residual) / common
     x1_rate = a * u_rate - fall_1
-    x2_rate = momentum_rate[0] - x1_rate
-    rates[0] = (math.cos(angles[1]) * x1_rate + math.sin(angles[1]) * momentum_rate[1]) / sine_1
-    rates[1] = -(math.cos(angles[0]) * x1_rate + math.sin(angles[0]) * momentum_rate[1]) / sine_1
-    rates[2] = (math.cos(angles[3]) * x2_rate + math.sin(angles[3]) * momentum_rate[2]) / sine_2
-    rates[3] = -(math.cos(angles[2]) * x2_rate + math.sin(angles[2]) * momentum_rate[2]) / sine_2
-    return True
+    x2_rate = momentum_rate.x - x1_rate
+    return True, vector(
+        (math.cos(second) * x1_rate + math.sin(second) * momentum_rate.y) / sine_1,
+        -(math.cos(first) * x1_rate + math.sin(first) * momentum_rate.y) / sine_1,
+        (math.cos(fourth) * x2_rate + math.sin(fourth) * momentum_rate.z) / sine_2,
+        -(math.cos(third) * x2_rate + math.sin(third) * momentum_rate.z) / sine_2,
+    )
 
 
-def singularity_measure(angles: list) -> float:
+def singularity_measure(angles: Vector4) -> float:
     """Square root of det(A A') of the jacobian A: 0 in a singular state, 8/sqrt(27) = 1.54 at the isotropic angles."""
     jacobian = [0.0] * 12
     gram = [0.0] * 6
@@ -158,16 +167,16 @@ def determinant_of(m: list) -> float:
 
 
 def robust_rates(
-    angles: list, momentum_rate: list, damping: float, threshold: float, swing: float, time: float, rates: list
-) -> float:
-    """rates[4] (rad/s) = W A' (A W A' + k E)^-1 momentum_rate: bounded everywhere, exact where k = 0.
+    angles: Vector4, momentum_rate: Vector3, damping: float, threshold: float, swing: float, time: float
+) -> tuple[Vector4, float]:
+    """Rates (rad/s) W A' (A W A' + k E)^-1 momentum_rate, bounded everywhere, exact where k = 0; and m.
 
     k = damping lack^2 with lack = 1 - m/threshold where the singularity measure m is below the
     threshold, else 0 (Nakamura and Hanafusa 1986). E and W are unit matrices but for elements that lead out of
     states in which the wanted torque is the one that cannot be given (Wie 2005): E has off-diagonal
     elements swing sin(pi/2 time + phase), which move the gimbals to and fro, and W = 1 + swing lack for
     the first rotor of each pair and 1 - swing lack for the second, without which rotors side by side
-    would stay so. A swing below 0.5 keeps both positive definite. Returns m.
+    would stay so. A swing below 0.5 keeps both positive definite.
     """
     jacobian = [0.0] * 12
     gram = [0.0] * 6
@@ -185,19 +194,18 @@ def robust_rates(
             gram[i] = gram[i] + k
             gram[3 + i] = gram[3 + i] + k * swing * math.sin(0.5 * math.pi * (time + float(i)))
     determinant = determinant_of(gram)
-    for j in range(4):
-        rates[j] = 0.0
     if not determinant > 0.0:
-        return measure
+        return vector(0.0, 0.0, 0.0, 0.0), measure
     first = gram[1] * gram[2] - gram[3] * gram[3]
     second = gram[0] * gram[2] - gram[4] * gram[4]
     third = gram[0] * gram[1] - gram[5] * gram[5]
     c23 = gram[4] * gram[5] - gram[0] * gram[3]
     c13 = gram[5] * gram[3] - gram[1] * gram[4]
     c12 = gram[3] * gram[4] - gram[2] * gram[5]
-    x = (first * momentum_rate[0] + c12 * momentum_rate[1] + c13 * momentum_rate[2]) / determinant
-    y = (c12 * momentum_rate[0] + second * momentum_rate[1] + c23 * momentum_rate[2]) / determinant
-    z = (c13 * momentum_rate[0] + c23 * momentum_rate[1] + third * momentum_rate[2]) / determinant
+    x = (first * momentum_rate.x + c12 * momentum_rate.y + c13 * momentum_rate.z) / determinant
+    y = (c12 * momentum_rate.x + second * momentum_rate.y + c23 * momentum_rate.z) / determinant
+    z = (c13 * momentum_rate.x + c23 * momentum_rate.y + third * momentum_rate.z) / determinant
+    rates = [0.0] * 4
     for j in range(4):
         rates[j] = weight_of(j, bias) * (jacobian[j] * x + jacobian[4 + j] * y + jacobian[8 + j] * z)
-    return measure
+    return vector(*rates), measure

@@ -10,6 +10,8 @@ Source: Somov, Butyrin, Somov and Somova (docs/robot_rendezvous.md), whose D p =
 
 import math
 
+from .vectors import Vector3, vector
+
 JETS = 8
 NEGLIGIBLE = 1e-12  # of the strongest: a strength below it counts as none
 
@@ -26,7 +28,7 @@ WALSH = (
 )
 
 
-def jet_strengths(tilt: float, azimuth: float, arm: list, strength: list) -> None:
+def jet_strengths(tilt: float, azimuth: float, arm: Vector3, strength: list) -> None:
     """strength[6] = what 1 N with the signs of a row of WALSH gives: force (-) and torque (m), per jet.
 
     Angles in rad, arm = (bx, by, bz) in m. What a geometry cannot give is 0.
@@ -37,10 +39,10 @@ def jet_strengths(tilt: float, azimuth: float, arm: list, strength: list) -> Non
     strength[0] = -x
     strength[1] = -y
     strength[2] = -z
-    strength[3] = -(arm[1] * z - arm[2] * y)
-    strength[4] = -(arm[2] * x - arm[0] * z)
-    strength[5] = -(arm[0] * y - arm[1] * x)
-    reach = abs(arm[0]) + abs(arm[1]) + abs(arm[2])
+    strength[3] = -(arm.y * z - arm.z * y)
+    strength[4] = -(arm.z * x - arm.x * z)
+    strength[5] = -(arm.x * y - arm.y * x)
+    reach = abs(arm.x) + abs(arm.y) + abs(arm.z)
     for k in range(3):
         if abs(strength[k]) < NEGLIGIBLE:
             strength[k] = 0.0
@@ -148,19 +150,19 @@ def within(thrust: float, maximum: float) -> float:
     return thrust
 
 
-def nearest_levels(strength: list, force: list, quantum: float, highest: float, levels: list) -> float:
-    """levels[3] = the attainable neighbour, nearest to a force (N), on the lattice of forces without torque.
+def nearest_levels(strength: list, force: Vector3, quantum: float, highest: float) -> tuple[Vector3, float]:
+    """The attainable neighbour, nearest to a force (N), on the lattice of forces without torque.
 
     The lattice is 2 quantum strength[i] n[i] with integers n all even or all odd; a point is attainable
     with thrusts of at most ``highest`` quanta while |n_i| + |n_j| <= 2 highest for each two axes. A
-    force beyond that is scaled first; returns the scale, 1 where nothing had to be scaled.
+    force beyond that is scaled first, by the second value, 1 where nothing had to be scaled.
     """
     exact = [0.0] * 3
     trial = [0.0] * 3
+    levels = vector(0.0, 0.0, 0.0)
     sizes = 0.0
     smallest = math.inf
     for i in range(3):
-        levels[i] = 0.0
         if strength[i] != 0.0:
             exact[i] = force[i] / (2.0 * quantum * strength[i])
         sizes = sizes + abs(exact[i])
@@ -188,12 +190,11 @@ def nearest_levels(strength: list, force: list, quantum: float, highest: float, 
                 least = abs(trial[i])
         if total - least <= 2.0 * highest and cost < best:
             best = cost
-            for i in range(3):
-                levels[i] = trial[i]
-    return scale
+            levels = vector(*trial)
+    return levels, scale
 
 
-def thrust_of_levels(levels: list, quantum: float, thrust: list) -> None:
+def thrust_of_levels(levels: Vector3, quantum: float, thrust: list) -> None:
     """thrust = the least propellant for a point of the lattice, in whole quanta (N)."""
     largest = -math.inf
     least = math.inf

@@ -9,117 +9,83 @@ the goal. No frame implied.
 import math
 
 from .rotation import turn_towards
-from .vectors import copy3, dot, norm
+from .vectors import Vector3, add_along, dot, norm, smallest_component
 
 
-def goal_at(base: list, rate: list, s: float, goal: list) -> None:
-    """goal = the unit vector along base + rate s; unchanged where that has no direction."""
-    along = [0.0] * 3
-    for i in range(3):
-        along[i] = base[i] + rate[i] * s
+def goal_at(base: Vector3, rate: Vector3, s: float, otherwise: Vector3) -> Vector3:
+    """The unit vector along base + rate s; ``otherwise`` where that has no direction."""
+    along = base + s * rate
     length = norm(along)
     if length > 0.0:
-        for i in range(3):
-            goal[i] = along[i] / length
+        return along / length
+    return otherwise
 
 
-def turning(direction: list, goal: list, response: float, limit: float, slope: list) -> float:
-    """slope = derivative of the direction; returns the angle to the goal (rad).
+def turning(direction: Vector3, goal: Vector3, response: float, limit: float) -> tuple[float, Vector3]:
+    """The angle to the goal (rad), and the derivative of the direction.
 
     Of opposite vectors one side is as good as the other: the direction then turns about the axis
     farthest from it.
     """
     length = norm(direction)
     cosine = dot(direction, goal) / length
-    for i in range(3):
-        slope[i] = goal[i] - cosine * direction[i] / length
+    slope = goal - cosine * direction / length
     sine = norm(slope)
     angle = math.atan2(sine, cosine)
     if cosine < 0.0 and sine < 1e-6:
-        k = 0
-        for i in range(3):
-            if abs(direction[i]) < abs(direction[k]):
-                k = i
-        for i in range(3):
-            slope[i] = -direction[k] * direction[i]
-        slope[k] = slope[k] + length * length
+        k, smallest = smallest_component(direction)
+        slope = add_along(-smallest * direction, k, length * length)
         sine = norm(slope)
     speed = limit
     if response > 0.0 and (limit <= 0.0 or angle < limit * response):
         speed = angle / response
     if sine > 0.0:
-        speed = speed * length / sine
-        for i in range(3):
-            slope[i] = speed * slope[i]
-    return angle
+        slope = speed * length / sine * slope
+    return angle, slope
 
 
 def runge_kutta(
-    direction: list, base: list, rate: list, s: float, h: float, response: float, limit: float, goal: list
-) -> float:
-    """One step of fourth order from time s to s + h; leaves the goal of s + h, returns the angle to that of s."""
-    shifted = [0.0] * 3
-    total = [0.0] * 3
-    slope = [0.0] * 3
-    copy3(goal, direction)
-    goal_at(base, rate, s, goal)
-    angle = turning(direction, goal, response, limit, slope)
-    for i in range(3):
-        total[i] = slope[i]
-        shifted[i] = direction[i] + 0.5 * h * slope[i]
-    goal_at(base, rate, s + 0.5 * h, goal)
-    turning(shifted, goal, response, limit, slope)
-    for i in range(3):
-        total[i] = total[i] + 2.0 * slope[i]
-        shifted[i] = direction[i] + 0.5 * h * slope[i]
-    turning(shifted, goal, response, limit, slope)
-    for i in range(3):
-        total[i] = total[i] + 2.0 * slope[i]
-        shifted[i] = direction[i] + h * slope[i]
-    goal_at(base, rate, s + h, goal)
-    turning(shifted, goal, response, limit, slope)
-    for i in range(3):
-        direction[i] = direction[i] + h * (total[i] + slope[i]) / 6.0
-    length = norm(direction)
-    for i in range(3):
-        direction[i] = direction[i] / length
-    return angle
+    direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
+) -> tuple[Vector3, Vector3, float]:
+    """One step of fourth order from time s to s + h: direction and goal at its end, and the angle at its start."""
+    goal = goal_at(base, rate, s, direction)
+    angle, k1 = turning(direction, goal, response, limit)
+    goal = goal_at(base, rate, s + 0.5 * h, goal)
+    _, k2 = turning(direction + 0.5 * h * k1, goal, response, limit)
+    _, k3 = turning(direction + 0.5 * h * k2, goal, response, limit)
+    goal = goal_at(base, rate, s + h, goal)
+    _, k4 = turning(direction + h * k3, goal, response, limit)
+    turned = direction + h * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
+    return turned / norm(turned), goal, angle
 
 
-def follow(direction: list, base: list, rate: list, s: float, h: float, response: float, limit: float) -> None:
-    """Turn a unit vector from time s to s + h, in place; assumes h no longer than a response that counts.
+def follow(
+    direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
+) -> Vector3:
+    """A unit vector turned from time s to s + h; assumes h no longer than a response that counts.
 
     The law has a knee where angle/response is the limit. A step across it is cut there, by linear
     interpolation of the angle: the slope is continuous, so that the fourth order is kept. Without
     response, the last two steps before the goal is caught go straight to where it will be.
     """
-    goal = [0.0] * 3
-    kept = [0.0] * 3
-    slope = [0.0] * 3
-    copy3(kept, direction)
     if response <= 0.0 and limit <= 0.0:
-        goal_at(base, rate, s + h, direction)
-    elif limit <= 0.0:
-        runge_kutta(direction, base, rate, s, h, response, limit, goal)
-    elif response <= 0.0:
-        copy3(goal, direction)
-        goal_at(base, rate, s, goal)
-        left = turning(direction, goal, response, limit, slope)
-        if left > 2.0 * limit * h:
-            runge_kutta(direction, base, rate, s, h, response, limit, goal)
-        else:
-            goal_at(base, rate, s + h, goal)
-            turn_towards(direction, goal, limit * h)
-    else:
+        return goal_at(base, rate, s + h, direction)
+    if response <= 0.0:
+        goal = goal_at(base, rate, s, direction)
+        left, _ = turning(direction, goal, response, limit)
+        if not left > 2.0 * limit * h:
+            turned, _ = turn_towards(direction, goal_at(base, rate, s + h, goal), limit * h)
+            return turned
+    turned, goal, before = runge_kutta(direction, base, rate, s, h, response, limit)
+    if response > 0.0 and limit > 0.0:
         knee = response * limit
-        before = runge_kutta(direction, base, rate, s, h, response, limit, goal)
-        after = turning(direction, goal, response, limit, slope)
+        after, _ = turning(turned, goal, response, limit)
         if (before > knee) != (after > knee):
             part = h * (before - knee) / (before - after)
-            copy3(direction, kept)
             if before > knee:
-                runge_kutta(direction, base, rate, s, part, 0.0, limit, goal)
-                runge_kutta(direction, base, rate, s + part, h - part, response, 0.0, goal)
+                turned, _, _ = runge_kutta(direction, base, rate, s, part, 0.0, limit)
+                turned, _, _ = runge_kutta(turned, base, rate, s + part, h - part, response, 0.0)
             else:
-                runge_kutta(direction, base, rate, s, part, response, 0.0, goal)
-                runge_kutta(direction, base, rate, s + part, h - part, 0.0, limit, goal)
+                turned, _, _ = runge_kutta(direction, base, rate, s, part, response, 0.0)
+                turned, _, _ = runge_kutta(turned, base, rate, s + part, h - part, 0.0, limit)
+    return turned

@@ -1,129 +1,102 @@
 """Unit quaternions, scalar first, that turn body components into reference components. Kernel functions.
 
 A quaternion q is the attitude of a body: v_reference = q v q*, and its rate is q' = q w/2 with the
-angular velocity w in body axes (rad/s). q and -q are one attitude. A result may be the same list as
-an argument. Source: Wertz 1978, appendix D; the order of factors is that of Hamilton.
+angular velocity w in body axes (rad/s). q and -q are one attitude. Source: Wertz 1978, appendix D; the
+order of factors is that of Hamilton.
 """
 
 import math
 
-from .vectors import norm
+from .vectors import Vector3, Vector4, cross, norm, vector
 
 
-def copy4(target: list, source: list) -> None:
-    """target = source, element by element."""
-    for i in range(4):
-        target[i] = source[i]
+def quaternion(scalar: float, e: Vector3) -> Vector4:
+    """The quaternion of its two parts."""
+    return vector(scalar, e.x, e.y, e.z)
 
 
-def multiply(a: list, b: list, product: list) -> None:
-    """product = a b: first the rotation b, then a (Hamilton's product)."""
-    w = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3]
-    x = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2]
-    y = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1]
-    z = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]
-    product[0] = w
-    product[1] = x
-    product[2] = y
-    product[3] = z
+def multiply(a: Vector4, b: Vector4) -> Vector4:
+    """a b: first the rotation b, then a (Hamilton's product)."""
+    return vector(
+        a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
+        a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+        a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+        a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
+    )
 
 
-def conjugate(q: list, result: list) -> None:
-    """result = q*, the inverse rotation of a unit quaternion."""
-    result[0] = q[0]
-    for i in range(1, 4):
-        result[i] = -q[i]
+def conjugate(q: Vector4) -> Vector4:
+    """q*, the inverse rotation of a unit quaternion."""
+    return vector(q.w, -q.x, -q.y, -q.z)
 
 
-def normalise(q: list) -> None:
-    """Bring q to length one, in place; no rotation where its length is 0 or no number."""
+def normalise(q: Vector4) -> Vector4:
+    """q brought to length one; no rotation where its length is 0 or no number."""
     largest = 0.0
     for i in range(4):
-        if abs(q[i]) > largest:
-            largest = abs(q[i])
+        size = abs(q[i])
+        if size > largest:
+            largest = size
     if largest > 0.0 and math.isfinite(largest):
-        square = 0.0
-        for i in range(4):
-            q[i] = q[i] / largest  # so that no square overflows
-            square = square + q[i] * q[i]
-        length = math.sqrt(square)
-        for i in range(4):
-            q[i] = q[i] / length
-    else:
-        q[0] = 1.0
-        for i in range(1, 4):
-            q[i] = 0.0
+        r = q / largest  # so that no square overflows
+        return r / math.sqrt(r.w * r.w + r.x * r.x + r.y * r.y + r.z * r.z)
+    return vector(1.0, 0.0, 0.0, 0.0)
 
 
-def turn(scalar: float, x: float, y: float, z: float, v: list, result: list) -> None:
-    """result = v turned by the unit quaternion (scalar, x, y, z): v + 2 e0 (e x v) + 2 e x (e x v)."""
-    a = 2.0 * (y * v[2] - z * v[1])
-    b = 2.0 * (z * v[0] - x * v[2])
-    c = 2.0 * (x * v[1] - y * v[0])
-    first = v[0] + scalar * a + (y * c - z * b)
-    second = v[1] + scalar * b + (z * a - x * c)
-    third = v[2] + scalar * c + (x * b - y * a)
-    result[0] = first
-    result[1] = second
-    result[2] = third
+def turn(scalar: float, e: Vector3, v: Vector3) -> Vector3:
+    """v turned by the unit quaternion (scalar, e): v + 2 e0 (e x v) + 2 e x (e x v)."""
+    twice = 2.0 * cross(e, v)
+    return v + scalar * twice + cross(e, twice)
 
 
-def to_reference(q: list, v: list, result: list) -> None:
-    """result = q v q*: a vector in body components, expressed in the reference frame."""
-    turn(q[0], q[1], q[2], q[3], v, result)
+def to_reference(q: Vector4, v: Vector3) -> Vector3:
+    """q v q*: a vector in body components, expressed in the reference frame."""
+    return turn(q.w, q[1:4], v)
 
 
-def to_body(q: list, v: list, result: list) -> None:
-    """result = q* v q: a vector in reference components, expressed in the body frame."""
-    turn(q[0], -q[1], -q[2], -q[3], v, result)
+def to_body(q: Vector4, v: Vector3) -> Vector3:
+    """q* v q: a vector in reference components, expressed in the body frame."""
+    return turn(q.w, -q[1:4], v)
 
 
-def from_rotation_vector(rotation: list, q: list) -> None:
-    """q = the rotation about ``rotation`` by its length (rad)."""
+def from_rotation_vector(rotation: Vector3) -> Vector4:
+    """The rotation about ``rotation`` by its length (rad)."""
     angle = norm(rotation)
     scale = 0.5
     if angle > 0.0:
         scale = math.sin(0.5 * angle) / angle
-    q[0] = math.cos(0.5 * angle)
-    for i in range(3):
-        q[i + 1] = scale * rotation[i]
+    return quaternion(math.cos(0.5 * angle), scale * rotation)
 
 
-def to_rotation_vector(q: list, rotation: list) -> None:
-    """rotation = axis times angle (rad) of q, the shorter way round: no longer than pi."""
-    sine = math.sqrt(q[1] * q[1] + q[2] * q[2] + q[3] * q[3])
+def to_rotation_vector(q: Vector4) -> Vector3:
+    """Axis times angle (rad) of q, the shorter way round: no longer than pi."""
+    sine = norm(q[1:4])
     sign = 1.0
-    if q[0] < 0.0:
+    if q.w < 0.0:
         sign = -1.0
     scale = 2.0 * sign
     if sine > 0.0:
-        scale = 2.0 * sign * math.atan2(sine, sign * q[0]) / sine
-    for i in range(3):
-        rotation[i] = scale * q[i + 1]
+        scale = 2.0 * sign * math.atan2(sine, sign * q.w) / sine
+    return scale * q[1:4]
 
 
-def difference(reference: list, q: list, error: list) -> None:
-    """error = reference* q: the rotation from the attitude ``reference`` to q, scalar not negative."""
-    inverse = [0.0] * 4
-    conjugate(reference, inverse)
-    multiply(inverse, q, error)
-    if error[0] < 0.0:
-        for i in range(4):
-            error[i] = -error[i]
+def difference(reference: Vector4, q: Vector4) -> Vector4:
+    """reference* q: the rotation from the attitude ``reference`` to q, scalar not negative."""
+    error = multiply(conjugate(reference), q)
+    if error.w < 0.0:
+        return -error
+    return error
 
 
-def angle_error(reference: list, q: list, error: list) -> None:
-    """error = 2 e0 e of (e0, e) = reference* q (rad, body): the axis times the sine of the angle."""
-    rotation = [0.0] * 4
-    difference(reference, q, rotation)
-    for i in range(3):
-        error[i] = 2.0 * rotation[0] * rotation[i + 1]
+def angle_error(reference: Vector4, q: Vector4) -> Vector3:
+    """2 e0 e of (e0, e) = reference* q (rad, body): the axis times the sine of the angle."""
+    rotation = difference(reference, q)
+    return 2.0 * rotation.w * rotation[1:4]
 
 
-def to_rodrigues(q: list, sigma: list) -> None:
-    """sigma = e tan(angle/4): modified Rodrigues parameters, the shorter way round."""
+def to_rodrigues(q: Vector4) -> Vector3:
+    """e tan(angle/4): modified Rodrigues parameters, the shorter way round."""
     sign = 1.0
-    if q[0] < 0.0:
+    if q.w < 0.0:
         sign = -1.0
-    for i in range(3):
-        sigma[i] = sign * q[i + 1] / (1.0 + sign * q[0])
+    return sign * q[1:4] / (1.0 + sign * q.w)

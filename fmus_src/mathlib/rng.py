@@ -9,6 +9,8 @@ are those of the 2002 package: streams 2^127 apart, substreams 2^76.
 
 import math
 
+from .vectors import Vector3, vector
+
 M1 = 4294967087.0
 M2 = 4294944443.0
 NORM = 2.328306549295727688e-10
@@ -139,3 +141,11 @@ def normal(state: list) -> float:
     radius = uniform(state)
     angle = uniform(state)
     return math.sqrt(-2.0 * math.log(radius)) * math.cos(6.283185307179586 * angle)
+
+
+def normals(state: list) -> Vector3:
+    """The next three standard normal numbers."""
+    x = normal(state)
+    y = normal(state)
+    z = normal(state)
+    return vector(x, y, z)

@@ -8,19 +8,17 @@ Source: Fomichev and Li 2017, with the corrections of docs/lunar_terminal_guidan
 import math
 
 from .polynomial import LARGEST, evaluate, first_crossing, positive_roots, quadratic_roots
-from .vectors import dot, norm
+from .vectors import Vector3, dot, norm, vector
 
 
-def impulse_and_miss(dr: list, v: list, dv: list, g: float, time_to_go: float, a: list, b: list) -> None:
+def impulse_and_miss(dr: Vector3, v: Vector3, dv: Vector3, g: float, time_to_go: float) -> tuple[Vector3, Vector3]:
     """A (m/s), velocity still to gain, and B (m), the miss without thrust, both after time_to_go."""
-    for i in range(3):
-        a[i] = dv[i]
-        b[i] = dr[i] - v[i] * time_to_go
-    a[2] = a[2] + g * time_to_go
-    b[2] = b[2] + 0.5 * g * time_to_go * time_to_go
+    drift = dr - time_to_go * v
+    fall = 0.5 * g * time_to_go * time_to_go
+    return vector(dv.x, dv.y, dv.z + g * time_to_go), vector(drift.x, drift.y, drift.z + fall)
 
 
-def quadratic_time(dr: list, v: list, dv: list, g: float) -> float:
+def quadratic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     """Time-to-go (s) from |A| T = 2 |B| without its cubic term, on the published branch.
 
     0 where there is none. The branch is that of fast approaches, a2 < 0; for slow or hovering
@@ -30,8 +28,8 @@ def quadratic_time(dr: list, v: list, dv: list, g: float) -> float:
     speed = norm(v)
     gain = norm(dv)
     distance = norm(dr)
-    a2 = gain * gain - 4.0 * (speed * speed + g * dr[2])
-    a3 = 8.0 * (dr[0] * v[0] + dr[1] * v[1] + dr[2] * v[2])
+    a2 = gain * gain - 4.0 * (speed * speed + g * dr.z)
+    a3 = 8.0 * dot(dr, v)
     a4 = -4.0 * distance * distance
     discriminant = a3 * a3 - 4.0 * a2 * a4
     if discriminant < 0.0:
@@ -41,7 +39,7 @@ def quadratic_time(dr: list, v: list, dv: list, g: float) -> float:
     return (-a3 - math.sqrt(discriminant)) / (2.0 * a2)
 
 
-def cubic_time(dr: list, v: list, dv: list, g: float) -> float:
+def cubic_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     """Time-to-go (s) from |A| T = 2 |B| in full, on the published branch; 0 where that has none.
 
     |A| T - 2 |B| begins below 0. The first root, where it rises through 0, is a thrust that turns
@@ -52,8 +50,8 @@ def cubic_time(dr: list, v: list, dv: list, g: float) -> float:
     c = [0.0] * 5
     c[0] = -4.0 * dot(dr, dr)
     c[1] = 8.0 * dot(dr, v)
-    c[2] = dot(dv, dv) - 4.0 * (dot(v, v) + g * dr[2])
-    c[3] = 2.0 * g * (dv[2] + 2.0 * v[2])
+    c[2] = dot(dv, dv) - 4.0 * (dot(v, v) + g * dr.z)
+    c[3] = 2.0 * g * (dv.z + 2.0 * v.z)
     turning = [0.0] * 2
     turnings = quadratic_roots(c[1], 2.0 * c[2], 3.0 * c[3], turning)
     peak = 0.0
@@ -73,22 +71,18 @@ def cubic_time(dr: list, v: list, dv: list, g: float) -> float:
     return first_crossing(c, peak, high, guess)
 
 
-def steady(dr: list, v: list, dv: list, g: float, time: float) -> bool:
+def steady(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
     """Whether a thrust that meets |A| T = 2 |B| with ``time`` (s) does not turn round: A.B > 0."""
-    a = [0.0] * 3
-    b = [0.0] * 3
-    impulse_and_miss(dr, v, dv, g, time, a, b)
+    a, b = impulse_and_miss(dr, v, dv, g, time)
     return dot(a, b) > 0.0
 
 
-def effort_slope(dr: list, v: list, dv: list, g: float, c: list) -> None:
+def effort_slope(dr: Vector3, v: Vector3, dv: Vector3, g: float, c: list) -> None:
     """T^4 dJ/dT as a polynomial c of T, where J is the time integral of |a0 + a1 t|^2.
 
     J = (|A T|^2 + 3 |A T - 2 B|^2)/T^3, and A T - 2 B = (dV + 2 V) T - 2 dr.
     """
-    s = [0.0] * 3
-    for i in range(3):
-        s[i] = dv[i] + 2.0 * v[i]
+    s = dv + 2.0 * v
     c[0] = -36.0 * dot(dr, dr)
     c[1] = 24.0 * dot(dr, s)
     c[2] = -(dot(dv, dv) + 3.0 * dot(s, s))
@@ -96,14 +90,14 @@ def effort_slope(dr: list, v: list, dv: list, g: float, c: list) -> None:
     c[4] = g * g
 
 
-def effort_rises(dr: list, v: list, dv: list, g: float, time: float) -> bool:
+def effort_rises(dr: Vector3, v: Vector3, dv: Vector3, g: float, time: float) -> bool:
     """Whether the integral of |a0 + a1 t|^2 would be larger for a flight longer than ``time`` (s)."""
     c = [0.0] * 5
     effort_slope(dr, v, dv, g, c)
     return evaluate(c, time) > 0.0
 
 
-def least_effort_time(dr: list, v: list, dv: list, g: float) -> float:
+def least_effort_time(dr: Vector3, v: Vector3, dv: Vector3, g: float) -> float:
     """Time-to-go (s) that makes the integral of |a0 + a1 t|^2 least (the first minimum), 0 where there is none.
 
     With g > 0 and dr other than 0 it exists: hovering a height h above or below the target, or
@@ -126,28 +120,25 @@ def least_effort_time(dr: list, v: list, dv: list, g: float) -> float:
     return roots[0]
 
 
-def linear_thrust(a: list, b: list, time: float, span: float, direction: list, rate: list) -> float:
-    """Direction and rate (1/s) of a0 + a1 t at its start; returns its mean size (m/s2) over ``span`` (s).
+def linear_thrust(
+    a: Vector3, b: Vector3, time: float, span: float, direction: Vector3, rate: Vector3
+) -> tuple[float, Vector3, Vector3]:
+    """Mean size (m/s2) over ``span`` (s), direction and rate (1/s) of a0 + a1 t at its start.
 
-    The size is that of the mean vector. Where a0 = 0, the direction is that of the mean and its rate 0.
+    The size is that of the mean vector. Where a0 = 0, the direction is that of the mean and its rate 0; where
+    there is no thrust at all, direction and rate are as given.
     """
-    p = [0.0] * 3
-    q = [0.0] * 3
-    mean = [0.0] * 3
+    p = 3.0 * b - time * a
+    q = time * a - 2.0 * b
     share = 1.5 * span / time
-    for i in range(3):
-        p[i] = 3.0 * b[i] - a[i] * time
-        q[i] = a[i] * time - 2.0 * b[i]
-        mean[i] = p[i] + share * q[i]
+    mean = p + share * q
     length = norm(p)
     size = norm(mean)
     if length > 0.0:
         along = dot(q, p) / (length * length)
-        for i in range(3):
-            direction[i] = p[i] / length
-            rate[i] = 3.0 / time * (q[i] - along * p[i]) / length
+        direction = p / length
+        rate = 3.0 / time * (q - along * p) / length
     elif size > 0.0:
-        for i in range(3):
-            direction[i] = mean[i] / size
-            rate[i] = 0.0
-    return 2.0 * size / (time * time)
+        direction = mean / size
+        rate = vector(0.0, 0.0, 0.0)
+    return 2.0 * size / (time * time), direction, rate

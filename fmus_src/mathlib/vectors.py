@@ -1,32 +1,70 @@
-"""Vectors of three components, as lists of floats. Kernel functions; no frame implied."""
+"""Vectors of three components, and their type. Kernel functions; no frame implied."""
 
 import math
 
+from .vector_types import Vector, Vector2, Vector3, Vector4, vector
 
-def dot(a: list, b: list) -> float:
-    """Scalar product of two 3-vectors."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def norm(a: list) -> float:
-    """Euclidean length of a 3-vector."""
-    return math.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
-
-
-def cross(a: list, b: list, product: list) -> None:
-    """product = a x b; it may be the same list as a or b."""
-    x = a[1] * b[2] - a[2] * b[1]
-    y = a[2] * b[0] - a[0] * b[2]
-    z = a[0] * b[1] - a[1] * b[0]
-    product[0] = x
-    product[1] = y
-    product[2] = z
+__all__ = [
+    "Vector",
+    "Vector2",
+    "Vector3",
+    "Vector4",
+    "add_along",
+    "all_below",
+    "clip",
+    "cross",
+    "dot",
+    "is_finite",
+    "norm",
+    "smallest_component",
+    "vector",
+]
 
 
-def copy3(target: list, source: list) -> None:
-    """target = source, element by element."""
+def dot(a: Vector3, b: Vector3) -> float:
+    """Scalar product."""
+    return a.x * b.x + a.y * b.y + a.z * b.z
+
+
+def norm(a: Vector3) -> float:
+    """Euclidean length."""
+    return math.sqrt(a.x * a.x + a.y * a.y + a.z * a.z)
+
+
+def cross(a: Vector3, b: Vector3) -> Vector3:
+    """The vector product a x b."""
+    return vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+
+
+def is_finite(a: Vector3) -> bool:
+    """Whether all components are."""
+    return math.isfinite(a.x) and math.isfinite(a.y) and math.isfinite(a.z)
+
+
+def all_below(v: Vector, limit: float) -> bool:
+    """Whether all components are below a limit in size; False where one is no number."""
+    below = True
+    for i in range(len(v)):
+        below = below and abs(v[i]) < limit
+    return below
+
+
+def smallest_component(a: Vector3) -> tuple[int, float]:
+    """Number and value of the component with the smallest size, the first of equal ones: the axis farthest from a."""
+    k = 0
     for i in range(3):
-        target[i] = source[i]
+        if abs(a[i]) < abs(a[k]):
+            k = i
+    return k, a[k]
+
+
+def add_along(a: Vector3, k: int, amount: float) -> Vector3:
+    """The vector with ``amount`` added to component k, 0 to 2."""
+    if k == 0:
+        return vector(a.x + amount, a.y, a.z)
+    if k == 1:
+        return vector(a.x, a.y + amount, a.z)
+    return vector(a.x, a.y, a.z + amount)
 
 
 def clip(value: float, low: float, high: float) -> float:

@@ -5,7 +5,6 @@ import math
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.quaternion import (
     angle_error,
-    copy4,
     difference,
     from_rotation_vector,
     multiply,
@@ -13,9 +12,8 @@ from ..mathlib.quaternion import (
     to_body,
     to_rotation_vector,
 )
-from ..mathlib.rigid_body import total_momentum
 from ..mathlib.tracking import measure_chain, predict_chain
-from ..mathlib.vectors import copy3, cross
+from ..mathlib.vectors import cross, dot, is_finite, vector
 
 MEAN = 0
 GOOD = 0
@@ -137,9 +135,9 @@ class AttitudeFilter(Block):
     def initialize(self) -> None:
         self.last_time = self.start_time
         self.mean_time = self.start_time
-        copy3(self.last_momentum, self.gyro_momentum)
-        copy3(self.angular_velocity, self.planned_angular_velocity)
-        copy4(self.quaternion, self.planned_quaternion)
+        self.last_momentum = self.gyro_momentum
+        self.angular_velocity = self.planned_angular_velocity
+        self.quaternion = self.planned_quaternion
         self.covariance[4] = self.first_rate_sigma * self.first_rate_sigma
         self.covariance[8] = self.first_disturbance_sigma * self.first_disturbance_sigma
         self.take_sample()
@@ -149,35 +147,21 @@ class AttitudeFilter(Block):
 
     def widen(self) -> None:
         """Let a disturbance by the jets be as uncertain as their change of force makes it."""
-        change = 0.0
-        for i in range(3):
-            jump = self.jet_force[i] - self.last_force[i]
-            change = change + jump * jump
-            self.last_force[i] = self.jet_force[i]
-        scale = 3.0 * self.jet_torque_error / (self.inertia[0] + self.inertia[1] + self.inertia[2])
-        self.covariance[8] = self.covariance[8] + scale * scale * change
+        jump = self.jet_force - self.last_force
+        self.last_force = self.jet_force
+        scale = 3.0 * self.jet_torque_error / (self.inertia.x + self.inertia.y + self.inertia.z)
+        self.covariance[8] = self.covariance[8] + scale * scale * dot(jump, jump)
 
     def predict(self, h: float) -> None:
         """Move estimate and covariance by h (s): the total momentum stays in inertial axes but for the jets."""
-        momentum = [0.0] * 3
-        turning = [0.0] * 3
-        rotation = [0.0] * 3
-        impulse = [0.0] * 3
-        turned = [0.0] * 4
-        total_momentum(self.inertia, self.angular_velocity, self.last_momentum, momentum)
-        cross(self.angular_velocity, momentum, turning)
-        for i in range(3):
-            # half of what jets and disturbance give over h, and the angular velocity in the middle
-            impulse[i] = 0.5 * h * (self.jet_torque[i] + self.inertia[i] * self.disturbance[i])
-            taken = 0.5 * (h * turning[i] + self.gyro_momentum[i] - self.last_momentum[i])
-            rotation[i] = h * (self.angular_velocity[i] + (impulse[i] - taken) / self.inertia[i])
-            momentum[i] = momentum[i] + impulse[i]
-        from_rotation_vector(rotation, turned)
-        multiply(self.quaternion, turned, self.quaternion)
-        normalise(self.quaternion)
-        to_body(turned, momentum, momentum)
-        for i in range(3):
-            self.angular_velocity[i] = (momentum[i] + impulse[i] - self.gyro_momentum[i]) / self.inertia[i]
+        momentum = self.inertia * self.angular_velocity + self.last_momentum
+        # half of what jets and disturbance give over h, and the angular velocity in the middle
+        impulse = 0.5 * h * (self.jet_torque + self.inertia * self.disturbance)
+        taken = 0.5 * (h * cross(self.angular_velocity, momentum) + self.gyro_momentum - self.last_momentum)
+        turned = from_rotation_vector(h * (self.angular_velocity + (impulse - taken) / self.inertia))
+        self.quaternion = normalise(multiply(self.quaternion, turned))
+        momentum = to_body(turned, momentum + impulse) + impulse
+        self.angular_velocity = (momentum - self.gyro_momentum) / self.inertia
         self.widen()
         predict_chain(self.covariance, self.process_noise, self.disturbance_noise, h, 3)
 
@@ -186,21 +170,16 @@ class AttitudeFilter(Block):
         if self.sample_count == self.counted:
             return
         self.counted = self.sample_count
-        for i in range(4):
-            if not math.isfinite(self.measured_quaternion[i]):
-                self.status = NOT_FINITE
-                return
+        if not (math.isfinite(self.measured_quaternion.w) and is_finite(self.measured_quaternion[1:4])):
+            self.status = NOT_FINITE
+            return
         self.status = GOOD
         self.samples_taken = self.samples_taken + 1
-        error = [0.0] * 3
         if self.method == MEAN:
-            angle_error(self.planned_quaternion, self.measured_quaternion, error)
-            for i in range(3):
-                self.total[i] = self.total[i] + error[i]
+            self.total = self.total + angle_error(self.planned_quaternion, self.measured_quaternion)
             self.summed = self.summed + 1
         elif self.samples_taken == 1:
-            copy4(self.quaternion, self.measured_quaternion)
-            normalise(self.quaternion)
+            self.quaternion = normalise(self.measured_quaternion)
             self.covariance[0] = self.attitude_sigma * self.attitude_sigma
             for i in range(1, 3):
                 self.covariance[i] = 0.0
@@ -211,48 +190,36 @@ class AttitudeFilter(Block):
     def correct(self) -> None:
         """Take the measured quaternion into the Kalman filter."""
         gain = [0.0] * 3
-        innovation = [0.0] * 3
-        turned = [0.0] * 4
-        difference(self.quaternion, self.measured_quaternion, turned)
-        to_rotation_vector(turned, innovation)
+        innovation = to_rotation_vector(difference(self.quaternion, self.measured_quaternion))
         variance = measure_chain(self.covariance, self.attitude_sigma * self.attitude_sigma, gain, 3)
-        square = 0.0
-        for i in range(3):
-            square = square + innovation[i] * innovation[i] / variance
-            self.angular_velocity[i] = self.angular_velocity[i] + gain[1] * innovation[i]
-            self.disturbance[i] = self.disturbance[i] + gain[2] * innovation[i]
-            innovation[i] = gain[0] * innovation[i]
-        self.innovation_square = square
-        from_rotation_vector(innovation, turned)
-        multiply(self.quaternion, turned, self.quaternion)
-        normalise(self.quaternion)
+        square = innovation * innovation / variance
+        self.innovation_square = 0.0 + square.x + square.y + square.z
+        self.angular_velocity = self.angular_velocity + gain[1] * innovation
+        self.disturbance = self.disturbance + gain[2] * innovation
+        turned = from_rotation_vector(gain[0] * innovation)
+        self.quaternion = normalise(multiply(self.quaternion, turned))
 
     def put_out_mean(self, time: float) -> None:
         """Put the mean of the samples since the last one out at ``time`` (s)."""
         elapsed = time - self.mean_time
-        for i in range(3):
-            mean = self.total[i] / float(self.summed)
-            if self.means > 0 and elapsed > 0.0:
-                self.rate_error[i] = (mean - self.attitude_error[i]) / elapsed
-            self.attitude_error[i] = mean
-            self.total[i] = 0.0
+        mean = self.total / float(self.summed)
+        if self.means > 0 and elapsed > 0.0:
+            self.rate_error = (mean - self.attitude_error) / elapsed
+        self.attitude_error = mean
+        self.total = vector(0.0, 0.0, 0.0)
         self.summed = 0
         self.means = self.means + 1
         self.mean_time = time
 
     def publish(self) -> None:
         """Put errors and standard deviations on the outputs."""
-        turned = [0.0] * 4
         if self.method == MEAN:
             # the attitude is the planned one turned by the error
-            from_rotation_vector(self.attitude_error, turned)
-            multiply(self.planned_quaternion, turned, self.quaternion)
+            self.quaternion = multiply(self.planned_quaternion, from_rotation_vector(self.attitude_error))
             return
-        angle_error(self.planned_quaternion, self.quaternion, self.attitude_error)
-        difference(self.planned_quaternion, self.quaternion, turned)
-        to_body(turned, self.planned_angular_velocity, self.rate_error)
-        for i in range(3):
-            self.rate_error[i] = self.angular_velocity[i] - self.rate_error[i]
+        self.attitude_error = angle_error(self.planned_quaternion, self.quaternion)
+        turned = difference(self.planned_quaternion, self.quaternion)
+        self.rate_error = self.angular_velocity - to_body(turned, self.planned_angular_velocity)
         self.attitude_error_sigma = math.sqrt(self.covariance[0])
         self.rate_error_sigma = math.sqrt(self.covariance[4])
 
@@ -262,6 +229,6 @@ class AttitudeFilter(Block):
         self.take_sample()
         if self.summed >= self.mean_samples:
             self.put_out_mean(t + h)
-        copy3(self.last_momentum, self.gyro_momentum)
+        self.last_momentum = self.gyro_momentum
         self.last_time = t + h
         self.publish()

@@ -4,6 +4,7 @@ import math
 
 from ..block import Block, Input, Output
 from ..mathlib.kalman import normalised_square
+from ..mathlib.vectors import vector
 
 
 class EstimateMonitor(Block):
@@ -49,10 +50,12 @@ class EstimateMonitor(Block):
 
     def compare(self) -> None:
         """Compare the estimate with the truth."""
+        position_error = self.estimated_position - self.position
+        velocity_error = self.estimated_velocity - self.velocity
         error = [0.0] * 6
         for i in range(3):
-            error[i] = self.estimated_position[i] - self.position[i]
-            error[3 + i] = self.estimated_velocity[i] - self.velocity[i]
+            error[i] = position_error[i]
+            error[3 + i] = velocity_error[i]
         covariance = [0.0] * 36
         for i in range(6):
             for j in range(i, 6):
@@ -62,9 +65,8 @@ class EstimateMonitor(Block):
         for i in range(6):
             if covariance[7 * i] > 0.0:
                 ratio[i] = error[i] / math.sqrt(covariance[7 * i])
-        for i in range(3):
-            self.position_error_ratio[i] = ratio[i]
-            self.velocity_error_ratio[i] = ratio[3 + i]
+        self.position_error_ratio = vector(*ratio[0:3])
+        self.velocity_error_ratio = vector(*ratio[3:6])
         self.normalised_error_square = normalised_square(covariance, error, 6)
         if self.normalised_error_square < 0.0:
             self.normalised_error_square = 0.0

@@ -12,9 +12,8 @@ class IdealNavigation(Navigation):
     def measure(self) -> None:
         """Pass the truth on."""
         self.sample_count = self.sample_count + 1
-        for i in range(3):
-            self.estimated_position[i] = self.position[i]
-            self.estimated_velocity[i] = self.velocity[i]
+        self.estimated_position = self.position
+        self.estimated_velocity = self.velocity
 
     def step(self, t: float, h: float) -> None:
         self.measure()

@@ -35,7 +35,7 @@ class KalmanNavigationFilterpy(FilteredNavigation):
         made.Q = self.velocity_random_walk**2 * h * noise @ noise.T
         made.Q[6:9, 6:9] = self.bias_random_walk**2 * h * np.eye(3)
         made.predict()
-        self.covariance[:] = made.P.ravel().tolist()
+        self.covariance = made.P.ravel()
 
     def weigh(self, row: list, ph: list, variance: float) -> float:
         h = np.array(row)
@@ -44,5 +44,5 @@ class KalmanNavigationFilterpy(FilteredNavigation):
     def take_in(self, row: list, ph: list, innovation: float, s: float, variance: float, correction: list) -> None:
         made = self.filter()
         made.update(np.array([[innovation]]), R=np.array([[variance]]), H=np.array([row]))
-        self.covariance[:] = made.P.ravel().tolist()
+        self.covariance = made.P.ravel()
         correction[:] = made.x.ravel().tolist()

@@ -6,6 +6,7 @@ from ..block import Output, Parameter, State
 from ..interfaces.navigation import Navigation
 from ..mathlib.kalman import predict, update
 from ..mathlib.rng import normal, seed_streams
+from ..mathlib.vectors import Vector3, vector
 
 
 class NoisyNavigation(Navigation):
@@ -72,14 +73,13 @@ class NoisyNavigation(Navigation):
             q[6 * (i + 3) + i] = q[6 * i + i + 3]
             q[7 * (i + 3)] = self.process_noise * h
         predict(self.estimate, self.covariance, f, q, 6)
+        force = self.specific_force
+        acceleration = vector(force.x, force.y, force.z - self.gravity)
         for i in range(3):
-            acceleration = self.specific_force[i]
-            if i == 2:
-                acceleration = acceleration - self.gravity
-            self.estimate[i] = self.estimate[i] + 0.5 * acceleration * h * h
-            self.estimate[3 + i] = self.estimate[3 + i] + acceleration * h
+            self.estimate[i] = self.estimate[i] + 0.5 * acceleration[i] * h * h
+            self.estimate[3 + i] = self.estimate[3 + i] + acceleration[i] * h
 
-    def fix(self, first: int, truth: list, sigma: float) -> None:
+    def fix(self, first: int, truth: Vector3, sigma: float) -> None:
         """Measure three states from number ``first`` on, with errors of sigma, and take them in."""
         for i in range(3):
             row = [0.0] * 6
@@ -92,11 +92,13 @@ class NoisyNavigation(Navigation):
 
     def publish(self) -> None:
         """Put estimate and standard deviations on the outputs."""
-        for i in range(3):
-            self.estimated_position[i] = self.estimate[i]
-            self.estimated_velocity[i] = self.estimate[3 + i]
-            self.position_estimate_sigma[i] = math.sqrt(self.covariance[7 * i])
-            self.velocity_estimate_sigma[i] = math.sqrt(self.covariance[7 * (i + 3)])
+        self.estimated_position = vector(*self.estimate[0:3])
+        self.estimated_velocity = vector(*self.estimate[3:6])
+        sigmas = [0.0] * 6
+        for i in range(6):
+            sigmas[i] = math.sqrt(self.covariance[7 * i])
+        self.position_estimate_sigma = vector(*sigmas[0:3])
+        self.velocity_estimate_sigma = vector(*sigmas[3:6])
         k = 0
         for i in range(6):
             for j in range(i, 6):
@@ -106,9 +108,8 @@ class NoisyNavigation(Navigation):
     def pass_truth(self) -> None:
         """The estimate without sensors: the truth."""
         self.sample_count = self.sample_count + 1
-        for i in range(3):
-            self.estimated_position[i] = self.position[i]
-            self.estimated_velocity[i] = self.velocity[i]
+        self.estimated_position = self.position
+        self.estimated_velocity = self.velocity
 
     def step(self, t: float, h: float) -> None:
         if self.position_sigma > 0.0 or self.velocity_sigma > 0.0:

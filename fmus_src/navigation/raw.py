@@ -1,6 +1,7 @@
 """Navigation without a filter."""
 
 from ..interfaces.inertial_navigation import InertialNavigation
+from ..mathlib.gravity import from_centre
 from ..mathlib.vectors import norm
 
 
@@ -25,25 +26,19 @@ class RawNavigation(InertialNavigation):
         if self.velocity_count != self.velocity_taken:
             self.velocity_taken = self.velocity_count
             self.sample_count = self.sample_count + 1
-            for i in range(3):
-                self.estimated_velocity[i] = self.measured_velocity[i]
+            self.estimated_velocity = self.measured_velocity
         if self.position_count != self.position_taken:
             self.position_taken = self.position_count
             self.sample_count = self.sample_count + 1
-            for i in range(3):
-                self.estimated_position[i] = self.measured_position[i]
+            self.estimated_position = self.measured_position
 
     def rise_to(self, altitude: float) -> None:
         """Move the position along the local vertical to an altitude (m)."""
-        centred = [0.0] * 3
-        for i in range(3):
-            centred[i] = self.estimated_position[i]
-        centred[2] = centred[2] + self.moon_radius
+        centred = from_centre(self.estimated_position, self.moon_radius)
         distance = norm(centred)
         if distance > 0.0:
-            for i in range(3):
-                rise = self.moon_radius + altitude - distance
-                self.estimated_position[i] = self.estimated_position[i] + rise * centred[i] / distance
+            rise = self.moon_radius + altitude - distance
+            self.estimated_position = self.estimated_position + rise * centred / distance
 
     def step(self, t: float, h: float) -> None:
         self.sense(h)

@@ -59,17 +59,13 @@ class RendezvousMonitor(Block):
 
     def compare(self) -> None:
         """Compare the true motion with the plan."""
-        relative = [0.0] * 3
-        error = [0.0] * 4
-        for i in range(3):
-            relative[i] = self.target_position[i] - self.robot_position[i]
-            self.position_error[i] = self.planned_relative_position[i] - relative[i]
+        relative = self.target_position - self.robot_position
+        self.position_error = self.planned_relative_position - relative
         self.range = norm(relative)
         self.range_error = self.range - norm(self.planned_relative_position)
-        difference(self.planned_quaternion, self.quaternion, error)
-        to_rotation_vector(error, self.attitude_error)
+        self.attitude_error = to_rotation_vector(difference(self.planned_quaternion, self.quaternion))
         self.attitude_error_angle = norm(self.attitude_error)
-        to_rodrigues(self.quaternion, self.rodrigues)
+        self.rodrigues = to_rodrigues(self.quaternion)
 
     def step(self, t: float, h: float) -> None:
         self.compare()

@@ -3,9 +3,9 @@
 import math
 
 from ..block import Block, Input, Output, Parameter, State
-from ..mathlib.quaternion import copy4, normalise, to_reference
+from ..mathlib.quaternion import normalise, to_reference
 from ..mathlib.tracking import measure_chain, predict_chain
-from ..mathlib.vectors import copy3, norm
+from ..mathlib.vectors import Vector3, is_finite, norm, vector
 
 MEAN = 0
 GOOD = 0
@@ -101,7 +101,7 @@ class TranslationFilter(Block):
     status = Output(
         0, minimum=0, maximum=1, direct=AT_ONCE, description="0 good, 1 last sample not finite and left out"
     )
-    covariance = State([0.0] * 4, frozen=True, description="of position and velocity, row order, SI")
+    covariance = State([0.0] * 4, vector=False, frozen=True, description="of position and velocity, row order, SI")
     last_time = State(0.0, unit="s", description="time of the last step")
     start_time = State(0.0, unit="s", description="start of the flight")
     last_velocity = State(
@@ -119,8 +119,8 @@ class TranslationFilter(Block):
         self.last_time = self.start_time
         self.tick_time = self.start_time
         self.ticks = self.translation_count
-        copy3(self.last_velocity, self.planned_velocity)
-        copy4(self.last_quaternion, self.quaternion)
+        self.last_velocity = self.planned_velocity
+        self.last_quaternion = self.quaternion
         self.covariance[3] = self.first_velocity_sigma * self.first_velocity_sigma
         self.take_sample()
         if self.method == MEAN:
@@ -135,73 +135,59 @@ class TranslationFilter(Block):
 
     def predict(self, h: float) -> None:
         """Move estimate and covariance by h (s)."""
-        middle = [0.0] * 4
-        force = [0.0] * 3
-        for i in range(4):
-            middle[i] = self.last_quaternion[i] + self.quaternion[i]
-        normalise(middle)
-        to_reference(middle, self.allocated_force, force)
+        middle = normalise(self.last_quaternion + self.quaternion)
+        force = to_reference(middle, self.allocated_force)
         uncertain = self.force_error * norm(force) / self.mass
         density = self.process_noise + uncertain * uncertain * self.force_error_time
         predict_chain(self.covariance, density, 0.0, h, 2)
-        for i in range(3):
-            gained = force[i] / self.mass * h - (self.planned_velocity[i] - self.last_velocity[i])
-            self.position_error[i] = self.position_error[i] + h * (self.velocity_error[i] + 0.5 * gained)
-            self.velocity_error[i] = self.velocity_error[i] + gained
+        gained = force / self.mass * h - (self.planned_velocity - self.last_velocity)
+        self.position_error = self.position_error + h * (self.velocity_error + 0.5 * gained)
+        self.velocity_error = self.velocity_error + gained
 
     def take_sample(self) -> None:
         """Take a new sample in, if it is one."""
         if self.sample_count == self.counted:
             return
         self.counted = self.sample_count
-        error = [0.0] * 3
-        finite = True
-        for i in range(3):
-            error[i] = self.planned_relative_position[i] - self.relative_position[i]
-            if not math.isfinite(error[i]):
-                finite = False
-        if not finite:
+        error = self.planned_relative_position - self.relative_position
+        if not is_finite(error):
             self.status = NOT_FINITE
             return
         self.status = GOOD
         self.samples_taken = self.samples_taken + 1
         if self.method == MEAN:
-            for i in range(3):
-                self.total[i] = self.total[i] + error[i]
+            self.total = self.total + error
             self.summed = self.summed + 1
         elif self.samples_taken == 1:
             sigma = self.sigma_now()
             self.covariance[0] = sigma * sigma
             self.covariance[1] = 0.0
             self.covariance[2] = 0.0
-            copy3(self.position_error, error)
+            self.position_error = error
         else:
             self.correct(error)
 
-    def correct(self, error: list) -> None:
+    def correct(self, error: Vector3) -> None:
         """Take a measured position error (m) into the Kalman filter."""
         gain = [0.0] * 2
         sigma = self.sigma_now()
         variance = measure_chain(self.covariance, sigma * sigma, gain, 2)
-        square = 0.0
-        for i in range(3):
-            innovation = error[i] - self.position_error[i]
-            square = square + innovation * innovation / variance
-            self.position_error[i] = self.position_error[i] + gain[0] * innovation
-            self.velocity_error[i] = self.velocity_error[i] + gain[1] * innovation
-        self.innovation_square = square
+        innovation = error - self.position_error
+        square = innovation * innovation / variance
+        self.innovation_square = 0.0 + square.x + square.y + square.z
+        self.position_error = self.position_error + gain[0] * innovation
+        self.velocity_error = self.velocity_error + gain[1] * innovation
 
     def put_out_mean(self, time: float) -> None:
         """Put the mean since the last tick out at ``time`` (s)."""
         if self.summed == 0:
             return
         elapsed = time - self.tick_time
-        for i in range(3):
-            mean = self.total[i] / float(self.summed)
-            if self.means > 0 and elapsed > 0.0:
-                self.velocity_error[i] = (mean - self.position_error[i]) / elapsed
-            self.position_error[i] = mean
-            self.total[i] = 0.0
+        mean = self.total / float(self.summed)
+        if self.means > 0 and elapsed > 0.0:
+            self.velocity_error = (mean - self.position_error) / elapsed
+        self.position_error = mean
+        self.total = vector(0.0, 0.0, 0.0)
         self.summed = 0
         self.means = self.means + 1
         self.tick_time = time
@@ -221,7 +207,7 @@ class TranslationFilter(Block):
             self.ticks = self.translation_count
             if self.method == MEAN:
                 self.put_out_mean(t + h)
-        copy3(self.last_velocity, self.planned_velocity)
-        copy4(self.last_quaternion, self.quaternion)
+        self.last_velocity = self.planned_velocity
+        self.last_quaternion = self.quaternion
         self.last_time = t + h
         self.publish()

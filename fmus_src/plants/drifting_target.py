@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Output, Parameter, State
 from ..mathlib.quaternion import from_rotation_vector
-from ..mathlib.vectors import norm
+from ..mathlib.vectors import norm, vector
 
 
 class DriftingTarget(Block):
@@ -40,18 +40,16 @@ class DriftingTarget(Block):
 
     def place(self, time: float) -> None:
         """State ``time`` (s) after the start."""
-        rotation = [0.0] * 3
+        rotation = vector(0.0, 0.0, 0.0)
         length = norm(self.spin_axis)
         angle = math.fmod(self.spin_rate * time, math.tau)
-        for i in range(3):
-            self.position[i] = self.initial_position[i] + self.constant_velocity[i] * time
-            self.velocity[i] = self.constant_velocity[i]
-            if length > 0.0:
-                rotation[i] = angle * self.spin_axis[i] / length
-        from_rotation_vector(rotation, self.quaternion)
-        if self.quaternion[0] < 0.0:
-            for i in range(4):
-                self.quaternion[i] = -self.quaternion[i]
+        if length > 0.0:
+            rotation = angle * self.spin_axis / length
+        self.position = self.initial_position + time * self.constant_velocity
+        self.velocity = self.constant_velocity
+        self.quaternion = from_rotation_vector(rotation)
+        if self.quaternion.w < 0.0:
+            self.quaternion = -self.quaternion
 
     def step(self, t: float, h: float) -> None:
         self.place(t + h - self.start_time)

@@ -1,7 +1,7 @@
 """A point-mass lander over a flat Moon."""
 
 from ..block import Block, Input, Output, Parameter, State
-from ..mathlib.vectors import norm
+from ..mathlib.vectors import Vector3, norm, vector
 
 
 class FlatMoonLander(Block):
@@ -40,48 +40,35 @@ class FlatMoonLander(Block):
 
     def initialize(self) -> None:
         self.mass = self.initial_mass
-        for i in range(3):
-            self.position[i] = self.initial_position[i]
-            self.velocity[i] = self.initial_velocity[i]
+        self.position = self.initial_position
+        self.velocity = self.initial_velocity
 
-    def thrust_acceleration(self, t: float, a: list) -> None:
-        """a = thrust over mass at time t (m/s2), landing-site frame."""
-        d = [0.0] * 3
-        for i in range(3):
-            d[i] = self.thrust_direction[i] + self.thrust_direction_rate[i] * (t - self.command_time)
-        length = norm(d)
+    def acceleration(self, t: float) -> Vector3:
+        """Thrust over mass and gravity at time t (m/s2), landing-site frame."""
+        direction = self.thrust_direction + (t - self.command_time) * self.thrust_direction_rate
+        length = norm(direction)
         scale = 0.0
         if length > 0.0:
             scale = self.thrust / self.mass / length
-        for i in range(3):
-            a[i] = scale * d[i]
+        push = scale * direction
+        return vector(push.x, push.y, push.z - self.gravity)
 
     def burn(self, t: float, h: float) -> None:
         """Move by h (s) under thrust and gravity."""
-        a1 = [0.0] * 3
-        a2 = [0.0] * 3
-        a4 = [0.0] * 3
-        self.thrust_acceleration(t, a1)
-        self.thrust_acceleration(t + 0.5 * h, a2)
-        self.thrust_acceleration(t + h, a4)
-        a1[2] = a1[2] - self.gravity
-        a2[2] = a2[2] - self.gravity
-        a4[2] = a4[2] - self.gravity
-        for i in range(3):
-            self.position[i] = self.position[i] + h * (self.velocity[i] + h * (a1[i] + 2.0 * a2[i]) / 6.0)
-            self.velocity[i] = self.velocity[i] + h * (a1[i] + 4.0 * a2[i] + a4[i]) / 6.0
+        a1 = self.acceleration(t)
+        a2 = self.acceleration(t + 0.5 * h)
+        a4 = self.acceleration(t + h)
+        self.position = self.position + h * (self.velocity + h * (a1 + 2.0 * a2) / 6.0)
+        self.velocity = self.velocity + h * (a1 + 4.0 * a2 + a4) / 6.0
 
     def fall(self, h: float) -> None:
         """Move by h (s) under gravity alone."""
-        for i in range(3):
-            self.position[i] = self.position[i] + h * self.velocity[i]
-        self.position[2] = self.position[2] - 0.5 * self.gravity * h * h
-        self.velocity[2] = self.velocity[2] - self.gravity * h
+        moved = self.position + h * self.velocity
+        self.position = vector(moved.x, moved.y, moved.z - 0.5 * self.gravity * h * h)
+        self.velocity = vector(self.velocity.x, self.velocity.y, self.velocity.z - self.gravity * h)
 
     def step(self, t: float, h: float) -> None:
-        before = [0.0] * 3
-        for i in range(3):
-            before[i] = self.velocity[i]
+        before = self.velocity
         burning = 0.0
         if self.thrust > 0.0:
             burning = self.command_time + self.burn_duration - t
@@ -102,9 +89,7 @@ class FlatMoonLander(Block):
             elif ends:
                 self.fall(h - burning)
             self.under_thrust = not ends
-            for i in range(3):
-                self.specific_force[i] = (self.velocity[i] - before[i]) / h
-            self.specific_force[2] = self.specific_force[2] + self.gravity * moving / h
+            gained = (self.velocity - before) / h
+            self.specific_force = vector(gained.x, gained.y, gained.z + self.gravity * moving / h)
         else:
-            for i in range(3):
-                self.specific_force[i] = 0.0
+            self.specific_force = vector(0.0, 0.0, 0.0)

@@ -5,9 +5,9 @@ import math
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.gyros import ISOTROPIC_ANGLES, cluster_momentum
 from ..mathlib.jets import JETS, jet_strengths, jet_wrench
-from ..mathlib.quaternion import copy4, multiply, normalise, to_body, to_reference
+from ..mathlib.quaternion import multiply, normalise, quaternion, to_body, to_reference
 from ..mathlib.rng import normal, seed_streams
-from ..mathlib.vectors import clip, copy3
+from ..mathlib.vectors import Vector3, Vector4, clip, vector
 
 
 class FreeFlyingRobot(Block):
@@ -76,84 +76,53 @@ class FreeFlyingRobot(Block):
         for p in range(JETS):
             error = normal(self.generator)
             self.thrust_factor[p] = clip(1.0 + self.thrust_error * error, 0.0, math.inf)
-        copy3(self.position, self.initial_position)
-        copy3(self.velocity, self.initial_velocity)
-        copy4(self.quaternion, self.initial_quaternion)
-        normalise(self.quaternion)
-        copy3(self.angular_velocity, self.initial_angular_velocity)
-        copy4(self.gimbal_angles, self.initial_gimbal_angles)
-        body = [0.0] * 3
+        self.position = self.initial_position
+        self.velocity = self.initial_velocity
+        self.quaternion = normalise(self.initial_quaternion)
+        self.angular_velocity = self.initial_angular_velocity
+        self.gimbal_angles = self.initial_gimbal_angles
         self.measure_gyros()
-        for i in range(3):
-            body[i] = self.inertia[i] * self.angular_velocity[i] + self.gyro_momentum[i]
-        to_reference(self.quaternion, body, self.angular_momentum)
+        body = self.inertia * self.angular_velocity + self.gyro_momentum
+        self.angular_momentum = to_reference(self.quaternion, body)
 
     def measure_gyros(self) -> None:
         """gyro_momentum from the gimbal angles."""
-        cluster_momentum(self.gimbal_angles, self.gyro_momentum)
-        for i in range(3):
-            self.gyro_momentum[i] = self.rotor_momentum * self.gyro_momentum[i]
+        self.gyro_momentum = self.rotor_momentum * cluster_momentum(self.gimbal_angles)
 
-    def rotate(self, q: list, momentum: list, rate: list, quaternion_rate: list) -> None:
-        """Angular velocity (rad/s, body) for attitude and momentum G at the gyros' present state, and q'."""
-        spin = [0.0] * 4
-        to_body(q, momentum, rate)
-        for i in range(3):
-            rate[i] = (rate[i] - self.gyro_momentum[i]) / self.inertia[i]
-            spin[i + 1] = 0.5 * rate[i]
-        multiply(q, spin, quaternion_rate)
+    def rate(self, q: Vector4, momentum: Vector3) -> Vector3:
+        """Angular velocity (rad/s, body) for attitude and momentum G at the gyros' present state."""
+        return (to_body(q, momentum) - self.gyro_momentum) / self.inertia
 
     def turn_gimbals(self, h: float) -> None:
         """Turn the gimbals for h (s)."""
-        for i in range(4):
-            self.gimbal_angles[i] = self.gimbal_angles[i] + h * self.gimbal_rates[i]
+        self.gimbal_angles = self.gimbal_angles + h * self.gimbal_rates
         self.measure_gyros()
+
+    def slopes(self, q: Vector4, momentum: Vector3) -> tuple[Vector4, Vector3, Vector3]:
+        """q', torque (N m, inertial) and force (N, inertial) for attitude and momentum G."""
+        q_rate = multiply(q, quaternion(0.0, 0.5 * self.rate(q, momentum)))
+        return q_rate, to_reference(q, self.jet_torque), to_reference(q, self.jet_force)
 
     def move(self, h: float) -> None:
         """Move by h (s) under the jets' force and torque."""
-        q = [0.0] * 4
-        momentum = [0.0] * 3
-        rate = [0.0] * 3
-        q_rate = [0.0] * 4
-        torque = [0.0] * 3
-        force = [0.0] * 3
-        q_sum = [0.0] * 4
-        torque_sum = [0.0] * 3
-        force_sum = [0.0] * 3
-        early_force = [0.0] * 3
-        copy4(q, self.quaternion)
-        copy3(momentum, self.angular_momentum)
-        for stage in range(4):
-            if stage == 1 or stage == 3:
-                self.turn_gimbals(0.5 * h)
-            self.rotate(q, momentum, rate, q_rate)
-            to_reference(q, self.jet_torque, torque)
-            to_reference(q, self.jet_force, force)
-            weight = 1.0
-            if stage == 1 or stage == 2:
-                weight = 2.0
-            reach = 0.5 * h
-            if stage == 2:
-                reach = h
-            for i in range(4):
-                q_sum[i] = q_sum[i] + weight * q_rate[i]
-                q[i] = self.quaternion[i] + reach * q_rate[i]
-            for i in range(3):
-                torque_sum[i] = torque_sum[i] + weight * torque[i]
-                force_sum[i] = force_sum[i] + weight * force[i]
-                momentum[i] = self.angular_momentum[i] + reach * torque[i]
-                if stage < 3:
-                    early_force[i] = early_force[i] + force[i]
-        for i in range(4):
-            self.quaternion[i] = self.quaternion[i] + h * q_sum[i] / 6.0
-        for i in range(3):
-            # Nystroem's form of the method, for r'' without r'
-            moved = self.velocity[i] + h * early_force[i] / (6.0 * self.mass)
-            self.position[i] = self.position[i] + h * moved
-            self.velocity[i] = self.velocity[i] + h * force_sum[i] / (6.0 * self.mass)
-            self.angular_momentum[i] = self.angular_momentum[i] + h * torque_sum[i] / 6.0
-        normalise(self.quaternion)
-        self.rotate(self.quaternion, self.angular_momentum, self.angular_velocity, q_rate)
+        q = self.quaternion
+        momentum = self.angular_momentum
+        q1, torque1, force1 = self.slopes(q, momentum)
+        self.turn_gimbals(0.5 * h)
+        q2, torque2, force2 = self.slopes(q + 0.5 * h * q1, momentum + 0.5 * h * torque1)
+        q3, torque3, force3 = self.slopes(q + 0.5 * h * q2, momentum + 0.5 * h * torque2)
+        self.turn_gimbals(0.5 * h)
+        q4, torque4, force4 = self.slopes(q + h * q3, momentum + h * torque3)
+        # the zeros make no sum of them -0
+        force = vector(0.0, 0.0, 0.0) + force1
+        torque = vector(0.0, 0.0, 0.0) + torque1 + 2.0 * torque2 + 2.0 * torque3 + torque4
+        turning = vector(0.0, 0.0, 0.0, 0.0) + q1 + 2.0 * q2 + 2.0 * q3 + q4
+        # Nystroem's form of the method, for r'' without r'
+        self.position = self.position + h * (self.velocity + h * (force + force2 + force3) / (6.0 * self.mass))
+        self.velocity = self.velocity + h * (force + 2.0 * force2 + 2.0 * force3 + force4) / (6.0 * self.mass)
+        self.angular_momentum = momentum + h * torque / 6.0
+        self.quaternion = normalise(q + h * turning / 6.0)
+        self.angular_velocity = self.rate(self.quaternion, self.angular_momentum)
 
     def step(self, t: float, h: float) -> None:
         thrust = [0.0] * 8
@@ -163,9 +132,8 @@ class FreeFlyingRobot(Block):
             thrust[p] = self.thrust_factor[p] * clip(self.jet_thrust[p], 0.0, self.maximum_thrust)
             total = total + thrust[p]
         jet_wrench(self.strength, thrust, wrench)
-        for i in range(3):
-            self.jet_force[i] = wrench[i]
-            self.jet_torque[i] = wrench[3 + i]
+        self.jet_force = vector(*wrench[0:3])
+        self.jet_torque = vector(*wrench[3:6])
         pieces = int(h / self.internal_step - 1e-9) + 1
         piece = h / pieces
         for _ in range(pieces):

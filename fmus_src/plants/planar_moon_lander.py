@@ -4,6 +4,7 @@ import math
 
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.gravity import STANDARD_GRAVITY
+from ..mathlib.vectors import Vector4, vector
 
 
 class PlanarMoonLander(Block):
@@ -44,25 +45,28 @@ class PlanarMoonLander(Block):
     motion = State([0.0] * 4, description="vertical and horizontal velocity (m/s), altitude (m), central angle (rad)")
 
     def initialize(self) -> None:
-        self.motion[0] = self.initial_speed * math.cos(self.initial_path_angle)
-        self.motion[1] = self.initial_speed * math.sin(self.initial_path_angle)
-        self.motion[2] = self.initial_altitude
-        self.motion[3] = self.initial_central_angle
+        self.motion = vector(
+            self.initial_speed * math.cos(self.initial_path_angle),
+            self.initial_speed * math.sin(self.initial_path_angle),
+            self.initial_altitude,
+            self.initial_central_angle,
+        )
         self.mass = self.initial_mass
         self.path_angle = self.initial_path_angle
         self.publish()
 
-    def slope(self, motion: list, acceleration: float, slope: list) -> None:
-        """slope = time derivative of motion under thrust over mass ``acceleration`` (m/s2)."""
-        radius = self.moon_radius + motion[2]
+    def slope(self, motion: Vector4, acceleration: float) -> Vector4:
+        """Time derivative of motion under thrust over mass ``acceleration`` (m/s2)."""
+        vertical, horizontal, altitude, _ = motion
+        radius = self.moon_radius + altitude
         ratio = self.moon_radius / radius
-        slope[0] = acceleration * math.cos(self.thrust_angle) - self.surface_gravity * ratio * ratio
-        slope[1] = acceleration * math.sin(self.thrust_angle)
-        slope[2] = motion[0]
-        slope[3] = motion[1] / radius
+        turning = horizontal / radius
+        climb = acceleration * math.cos(self.thrust_angle) - self.surface_gravity * ratio * ratio
+        push = acceleration * math.sin(self.thrust_angle)
         if self.curvature:
-            slope[0] = slope[0] + motion[1] * slope[3]
-            slope[1] = slope[1] - motion[0] * slope[3]
+            climb = climb + horizontal * turning
+            push = push - vertical * turning
+        return vector(climb, push, vertical, turning)
 
     def move(self, h: float) -> None:
         """Motion and mass h (s) later."""
@@ -71,35 +75,22 @@ class PlanarMoonLander(Block):
         if self.mass <= flow * h:
             force = 0.0
             flow = 0.0
-        shifted = [0.0] * 4
-        k1 = [0.0] * 4
-        k2 = [0.0] * 4
-        k3 = [0.0] * 4
-        k4 = [0.0] * 4
         middle = force / (self.mass - 0.5 * h * flow)
-        self.slope(self.motion, force / self.mass, k1)
-        for i in range(4):
-            shifted[i] = self.motion[i] + 0.5 * h * k1[i]
-        self.slope(shifted, middle, k2)
-        for i in range(4):
-            shifted[i] = self.motion[i] + 0.5 * h * k2[i]
-        self.slope(shifted, middle, k3)
-        for i in range(4):
-            shifted[i] = self.motion[i] + h * k3[i]
-        self.slope(shifted, force / (self.mass - h * flow), k4)
-        for i in range(4):
-            self.motion[i] = self.motion[i] + h * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]) / 6.0
+        k1 = self.slope(self.motion, force / self.mass)
+        k2 = self.slope(self.motion + 0.5 * h * k1, middle)
+        k3 = self.slope(self.motion + 0.5 * h * k2, middle)
+        k4 = self.slope(self.motion + h * k3, force / (self.mass - h * flow))
+        self.motion = self.motion + h * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
         self.mass = self.mass - h * flow
 
     def publish(self) -> None:
         """Outputs of the motion; the path angle is the one nearest to the last, and stays where speed is 0."""
-        self.speed = math.sqrt(self.motion[0] * self.motion[0] + self.motion[1] * self.motion[1])
+        vertical, horizontal, self.altitude, self.central_angle = self.motion
+        self.speed = math.sqrt(vertical * vertical + horizontal * horizontal)
         if self.speed > 0.0:
-            angle = math.atan2(self.motion[1], self.motion[0])
+            angle = math.atan2(horizontal, vertical)
             turns = math.floor((self.path_angle - angle) / math.tau + 0.5)
             self.path_angle = angle + math.tau * float(turns)
-        self.altitude = self.motion[2]
-        self.central_angle = self.motion[3]
         self.ground_contact = self.altitude <= 0.0
 
     def step(self, t: float, h: float) -> None:

@@ -5,7 +5,7 @@ import math
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity
 from ..mathlib.pursuit import follow, goal_at
-from ..mathlib.vectors import copy3, norm
+from ..mathlib.vectors import Vector3, norm, vector
 
 
 class SphericalMoonLander(Block):
@@ -76,8 +76,8 @@ class SphericalMoonLander(Block):
 
     def initialize(self) -> None:
         self.mass = self.initial_mass
-        copy3(self.position, self.initial_position)
-        copy3(self.velocity, self.initial_velocity)
+        self.position = self.initial_position
+        self.velocity = self.initial_velocity
         self.altitude = altitude_of(self.position, self.moon_radius)
         self.speed = norm(self.velocity)
         self.ground_contact = self.altitude <= 0.0
@@ -94,9 +94,14 @@ class SphericalMoonLander(Block):
             parts = float(math.ceil(self.internal_step / shortest - 1e-9))
         self.longest_step = self.internal_step / parts
 
+    def point(self, t: float) -> None:
+        """Put the attitude on the command of time t (s)."""
+        since = t - self.command_time
+        self.attitude = goal_at(self.thrust_direction, self.thrust_direction_rate, since, self.attitude)
+
     def turn(self, t: float, h: float) -> None:
         """Advance the attitude by h (s)."""
-        follow(
+        self.attitude = follow(
             self.attitude,
             self.thrust_direction,
             self.thrust_direction_rate,
@@ -106,8 +111,8 @@ class SphericalMoonLander(Block):
             self.slew_rate_limit,
         )
 
-    def burn(self, h: float, commanded: float, force: list) -> float:
-        """Thrust over mass (m/s2) at start, middle and end of a step; spends the mass and returns the speed gained."""
+    def burn(self, h: float, commanded: float) -> tuple[Vector3, float]:
+        """Thrust over mass (m/s2) at start, middle and end of a step, and the speed gained; spends the mass."""
         exhaust = STANDARD_GRAVITY * self.specific_impulse
         excess = 0.0
         half = 1.0
@@ -118,61 +123,47 @@ class SphericalMoonLander(Block):
         used = (commanded * h + excess * self.thrust_lag * half * (2.0 - half)) / exhaust
         if used >= self.mass:
             self.delivered_thrust = 0.0
-            for i in range(3):
-                force[i] = 0.0
-            return 0.0
-        force[0] = (commanded + excess) / self.mass
-        force[1] = (commanded + excess * (1.0 - half)) / (self.mass - middle_used)
+            return vector(0.0, 0.0, 0.0), 0.0
+        first = (commanded + excess) / self.mass
+        middle = (commanded + excess * (1.0 - half)) / (self.mass - middle_used)
         self.delivered_thrust = commanded + excess * (1.0 - half) * (1.0 - half)
         self.mass = self.mass - used
-        force[2] = self.delivered_thrust / self.mass
-        return exhaust * math.log1p(used / self.mass)
+        return vector(first, middle, self.delivered_thrust / self.mass), exhaust * math.log1p(used / self.mass)
 
-    def move(self, t: float, h: float, commanded: float, gained: list) -> None:
-        """Move by h (s) under one command; adds the velocity that thrust gives to ``gained`` (m/s)."""
-        force = [0.0] * 3
-        gain = self.burn(h, commanded, force)
+    def move(self, t: float, h: float, commanded: float) -> Vector3:
+        """Move by h (s) under one command; returns the velocity that thrust gives (m/s)."""
+        force, gain = self.burn(h, commanded)
         simpson = h * (force[0] + 4.0 * force[1] + force[2]) / 6.0
         if simpson > 0.0:
-            for i in range(3):
-                force[i] = force[i] * gain / simpson
+            force = force * gain / simpson
         if self.response <= 0.0 and self.slew_rate_limit <= 0.0:
-            goal_at(self.thrust_direction, self.thrust_direction_rate, t - self.command_time, self.attitude)
-        first = [0.0] * 3
-        middle = [0.0] * 3
-        g1 = [0.0] * 3
-        g2 = [0.0] * 3
-        g4 = [0.0] * 3
-        shifted = [0.0] * 3
-        copy3(first, self.attitude)
+            self.point(t)
+        first = force[0] * self.attitude
         self.turn(t, 0.5 * h)
-        copy3(middle, self.attitude)
+        middle = force[1] * self.attitude
         self.turn(t + 0.5 * h, 0.5 * h)
-        central_gravity(self.position, self.moon_radius, self.gravitational_parameter, g1)
-        for i in range(3):
-            first[i] = force[0] * first[i]
-            middle[i] = force[1] * middle[i]
-            shifted[i] = self.position[i] + 0.5 * h * (self.velocity[i] + 0.25 * h * (g1[i] + first[i]))
-        central_gravity(shifted, self.moon_radius, self.gravitational_parameter, g2)
-        for i in range(3):
-            shifted[i] = self.position[i] + h * (self.velocity[i] + 0.5 * h * (g2[i] + middle[i]))
-        central_gravity(shifted, self.moon_radius, self.gravitational_parameter, g4)
-        for i in range(3):
-            fall = g1[i] + 2.0 * g2[i]
-            push = first[i] + 2.0 * middle[i]
-            self.position[i] = self.position[i] + h * (self.velocity[i] + h * (fall + push) / 6.0)
-            push = h * (push + 2.0 * middle[i] + force[2] * self.attitude[i]) / 6.0
-            gained[i] = gained[i] + push
-            self.velocity[i] = self.velocity[i] + push + h * (fall + 2.0 * g2[i] + g4[i]) / 6.0
+        g1 = self.gravity(self.position)
+        g2 = self.gravity(self.position + 0.5 * h * (self.velocity + 0.25 * h * (g1 + first)))
+        g4 = self.gravity(self.position + h * (self.velocity + 0.5 * h * (g2 + middle)))
+        fall = g1 + 2.0 * g2
+        push = first + 2.0 * middle
+        gained = h * (push + 2.0 * middle + force[2] * self.attitude) / 6.0
+        self.position = self.position + h * (self.velocity + h * (fall + push) / 6.0)
+        self.velocity = self.velocity + gained + h * (fall + 2.0 * g2 + g4) / 6.0
         self.altitude = altitude_of(self.position, self.moon_radius)
         if self.altitude <= 0.0:
             self.ground_contact = True
             self.delivered_thrust = 0.0
+        return gained
+
+    def gravity(self, position: Vector3) -> Vector3:
+        """Gravity (m/s2) at a position (m)."""
+        return central_gravity(position, self.moon_radius, self.gravitational_parameter)
 
     def step(self, t: float, h: float) -> None:
-        gained = [0.0] * 3
+        gained = vector(0.0, 0.0, 0.0)
         if not self.aligned:
-            goal_at(self.thrust_direction, self.thrust_direction_rate, t - self.command_time, self.attitude)
+            self.point(t)
             self.aligned = True
         commanded = self.thrust
         if commanded < 0.0:
@@ -184,18 +175,19 @@ class SphericalMoonLander(Block):
             burning = self.command_time + self.burn_duration - start
             if not self.ground_contact and not self.latched:
                 if burning >= piece:
-                    self.move(start, piece, commanded, gained)
+                    pushed = self.move(start, piece, commanded)
                 elif burning <= 0.0:
-                    self.move(start, piece, 0.0, gained)
+                    pushed = self.move(start, piece, 0.0)
                 else:
-                    self.move(start, burning, commanded, gained)
+                    pushed = self.move(start, burning, commanded)
                     self.latched = self.latch_at_burn_end
                     if not self.ground_contact and not self.latched:
-                        self.move(start + burning, piece - burning, 0.0, gained)
+                        gained = gained + pushed
+                        pushed = self.move(start + burning, piece - burning, 0.0)
+                gained = gained + pushed
         self.speed = norm(self.velocity)
         self.coast_time = 0.0
         if t + h > self.command_time + self.burn_duration:
             self.coast_time = t + h - (self.command_time + self.burn_duration)
-        for i in range(3):
-            self.sensed_velocity[i] = self.sensed_velocity[i] + gained[i]
-            self.specific_force[i] = gained[i] / h
+        self.sensed_velocity = self.sensed_velocity + gained
+        self.specific_force = gained / h

@@ -2,7 +2,7 @@
 
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.gravity import altitude_of
-from ..mathlib.rng import normal, seed_streams
+from ..mathlib.rng import normals, seed_streams
 from ..mathlib.vectors import norm
 
 
@@ -39,11 +39,9 @@ class DopplerVelocimeter(Block):
         """Take a sample where the ground is in range."""
         in_range = altitude_of(self.position, self.moon_radius) <= self.maximum_altitude
         sigma = self.speed_error * norm(self.velocity) + self.noise_sigma
-        for i in range(3):
-            error = normal(self.generator)
-            if in_range:
-                self.measured_velocity[i] = self.velocity[i] + sigma * error
+        error = normals(self.generator)
         if in_range:
+            self.measured_velocity = self.velocity + sigma * error
             self.sample_count = self.sample_count + 1
 
     def step(self, t: float, h: float) -> None:

@@ -3,8 +3,8 @@
 import math
 
 from ..block import Block, Input, Output, Parameter, State
-from ..mathlib.rng import normal, seed_streams
-from ..mathlib.vectors import copy3
+from ..mathlib.rng import normal, normals, seed_streams
+from ..mathlib.vectors import vector
 
 
 class InertialSensor(Block):
@@ -55,28 +55,28 @@ class InertialSensor(Block):
 
     def initialize(self) -> None:
         seed_streams(self.generator, self.seed, self.stream)
+        errors = [0.0] * 9
         for i in range(3):
-            error = normal(self.generator)
-            self.bias[i] = self.bias_sigma * error
-            error = normal(self.generator)
-            self.scale_factor[i] = self.scale_factor_sigma * error
-            error = normal(self.generator)
-            self.misalignment[i] = self.attitude_sigma * error
-        copy3(self.last_sensed, self.sensed_velocity)
+            for kind in range(3):
+                errors[3 * kind + i] = normal(self.generator)
+        self.bias = self.bias_sigma * vector(*errors[0:3])
+        self.scale_factor = self.scale_factor_sigma * vector(*errors[3:6])
+        self.misalignment = self.attitude_sigma * vector(*errors[6:9])
+        self.last_sensed = self.sensed_velocity
         self.last_time = self.start_time
 
     def step(self, t: float, h: float) -> None:
         elapsed = t + h - self.last_time
         walk = self.velocity_random_walk * math.sqrt(abs(elapsed))
-        scaled = [0.0] * 3
-        for i in range(3):
-            scaled[i] = (1.0 + self.scale_factor[i]) * (self.sensed_velocity[i] - self.last_sensed[i])
-        for i in range(3):
-            j = (i + 1) % 3
-            k = (i + 2) % 3
-            turned = scaled[i] + self.misalignment[j] * scaled[k] - self.misalignment[k] * scaled[j]
-            error = normal(self.generator)
-            self.velocity_increment[i] = turned + self.bias[i] * elapsed + walk * error
-        copy3(self.last_sensed, self.sensed_velocity)
+        m = self.misalignment
+        s = (vector(1.0, 1.0, 1.0) + self.scale_factor) * (self.sensed_velocity - self.last_sensed)
+        turned = vector(
+            s.x + m.y * s.z - m.z * s.y,
+            s.y + m.z * s.x - m.x * s.z,
+            s.z + m.x * s.y - m.y * s.x,
+        )
+        error = normals(self.generator)
+        self.velocity_increment = turned + elapsed * self.bias + walk * error
+        self.last_sensed = self.sensed_velocity
         self.last_time = t + h
         self.sample_count = self.sample_count + 1

@@ -1,7 +1,7 @@
 """Relative position from laser range finders."""
 
 from ..block import Block, Input, Output, Parameter, State
-from ..mathlib.rng import normal, seed_streams
+from ..mathlib.rng import normals, seed_streams
 from ..mathlib.vectors import norm
 
 
@@ -37,14 +37,12 @@ class LaserRanger(Block):
 
     def measure(self) -> None:
         """Take a sample."""
-        for i in range(3):
-            self.relative_position[i] = self.target_position[i] - self.robot_position[i]
+        true = self.target_position - self.robot_position
         sigma = self.far_sigma
-        if norm(self.relative_position) < self.near_range:
+        if norm(true) < self.near_range:
             sigma = self.near_sigma
-        for i in range(3):
-            error = normal(self.generator)
-            self.relative_position[i] = self.relative_position[i] + sigma * error
+        error = normals(self.generator)
+        self.relative_position = true + sigma * error
         self.range = norm(self.relative_position)
         self.sample_count = self.sample_count + 1
 

@@ -1,8 +1,8 @@
 """Attitude from star trackers and gyroscopes together."""
 
 from ..block import Block, Input, Output, Parameter, State
-from ..mathlib.quaternion import copy4, from_rotation_vector, multiply, normalise
-from ..mathlib.rng import normal, seed_streams
+from ..mathlib.quaternion import from_rotation_vector, multiply, normalise
+from ..mathlib.rng import normals, seed_streams
 
 
 class StarInertial(Block):
@@ -34,15 +34,9 @@ class StarInertial(Block):
 
     def measure(self) -> None:
         """Take a sample."""
-        rotation = [0.0] * 3
-        error = [0.0] * 4
-        for i in range(3):
-            number = normal(self.generator)
-            rotation[i] = self.attitude_sigma * number
-        from_rotation_vector(rotation, error)
-        copy4(self.measured_quaternion, self.quaternion)
-        multiply(self.measured_quaternion, error, self.measured_quaternion)
-        normalise(self.measured_quaternion)
+        numbers = normals(self.generator)
+        error = from_rotation_vector(self.attitude_sigma * numbers)
+        self.measured_quaternion = normalise(multiply(self.quaternion, error))
         self.sample_count = self.sample_count + 1
 
     def step(self, t: float, h: float) -> None:

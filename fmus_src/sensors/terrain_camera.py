@@ -2,7 +2,7 @@
 
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.gravity import altitude_of
-from ..mathlib.rng import normal, seed_streams
+from ..mathlib.rng import normals, seed_streams
 
 
 class TerrainCamera(Block):
@@ -38,11 +38,9 @@ class TerrainCamera(Block):
         altitude = altitude_of(self.position, self.moon_radius)
         in_band = altitude >= self.minimum_altitude and altitude <= self.maximum_altitude
         sigma = self.altitude_error * abs(altitude) + self.noise_sigma
-        for i in range(3):
-            error = normal(self.generator)
-            if in_band:
-                self.measured_position[i] = self.position[i] + sigma * error
+        error = normals(self.generator)
         if in_band:
+            self.measured_position = self.position + sigma * error
             self.sample_count = self.sample_count + 1
 
     def step(self, t: float, h: float) -> None:

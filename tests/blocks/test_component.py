@@ -9,6 +9,7 @@ import copy
 import pickle
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -17,9 +18,12 @@ from perilune.fmus_src.block import Block, Input, Output, Parameter, State
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.disturbances.forming_filter import FormingFilter
 from perilune.fmus_src.guidance.analytic import AnalyticGuidance
+from perilune.fmus_src.interfaces.network_operator_law import NetworkOperatorLaw
 from perilune.fmus_src.mathlib.rng import seed_streams, uniform
+from perilune.fmus_src.mathlib.vectors import Vector3, vector
 from perilune.fmus_src.navigation.noisy import NoisyNavigation
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
+from perilune.fmus_src.plants.free_flying_robot import FreeFlyingRobot
 from perilune.fmus_src.runtime import Component, StepError
 
 
@@ -38,13 +42,11 @@ class Probe(Block):
         seed_streams(self.generator, 1, 2)
         self.runs = self.runs + 1
         self.on = True
-        for i in range(2):
-            self.scaled[i] = self.scaled[i] + self.gain * self.level[i]
+        self.scaled = self.scaled + self.gain * self.level
         self.number = self.number + uniform(self.generator)
 
     def step(self, t: float, h: float) -> None:
-        for i in range(2):
-            self.scaled[i] = self.gain * self.level[i]
+        self.scaled = self.gain * self.level
         self.number = uniform(self.generator)
 
 
@@ -104,7 +106,7 @@ def test_a_read_settles_an_instance_that_was_set():
 def test_reads_without_a_change_do_not_settle_again():
     component = Component(Probe)
     component.get([3])
-    component.block.scaled[0] = -1.0  # a second settling would overwrite this
+    component.block.scaled = [-1.0, 20.0]  # a second settling would overwrite this
     assert component.get([3]) == [-1.0]
 
 
@@ -119,13 +121,108 @@ def test_start_settles_once_and_ends_initialisation():
     assert component.get([3]) == [200.0]
 
 
-def test_lists_keep_their_identity_through_settling_and_restoring():
+def test_lists_keep_their_identity_through_settling_restoring_and_assignment():
     component = Component(Probe)
-    level, scaled = component.block.level, component.block.scaled
+    generator = component.block.generator
     component.start()
     component.set_state(component.get_state())
-    assert component.block.level is level
-    assert component.block.scaled is scaled
+    component.block.generator = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+    assert component.block.generator is generator
+    assert generator == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
+
+
+def test_elements_are_got_and_set_in_any_order_and_number():
+    component = Component(Probe)
+    component.start()
+    count = len(component.elements)
+    component.write(list(range(count)), [float(k) for k in range(count)])
+    for chosen in ([2, 1], [0, 2, 3], [8, 7, 6], [1, 2, 1], [4, 5, 6, 7, 8, 9, 10, 11], []):
+        assert component.get(chosen) == [float(k) for k in chosen]
+    component.set([2, 1, 9], [-2.0, -1.0, -9.0])
+    assert component.block.level == [-1.0, -2.0]
+    assert component.get([9, 10, 1]) == [-9.0, 10.0, -1.0]
+    for bad in ([-1], [count]):
+        with pytest.raises(IndexError):
+            component.get(bad)
+    with pytest.raises(ValueError, match="2 values for 1 value references"):
+        component.set([1], [1.0, 2.0])
+
+
+class Storing(Block):
+    """Stores what a library gives, as only Python can."""
+
+    python_only = True
+    given = Input([0.0, 0.0, 0.0], description="three numbers")
+    kept = Output([0.0, 0.0, 0.0], direct=True, description="the same, of any type")
+    longer = Output([0.0] * 5, direct=True, description="a list")
+    count = State([0, 0], description="ints")
+
+    def step(self, t: float, h: float) -> None:
+        self.before = self.kept
+        self.kept = np.array(self.given) + 1.0
+        self.longer = np.arange(5) * t
+        self.count = (1, np.int64(2))
+
+
+def test_python_only_blocks_store_any_sequence_and_outputs_stay_connected():
+    """What used to cut an output off: a list of a library in place of the declared one."""
+    component = Component(Storing)
+    component.start()
+    for n in range(3):
+        component.set([0, 1, 2], [n, 2.0 * n, 3.0])
+        component.do_step(float(n), 1.0)
+        assert component.get(list(range(3, 13))) == [
+            n + 1.0,
+            2.0 * n + 1.0,
+            4.0,
+            *(k * float(n) for k in range(5)),
+            1,
+            2,
+        ]
+        assert type(component.block.kept) is Vector3
+        assert all(type(x) is float for x in component.get(list(range(3, 11))))
+    assert component.block.before == [2.0, 3.0, 4.0]  # a vector kept before a step is what it was
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("kept", [1.0, 2.0], r"storing\.kept: give a list of 3, or another sequence; got \[1\.0, 2\.0\]"),
+        ("kept", 5.0, r"storing\.kept: give a list of 3"),
+        ("kept", vector(1.0, 2.0), r"storing\.kept: give a list of 3"),
+        ("kept", ["up", "down", "left"], r"storing\.kept: its elements are of type Real"),
+        ("longer", [0.0] * 6, r"storing\.longer: give a list of 5"),
+        ("count", [1.5, 2], r"storing\.count: its elements are of type Integer"),
+    ],
+)
+def test_what_does_not_fit_is_refused_with_block_and_variable(name, value, message):
+    block = Storing()
+    with pytest.raises(TypeError, match=message):
+        setattr(block, name, value)
+    with pytest.raises(TypeError, match="give a list of 3"):
+        Storing(given=[1.0])
+
+
+def test_instances_do_not_share_their_starts():
+    one, other = Storing(), Storing()
+    one.kept = [1.0, 2.0, 3.0]
+    one.longer[0] = 7.0
+    assert other.kept == [0.0, 0.0, 0.0]
+    assert other.longer == [0.0] * 5
+
+
+def test_which_variables_are_vectors():
+    variables = FreeFlyingRobot.variables
+    assert {name for name, each in variables.items() if each.is_vector} == {
+        name
+        for name, each in variables.items()
+        if isinstance(each.start, list) and each.type_name == "Real" and each.size <= 4
+    }
+    assert not NetworkOperatorLaw.variables["matrix"].is_vector
+    assert not State([1, 2], description="ints").is_vector
+    assert not State([1.0] * 4, columns=2, description="a matrix").is_vector
+    assert not State([1.0] * 4, vector=False, description="a list").is_vector
+    assert not State([1.0], description="one element").is_vector
 
 
 def test_repeated_initialisation_repeats_the_random_stream():

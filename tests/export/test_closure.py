@@ -53,16 +53,16 @@ def runs(closure, folder, class_name="Outside"):
 
 
 IMPORTS = {
-    "a function": ("from perilune.fmus_src.mathlib.vectors import norm\n", "norm([3.0, 4.0, 0.0])", 5.0),
-    "a module": ("from perilune.fmus_src.mathlib import vectors\n", "vectors.norm([3.0, 4.0, 0.0])", 5.0),
+    "a function": ("from perilune.fmus_src.mathlib.vectors import norm, vector\n", "norm(vector(3.0, 4.0, 0.0))", 5.0),
+    "a module": ("from perilune.fmus_src.mathlib import vectors\n", "vectors.norm(vectors.vector(3.0, 4.0, 0.0))", 5.0),
     "a module by another name": (
         "from perilune.fmus_src.mathlib import vectors as v\n",
-        "v.norm([0.0, 0.0, 2.0])",
+        "v.norm(v.vector(0.0, 0.0, 2.0))",
         2.0,
     ),
     "several modules": (
         "from perilune.fmus_src.mathlib import rotation, vectors\n",
-        "vectors.norm([0.0, 2.0, 0.0]) + 0.0 * len(rotation.__name__)",
+        "vectors.norm(vectors.vector(0.0, 2.0, 0.0)) + 0.0 * len(rotation.__name__)",
         2.0,
     ),
     "a standard module": ("import math\nfrom fractions import Fraction\n", "math.sqrt(Fraction(9, 1))", 3.0),

@@ -14,9 +14,9 @@ from fmpy.validation import validate_fmu
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export import compilers
-from perilune.fmus_src.export.c_names import WRAPPER_NAMES
 from perilune.fmus_src.export.compilers import CompilationFailed, CompilerMissing, local_platform, shared_library
-from perilune.fmus_src.export.native_fmu import HERE, STANDARD_HEADERS, WRAPPER_FILES, build_native_fmu
+from perilune.fmus_src.export.native_fmu import C_FILES, STANDARD_HEADERS, WRAPPER_FILES, build_native_fmu
+from perilune.fmus_src.export.write.names import WRAPPER_NAMES
 from perilune.fmus_src.runtime import Component
 from tests.support import kernels
 from tests.support.kernels.native_instance import CACHE
@@ -106,7 +106,7 @@ def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
     source = Path(kernels.__file__).with_name("step_fmu.c")
     subprocess.run(["cc", "-I", tmp_path / "sources", "-o", program, source, "-ldl"], check=True)
     component = Component(BLOCK)
-    references = [i for i, (_, key) in enumerate(component.slots) if key in ("disturbance", "disturbance_rate")]
+    references = [i for i, (name, _) in enumerate(component.elements) if name in ("disturbance", "disturbance_rate")]
     guid = fmpy.read_model_description(str(path)).guid
     arguments = [str(library), guid, "0.25", "20", *map(str, references)]
     printed = subprocess.run([program, *arguments], capture_output=True, text=True, check=True).stdout
@@ -119,9 +119,12 @@ def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
 
 
 def test_every_name_of_the_wrapper_is_kept_from_blocks() -> None:
-    text = "".join((HERE / name).read_text(encoding="utf-8") for name in WRAPPER_FILES)
+    text = "".join((C_FILES / name).read_text(encoding="utf-8") for name in WRAPPER_FILES)
     types = re.findall(r"^typedef (?:struct|enum|union) (\w+)", text, re.MULTILINE)
     functions = re.findall(r"^static (?:[\w *]+?)\b(\w+)\(", text, re.MULTILINE)
+    for size in re.findall(r"^VECTOR_TYPE\((\d)\)", text, re.MULTILINE):  # a macro for each size
+        types.append(f"Vector{size}")
+        functions += [f"{name}{size}" for name in re.findall(r"VECTOR_INLINE Vector##n (\w+)##n\(", text)]
     declared = {"Block", "model_initialize", "model_step", "model_sample_period", "model_set_start_time"}
     found = {name for name in types + functions if not name.startswith("py_")} | declared
     assert found == WRAPPER_NAMES

@@ -95,14 +95,14 @@ def test_three_faces_agree(block: type[Block]) -> None:
             face.slave.enterInitializationMode()
             face.slave.exitInitializationMode()
         plain.start()
-        now = plain.get(list(range(len(plain.slots))))
+        now = plain.values()
         latched = 0
         for n in range(LONGEST_FLIGHT):
             references, values = drawn(block, Input, random, h, now)
             t = plain.start_time + n * h
             plain.set(references, values)
             plain.do_step(t, h)
-            now = plain.get(list(range(len(plain.slots))))
+            now = plain.values()
             for face in faces:
                 face.set(references, values)
                 face.slave.doStep(t, h)

@@ -23,8 +23,10 @@ from perilune.fmus_src.mathlib.gyros import (
     robust_rates,
     singularity_measure,
 )
+from perilune.fmus_src.mathlib.vectors import vector
 
 RHO = ISOTROPIC_RHO
+ISOTROPIC = vector(*ISOTROPIC_ANGLES)
 seeds = st.integers(0, 2**32 - 1)
 
 
@@ -48,13 +50,13 @@ def residual(angles):
 
 
 def direction(seed):
-    vector = np.random.default_rng(seed).normal(size=3)
-    return vector / np.linalg.norm(vector)
+    drawn = np.random.default_rng(seed).normal(size=3)
+    return drawn / np.linalg.norm(drawn)
 
 
 def lawful_angles(momentum, rho=RHO, near=ISOTROPIC_ANGLES):
-    angles = list(near)
-    assert distributed_angles(list(momentum), rho, angles)
+    possible, angles = distributed_angles(vector(*momentum), rho, vector(*near))
+    assert possible
     return angles
 
 
@@ -65,15 +67,15 @@ def test_isotropic_angles_are_the_published_ones():
     assert complex_momentum(ISOTROPIC_ANGLES) == pytest.approx([0.0, 0.0, 0.0], abs=1e-15)
     assert jacobian @ jacobian.T == pytest.approx(4.0 / 3.0 * np.eye(3), abs=1e-15)
     assert residual(ISOTROPIC_ANGLES) == pytest.approx(0.0, abs=1e-15)
-    assert singularity_measure(ISOTROPIC_ANGLES) == pytest.approx(8.0 / math.sqrt(27.0), rel=1e-15)
+    assert singularity_measure(ISOTROPIC) == pytest.approx(8.0 / math.sqrt(27.0), rel=1e-15)
 
 
 @given(seeds)
 @settings(max_examples=200, deadline=None)
 def test_momentum_jacobian_and_singularity(seed):
     angles = np.random.default_rng(seed).uniform(-7.0, 7.0, 4).tolist()
-    momentum, jacobian = [0.0] * 3, [0.0] * 12
-    cluster_momentum(angles, momentum)
+    angles, jacobian = vector(*angles), [0.0] * 12
+    momentum = cluster_momentum(angles)
     cluster_jacobian(angles, jacobian)
     assert momentum == pytest.approx(complex_momentum(angles), abs=1e-15)
     expected = matrix(angles)
@@ -101,8 +103,8 @@ def test_explicit_solution_is_the_root_of_the_implicit_law(seed, size, rho):
     def excess(u):
         return u * a + b * (u - rho) / (1.0 - rho * u) - x
 
-    angles = list(ISOTROPIC_ANGLES)
-    if not distributed_angles([x, y, z], rho, angles):
+    possible, angles = distributed_angles(vector(x, y, z), rho, ISOTROPIC)
+    if not possible:
         assert excess(-1.0) * excess(1.0) > -1e-9  # no root
         return
     u = (math.cos(angles[0]) + math.cos(angles[1])) / a
@@ -126,9 +128,9 @@ def test_angles_come_by_whole_turns_nearest_to_those_before(seed):
     "momentum", [[0.0, 2.0, 0.0], [0.0, 0.0, -2.0], [0.0, 3.0, 0.0], [5.0, 0.0, 0.0], [4.0, 0.0, 0.1]]
 )
 def test_what_the_law_cannot_give_leaves_the_angles(momentum):
-    angles = list(ISOTROPIC_ANGLES)
-    assert not distributed_angles(momentum, RHO, angles)
-    assert angles == list(ISOTROPIC_ANGLES)
+    possible, angles = distributed_angles(vector(*momentum), RHO, ISOTROPIC)
+    assert not possible
+    assert angles == ISOTROPIC
 
 
 def test_law_stays_away_from_singular_states_below_its_bound():
@@ -137,8 +139,8 @@ def test_law_stays_away_from_singular_states_below_its_bound():
     least = {1.0: math.inf, 1.5: math.inf, 1.9: math.inf}
     for size in least:
         for _ in range(2000):
-            vector = random.normal(size=3)
-            angles = lawful_angles(size * vector / np.linalg.norm(vector))
+            drawn = random.normal(size=3)
+            angles = lawful_angles(size * drawn / np.linalg.norm(drawn))
             least[size] = min(least[size], singularity_measure(angles))
     assert least[1.0] > 1.13
     assert least[1.5] > 0.60
@@ -154,11 +156,12 @@ def test_rates_give_the_momentum_rate_and_pull_the_law_to_zero(seed, size, off):
     """Off the law as well: the residual's derivative along the rates is -gain times it, the momentum's is exact."""
     random = np.random.default_rng([seed, 7])
     angles = np.array(lawful_angles(size * direction(seed))) + off * random.normal(size=4)
-    wanted, rates, gain = random.normal(size=3), [0.0] * 4, 0.2
-    if not distributed_rates(angles.tolist(), wanted.tolist(), RHO, gain, 0.02, rates):
+    wanted, gain = random.normal(size=3), 0.2
+    lawful, rates = distributed_rates(vector(*angles), vector(*wanted), RHO, gain, 0.02)
+    if not lawful:
         return
-    scale = 1.0 + np.abs(rates).max()
-    assert matrix(angles) @ rates == pytest.approx(wanted, abs=1e-13 * scale)
+    scale = 1.0 + np.abs(np.array(rates)).max()
+    assert matrix(angles) @ np.array(rates) == pytest.approx(wanted, abs=1e-13 * scale)
     change = residual(angles + 1e-30j * np.array(rates)).imag / 1e-30
     across = np.sin(angles[::2]) + np.sin(angles[1::2])
     steep = 1.0 / (4.0 - np.square(across).max()) ** 1.5  # the law's slope where a pair is nearly all across
@@ -167,8 +170,8 @@ def test_rates_give_the_momentum_rate_and_pull_the_law_to_zero(seed, size, off):
 
 def test_rates_on_the_law_are_the_derivatives_of_its_angles():
     momentum, wanted = np.array([0.4, -0.9, 0.7]), np.array([0.01, 0.02, -0.015])
-    rates = [0.0] * 4
-    assert distributed_rates(lawful_angles(momentum), wanted.tolist(), RHO, 0.2, 0.02, rates)
+    lawful, rates = distributed_rates(lawful_angles(momentum), vector(*wanted), RHO, 0.2, 0.02)
+    assert lawful
     before, after = (np.array(lawful_angles(momentum + k * 1e-4 * wanted)) for k in (-1.0, 1.0))
     assert rates == pytest.approx((after - before) / 2e-4, abs=1e-10)
 
@@ -177,17 +180,18 @@ def test_rates_on_the_law_are_the_derivatives_of_its_angles():
     "angles", [[0.0] * 4, [0.0, math.pi, 0.3, 0.2], [1.0, -1.0, 0.5, 0.5], [math.pi / 2] * 2 + [1.0, 2.0]]
 )
 def test_law_is_refused_in_singular_states(angles):
-    assert not distributed_rates(angles, [0.1, 0.1, 0.1], RHO, 0.2, 0.02, [0.0] * 4)
-    assert not distributed_rates(list(ISOTROPIC_ANGLES), [0.1, 0.1, 0.1], RHO, 0.2, 0.0, [0.0] * 4)  # no margin given
+    wanted = vector(0.1, 0.1, 0.1)
+    assert not distributed_rates(vector(*angles), wanted, RHO, 0.2, 0.02)[0]
+    assert not distributed_rates(ISOTROPIC, wanted, RHO, 0.2, 0.0)[0]  # no margin given
 
 
 @given(seeds)
 @settings(max_examples=200, deadline=None)
 def test_robust_rates_are_the_pseudo_inverse_away_from_singular_states(seed):
     random = np.random.default_rng(seed)
-    angles, wanted, rates = random.uniform(-4.0, 4.0, 4), random.normal(size=3), [0.0] * 4
-    measure = robust_rates(angles.tolist(), wanted.tolist(), 0.05, 0.5, 0.1, 3.3, rates)
-    assert measure == pytest.approx(singularity_measure(angles.tolist()), rel=1e-12)
+    angles, wanted = random.uniform(-4.0, 4.0, 4), random.normal(size=3)
+    rates, measure = robust_rates(vector(*angles), vector(*wanted), 0.05, 0.5, 0.1, 3.3)
+    assert measure == pytest.approx(singularity_measure(vector(*angles)), rel=1e-12)
     if measure >= 0.5:
         assert rates == pytest.approx(np.linalg.pinv(matrix(angles)) @ wanted, abs=1e-11)
 
@@ -198,8 +202,8 @@ def test_robust_rates_near_singular_states_solve_the_damped_problem(seed, swing,
     """Against numpy's solution of A W A' + k E; bounded by |A|/k times the wanted rate."""
     random = np.random.default_rng(seed)
     angles = np.repeat(random.uniform(-4.0, 4.0, 2), 2) + random.normal(size=4) * 10.0 ** random.uniform(-9.0, -1.0)
-    wanted, rates = random.normal(size=3), [0.0] * 4
-    measure = robust_rates(angles.tolist(), wanted.tolist(), 0.05, 0.5, swing, time, rates)
+    wanted = random.normal(size=3)
+    rates, measure = robust_rates(vector(*angles), vector(*wanted), 0.05, 0.5, swing, time)
     lack = max(0.0, 1.0 - measure / 0.5)
     weights = np.diag([1.0 + swing * lack, 1.0 - swing * lack] * 2)
     e1, e2, e3 = (swing * math.sin(0.5 * math.pi * (time + phase)) for phase in range(3))
@@ -213,9 +217,10 @@ def test_robust_rates_near_singular_states_solve_the_damped_problem(seed, swing,
 
 @pytest.mark.parametrize("angles", [[0.0] * 4, [0.0, math.pi, 0.0, math.pi], [math.pi / 2, -math.pi / 2] * 2])
 def test_robust_rates_are_finite_in_singular_states(angles):
-    rates = [0.0] * 4
     for wanted in np.vstack([np.eye(3), -np.eye(3), np.zeros(3)]):
-        assert robust_rates(angles, wanted.tolist(), 0.05, 0.5, 0.1, 0.3, rates) < 1e-6
-        assert np.isfinite(rates).all()
-    assert robust_rates(angles, [1.0, 1.0, 1.0], 0.0, 0.0, 0.0, 0.0, rates) < 1e-6  # without damping: none at all
-    assert np.isfinite(rates).all()
+        rates, measure = robust_rates(vector(*angles), vector(*wanted), 0.05, 0.5, 0.1, 0.3)
+        assert measure < 1e-6
+        assert np.isfinite(np.array(rates)).all()
+    rates, measure = robust_rates(vector(*angles), vector(1.0, 1.0, 1.0), 0.0, 0.0, 0.0, 0.0)  # no damping: none at all
+    assert measure < 1e-6
+    assert np.isfinite(np.array(rates)).all()

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from perilune.fmus_src.mathlib.inertial import dead_reckon, predict_errors, sensor_addition
+from perilune.fmus_src.mathlib.vectors import vector
 
 RADIUS = 1.7374e6
 MU = 4.9028e12
@@ -25,11 +26,11 @@ def force(t):
 
 def flown(linear):
     """Position and velocity after 280 s of dead reckoning, with the slope of the force or without."""
-    position, velocity = [2.6e5, 1e3, -2e3], [-1670.0, -10.0, 250.0]
-    before = force(0.5 * STEP).tolist()
+    position, velocity = vector(2.6e5, 1e3, -2e3), vector(-1670.0, -10.0, 250.0)
+    before = vector(*force(0.5 * STEP))
     for k in range(2800):
-        now = force((k + 0.5) * STEP).tolist()
-        dead_reckon(position, velocity, now, before if linear else now, RADIUS, MU, STEP)
+        now = vector(*force((k + 0.5) * STEP))
+        position, velocity = dead_reckon(position, velocity, now, before if linear else now, RADIUS, MU, STEP)
         before = now
     return np.array(position), np.array(velocity)
 
@@ -60,8 +61,7 @@ def measured(errors, f):
 def test_sensor_addition_is_the_error_model(seed):
     generator = np.random.default_rng(seed)
     errors, f = generator.normal(size=9), generator.normal(size=3)
-    added = [0.0] * 3
-    sensor_addition(errors.tolist(), f.tolist(), added)
+    added = sensor_addition(errors.tolist(), vector(*f))
     assert added == pytest.approx(measured(errors, f) - f, abs=1e-13)
 
 
@@ -82,5 +82,5 @@ def test_covariance_moves_as_with_full_matrices(seed):
     expected = transition @ p @ transition.T + walk * h * noise @ noise.T
     expected[6:9, 6:9] += drift * h * np.eye(3)
     found = p.ravel().tolist()
-    predict_errors(found, f.tolist(), walk, drift, h)
+    predict_errors(found, vector(*f), walk, drift, h)
     assert np.reshape(found, (15, 15)) == pytest.approx(expected, abs=1e-12 * abs(expected).max())

@@ -28,6 +28,7 @@ from perilune.fmus_src.mathlib.jets import (
     shift_and_scale,
     thrust_of_levels,
 )
+from perilune.fmus_src.mathlib.vectors import vector
 
 TILT, AZIMUTH, ARM, MAXIMUM = math.radians(35.25), math.radians(45.0), (1.0, 0.7, 0.6), 0.5
 TRIALS = 10000
@@ -51,7 +52,7 @@ B = published_matrix()
 
 def strengths(tilt=TILT, azimuth=AZIMUTH, arm=ARM):
     found = [0.0] * 6
-    jet_strengths(tilt, azimuth, list(arm), found)
+    jet_strengths(tilt, azimuth, vector(*arm), found)
     return found
 
 
@@ -258,7 +259,7 @@ def test_lattice_of_forces_without_torque():
         least[n] = min(least.get(n, 10**9), int(thrust.sum()))
     for n in expected:
         thrust = [0.0] * 8
-        thrust_of_levels([float(k) for k in n], 0.05, thrust)
+        thrust_of_levels(vector(*map(float, n)), 0.05, thrust)
         levels = [round(p / 0.05) for p in thrust]
         assert thrust == [0.05 * k for k in levels]  # to the last bit
         assert min(levels) >= 0
@@ -285,8 +286,7 @@ def test_nearest_levels_are_the_nearest_of_all_attainable_ones(seed, size):
     attainable = 0.1 * lattice(highest) * strengths()[:3]
     force = size * 0.4 * np.random.default_rng(seed).normal(size=3)
     units = np.sort(np.abs(force / strengths()[:3] / 0.1))
-    levels = [0.0] * 3
-    scale = nearest_levels(strengths(), force.tolist(), 0.05, float(highest), levels)
+    levels, scale = nearest_levels(strengths(), vector(*force), 0.05, float(highest))
     assert scale == pytest.approx(min(1.0, 2 * highest / (units[1] + units[2])), rel=1e-14)
     given_force = 0.1 * np.array(levels) * strengths()[:3]
     nearest = np.linalg.norm(attainable - scale * force, axis=1).min()
@@ -298,6 +298,6 @@ def test_nearest_levels_are_the_nearest_of_all_attainable_ones(seed, size):
 
 
 def test_too_coarse_levels_give_nothing():
-    levels = [1.0, 1.0, 1.0]
-    assert nearest_levels(strengths(), [0.3, -0.2, 0.1], 0.7, 0.0, levels) == 0.0
+    levels, scale = nearest_levels(strengths(), vector(0.3, -0.2, 0.1), 0.7, 0.0)
+    assert scale == 0.0
     assert levels == [0.0, 0.0, 0.0]

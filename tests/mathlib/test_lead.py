@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from scipy import signal
 
 from perilune.fmus_src.mathlib.lead import advance_lead, change_lead, lead_output, tustin_lead
+from perilune.fmus_src.mathlib.vectors import vector
 
 gains = st.floats(0.01, 10.0)
 times = st.floats(0.1, 100.0)
@@ -21,19 +22,11 @@ DESIGNS = [(1.5625e-4, 160.0, 13.3, 8.0), (6.25e-4, 80.0, 6.67, 4.0), (0.16, 5.0
 
 def respond(law, errors):
     """Outputs for a sequence of 3-vectors."""
-    g, found = [0.0] * 3, []
+    g, found = vector(0.0, 0.0, 0.0), []
     for e in errors:
-        m = [0.0] * 3
-        lead_output(law, g, list(e), m)
-        advance_lead(law, g, list(e))
-        found.append(m)
+        found.append(lead_output(law, g, vector(*e)))
+        g = advance_lead(law, g, vector(*e))
     return np.array(found)
-
-
-def law_of(*design):
-    law = [0.0] * 3
-    tustin_lead(*design, law)
-    return law
 
 
 @given(gains, times, times, periods)
@@ -41,14 +34,14 @@ def test_response_is_that_of_the_bilinear_rule(gain, lead, lag, period):
     errors = np.random.default_rng(1).normal(size=(50, 3))
     numerator, denominator, _ = signal.cont2discrete(([gain * lead, gain], [lag, 1.0]), period, method="bilinear")
     expected = signal.lfilter(np.ravel(numerator), denominator, errors, axis=0)
-    found = respond(law_of(gain, lead, lag, period), errors)
+    found = respond(tustin_lead(gain, lead, lag, period), errors)
     assert found == pytest.approx(expected, rel=1e-8, abs=1e-9 * abs(expected).max())
 
 
 @pytest.mark.parametrize("design", DESIGNS)
 def test_frequency_response_is_that_of_python_control(design):
     gain, lead, lag, period = design
-    decay, share, direct = law_of(*design)
+    decay, share, direct = tustin_lead(*design)
     ours = control.ss(decay, 1.0, share, direct, period)
     theirs = control.sample_system(control.tf([gain * lead, gain], [lag, 1.0]), period, method="tustin")
     w = np.geomspace(1e-4, 3.0, 30) / period
@@ -57,25 +50,22 @@ def test_frequency_response_is_that_of_python_control(design):
 
 @given(gains, times, times, periods, st.lists(st.floats(-1.0, 1.0), min_size=3, max_size=3))
 def test_output_does_not_jump_where_the_law_changes(gain, lead, lag, period, e):
-    old, new = law_of(0.3, 20.0, 2.0, 1.0), law_of(gain, lead, lag, period)
-    g = [0.5, -2.0, 1.0]
-    before, after = [0.0] * 3, [0.0] * 3
-    lead_output(old, g, e, before)
-    change_lead(old, new, e, g)
-    lead_output(new, g, e, after)
+    old, new = tustin_lead(0.3, 20.0, 2.0, 1.0), tustin_lead(gain, lead, lag, period)
+    g, e = vector(0.5, -2.0, 1.0), vector(*e)
+    before = lead_output(old, g, e)
+    g = change_lead(old, new, e, g)
+    after = lead_output(new, g, e)
     if abs(new[1]) > 1e-6 * abs(new[2]):
         assert after == pytest.approx(before, rel=1e-6, abs=1e-6)
-    settled = [0.0] * 3
     for _ in range(3000):  # and it forgets
-        advance_lead(new, g, e)
-    lead_output(new, g, e, settled)
+        g = advance_lead(new, g, e)
+    settled = lead_output(new, g, e)
     if new[0] ** 3000 < 1e-9:
         assert settled == pytest.approx([gain * x for x in e], rel=1e-6, abs=1e-6)
 
 
 def test_law_without_a_state_takes_none_over():
-    new = law_of(2.0, 3.0, 3.0, 1.0)  # lead and lag cancel
+    new = tustin_lead(2.0, 3.0, 3.0, 1.0)  # lead and lag cancel
     assert new[1] == pytest.approx(0.0, abs=1e-15)
-    g = [1.0, 2.0, 3.0]
-    change_lead(law_of(0.3, 20.0, 2.0, 1.0), new, [1.0, 1.0, 1.0], g)
-    assert g == [0.0, 0.0, 0.0]
+    old = tustin_lead(0.3, 20.0, 2.0, 1.0)
+    assert change_lead(old, new, vector(1.0, 1.0, 1.0), vector(1.0, 2.0, 3.0)) == [0.0, 0.0, 0.0]

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
-from perilune.fmus_src.mathlib.rng import M1, M2, multiply_modulo, normal, seed_streams, uniform
+from perilune.fmus_src.mathlib.rng import M1, M2, multiply_modulo, normal, normals, seed_streams, uniform
 
 P1 = 2**32 - 209
 P2 = 2**32 - 22853
@@ -176,6 +176,12 @@ def test_normal_number_is_box_and_mullers_of_two_exact_uniforms():
             math.sqrt(-2.0 * math.log(radius)) * math.cos(2.0 * math.pi * angle), rel=1e-12, abs=1e-14
         )
         assert state == exact
+
+
+def test_three_normal_numbers_are_the_next_three():
+    one, other = seeded(7, 3), seeded(7, 3)
+    assert list(normals(one)) == [normal(other) for _ in range(3)]
+    assert one == other
 
 
 def test_normal_numbers_are_standard_normal():

@@ -14,13 +14,14 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from perilune.fmus_src.mathlib.rotation import turn_towards
+from perilune.fmus_src.mathlib.vectors import vector
 
 AXES = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 
 
 def unit(seed):
-    vector = np.random.default_rng(seed).normal(size=3)
-    return vector / np.linalg.norm(vector)
+    drawn = np.random.default_rng(seed).normal(size=3)
+    return drawn / np.linalg.norm(drawn)
 
 
 def angle_between(a, b):
@@ -36,8 +37,7 @@ def test_turn_is_the_rotation_about_the_common_normal(start_seed, goal_seed, lar
     start, goal = unit(start_seed), unit(goal_seed)
     apart = angle_between(start, goal)
     assume(1e-6 < apart < math.pi - 1e-3)
-    turned = start.tolist()
-    left = turn_towards(turned, goal.tolist(), largest)
+    turned, left = turn_towards(vector(*start), vector(*goal), largest)
     axis = np.cross(start, goal)
     rotation = Rotation.from_rotvec(min(largest, apart) * axis / np.linalg.norm(axis))
     assert turned == pytest.approx(rotation.apply(start), abs=1e-12)
@@ -48,8 +48,7 @@ def test_turn_is_the_rotation_about_the_common_normal(start_seed, goal_seed, lar
 @settings(max_examples=200, deadline=None)
 def test_result_is_a_unit_vector_turned_by_no_more_than_allowed(start_seed, goal_seed, largest):
     start, goal = unit(start_seed), unit(goal_seed)
-    turned = start.tolist()
-    left = turn_towards(turned, goal.tolist(), largest)
+    turned, left = turn_towards(vector(*start), vector(*goal), largest)
     assert np.linalg.norm(turned) == pytest.approx(1.0, abs=1e-14)
     assert angle_between(start, turned) <= largest + 1e-12
     assert angle_between(turned, goal) == pytest.approx(left, abs=1e-10)
@@ -59,8 +58,7 @@ def test_result_is_a_unit_vector_turned_by_no_more_than_allowed(start_seed, goal
 @pytest.mark.parametrize("largest", [0.1, 1.0, 3.0])
 def test_opposite_vectors_turn_by_the_angle_allowed(k, largest):
     start = np.array(AXES[k])
-    turned = start.tolist()
-    left = turn_towards(turned, (-start).tolist(), largest)
+    turned, left = turn_towards(vector(*start), vector(*-start), largest)
     assert left == pytest.approx(math.pi - largest, abs=1e-15)
     assert angle_between(start, turned) == pytest.approx(largest, abs=1e-12)
     assert np.linalg.norm(turned) == pytest.approx(1.0, abs=1e-15)
@@ -72,8 +70,7 @@ def test_nearly_opposite_vectors_turn_by_the_angle_allowed(seed, offset, largest
     start = unit(seed)
     goal = -start + offset * np.cross(start, unit(seed + 1))
     goal /= np.linalg.norm(goal)
-    turned = start.tolist()
-    left = turn_towards(turned, goal.tolist(), largest)
+    turned, left = turn_towards(vector(*start), vector(*goal), largest)
     assert np.linalg.norm(turned) == pytest.approx(1.0, abs=1e-14)
     assert angle_between(start, turned) == pytest.approx(largest, abs=1e-8)
     assert left == pytest.approx(math.pi - largest, abs=2e-6)
@@ -87,28 +84,24 @@ def test_tiny_turns_go_towards_the_goal(start_seed, side_seed, apart, part):
     assume(np.linalg.norm(side) > 0.1)
     side /= np.linalg.norm(side)
     goal = math.cos(apart) * start + math.sin(apart) * side
-    turned = start.tolist()
-    left = turn_towards(turned, goal.tolist(), part * apart)
+    turned, left = turn_towards(vector(*start), vector(*goal), part * apart)
     expected = math.cos(part * apart) * start + math.sin(part * apart) * side
     assert turned == pytest.approx(expected, abs=1e-15)
     assert left == pytest.approx((1.0 - part) * apart, abs=1e-15)
 
 
 def test_repeated_turns_reach_the_goal_exactly():
-    direction, goal = [1.0, 0.0, 0.0], [0.0, 0.6, 0.8]
-    lefts = [turn_towards(direction, goal, 0.1) for _ in range(16)]
+    direction, goal = vector(1.0, 0.0, 0.0), vector(0.0, 0.6, 0.8)
+    lefts = []
+    for _ in range(16):
+        direction, left = turn_towards(direction, goal, 0.1)
+        lefts.append(left)
     assert lefts[:15] == pytest.approx([math.pi / 2 - 0.1 * (k + 1) for k in range(15)], abs=1e-12)
     assert lefts[15] == 0.0
     assert direction == goal
 
 
 def test_no_turn_allowed_leaves_the_direction():
-    direction = [0.0, 0.0, 1.0]
-    assert turn_towards(direction, [0.0, 1.0, 0.0], 0.0) == math.pi / 2
-    assert direction == [0.0, 0.0, 1.0]
-
-
-def test_goal_is_not_changed():
-    goal = [0.0, 0.6, 0.8]
-    turn_towards([1.0, 0.0, 0.0], goal, 0.3)
-    assert goal == [0.0, 0.6, 0.8]
+    turned, left = turn_towards(vector(0.0, 0.0, 1.0), vector(0.0, 1.0, 0.0), 0.0)
+    assert left == math.pi / 2
+    assert turned == [0.0, 0.0, 1.0]

@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from perilune.fmus_src.mathlib.rotation import rotation_between
 from perilune.fmus_src.mathlib.spline import spline, spline_acceleration, spline_rate, spline_value
+from perilune.fmus_src.mathlib.vectors import vector
 
 ordinary = st.floats(-1e3, 1e3)
 durations = st.floats(0.1, 1e4)
@@ -74,8 +75,7 @@ def test_turn_of_the_paper():
 
 @given(directions, directions)
 def test_rotation_turns_one_direction_into_the_other(start, goal):
-    axis = [0.0] * 3
-    angle = rotation_between(start, goal, axis)
+    axis, angle = rotation_between(vector(*start), vector(*goal))
     assert np.linalg.norm(axis) == pytest.approx(1.0, abs=1e-14)
     assert 0.0 <= angle <= math.pi
     turned = Rotation.from_rotvec(angle * np.array(axis)).apply(np.array(start) / np.linalg.norm(start))
@@ -85,8 +85,7 @@ def test_rotation_turns_one_direction_into_the_other(start, goal):
 
 @pytest.mark.parametrize("goal", [[2.0, 0.0, 0.0], [-3.0, 0.0, 0.0]])
 def test_parallel_directions(goal):
-    axis = [0.0] * 3
-    angle = rotation_between([1.0, 0.0, 0.0], goal, axis)
+    axis, angle = rotation_between(vector(1.0, 0.0, 0.0), vector(*goal))
     assert angle == (0.0 if goal[0] > 0.0 else math.pi)
     assert axis[0] == 0.0
     assert np.linalg.norm(axis) == pytest.approx(1.0, abs=1e-15)

@@ -16,18 +16,25 @@ from hypothesis import strategies as st
 from numpy.polynomial import Polynomial
 from scipy.integrate import solve_ivp
 
-from perilune.fmus_src.mathlib.terminal import (
-    cubic_time,
-    effort_rises,
-    impulse_and_miss,
-    least_effort_time,
-    linear_thrust,
-    quadratic_time,
-    steady,
-)
+from perilune.fmus_src.mathlib import terminal
+from perilune.fmus_src.mathlib.vectors import vector
 from tests.support.flights.terminal_guidance import GRAVITY, TARGET, UP, box, states_of_the_box
 
 ZERO = [0.0, 0.0, 0.0]
+
+
+def on_sequences(function):
+    """A kernel function that takes any sequences for its vectors."""
+    return lambda *arguments: function(*[vector(*each) if np.ndim(each) else each for each in arguments])
+
+
+cubic_time = on_sequences(terminal.cubic_time)
+effort_rises = on_sequences(terminal.effort_rises)
+impulse_and_miss = on_sequences(terminal.impulse_and_miss)
+least_effort_time = on_sequences(terminal.least_effort_time)
+linear_thrust = on_sequences(terminal.linear_thrust)
+quadratic_time = on_sequences(terminal.quadratic_time)
+steady = on_sequences(terminal.steady)
 arrivals = st.lists(st.integers(-20000, 20000).map(lambda number: number / 1000.0), min_size=3, max_size=3)
 # Starts anywhere around a target at rest, at most as fast as a lunar orbit.
 places = st.lists(st.integers(-20000, 20000).map(float), min_size=3, max_size=3)
@@ -35,8 +42,7 @@ speeds = st.lists(st.integers(-1700, 1700).map(float), min_size=3, max_size=3)
 
 
 def impulse(dr, v, dv, time, g=GRAVITY):
-    a, b = [0.0] * 3, [0.0] * 3
-    impulse_and_miss(list(dr), list(v), list(dv), g, time, a, b)
+    a, b = impulse_and_miss(dr, v, dv, g, time)
     return np.array(a), np.array(b)
 
 
@@ -266,8 +272,7 @@ def test_linear_thrust_is_the_mean_and_the_turn_of_the_linear_acceleration(state
     time = cubic_time(*[value.tolist() for value in arguments], GRAVITY)
     a0, a1 = linear_acceleration(*arguments, time)
     a, b = impulse(*arguments, time)
-    direction, rate = [0.0] * 3, [0.0] * 3
-    size = linear_thrust(a.tolist(), b.tolist(), time, share * time, direction, rate)
+    size, direction, rate = linear_thrust(a, b, time, share * time, ZERO, ZERO)
     assert size == pytest.approx(np.linalg.norm(a0 + 0.5 * share * time * a1), rel=1e-9)
     assert direction == pytest.approx(a0 / np.linalg.norm(a0), abs=1e-12)
     step = 1e-3
@@ -278,8 +283,8 @@ def test_linear_thrust_is_the_mean_and_the_turn_of_the_linear_acceleration(state
 
 def test_linear_thrust_that_begins_at_zero_points_where_it_grows_to():
     """A T = 3 B, with exact numbers: a0 = 0."""
-    direction, rate = [1.0, 0.0, 0.0], [9.0, 9.0, 9.0]
-    assert linear_thrust([0.0, 0.0, 3.0], [0.0, 0.0, 2.0], 2.0, 1.0, direction, rate) == pytest.approx(0.75)
+    a, b, held, turning = [0.0, 0.0, 3.0], [0.0, 0.0, 2.0], [1.0, 0.0, 0.0], [9.0, 9.0, 9.0]
+    size, direction, rate = linear_thrust(a, b, 2.0, 1.0, held, turning)
+    assert size == pytest.approx(0.75)
     assert (direction, rate) == ([0.0, 0.0, 1.0], ZERO)
-    assert linear_thrust([0.0, 0.0, 3.0], [0.0, 0.0, 2.0], 2.0, 0.0, direction, rate) == 0.0
-    assert direction == [0.0, 0.0, 1.0]
+    assert linear_thrust(a, b, 2.0, 0.0, held, turning) == (0.0, held, turning)  # no thrust at all

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ....fmus_src.block import Block, Output, State
-from ....fmus_src.export.c_names import identifier, literal
-from ....fmus_src.export.c_translate import translate
 from ....fmus_src.export.native_fmu import native_sources
+from ....fmus_src.export.write.names import literal, member
+from ....fmus_src.export.write.translate import translate
 from ...system.fmu import Fmu
 from ...system.parameter_sets import ParameterValue
 from .contestant import Unavailable
@@ -117,11 +117,9 @@ def _check_sources(component: str, fmu: Fmu, block_class: type[Block]) -> None:
 
 
 def _members(block_class: type[Block]) -> dict[str, dict[str, str]]:
-    """By variable, the member of the struct by the name of its FMI variable: ``position[1]`` is ``position[0]``."""
+    """By variable, the member of the struct by the name of its FMI variable: ``position[1]`` is ``position.x[0]``."""
     found: dict[str, dict[str, str]] = {}
     for name, variable in block_class.variables.items():
-        places = [
-            f"{identifier(name)}[{place}]" if variable.is_vector else identifier(name) for place in range(variable.size)
-        ]
+        places = [member(variable, place) for place in range(variable.size)]
         found[name] = dict(zip(variable.element_names(), places, strict=True))
     return found

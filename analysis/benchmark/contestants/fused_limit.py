@@ -8,16 +8,15 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from ....fmus_src import export
 from ....fmus_src.block import Block
 from ....fmus_src.catalogue import catalogue
 from ....fmus_src.export.compilers import FLAGS, PLATFORMS, CompilerMissing, compiler_for, local_platform
+from ....fmus_src.export.native_fmu import C_FILES
 from .contestant import Fly, Unavailable, Values
 from .course import Course
 from .fused_component import Part, write_part
 from .fused_main import FILE, write_main
 
-HEADERS = Path(export.__file__).parent
 # Over the FMUs' own flags: all units optimised as one, and nothing but the entry point visible from outside.
 FUSING = ("-flto", "-fvisibility=hidden")
 
@@ -63,7 +62,7 @@ def compile_system(course: Course, blocks: Mapping[str, type[Block]]) -> Path:
         (folder / name).write_text(text, encoding="utf-8")
     library = folder / f"fused{PLATFORMS[platform].extension}"
     finished = subprocess.run(
-        [*command, *FLAGS, *FUSING, f"-I{HEADERS}", "-o", library.name, *units, "-lm"],
+        [*command, *FLAGS, *FUSING, f"-I{C_FILES}", "-o", library.name, *units, "-lm"],
         cwd=folder,
         capture_output=True,
         text=True,

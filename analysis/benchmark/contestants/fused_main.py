@@ -16,7 +16,7 @@ START = """\
  *
  * Compile with the units of the components, with the flags of their FMUs and with -flto.
  */
-#include "kernel_math.h"
+#include "kernel_vectors.h"
 
 """
 FLY = """\

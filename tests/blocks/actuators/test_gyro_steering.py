@@ -16,6 +16,7 @@ from numpy.polynomial import Polynomial
 from perilune.fmus_src.actuators.gyro_steering_explicit import GyroSteeringExplicit
 from perilune.fmus_src.actuators.gyro_steering_robust import GyroSteeringRobust
 from perilune.fmus_src.mathlib.gyros import ISOTROPIC_ANGLES, ISOTROPIC_RHO, distributed_angles
+from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.runtime import Component
 
 BLOCKS = [GyroSteeringExplicit, GyroSteeringRobust]
@@ -41,8 +42,8 @@ def answer(block_class, angles, wanted, time=0.25, **settings_):
     """The block after one sample at ``time``."""
     block = block_class(**settings_)
     block.initialize()
-    block.gimbal_angles[:] = angles
-    block.torque_command[:] = wanted
+    block.gimbal_angles = angles
+    block.torque_command = wanted
     block.step(time - PERIOD, PERIOD)
     return block
 
@@ -58,8 +59,8 @@ def turned(block_class, **settings_):
     component.start()
     for k in range(400):
         wanted = INERTIA * AXIS * acceleration((k + 0.5) * PERIOD / 100.0) / 100.0**2
-        block.gimbal_angles[:] = angles
-        block.torque_command[:] = wanted
+        block.gimbal_angles = angles
+        block.torque_command = wanted
         component.do_step((k - 1) * PERIOD + PERIOD, PERIOD)
         rates = np.array(block.gimbal_rates)
         assert block.status == 0
@@ -95,9 +96,10 @@ def test_lead_of_half_a_period_makes_the_mean_exact_to_second_order(block_class)
 @settings(max_examples=200, deadline=None)
 def test_torque_is_exact_wherever_the_law_is_used(seed, size):
     random = np.random.default_rng(seed)
-    vector = random.normal(size=3)
-    angles = list(ISOTROPIC_ANGLES)
-    assert distributed_angles((size * vector / np.linalg.norm(vector)).tolist(), ISOTROPIC_RHO, angles)
+    drawn = random.normal(size=3)
+    momentum_wanted = vector(*(size * drawn / np.linalg.norm(drawn)))
+    possible, angles = distributed_angles(momentum_wanted, ISOTROPIC_RHO, vector(*ISOTROPIC_ANGLES))
+    assert possible
     wanted = 0.3 * random.normal(size=3)
     block = answer(GyroSteeringExplicit, angles, wanted)
     assert block.status == 0
@@ -175,11 +177,11 @@ def flown(block_class, wanted, seconds, angles=ISOTROPIC_ANGLES, **settings_):
         setattr(block, name, value)
     angles = np.array(angles)
     path, statuses = [angles], []
-    block.gimbal_angles[:] = angles
+    block.gimbal_angles = angles
     component.start()
     for k in range(int(seconds / PERIOD)):
-        block.gimbal_angles[:] = angles
-        block.torque_command[:] = wanted
+        block.gimbal_angles = angles
+        block.torque_command = wanted
         component.do_step(k * PERIOD, PERIOD)
         angles = angles + PERIOD * np.array(block.gimbal_rates)
         path.append(angles)
@@ -234,7 +236,9 @@ def test_limited_rates_keep_the_direction_of_the_torque(block_class):
 @pytest.mark.parametrize("name", ["torque_command", "gimbal_angles"])
 def test_command_that_is_no_number_stops_the_gimbals(block_class, bad, name):
     block = answer(block_class, ISOTROPIC_ANGLES, [0.3, 0.1, 0.0])
-    getattr(block, name)[2] = bad
+    values = list(getattr(block, name))
+    values[2] = bad
+    setattr(block, name, values)
     block.step(0.25, 0.25)
     assert (block.gimbal_rates, block.status) == ([0.0] * 4, 3)
 
@@ -243,12 +247,12 @@ def test_command_that_is_no_number_stops_the_gimbals(block_class, bad, name):
 def test_rates_are_held_between_samples(block_class):
     component = Component(block_class)
     component.start()
-    component.block.torque_command[:] = [0.5, 0.0, 0.0]
+    component.block.torque_command = [0.5, 0.0, 0.0]
     component.do_step(0.0, 0.125)
     assert component.block.gimbal_rates == pytest.approx([0.0] * 4, abs=1e-15)
     component.do_step(0.125, 0.125)
     held = list(component.block.gimbal_rates)
     assert max(held) > 1e-3
-    component.block.torque_command[:] = [0.0, 0.0, 0.0]
+    component.block.torque_command = [0.0, 0.0, 0.0]
     component.do_step(0.25, 0.125)
     assert component.block.gimbal_rates == held

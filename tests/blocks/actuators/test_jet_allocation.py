@@ -34,11 +34,7 @@ seeds = st.integers(0, 2**32 - 1)
 def started(block_class, force=(0.0, 0.0, 0.0), **settings_):
     component = Component(block_class)
     for name, value in {"force_command": list(force), **settings_}.items():
-        target = getattr(component.block, name)
-        if isinstance(target, list):
-            target[:] = value
-        else:
-            setattr(component.block, name, value)
+        setattr(component.block, name, value)
     component.start()
     return component
 
@@ -46,8 +42,8 @@ def started(block_class, force=(0.0, 0.0, 0.0), **settings_):
 def command(component, t, force, torque=(0.0, 0.0, 0.0), period=None):
     """Give a new command at t + 0.125 s and step there."""
     block = component.block
-    block.force_command[:] = force
-    block.torque_command[:] = torque
+    block.force_command = force
+    block.torque_command = torque
     if period is not None:
         block.translation_period = period
     block.command_count += 1
@@ -77,11 +73,11 @@ def test_levels_follow_a_quarter_of_the_period_after_each_command(block_class, s
         t = n * step
         n += 1
         if n * step in commands:
-            block.force_command[:] = commands[n * step]
+            block.force_command = commands[n * step]
             block.translation_period = 8.0 if n * step < 24.0 else 4.0
             block.command_count += 1
         else:
-            block.force_command[:] = [9.0, 9.0, 9.0]  # no command: the count is the same
+            block.force_command = [9.0, 9.0, 9.0]  # no command: the count is the same
         component.do_step(t, step)
         expected = switches.get(n * step, expected)
         assert block.allocated_force == pytest.approx(expected, abs=1e-15)
@@ -122,7 +118,7 @@ def test_command_that_comes_while_another_waits_takes_its_place(block_class):
 def test_time_counts_from_the_start_of_the_flight(block_class):
     component = Component(block_class)
     component.start_time = 100.0
-    component.block.force_command[:] = CELL
+    component.block.force_command = CELL
     component.start()
     assert wait(component, 100.0, 101.875) == 101.875
     assert component.block.allocated_force == [0.0, 0.0, 0.0]
@@ -194,12 +190,14 @@ def test_propellant_of_a_force_is_that_of_all_axes_or_of_two(seed):
 def test_command_that_is_no_number_shuts_the_jets_off(block_class, bad, name):
     component = started(block_class, CELL * [2, 0, 0], delay_fraction=0.0)
     saved = list(getattr(component.block, name))
-    getattr(component.block, name)[1] = bad
+    values = list(getattr(component.block, name))
+    values[1] = bad
+    setattr(component.block, name, values)
     component.block.command_count += 1
     component.do_step(0.0, 0.125)
     assert component.block.status == 3
     assert component.block.jet_thrust == [0.0] * 8
-    getattr(component.block, name)[:] = saved
+    setattr(component.block, name, saved)
     command(component, 0.125, CELL * [0, 0, 2])
     assert component.block.status == 0
     assert component.block.allocated_force == pytest.approx(CELL * [0, 0, 2], abs=1e-15)
@@ -227,7 +225,7 @@ def test_quantised_force_has_whole_levels_no_torque_and_the_right_mean(seed, siz
         force = size * random.uniform(-1.0, 1.0, 3)
         period = 8.0 if n < 30 else 4.0
         attitude = Rotation.random(rng=random)
-        block.quaternion[:] = attitude.as_quat(scalar_first=True)
+        block.quaternion = attitude.as_quat(scalar_first=True)
         command(component, 0.125 * n, force, period=period)
         levels = [round(p / QUANTUM) for p in block.jet_thrust]
         assert block.jet_thrust == [QUANTUM * k for k in levels]

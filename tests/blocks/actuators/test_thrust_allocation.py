@@ -151,7 +151,7 @@ def test_slew_turns_at_the_limit_along_the_great_circle(limit):
     step = 0.1
     block = allocation(slew_rate_limit=limit)
     goal = Rotation.from_rotvec([0.0, 1.2, 0.0]).apply(DEMAND)
-    block.demanded_direction[:] = goal
+    block.demanded_direction = goal
     for k in range(150):
         time = step * (k + 1)
         block.demand_time = time
@@ -175,8 +175,8 @@ def test_slew_never_exceeds_its_limit(seed, limit, step):
     block = allocation(slew_rate_limit=limit)
     last = np.array(block.thrust_direction)
     for k in range(15):
-        block.demanded_direction[:] = unit(generator.normal(size=3))
-        block.demanded_direction_rate[:] = np.cross(block.demanded_direction, 0.1 * generator.normal(size=3))
+        block.demanded_direction = unit(generator.normal(size=3))
+        block.demanded_direction_rate = np.cross(block.demanded_direction, 0.1 * generator.normal(size=3))
         block.demand_time = step * (k + 1)
         block.step(step * k, step)
         assert np.linalg.norm(block.thrust_direction) == pytest.approx(1.0, abs=1e-14)
@@ -202,7 +202,7 @@ def test_generous_slew_limit_flies_a_held_demand():
 def test_turns_beyond_a_right_angle_in_one_step_go_the_right_way(jump, limit):
     block = allocation(slew_rate_limit=limit)
     goal = Rotation.from_rotvec([0.0, jump, 0.0]).apply(DEMAND)
-    block.demanded_direction[:] = goal
+    block.demanded_direction = goal
     last = angle_between(DEMAND, goal)
     for k in range(3):
         block.demand_time = k + 1.0
@@ -258,7 +258,7 @@ def impulse_after_settling(duration, lead, lag, step):
             block.demanded_duration = duration
             block.step(time - step, step)
         plant.thrust = 3.0 * MASS
-        plant.thrust_direction[:] = block.thrust_direction
+        plant.thrust_direction = block.thrust_direction
         plant.command_time, plant.burn_duration = block.command_time, block.burn_duration
         plant.step(time, step)
     return plant.specific_impulse * 9.80665 * (before - plant.mass)
@@ -296,12 +296,12 @@ def test_direction_lead_makes_up_for_a_response():
         for k in range(100):
             time = 0.1 * k
             now = Rotation.from_rotvec([0.0, turning * time, 0.0])
-            block.demanded_direction[:] = now.apply(DEMAND)
-            block.demanded_direction_rate[:] = np.cross([0.0, turning, 0.0], block.demanded_direction)
+            block.demanded_direction = now.apply(DEMAND)
+            block.demanded_direction_rate = np.cross([0.0, turning, 0.0], block.demanded_direction)
             block.demand_time = time
             block.step(time - 0.1, 0.1)
-            plant.thrust_direction[:] = block.thrust_direction
-            plant.thrust_direction_rate[:] = block.thrust_direction_rate
+            plant.thrust_direction = block.thrust_direction
+            plant.thrust_direction_rate = block.thrust_direction_rate
             plant.command_time = block.command_time
             plant.step(time, 0.1)
         ends.append(angle_between(plant.attitude, Rotation.from_rotvec([0.0, turning * 10.0, 0.0]).apply(DEMAND)))
@@ -316,7 +316,7 @@ def test_minimum_above_maximum_is_told_by_the_status(acceleration, slew):
     for k in range(3):
         assert block.status == 2
         assert block.thrust <= 2000.0
-        block.demanded_direction[:] = [0.0, 1.0, 0.0]
+        block.demanded_direction = [0.0, 1.0, 0.0]
         block.step(0.1 * k, 0.1)
     assert allocation(0.5, minimum_thrust=3000.0).status == 1  # no maximum
     assert allocation(2.0, minimum_thrust=2000.0, maximum_thrust=2000.0).status == 1

@@ -33,7 +33,7 @@ INPUTS = (
 
 def set_inputs(block, **values):
     for name, value in values.items():
-        getattr(block, name)[:] = np.asarray(value).tolist()
+        setattr(block, name, np.asarray(value).tolist())
 
 
 def skew(v):
@@ -129,10 +129,14 @@ def test_inputs_that_are_not_finite_leave_the_torque(law, name):
     set_inputs(block, attitude_error=[1e-5, 0.0, 0.0])
     block.initialize()
     held = list(block.torque_command)
-    getattr(block, name)[2] = math.inf
+    values = list(getattr(block, name))
+    values[2] = math.inf
+    setattr(block, name, values)
     block.step(0.0, 0.25)
     assert (block.status, block.torque_command) == (1, held)
-    getattr(block, name)[2] = 0.0
+    values = list(getattr(block, name))
+    values[2] = 0.0
+    setattr(block, name, values)
     block.step(0.25, 0.25)
     assert block.status == 0
     assert all(math.isfinite(x) for x in block.torque_command)

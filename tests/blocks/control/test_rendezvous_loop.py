@@ -106,10 +106,7 @@ class Loop:
         given |= {f"guidance.{name}": value for name, value in TIMES.items()} | {"gyros.torque_lead": 0.125}
         for place, value in (given | parameters).items():
             name, variable = place.split(".")
-            if isinstance(value, list):
-                getattr(self.blocks[name], variable)[:] = value
-            else:
-                setattr(self.blocks[name], variable, value)
+            setattr(self.blocks[name], variable, value)
         for name, component in self.components.items():
             self.read_inputs(name)
             component.start()
@@ -119,10 +116,7 @@ class Loop:
         for variable, source in INTO.get(name, {}).items():
             block, _, output = source.partition(".")
             value = getattr(self.blocks[block], output or variable)
-            if isinstance(value, list):
-                getattr(self.blocks[name], variable)[:] = value
-            else:
-                setattr(self.blocks[name], variable, value)
+            setattr(self.blocks[name], variable, value)
 
     def step(self, h):
         """Sources with the inputs of now, then the others in order; what comes from behind is a step late."""

@@ -26,17 +26,17 @@ def fly(block, errors, rates, periods):
     for k, (error, rate, period) in enumerate(zip(errors, rates, periods, strict=True)):
         block.translation_count = k + 1
         block.translation_period = period
-        block.position_error[:] = error.tolist()
-        block.velocity_error[:] = rate.tolist()
-        block.planned_acceleration[:] = PLAN.tolist()
+        block.position_error = error.tolist()
+        block.velocity_error = rate.tolist()
+        block.planned_acceleration = PLAN.tolist()
         if k == 0:
             block.initialize()
         else:
             block.step(0.0, 0.125)
         found.append(list(block.force_command))
         assert block.command_count == k + 1
-        block.position_error[:] = [9.0] * 3
-        block.planned_acceleration[:] = [9.0] * 3
+        block.position_error = [9.0] * 3
+        block.planned_acceleration = [9.0] * 3
         block.step(0.0, 0.125)
         assert list(block.force_command) == found[-1]
     return np.array(found)
@@ -78,12 +78,16 @@ def test_inputs_that_are_not_finite_leave_the_force(law, name):
     block = TranslationControl(law=law)
     fly(block, ERRORS[:3], RATES[:3], [8.0] * 3)
     held = list(block.force_command)
-    block.position_error[:] = block.planned_acceleration[:] = [0.0] * 3
-    getattr(block, name)[1] = math.nan
+    block.position_error = block.planned_acceleration = [0.0] * 3
+    values = list(getattr(block, name))
+    values[1] = math.nan
+    setattr(block, name, values)
     block.translation_count += 1
     block.step(0.0, 0.125)
     assert (block.status, block.force_command, block.command_count) == (1, held, 3)
-    getattr(block, name)[1] = 0.0
+    values = list(getattr(block, name))
+    values[1] = 0.0
+    setattr(block, name, values)
     block.translation_count += 1
     block.step(0.0, 0.125)
     assert (block.status, block.command_count) == (0, 4)

@@ -61,7 +61,7 @@ def stepped(block, start, h):
     generator = list(block.generator)
     block.disturbance, block.disturbance_rate = start
     block.step(0.0, h)
-    block.generator[:] = generator
+    block.generator = generator
     return np.array([block.disturbance, block.disturbance_rate])
 
 

@@ -1,6 +1,6 @@
 """The law of Diveev, Pupkov and Sofronova (2013), in the plane and in space.
 
-Truth: the law that the published matrix encodes, written out in support/flights/independent_descent.py with both values of
+Truth: the law that the published matrix encodes, written out in independent_descent.py with both values of
 the saturated exponential, and the published basic solution, at 1000 random points each (1e-9 relative); the force
 of the planar law turned into space by vector algebra (1e-9); the planar descent with the vertical turning,
 for a descent in space integrated here by Runge-Kutta (0.1 s and 0.1 m at the hand-over).
@@ -140,7 +140,7 @@ def guidance(position, velocity, mass=940.0, **parameters):
 
 
 def see(block, position, velocity, mass):
-    block.position[:], block.velocity[:], block.mass = position.tolist(), velocity.tolist(), mass
+    block.position, block.velocity, block.mass = position.tolist(), velocity.tolist(), mass
 
 
 def random_basis(generator):

@@ -285,8 +285,7 @@ def test_target_elsewhere_than_above_the_site():
     target = [5e4, -3e4, 1000.0]
     position, velocity = braking_start(300e3)
     guidance = commanded(AnalyticExactGuidance, position, velocity, target_position=target, gravity_correction=True)
-    dr, dv = [0.0] * 3, [0.0] * 3
-    guidance.remaining(dr, dv)
+    dr, dv = guidance.remaining()
     time, here, there = guidance.expected_time, central(position), central(np.array(target))
     assumed = np.array([0.0, 0.0, -GRAVITY])
     assert dv == pytest.approx(-velocity - time * ((here + there) / 2.0 - assumed), rel=1e-12)

@@ -35,7 +35,7 @@ def set_inputs(block, **values):
         if name == "sample_count":
             block.sample_count = value
         else:
-            getattr(block, name)[:] = np.asarray(value).tolist()
+            setattr(block, name, np.asarray(value).tolist())
 
 
 def gyros(t):

@@ -1,6 +1,6 @@
 """Kalman navigation against chi-square theory, batch least squares, the Riccati equation and a known trajectory.
 
-Truth: a braking flight in closed form with sensor errors by numpy (support/flights/braking_flight.py). Over 200 fixed seeds the
+Truth: a braking flight in closed form with sensor errors by numpy (braking_flight.py). Over 200 fixed seeds the
 sums of squared normalised estimation errors (6 degrees of freedom) and innovations (1 or 3) lie inside the two-sided
 95 % chi-square interval at five named epochs. The covariance is that of least squares over all samples at
 once (1e-5) and settles on the solution of the Riccati equation (1e-9). With perfect sensors the estimate
@@ -293,10 +293,10 @@ def test_between_inertial_samples_the_estimate_goes_on():
     for k in range(1, 2 * STEPS + 1):
         if k % 2 == 0:
             block.inertial_count += 1
-            block.velocity_increment[:] = gained[k // 2].tolist()
+            block.velocity_increment = gained[k // 2].tolist()
         if k % 101 == 0:
             block.position_count += 1
-            block.measured_position[:] = position(k * half).tolist()
+            block.measured_position = position(k * half).tolist()
         block.step((k - 1) * half, half)
         error = state_of(block) - np.concatenate([position(k * half), velocity(k * half)])
         assert np.linalg.norm(error[:3]) < 0.02

@@ -60,7 +60,7 @@ def navigation(**settings):
 
 
 def estimate_of(block):
-    return np.array(block.estimated_position + block.estimated_velocity)
+    return np.array([*block.estimated_position, *block.estimated_velocity])
 
 
 def flight(seed, steps):
@@ -73,7 +73,7 @@ def flight(seed, steps):
     yield 0, block, truth
     for k in range(1, steps + 1):
         truth = f @ truth + gain(STEP) + root @ generator.normal(size=6)
-        block.position[:], block.velocity[:] = truth[:3].tolist(), truth[3:].tolist()
+        block.position, block.velocity = truth[:3].tolist(), truth[3:].tolist()
         block.step((k - 1) * STEP, STEP)
         yield k, block, truth
 
@@ -236,7 +236,7 @@ def test_without_sensors_the_estimate_is_the_truth():
     block.initialize()
     assert estimate_of(block).tolist() == [*POSITION, *VELOCITY]
     for k in range(3):
-        block.position[:] = (POSITION + k).tolist()
+        block.position = (POSITION + k).tolist()
         block.step(0.1 * k, 0.1)
         assert estimate_of(block).tolist() == [*(POSITION + k), *VELOCITY]
 
@@ -254,7 +254,7 @@ def test_ideal_navigation_is_the_truth():
     block.initialize()
     assert block.sample_count == 1
     for k in range(3):
-        block.position[:] = (POSITION + k).tolist()
+        block.position = (POSITION + k).tolist()
         block.step(0.1 * k, 0.1)
         assert block.estimated_position == (POSITION + k).tolist()
         assert block.estimated_velocity == VELOCITY.tolist()

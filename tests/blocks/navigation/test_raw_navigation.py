@@ -1,6 +1,6 @@
 """Raw navigation against a trajectory in closed form and the fixes themselves.
 
-Truth: with perfect increments and no fixes, the braking flight of support/flights/braking_flight.py to 1 mm and 1e-5 m/s; at
+Truth: with perfect increments and no fixes, the braking flight of braking_flight.py to 1 mm and 1e-5 m/s; at
 the time of a fix, the fix. An altitude moves the estimate along the local vertical: by geometry, to 1e-9.
 """
 

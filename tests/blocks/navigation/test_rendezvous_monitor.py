@@ -16,9 +16,9 @@ rotations = st.lists(st.floats(-1.7, 1.7), min_size=3, max_size=3)
 def test_errors_are_true_less_planned(robot, target, planned, attitude, goal):
     true, plan = Rotation.from_rotvec(attitude), Rotation.from_rotvec(goal)
     block = RendezvousMonitor()
-    block.robot_position[:], block.target_position[:], block.planned_relative_position[:] = robot, target, planned
-    block.quaternion[:] = true.as_quat(scalar_first=True).tolist()
-    block.planned_quaternion[:] = plan.as_quat(scalar_first=True).tolist()
+    block.robot_position, block.target_position, block.planned_relative_position = robot, target, planned
+    block.quaternion = true.as_quat(scalar_first=True).tolist()
+    block.planned_quaternion = plan.as_quat(scalar_first=True).tolist()
     block.initialize()
     relative = np.subtract(target, robot)
     assert block.position_error == pytest.approx(planned - relative, abs=1e-12)
@@ -34,7 +34,7 @@ def test_errors_are_true_less_planned(robot, target, planned, attitude, goal):
 
 def test_robot_displaced_from_its_place_shows_its_own_error():
     block = RendezvousMonitor(target_position=[100.0, 0.0, 0.0], planned_relative_position=[30.0, 0.0, 0.0])
-    block.robot_position[:] = [70.2, -0.1, 0.0]  # the place is at 70, 0, 0
+    block.robot_position = [70.2, -0.1, 0.0]  # the place is at 70, 0, 0
     block.initialize()
     block.step(0.0, 0.125)
     assert block.position_error == pytest.approx([0.2, -0.1, 0.0], abs=1e-12)

@@ -24,15 +24,15 @@ FAR = np.array([300.0, -260.0, 40.0])
 
 
 def start(block, relative, planned=RELATIVE, velocity=(0.0, 0.0, 0.0)):
-    block.quaternion[:] = ATTITUDE.as_quat(scalar_first=True).tolist()
+    block.quaternion = ATTITUDE.as_quat(scalar_first=True).tolist()
     feed(block, relative, planned, velocity, 1)
     block.initialize()
 
 
 def feed(block, relative, planned, velocity, count):
-    block.relative_position[:] = np.asarray(relative).tolist()
-    block.planned_relative_position[:] = np.asarray(planned).tolist()
-    block.planned_velocity[:] = np.asarray(velocity).tolist()
+    block.relative_position = np.asarray(relative).tolist()
+    block.planned_relative_position = np.asarray(planned).tolist()
+    block.planned_velocity = np.asarray(velocity).tolist()
     block.sample_count = count
 
 
@@ -75,7 +75,7 @@ def fly(block, flight, steps):
     yield first, None, flight.planned_velocity
     for k in range(steps):
         force = flight.step(k)
-        block.allocated_force[:] = ATTITUDE.inv().apply(force).tolist()
+        block.allocated_force = ATTITUDE.inv().apply(force).tolist()
         sample = None
         if (k + 1) % 8 == 0:
             sample = flight.sample()
@@ -221,8 +221,8 @@ def test_force_is_turned_by_the_mean_attitude_of_the_step():
     """A robot that turns by 0.2 rad while its jets push along its x axis."""
     block = TranslationFilter()
     start(block, RELATIVE)
-    block.quaternion[:] = (ATTITUDE * Rotation.from_rotvec([0.0, 0.2, 0.0])).as_quat(scalar_first=True).tolist()
-    block.allocated_force[:] = [2.0, 0.0, 0.0]
+    block.quaternion = (ATTITUDE * Rotation.from_rotvec([0.0, 0.2, 0.0])).as_quat(scalar_first=True).tolist()
+    block.allocated_force = [2.0, 0.0, 0.0]
     block.step(0.0, 1.0)
     middle = ATTITUDE * Rotation.from_rotvec([0.0, 0.1, 0.0])
     assert block.velocity_error == pytest.approx(middle.apply([2.0, 0.0, 0.0]) / MASS, abs=1e-15)

@@ -34,13 +34,13 @@ def lander(**settings_):
 
 
 def state(plant):
-    return np.array(plant.position + plant.velocity)
+    return np.array([*plant.position, *plant.velocity])
 
 
 def thrusting(plant, thrust=THRUST, direction=DIRECTION, rate=(0.0, 0.0, 0.0), since=0.0, duration=1e9):
     plant.thrust = thrust
-    plant.thrust_direction[:] = direction
-    plant.thrust_direction_rate[:] = rate
+    plant.thrust_direction = direction
+    plant.thrust_direction_rate = rate
     plant.command_time = since
     plant.burn_duration = duration
     return plant

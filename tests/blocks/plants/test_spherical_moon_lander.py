@@ -46,8 +46,8 @@ def lander(**settings_):
 
 def command(plant, thrust, direction=DIRECTION, rate=(0.0, 0.0, 0.0), since=0.0, duration=1e9):
     plant.thrust = thrust
-    plant.thrust_direction[:] = direction
-    plant.thrust_direction_rate[:] = rate
+    plant.thrust_direction = direction
+    plant.thrust_direction_rate = rate
     plant.command_time = since
     plant.burn_duration = duration
     return plant
@@ -62,7 +62,7 @@ def fly(plant, start, end, step=0.1):
 def everything(plant):
     """Position, velocity, mass, thrust, attitude, sensed velocity."""
     thrust = [plant.mass, plant.delivered_thrust]
-    return np.array(plant.position + plant.velocity + thrust + plant.attitude + plant.sensed_velocity)
+    return np.array([*plant.position, *plant.velocity, *thrust, *plant.attitude, *plant.sensed_velocity])
 
 
 def integrated(y, thrust, direction, rate, since, start, end, lag, response, limit):

@@ -39,10 +39,10 @@ def test_attitude_errors_are_white_rotations_in_body_axes():
     sensor = StarInertial(seed=3)
     truth = Rotation.random(SAMPLES, random_state=1)
     errors = []
-    sensor.quaternion[:] = quaternion(truth[0])
+    sensor.quaternion = quaternion(truth[0])
     sensor.initialize()
     for k in range(1, SAMPLES):
-        sensor.quaternion[:] = quaternion(truth[k])
+        sensor.quaternion = quaternion(truth[k])
         sensor.step(0.125 * (k - 1), 0.125)
         assert np.linalg.norm(sensor.measured_quaternion) == pytest.approx(1.0, abs=1e-15)
         measured = Rotation.from_quat(sensor.measured_quaternion, scalar_first=True)
@@ -57,8 +57,8 @@ def test_range_errors_depend_on_the_true_range(distance, sigma):
     direction = np.array([0.6, -0.64, 0.48])
     robot = np.array([1.0, 2.0, 3.0])
     relative = distance * direction
-    sensor.robot_position[:] = robot.tolist()
-    sensor.target_position[:] = (robot + relative).tolist()
+    sensor.robot_position = robot.tolist()
+    sensor.target_position = (robot + relative).tolist()
     sensor.initialize()
     errors = []
     for k in range(SAMPLES):
@@ -79,9 +79,9 @@ def test_errors_of_sample_k_do_not_depend_on_the_motion(block, name):
     assert getattr(still, name) == getattr(moving, name) != getattr(other, name)
     for k in range(20):
         if block is LaserRanger:
-            moving.robot_position[:] = [40.0 * k, 0.0, 0.0]
+            moving.robot_position = [40.0 * k, 0.0, 0.0]
         else:
-            moving.quaternion[:] = quaternion(Rotation.from_rotvec([0.1 * k, 0.0, 0.0]))
+            moving.quaternion = quaternion(Rotation.from_rotvec([0.1 * k, 0.0, 0.0]))
         for sensor in (still, moving):
             sensor.step(float(k), 1.0)
         assert still.generator == moving.generator
@@ -89,8 +89,8 @@ def test_errors_of_sample_k_do_not_depend_on_the_motion(block, name):
 
 def test_without_errors_they_tell_the_truth():
     star, ranger = StarInertial(attitude_sigma=0.0), LaserRanger(far_sigma=0.0, near_sigma=0.0)
-    star.quaternion[:] = [0.5, -0.5, 0.5, 0.5]
-    ranger.target_position[:] = [3.0, 0.0, 4.0]
+    star.quaternion = [0.5, -0.5, 0.5, 0.5]
+    ranger.target_position = [3.0, 0.0, 4.0]
     for sensor in (star, ranger):
         sensor.initialize()
     assert star.measured_quaternion == star.quaternion

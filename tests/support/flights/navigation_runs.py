@@ -28,10 +28,10 @@ def plain(block_class, measurements, **settings):
     block = block_class(position=position(0.0).tolist(), velocity=velocity(0.0).tolist(), **settings)
     counted = counts(measurements).tolist()
     for k in range(STEPS + 1):
-        block.velocity_increment[:] = measurements.increment[k].tolist()
+        block.velocity_increment = measurements.increment[k].tolist()
         block.measured_altitude = float(measurements.altitude[k])
-        block.measured_velocity[:] = measurements.velocity[k].tolist()
-        block.measured_position[:] = measurements.position[k].tolist()
+        block.measured_velocity = measurements.velocity[k].tolist()
+        block.measured_position = measurements.position[k].tolist()
         for name, value in zip(COUNTS, counted[k], strict=True):
             setattr(block, name, value)
         if k == 0:

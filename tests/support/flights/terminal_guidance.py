@@ -59,17 +59,14 @@ def states_of_the_box(count, seed):
 def commanded(guidance_class, position=POSITION, velocity=VELOCITY, **parameters):
     guidance = guidance_class(position=np.asarray(position).tolist(), velocity=np.asarray(velocity).tolist())
     for name, value in parameters.items():
-        if isinstance(value, list):
-            getattr(guidance, name)[:] = value
-        else:
-            setattr(guidance, name, value)
+        setattr(guidance, name, value)
     guidance.initialize()
     return guidance
 
 
 def see(guidance, position, velocity):
-    guidance.position[:] = np.asarray(position).tolist()
-    guidance.velocity[:] = np.asarray(velocity).tolist()
+    guidance.position = np.asarray(position).tolist()
+    guidance.velocity = np.asarray(velocity).tolist()
 
 
 def command_of(guidance):
@@ -154,8 +151,8 @@ def flight(guidance_class, position, velocity, step, latch=True, most=5000, erro
         if guidance.finished:
             break
         plant.thrust = guidance.thrust_acceleration * plant.mass
-        plant.thrust_direction[:] = guidance.thrust_direction
-        plant.thrust_direction_rate[:] = guidance.thrust_direction_rate
+        plant.thrust_direction = guidance.thrust_direction
+        plant.thrust_direction_rate = guidance.thrust_direction_rate
         plant.command_time, plant.burn_duration = guidance.command_time, guidance.burn_duration
         plant.step(k * step, step)
         seen = np.array([*plant.position, *plant.velocity])

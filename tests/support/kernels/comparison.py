@@ -9,7 +9,8 @@ from pathlib import Path
 from random import Random
 
 from perilune.fmus_src.block import Block, Input, Parameter, Variable
-from perilune.fmus_src.export.kernel_source import label
+from perilune.fmus_src.export.judge.source import label
+from perilune.fmus_src.mathlib import vector_types
 from perilune.fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
 from perilune.fmus_src.runtime import Component, StepError
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance
@@ -101,7 +102,8 @@ class Pair:
         """Draw and set all parameters or inputs."""
         chosen = self.references[kind]
         numbers = [reference for reference, _, _ in chosen]
-        before = [container[key] if drift else None for container, key in (self.plain.slots[n] for n in numbers)]
+        held = self.plain.values()
+        before = [held[number] if drift else None for number in numbers]
         values = [
             draw(self.random, variable, position, h, value)
             for (_, variable, position), value in zip(chosen, before, strict=True)
@@ -132,7 +134,8 @@ class Pair:
         if isinstance(error, StepError):
             assert message == f"StepError: {error}"
         else:
-            frame = traceback.extract_tb(error.__traceback__)[-1]
+            frames = traceback.extract_tb(error.__traceback__)
+            frame = [each for each in frames if each.filename != vector_types.__file__][-1]  # operators of vectors
             found = FAULT.match(message)
             assert found, message
             place = (label(Path(frame.filename)), frame.lineno)
@@ -143,7 +146,7 @@ class Pair:
 
     def row(self) -> bytes:
         """All values, which must be the same; those computed by the block as bytes."""
-        plain = [container[key] for container, key in self.plain.slots]
+        plain = self.plain.values()
         native = self.native.get(self.all)
         assert native is not None, self.native.log
         for reference in self.all:

@@ -4,6 +4,7 @@ import math
 from math import floor
 
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.mathlib.vectors import Vector, Vector3, clip, cross, dot, norm, vector
 
 TABLE = (0.5, -1.25, 3.0, 8.0)
 WEIGHTS = (3, 1, 2)
@@ -81,7 +82,7 @@ class LanguageBase(Block, interface=True):
 class Language(LanguageBase):
     """Every construct of the subset."""
 
-    memory = State([1.0, 2.0, 3.0, 4.0], description="a list that functions change")
+    memory = State([1.0, 2.0, 3.0, 4.0], vector=False, description="a list that functions change")
     int_memory = State([3, -7, 12], description="ints")
 
     def combine(self, a: float) -> float:
@@ -186,13 +187,148 @@ class Language(LanguageBase):
         self.y[7] = math.pi * float(math.floor(self.x)) + math.fmod(self.x, 2.5) + float(int(self.x))
 
 
+UP = vector(0.0, 0.0, 1.0)
+HALVES = vector(0.5, -2.0)
+
+
+def unit(v: Vector) -> Vector:
+    """A vector of any size divided by the sum of its sizes."""
+    total = 1e-3
+    for i in range(len(v)):
+        total += abs(v[i])
+    return v / total
+
+
+def halves(values: list, factor: float) -> tuple[Vector3, Vector3, float, int, bool]:
+    """Several values of all types, from parts of a list."""
+    first = vector(*values[0:3])
+    if factor > 1.0:
+        return first, vector(*values[3:]), factor, len(values), True
+    return vector(*values[3:]), first, -factor, 0, False
+
+
+def swapped(values: list, factor: float) -> tuple[Vector3, Vector3, float, int, bool]:
+    """Several values handed on."""
+    return halves(values, factor - 1.0)
+
+
+class VectorLanguage(Block):
+    """Everything that vectors can do."""
+
+    u = Input([1.0, 2.0, 3.0], description="a vector")
+    pair = Input([0.5, -0.5], description="two")
+    q = Input([1.0, 0.1, 0.2, 0.3], description="four")
+    x = Input(1.0, description="a number")
+    k = Input(0, minimum=0, maximum=9, description="an int")
+    scale = Parameter([2.0, 3.0, 4.0], description="a vector that is not changed")
+    a = Output([0.0, 0.0, 0.0], direct=True, description="results")
+    b = Output([0.0, 0.0, 0.0], direct=True, description="results")
+    two = Output([0.0, 0.0], direct=True, description="results")
+    four = Output([0.0, 0.0, 0.0, 0.0], direct=True, description="results")
+    y = Output([0.0] * 8, direct=True, description="numbers")
+    n = Output(0, direct=True, description="an int")
+    flag = Output(False, direct=True, description="a bool")
+    kept = State([0.0, 0.0, 0.0], description="a vector kept from before the step")
+    longer = State([1.0, 2.0, 3.0, 4.0, 5.0, 6.0], description="a list")
+    x_before = State(0.0, description="a number")
+
+    def remember(self, v: Vector3) -> tuple[Vector3, float]:
+        """Changes the block and returns what it was."""
+        before = self.kept
+        self.kept = v
+        return before, dot(before, v)
+
+    def axis(self, k: int) -> Vector3:
+        if k == 0:
+            return self.scale
+        return -self.scale if k % 2 == 0 else UP
+
+    def operators(self) -> None:
+        a = self.u
+        b = a  # a copy in effect
+        a += 2.0 * self.scale
+        a = a - b / 4.0 + self.scale * b * self.x
+        self.a = -(a - UP) * 0.5 - 3 * b
+        self.b = cross(self.a, b) + (self.a if self.x > 0.0 else -b)
+        self.two = self.pair * HALVES - self.k * self.pair + self.pair / HALVES
+        self.four = unit(self.q) + 0.25 * self.q
+        if norm(b) > 0.0:
+            self.a = a / norm(b)
+
+    def components(self) -> None:
+        w, x, y, z = self.q
+        self.y[0] = w * self.q.x + x * self.q[0] - y * self.q[-1] + z * (self.u + self.scale).y
+        self.y[1] = self.u[self.k % 3] + cross(self.u, UP)[self.k % 2] + self.q[1:4].z + self.q[2:4][1]
+        self.two = self.q[0:2] - self.u[1:]
+        self.b = self.b + self.q[1:4] - vector(self.u.z, self.pair.x, float(self.k))
+        self.y[2] = abs(vector(x, -y).y) + math.fabs(self.q[1:4].x) + clip(self.u.x, -1.0, 1.0) + float(len(self.q))
+        total = vector(0.0, 0.0, 0.0)
+        for i in range(3):
+            total = total + self.u[i] * self.axis(i + self.k)
+        self.y[3] = dot(total, unit(self.u))
+        fixed = [self.x] * 3
+        fixed[self.k % 3] = 7.0
+        self.y[4] = norm(vector(*fixed) + unit(vector(*self.longer[2:5])))
+
+    def step(self, t: float, h: float) -> None:
+        first = self.kept
+        self.operators()
+        self.components()
+        self.b, self.a, self.x_before, self.n, self.flag = swapped(self.longer, self.x)
+        before, product = self.remember(self.u)
+        self.y[5] = product
+        self.y[6] = norm(first - before)  # 0: a name keeps its vector whatever is stored meanwhile
+        _, other, _, count, _ = halves(self.longer, self.x)
+        self.y[7] = other.x + float(count)
+        for i in range(6):
+            self.longer[i] = 0.5 * self.longer[i] + self.q[i % 4]
+
+
+class VectorFaults(Block):
+    """Divisions of vectors by zero; lines and values left behind must be Python's."""
+
+    case = Input(0, minimum=0, maximum=7, description="what to do")
+    x = Input(0.0, description="divisor")
+    u = Input([0.0, 1.0, 2.0], description="a vector")
+    a = Output([1.0, 2.0, 3.0], direct=True, description="unchanged by a fault")
+    b = Output([1.0, 2.0, 3.0], direct=True, description="unchanged by a fault")
+    y = Output(1.0, direct=True, description="unchanged by a fault")
+
+    def shared(self, divisor: float) -> tuple[Vector3, float]:
+        self.b = self.b + UP
+        return self.u / divisor, 1.0
+
+    def inverse(self, v: Vector3) -> Vector3:
+        return UP / v
+
+    def step(self, t: float, h: float) -> None:
+        case = self.case
+        if case == 0:
+            self.a = self.u / self.x
+        elif case == 1:
+            self.a = UP / self.u + self.u
+        elif case == 2:
+            self.a, self.y = self.shared(self.x)
+        elif case == 3:
+            self.a = self.inverse(self.u) / math.sqrt(self.x)
+        elif case == 4:
+            self.a = vector(1.0 / self.x, math.sqrt(self.x - 1.0), 0.0)
+        elif case == 5:
+            self.y = (self.u / self.x)[case % 3] + self.u[case % 4]
+        elif case == 6:
+            self.b = self.inverse(self.u / self.x)
+        else:
+            x, y, z = self.u / self.x
+            self.y = x + y + z
+
+
 class Faults(Block):
     """One arithmetic fault per case; the line and the values left behind must be Python's."""
 
     case = Input(0, minimum=0, maximum=24, description="what to do")
     x = Input(0.0, description="operand; 0 in half of the cases")
     result = Output(1.0, direct=True, description="result; unchanged by a fault")
-    values = Output([1.0, 2.0, 3.0], direct=True, description="results; unchanged by a fault")
+    values = Output([1.0, 2.0, 3.0], vector=False, direct=True, description="results; unchanged by a fault")
     count = Output(0, direct=True, description="changed before a fault, unless its argument faults")
 
     def bump(self, amount: float) -> float:

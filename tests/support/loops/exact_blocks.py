@@ -12,6 +12,7 @@ BLOCKS = '''
 import math
 
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.mathlib.vectors import vector
 
 LONGEST = 32
 
@@ -92,16 +93,12 @@ class HeldPair(Block):
     velocity = Output([0.0, 0.0], unit="m/s", description="velocities")
 
     def initialize(self) -> None:
-        for i in range(2):
-            self.position[i] = self.start[i]
+        self.position = self.start
 
     def step(self, t: float, h: float) -> None:
-        a = [0.0, 0.0]
-        a[0] = self.u[0] + self.coupling * self.u[1]
-        a[1] = self.u[1] - self.coupling * self.u[0]
-        for i in range(2):
-            self.position[i] = self.position[i] + h * (self.velocity[i] + 0.5 * h * a[i])
-            self.velocity[i] = self.velocity[i] + h * a[i]
+        a = vector(self.u.x + self.coupling * self.u.y, self.u.y - self.coupling * self.u.x)
+        self.position = self.position + h * (self.velocity + 0.5 * h * a)
+        self.velocity = self.velocity + h * a
 
 
 class Late(Block):
@@ -152,18 +149,15 @@ class DifferencePair(Block):
     last = State([0.0, 0.0], description="u of the last sample")
 
     def initialize(self) -> None:
-        for i in range(2):
-            self.y[i] = -self.proportional[i] * self.u[i]
-            self.last[i] = self.u[i]
+        self.y = -self.proportional * self.u
+        self.last = self.u
 
     def step(self, t: float, h: float) -> None:
         period = h
         if self.sample_period > 0.0:
             period = self.sample_period
-        for i in range(2):
-            rate = (self.u[i] - self.last[i]) / period
-            self.y[i] = -(self.proportional[i] * self.u[i] + self.derivative[i] * rate)
-            self.last[i] = self.u[i]
+        self.y = -(self.proportional * self.u + self.derivative * (self.u - self.last) / period)
+        self.last = self.u
 
 
 class LowPass(Block):
@@ -261,8 +255,8 @@ class NoisyCounter(Block):
         self.y = self.u + self.sigma * (self.generator / 1073741823.5 - 1.0)
         self.count = self.count + 1
         self.even = self.count % 2 == 0
-        self.mean[1] = self.mean[1] + 0.1 * (self.mean[0] - self.mean[1])
-        self.mean[0] = self.mean[0] + 0.1 * (self.y - self.mean[0])
+        slow, slower = self.mean
+        self.mean = vector(slow + 0.1 * (self.y - slow), slower + 0.1 * (slow - slower))
 '''
 
 

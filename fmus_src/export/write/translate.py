@@ -5,15 +5,16 @@ from __future__ import annotations
 import inspect
 from pathlib import Path
 
-from ..block import Block, Variable
-from ..runtime import SAMPLE_TOLERANCE, TIME_TOLERANCE
-from .c_functions import write_function
-from .c_layout import Lines
-from .c_names import C_TYPES, Names, block_type_name, comment, identifier, literal, names_of
-from .kernel import Function, Kernel
-from .kernel_expressions import SCALARS
-from .kernel_source import label
-from .subset import analysed_kernel
+from ...block import Block, Variable
+from ...mathlib import vector_types
+from ...runtime import SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ..judge.expressions import SCALARS, type_of_variable
+from ..judge.kernel import Function, Kernel, List, Several, Vector
+from ..judge.source import label
+from ..judge.subset import analysed_kernel
+from .functions import write_function
+from .layout import Lines
+from .names import C_TYPES, Names, block_type_name, c_type, comment, identifier, literal, member, names_of
 
 KINDS = {float: "KIND_REAL", int: "KIND_INTEGER", bool: "KIND_BOOLEAN"}
 ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_OUTPUT", "local": "ROLE_STATE"}
@@ -48,6 +49,7 @@ def translate(block_class: type[Block], guid: str) -> str:
         ),
         _struct(block_class, type_name),
         *_constants(names),
+        *_several(kernel),
         *_functions(kernel, names, type_name),
         _tables(block_class, type_name, guid),
         _entry_points(kernel, names),
@@ -62,9 +64,12 @@ def _struct(block_class: type[Block], type_name: str) -> str:
     lines.comment("Variables in order of declaration.")
     lines.open(f"typedef struct {type_name} {{")
     for name, variable in block_class.variables.items():
-        size = f"[{variable.size}]" if variable.is_vector else ""
-        scalar = SCALARS[type(variable.elements[0])]
-        lines.member(f"{C_TYPES[scalar]} {identifier(name)}{size};", _about(variable))
+        kind = type_of_variable(variable)
+        if isinstance(kind, List):
+            text = f"{C_TYPES[kind.element]} {identifier(name)}[{kind.size}]"
+        else:
+            text = f"{c_type(kind)} {identifier(name)}"
+        lines.member(f"{text};", _about(variable))
     lines.close(f"}} {type_name};")
     return "\n".join([*lines.text, ""])
 
@@ -82,6 +87,10 @@ def _constants(names: Names) -> list[str]:
     for constant, name in sorted(names.constants.items(), key=lambda item: item[1]):
         if constant.module == "math":
             continue
+        if isinstance(constant.value, vector_types.Vector):
+            parts = ", ".join(map(literal, constant.value))
+            lines.add(f"static const {c_type(Vector(len(constant.value)))} {name} = {{{{{parts}}}}};")
+            continue
         elements = constant.value if isinstance(constant.value, tuple) else (constant.value,)
         kind = C_TYPES[SCALARS[type(elements[0])]]
         if isinstance(constant.value, tuple):
@@ -89,6 +98,19 @@ def _constants(names: Names) -> list[str]:
         else:
             lines.add(f"static const {kind} {name} = {literal(constant.value)};")
     return ["\n".join([*lines.text, ""])] if lines.text else []
+
+
+def _several(kernel: Kernel) -> list[str]:
+    """A struct for each combination of types that functions return together."""
+    kinds = {function.returns for function in kernel.functions if isinstance(function.returns, Several)}
+    lines = Lines()
+    for kind in sorted(kinds, key=c_type):
+        lines.open(f"typedef struct {c_type(kind)} {{")
+        for number, part in enumerate(kind.parts):
+            lines.add(f"{c_type(part)} part{number};")
+        lines.close(f"}} {c_type(kind)};")
+        lines.text.append("")
+    return ["\n".join(lines.text)] if lines.text else []
 
 
 def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
@@ -126,11 +148,12 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
     element_names = []
     for name, variable in block_class.variables.items():
         values = ", ".join(map(literal, variable.elements))
-        starts.add(f".{identifier(name)} = {f'{{{values}}}' if variable.is_vector else values},")
+        if variable.is_array:
+            values = f"{{{{{values}}}}}" if variable.is_vector else f"{{{values}}}"
+        starts.add(f".{identifier(name)} = {values},")
         kind, role = KINDS[type(variable.elements[0])], ROLES[variable.causality]
         for position, element_name in enumerate(variable.element_names()):
-            member = identifier(name) + (f"[{position}]" if variable.is_vector else "")
-            elements.add(f"{{offsetof(Block, {member}), {kind} | {role}}},")
+            elements.add(f"{{offsetof(Block, {member(variable, position)}), {kind} | {role}}},")
             element_names.append(f'"{element_name}"')
     starts.close("};")
     elements.close("};")

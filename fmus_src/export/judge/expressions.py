@@ -7,35 +7,18 @@ import math
 from types import ModuleType
 from typing import Any
 
-from ..block import Input, Parameter, Variable
-from .kernel import (
-    BOOL,
-    FLOAT,
-    INT,
-    Constant,
-    Function,
-    Kernel,
-    List,
-    Scalar,
-    Type,
-    is_self_attribute,
-)
-from .kernel_source import find_global, origin_of_constant
-from .subset_table import (
-    COMPARISONS,
-    EXPRESSIONS,
-    MATH_CONSTANTS,
-    OPERATORS,
-    OTHER_SYNTAX,
-    REFUSED_SYNTAX,
-    Rule,
-)
+from ...block import Input, Parameter, Variable
+from ...mathlib import vector_types
+from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, Type, Vector, is_self_attribute
+from .source import find_global, origin_of_constant
+from .subset_table import COMPARISONS, EXPRESSIONS, MATH_CONSTANTS, OPERATORS, OTHER_SYNTAX, REFUSED_SYNTAX, Rule
+from .vectors import VectorTypes
 
 SCALARS = {float: FLOAT, int: INT, bool: BOOL}
 INT64_MAX = 2**63 - 1
 
 
-class ExpressionTypes:
+class ExpressionTypes(VectorTypes):
     """Infers types bottom-up; a type of None means unknown because of a violation already reported."""
 
     def __init__(self, kernel: Kernel, function: Function, bound: set[str]) -> None:
@@ -60,13 +43,17 @@ class ExpressionTypes:
         self.function.types[node] = found
         return found
 
-    def infer_number(self, node: ast.expr, name: str) -> Scalar | None:
-        """Type of an operand that must be a float or an int."""
-        found = self.infer(node)
-        if found in (FLOAT, INT):
-            return found  # type: ignore[return-value]
-        if found is not None:
-            self.report(node, "number", name=name, got=found)
+    def fixed_size(self, node: ast.expr) -> int | None:
+        """Value of an int literal, an int constant or a length, for the size of a list or a part of one."""
+        if self.infer(node) is not INT:
+            return None
+        if isinstance(node, ast.Constant):
+            return node.value if isinstance(node.value, int) else None
+        if node in self.function.constants:
+            return self.function.constants[node].value
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "len":
+            found = self.function.types[node.args[0]]
+            return found.size if isinstance(found, List | Vector) else None
         return None
 
     def infer_condition(self, node: ast.expr) -> None:
@@ -103,6 +90,12 @@ class ExpressionTypes:
             return self._constant(node, "math", node.attr, MATH_CONSTANTS[node.attr])
         if module is not None and module is not math:
             return self._constant(node, module.__name__, node.attr, getattr(module, node.attr, None))
+        if not isinstance(node.value, ast.Name) or node.value.id in {*self.bound, *self.function.parameters}:
+            holder = self.infer(node.value)
+            if isinstance(holder, Vector):
+                return self.component(node, holder)
+            if holder is None:
+                return None
         self.report(node, "unknown name", name=ast.unparse(node))
         return None
 
@@ -114,6 +107,9 @@ class ExpressionTypes:
         return None
 
     def _constant(self, node: ast.expr, module: str, name: str, value: Any) -> Type | None:
+        if isinstance(value, vector_types.Vector):
+            self.function.constants[node] = Constant(module, name, value)
+            return Vector(len(value))
         elements = value if isinstance(value, tuple) else (value,)
         kinds = {type(element) for element in elements}
         if len(kinds) != 1 or not kinds <= set(SCALARS):
@@ -125,7 +121,9 @@ class ExpressionTypes:
 
     def infer_subscript(self, node: ast.Subscript) -> Type | None:
         container = self.infer(node.value)
-        if isinstance(node.slice, ast.Slice | ast.Tuple):
+        if isinstance(node.slice, ast.Slice):
+            return self.part_of_vector(node, container)
+        if isinstance(node.slice, ast.Tuple):
             self.refuse_syntax(node.slice)
             return None
         index = self.infer(node.slice)
@@ -133,6 +131,8 @@ class ExpressionTypes:
             self.report(node, "argument type", name="an index", expected=INT, argument="its value", got=index)
         if isinstance(container, List):
             return container.element
+        if isinstance(container, Vector):
+            return FLOAT
         if container is not None:
             self.report(node, "number", name="an index", got=container)
         return None
@@ -148,10 +148,15 @@ class ExpressionTypes:
 
     def combine(self, node: ast.AST, operator: ast.operator, left: ast.expr, right: ast.expr) -> Type | None:
         """Type of ``left operator right``."""
-        name = f"operator {type(operator).__name__}"
-        kinds = self.infer_number(left, name), self.infer_number(right, name)
-        if None in kinds:
+        kinds = self.infer(left), self.infer(right)
+        if kinds[0] is None or kinds[1] is None:
             return None
+        if isinstance(kinds[0], Vector) or isinstance(kinds[1], Vector):
+            return self.operate_on_vectors(node, operator, kinds[0], kinds[1])
+        for operand, kind in zip((left, right), kinds, strict=True):
+            if kind not in (FLOAT, INT):
+                self.report(operand, "number", name=f"operator {type(operator).__name__}", got=kind)
+                return None
         if isinstance(operator, ast.Div) or FLOAT in kinds:
             return FLOAT
         return INT
@@ -165,7 +170,13 @@ class ExpressionTypes:
             self.infer_condition(node.operand)
             return BOOL
         if isinstance(node.op, ast.USub | ast.UAdd):
-            return self.infer_number(node.operand, "a sign")
+            found = self.infer(node.operand)
+            minus_vector = isinstance(found, Vector) and isinstance(node.op, ast.USub)
+            if found in (FLOAT, INT) or minus_vector:
+                return found
+            if found is not None:
+                self.report(node.operand, "number", name="a sign", got=found)
+            return None
         self.refuse_syntax_at(node, node.op)
         return None
 
@@ -193,7 +204,7 @@ class ExpressionTypes:
         left, right = self.infer(node.body), self.infer(node.orelse)
         if left is None or right is None:
             return None
-        if left is not right or isinstance(left, List):
+        if left != right or isinstance(left, List):
             self.report(node, "branches", left=left, right=right)
             return None
         return left
@@ -202,7 +213,9 @@ class ExpressionTypes:
 def type_of_variable(variable: Variable) -> Type:
     """Type of a declared variable."""
     scalar = SCALARS[type(variable.elements[0])]
-    return List(scalar, variable.size) if variable.is_vector else scalar
+    if variable.is_vector:
+        return Vector(variable.size)
+    return List(scalar, variable.size) if variable.is_array else scalar
 
 
 def is_read_only(function: Function, node: ast.expr) -> bool:

@@ -5,9 +5,22 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 
-from .c_names import C_TYPES, Names, identifier, literal
-from .kernel import FLOAT, INT, BuiltinCall, Function, KernelCall, List, MathCall, Scalar, is_self_attribute
-from .kernel_effects import own_outcome
+from ..judge.effects import own_outcome
+from ..judge.kernel import (
+    FLOAT,
+    INT,
+    BuiltinCall,
+    Function,
+    KernelCall,
+    List,
+    MakeVector,
+    MathCall,
+    Scalar,
+    Several,
+    Vector,
+    is_self_attribute,
+)
+from .names import C_TYPES, Names, c_type, identifier, literal
 
 OR, AND, EQUALITY, RELATION, SUM, PRODUCT, UNARY, ATOM = range(8)  # C's precedence; 0 binds least
 CONDITIONAL = -1
@@ -24,6 +37,12 @@ OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
     ast.NotEq: ("!=", EQUALITY),
 }
 CHECKED_INT: dict[type[ast.AST], str] = {ast.Add: "py_add", ast.Sub: "py_subtract", ast.Mult: "py_multiply"}
+VECTOR_NAMES: dict[type[ast.AST], str] = {
+    ast.Add: "add",
+    ast.Sub: "subtract",
+    ast.Mult: "multiply",
+    ast.Div: "divide",
+}
 WHOLE = {"floor": "floor", "ceil": "ceil", "int": "trunc"}
 
 
@@ -68,15 +87,40 @@ class ExpressionWriter:
     def write_attribute(self, node: ast.Attribute) -> tuple[str, int]:
         if is_self_attribute(node):
             return f"self->{identifier(node.attr)}", ATOM
+        if node in self.function.components:
+            return f"{self.write(node.value, ATOM)}.x[{self.function.components[node]}]", ATOM
         return self.names.constants[self.function.constants[node]], ATOM
 
     def write_subscript(self, node: ast.Subscript) -> tuple[str, int]:
-        return f"{self.write(node.value)}[{self.index(node)}]", ATOM
+        if node in self.function.parts:
+            return self.vector(self.elements(node)), ATOM
+        return f"{self.write(node.value, ATOM)}{self.place(node)}", ATOM
+
+    def place(self, node: ast.Subscript, index: str = "") -> str:
+        """What follows a list or vector to mean one element."""
+        member = ".x" if isinstance(self.function.types[node.value], Vector) else ""
+        return f"{member}[{index or self.index(node)}]"
+
+    def elements(self, node: ast.expr) -> list[str]:
+        """The elements of a part, ``wrench[0:3]``, or of a whole list."""
+        holder = node.value if isinstance(node, ast.Subscript) else node
+        member = ".x" if isinstance(self.function.types[holder], Vector) else ""
+        return [f"{self.write(holder, ATOM)}{member}[{k}]" for k in self.function.parts[node]]
+
+    def vector(self, elements: list[str]) -> str:
+        """A vector of components; in parentheses for its commas, since isfinite and fabs are macros."""
+        return f"(({c_type(Vector(len(elements)))}){{{{{', '.join(elements)}}}}})"
+
+    def write_tuple(self, node: ast.Tuple) -> tuple[str, int]:
+        """Several return values."""
+        kind = self.function.types[node]
+        assert isinstance(kind, Several)
+        return f"({c_type(kind)}){{{', '.join(self.write(part) for part in node.elts)}}}", ATOM
 
     def index(self, node: ast.Subscript) -> str:
         """The index of an element; checked where it was not proven right."""
         container = self.function.types[node.value]
-        assert isinstance(container, List)
+        assert isinstance(container, List | Vector)
         text = self.write(node.slice)
         if node in self.function.unproven:
             return self.checked(node, "py_index", text, str(container.size))[0]
@@ -85,6 +129,8 @@ class ExpressionWriter:
     def write_binop(self, node: ast.BinOp) -> tuple[str, int]:
         if self.function.types[node] is INT:
             return self._int_operation(node)
+        if isinstance(self.function.types[node], Vector):
+            return self._vector_operation(node)
         operator, precedence = OPERATORS.get(type(node.op), ("", CONDITIONAL))
         fails = bool(own_outcome(self.function, node))
         if not operator:
@@ -98,6 +144,24 @@ class ExpressionWriter:
         if fails:
             return self.checked(node, f"py_{name}", *operands)
         return self.call(name, *operands), ATOM
+
+    def _vector_operation(self, node: ast.BinOp) -> tuple[str, int]:
+        """An operator on vectors of one size, or on a vector and a number."""
+        operands = [node.left, node.right]
+        both = all(isinstance(self.function.types[operand], Vector) for operand in operands)
+        if isinstance(node.op, ast.Mult) and not both:
+            operands.sort(key=lambda operand: isinstance(self.function.types[operand], Vector))  # the number first
+            name = "scale"
+        elif isinstance(node.op, ast.Div) and both:
+            name = "quotient"
+        else:
+            name = VECTOR_NAMES[type(node.op)]
+        kind = self.function.types[node]
+        assert isinstance(kind, Vector)
+        texts = [self.write_as_float(operand, CONDITIONAL) for operand in operands]
+        if own_outcome(self.function, node):
+            return self.checked(node, f"py_{name}{kind.size}", *texts)
+        return self.call(f"{name}{kind.size}", *texts), ATOM
 
     def _int_operation(self, node: ast.BinOp) -> tuple[str, int]:
         unproven = node in self.function.unproven
@@ -117,6 +181,9 @@ class ExpressionWriter:
             return self.write(node.operand, UNARY), UNARY
         if node in self.function.unproven:
             return self.checked(node, "py_negative", self.write(node.operand))
+        kind = self.function.types[node]
+        if isinstance(kind, Vector):
+            return self.call(f"negative{kind.size}", self.write(node.operand)), ATOM
         inner = self.write(node.operand, UNARY)
         return (f"-({inner})" if inner.startswith("-") else f"-{inner}"), UNARY
 
@@ -139,6 +206,9 @@ class ExpressionWriter:
         call = self.function.calls[node]
         if isinstance(call, KernelCall):
             return self._kernel_call(node, call.callee), ATOM
+        if isinstance(call, MakeVector):
+            starred = node.args[0].value if isinstance(node.args[0], ast.Starred) else None
+            return self.vector(self.elements(starred) if starred else [self.write(part) for part in node.args]), ATOM
         if isinstance(call, MathCall):
             if call.name in WHOLE:
                 return self._whole(node, call.name, "py_whole_int")
@@ -158,7 +228,7 @@ class ExpressionWriter:
         argument = node.args[0]
         kind = self.function.types[argument]
         if call.name == "len":
-            assert isinstance(kind, List)
+            assert isinstance(kind, List | Vector)
             return str(kind.size), ATOM
         if call.name == "abs":
             if kind is FLOAT:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable
 
-from .kernel import Function, Kernel, body_of
-from .kernel_statements import local_names
+from .kernel import Function, Kernel, body_of, targets_of
+from .statements import local_names
 
 NEVER = None  # what is assigned after a statement that control does not leave
 
@@ -49,9 +49,7 @@ class FlowCheck:
         if isinstance(node, ast.Return | ast.Break | ast.Continue):
             return NEVER
         if isinstance(node, ast.Assign | ast.AnnAssign):
-            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
-            if isinstance(target, ast.Name):
-                return assigned | {target.id}
+            return assigned | {target.id for target in targets_of(node) if isinstance(target, ast.Name)}
         return assigned
 
     def loop(self, node: ast.For, assigned: frozenset[str]) -> frozenset[str] | None:

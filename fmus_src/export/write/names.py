@@ -6,8 +6,9 @@ import math
 import re
 from dataclasses import dataclass
 
-from ..block import snake_case
-from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, Scalar
+from ...block import Variable, snake_case
+from ...mathlib.vector_types import VECTORS
+from ..judge.kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, Scalar, Several, Type, Vector
 
 C_TYPES = {FLOAT: "double", INT: "int64_t", BOOL: "bool"}
 
@@ -22,7 +23,7 @@ _RESERVED_TEXT = """
 RESERVED = frozenset(_RESERVED_TEXT.split())
 
 
-# What the wrapper in fmi2_*.h and kernel_math.h calls its own; block types and functions stay clear of these.
+# What the wrapper in fmi2_*.h and kernel_*.h calls its own; block types and functions stay clear of these.
 _WRAPPER_NAMES_TEXT = """
     Block Component Element Fault Mode SavedState Snapshot Trait advance check_mode check_state checked_result
     copy_element double_at element_of end_step_with_fault end_with_fault fail float_floor_divide float_modulo
@@ -31,7 +32,14 @@ _WRAPPER_NAMES_TEXT = """
     prepare_set put_double put_int python_repr refuse refuse_null refuse_step refuse_wide restart set_fault
     settle state_space
 """
-WRAPPER_NAMES = frozenset(_WRAPPER_NAMES_TEXT.split())
+VECTOR_OPERATIONS = ("add", "subtract", "negative", "scale", "multiply", "divide", "quotient")
+WRAPPER_NAMES = frozenset(
+    [
+        *_WRAPPER_NAMES_TEXT.split(),
+        *(kind.__name__ for kind in VECTORS.values()),
+        *(f"{operation}{size}" for operation in VECTOR_OPERATIONS for size in VECTORS),
+    ]
+)
 
 
 def identifier(name: str) -> str:
@@ -74,7 +82,7 @@ def _function_names(functions: list[Function]) -> dict[Function, str]:
         if name in WRAPPER_NAMES:
             name += "_"
         if name in names.values():
-            sizes = [str(kind.size) for kind in function.parameters.values() if isinstance(kind, List)]
+            sizes = [str(kind.size) for kind in function.parameters.values() if isinstance(kind, List | Vector)]
             name = "_".join([name, *sizes])
         while name in names.values():  # same sizes, other element types
             name += "_"
@@ -111,12 +119,27 @@ def literal(value: float | int | bool) -> str:
     return repr(value)
 
 
-def declaration(kind: Scalar | List, name: str, constant: bool = False) -> str:
+def c_type(kind: Scalar | Vector | Several) -> str:
+    """``double``, ``Vector3``; ``DoubleVector3`` for a float and a vector."""
+    if isinstance(kind, Several):
+        return "".join(c_type(part).removesuffix("_t").title() for part in kind.parts)
+    return VECTORS[kind.size].__name__ if isinstance(kind, Vector) else C_TYPES[kind]
+
+
+def declaration(kind: Type, name: str, constant: bool = False) -> str:
     """``double x`` for a scalar, ``const double *x`` for a list argument that is not changed."""
     if isinstance(kind, List):
         qualifier = "const " if constant else ""
         return f"{qualifier}{C_TYPES[kind.element]} *{name}"
-    return f"{C_TYPES[kind]} {name}"
+    return f"{c_type(kind)} {name}"
+
+
+def member(variable: Variable, position: int) -> str:
+    """The place of a variable's element in the block's struct: ``mass``, ``position.x[0]``, ``thrust[7]``."""
+    name = identifier(variable.name)
+    if variable.is_vector:
+        return f"{name}.x[{position}]"
+    return f"{name}[{position}]" if variable.is_array else name
 
 
 def comment(text: str) -> str:

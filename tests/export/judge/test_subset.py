@@ -12,16 +12,29 @@ import pytest
 
 from perilune.fmus_src.block import Block, Output
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export.subset import SubsetError, analysed_kernel, check
-from perilune.fmus_src.export.subset_table import REFUSED_FUNCTIONS, REFUSED_SYNTAX, RULES, Rule
+from perilune.fmus_src.export.judge.subset import SubsetError, analysed_kernel, check
+from perilune.fmus_src.export.judge.subset_table import REFUSED_FUNCTIONS, REFUSED_SYNTAX, RULES, Rule
 from tests.support.kernels import bad_kernels
 
 TEMPLATE = '''import math
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.mathlib.vectors import Vector3, vector
 
 
 def helper(value: float) -> float:
     return 2.0 * value
+
+
+def helper_of_vectors(value: Vector3) -> Vector3:
+    return 2.0 * value
+
+
+def norm_of(values: list) -> float:
+    return values[0]
+
+
+def two() -> tuple[Vector3, float]:
+    return vector(1.0, 2.0, 3.0), 1.0
 
 
 {functions}
@@ -32,12 +45,15 @@ class Bad(Block):
 
     x = Input(0.0, description="x")
     k = Input(1, description="k")
-    u = Input([0.0] * 3, description="u")
+    u = Input([0.0] * 5, description="u")
+    given = Input([0.0] * 3, description="given")
     p = Parameter(1.0, description="p")
     y = Output(0.0, description="y")
     n = State(0, description="n")
     flag = State(False, description="flag")
-    v = State([0.0] * 3, description="v")
+    v = State([0.0] * 5, description="v")
+    w = State([0.0] * 3, description="w")
+    pair = State([0.0] * 2, description="pair")
 
     def bump(self) -> float:
         self.n = self.n + 1
@@ -85,6 +101,11 @@ def test_every_block_is_in_the_subset(block: type[Block]) -> None:
 @pytest.mark.parametrize("rule", bad_kernels.STEPS)
 def test_rule_refuses_statement(rule: str, tmp_path: Path) -> None:
     refusal(tmp_path, RULES[rule], bad_kernels.STEPS[rule])
+
+
+@pytest.mark.parametrize(("rule", "step"), bad_kernels.OTHERS)
+def test_rule_refuses_what_else_vectors_cannot_do(rule: str, step: str, tmp_path: Path) -> None:
+    refusal(tmp_path, RULES[rule], step)
 
 
 @pytest.mark.parametrize("rule", bad_kernels.FUNCTIONS)

@@ -13,8 +13,8 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from ..block import Block
-from .kernel_source import Source
+from ...block import Block
+from .source import Source
 from .subset_table import RULES, MathFunction, Rule
 
 
@@ -43,12 +43,33 @@ class List:
         return f"list of {self.size} {self.element}s"
 
 
-Type = Scalar | List
+@dataclass(frozen=True)
+class Vector:
+    """Type of a vector: a value of two to four floats."""
+
+    size: int
+
+    def __str__(self) -> str:
+        return f"vector of {self.size}"
+
+
+@dataclass(frozen=True)
+class Several:
+    """What a function with several return values gives; it can only be assigned to as many targets."""
+
+    parts: tuple[Scalar | Vector, ...]
+
+    def __str__(self) -> str:
+        return f"{len(self.parts)} values ({', '.join(map(str, self.parts))})"
+
+
+Type = Scalar | List | Vector
+Returned = Scalar | Vector | Several
 
 
 @dataclass(frozen=True)
 class Constant:
-    """A float, int, bool or tuple of one of these, named in a module and never changed."""
+    """A float, int, bool, vector or tuple of numbers, named in a module and never changed."""
 
     module: str
     name: str
@@ -68,6 +89,11 @@ class BuiltinCall:
     """Call of abs, float, int or len."""
 
     name: str
+
+
+@dataclass(frozen=True)
+class MakeVector:
+    """Call of vector, with the components or with a starred list."""
 
 
 @dataclass(frozen=True)
@@ -111,10 +137,12 @@ class Function:
     source: Source
     block_class: type[Block]
     parameters: dict[str, Type]
-    returns: Scalar | None
+    returns: Returned | None
     locals: dict[str, Type] = field(default_factory=dict)
-    types: dict[ast.expr, Type | None] = field(default_factory=dict)
-    calls: dict[ast.Call, MathCall | BuiltinCall | KernelCall] = field(default_factory=dict)
+    types: dict[ast.expr, Type | Several | None] = field(default_factory=dict)
+    calls: dict[ast.Call, MathCall | BuiltinCall | MakeVector | KernelCall] = field(default_factory=dict)
+    components: dict[ast.expr, int] = field(default_factory=dict)  # v.y, by number
+    parts: dict[ast.expr, range] = field(default_factory=dict)  # v[1:4], by number
     constants: dict[ast.expr, Constant] = field(default_factory=dict)
     # kernel_ranges
     ranges: dict[str, Interval] = field(default_factory=dict)
@@ -181,3 +209,9 @@ def body_of(node: ast.FunctionDef) -> list[ast.stmt]:
     if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str):
         return node.body[1:]
     return node.body
+
+
+def targets_of(node: ast.Assign | ast.AnnAssign) -> list[ast.expr]:
+    """What an assignment assigns: one target, or those of a tuple."""
+    target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+    return list(target.elts) if isinstance(target, ast.Tuple) else [target]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ast
 
-from .c_names import C_TYPES, Names, declaration, identifier
-from .c_statements import StatementWriter
-from .kernel import Function, body_of
-from .kernel_source import label
+from ..judge.kernel import Function, Several, Vector, body_of
+from ..judge.source import label
+from .names import Names, c_type, declaration, identifier
+from .statements import StatementWriter
 
 
 def signature(function: Function, name: str, block_type: str) -> str:
@@ -19,8 +19,11 @@ def signature(function: Function, name: str, block_type: str) -> str:
         arguments.append("Fault *fault")
     for parameter, kind in function.parameters.items():
         arguments.append(declaration(kind, identifier(parameter), parameter not in function.changed_lists))
-    returned = C_TYPES[function.returns] if function.returns else "void"
-    return f"static {returned} {name}({', '.join(arguments) or 'void'})"
+    returned = c_type(function.returns) if function.returns else "void"
+    passed = [*function.parameters.values(), function.returns]
+    # vectors that are not inlined go through memory
+    hint = "inline " if any(isinstance(kind, Vector | Several) for kind in passed) else ""
+    return f"static {hint}{returned} {name}({', '.join(arguments) or 'void'})"
 
 
 def write_function(function: Function, names: Names, block_type: str) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from .kernel import Function, body_of
+from ..judge.kernel import Function, body_of, targets_of
 
 Path = tuple[tuple[int, int], ...]  # (block, position in it) from the function's body inwards
 
@@ -12,12 +12,12 @@ Path = tuple[tuple[int, int], ...]  # (block, position in it) from the function'
 class Placement:
     """Declarations of local variables, and the loops whose variable C can declare in the for itself.
 
-    ``with_value`` maps an assignment to the name it declares; ``before`` maps a statement to the
+    ``with_value`` maps an assignment to the names it declares; ``before`` maps a statement to the
     names that are declared, without a value, in front of it.
     """
 
     def __init__(self, function: Function) -> None:
-        self.with_value: dict[ast.stmt, str] = {}
+        self.with_value: dict[ast.stmt, set[str]] = {}
         self.before: dict[ast.stmt, list[str]] = {}
         self.plain_loops: set[ast.For] = set()
         self._function = function
@@ -29,6 +29,10 @@ class Placement:
         for name in function.locals:
             if name in self._uses:
                 self._place(name, self._uses[name])
+
+    def declares(self, node: ast.stmt, name: str) -> bool:
+        """Whether an assignment declares a variable."""
+        return name in self.with_value.get(node, ())
 
     def _plain_loops(self, root: ast.FunctionDef) -> None:
         """Loops over a variable that nothing else assigns and that is not read after the loop."""
@@ -74,9 +78,9 @@ class Placement:
         block = paths[0][depth][0]
         first = self._blocks[block][min(path[depth][1] for path in paths)]
         if isinstance(first, ast.Assign | ast.AnnAssign):
-            target = first.targets[0] if isinstance(first, ast.Assign) else first.target
-            if isinstance(target, ast.Name) and target.id == name:
-                self.with_value[first] = name
+            names = [target.id for target in targets_of(first) if isinstance(target, ast.Name)]
+            if name in names:
+                self.with_value.setdefault(first, set()).add(name)
                 return
         self.before.setdefault(first, []).append(name)
 

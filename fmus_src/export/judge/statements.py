@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import ast
 
-from .kernel import INT, Function, Kernel, List, Scalar, Type, is_self_attribute
-from .kernel_calls import CallTypes, Resolver
-from .kernel_expressions import is_read_only
+from .calls import CallTypes, Resolver
+from .expressions import is_read_only
+from .kernel import FLOAT, INT, Function, Kernel, List, Scalar, Several, Type, Vector, is_self_attribute
 from .subset_table import STATEMENTS
+
+UNUSED = "_"  # a target for what is not wanted of several values
+ANY_VECTOR = Vector(0)  # declared as Vector, its size not known yet
 
 
 def local_names(node: ast.FunctionDef) -> set[str]:
@@ -46,8 +49,10 @@ class StatementTypes(CallTypes):
             self.report(node, "no effect")
 
     def check_assign(self, node: ast.Assign) -> None:
-        if len(node.targets) > 1 or isinstance(node.targets[0], ast.Tuple | ast.List):
+        if len(node.targets) > 1 or isinstance(node.targets[0], ast.List):
             self.report(node, "one target")
+        elif isinstance(node.targets[0], ast.Tuple):
+            self.unpack(node, node.targets[0].elts, node.value)
         else:
             self.assign(node, node.targets[0], node.value)
 
@@ -65,9 +70,37 @@ class StatementTypes(CallTypes):
         found = self.infer(value)
         if isinstance(found, List):
             name = ast.unparse(target)
+            if is_self_attribute(target) and isinstance(self.infer(target), Vector):
+                self.report(node, "list stored", name=name)
+                return
             self.report(node, "list shared" if name in self.bound else "list rebound", name=name)
             return
         self.store(target, found)
+
+    def unpack(self, node: ast.stmt, targets: list[ast.expr], value: ast.expr) -> None:
+        """Check ``a, b = function(...)`` and ``x, y, z = v``."""
+        if isinstance(value, ast.Tuple | ast.List):
+            self.report(node, "one target")
+            return
+        found = self.infer_several(value)
+        if isinstance(found, Several):
+            kinds: list[Scalar | Vector] = list(found.parts)
+        elif isinstance(found, Vector):
+            kinds = [FLOAT] * found.size
+        else:
+            if found is not None:
+                self.report(node, "one target")
+            return
+        if len(kinds) != len(targets):
+            self.report(node, "number of targets", targets=len(targets), got=found)
+            return
+        for target, kind in zip(targets, kinds, strict=True):
+            if isinstance(target, ast.Name) and target.id == UNUSED:
+                continue
+            if isinstance(target, ast.Name) or is_self_attribute(target):
+                self.store(target, kind)
+            else:
+                self.report(target, "target")
 
     def store(self, target: ast.expr, found: Type | None) -> None:
         """Check that a scalar of the given type can go to a target."""
@@ -75,6 +108,9 @@ class StatementTypes(CallTypes):
             expected = self.function.parameters.get(target.id) or self.function.locals.get(target.id)
             if expected is None and found is not None:
                 self.function.locals[target.id] = found
+        elif self._is_component(target):
+            self.report(target, "component assigned", name=ast.unparse(target.value))  # type: ignore[attr-defined]
+            return
         elif isinstance(target, ast.Subscript):
             expected = self.infer(target)
             if is_read_only(self.function, target.value):
@@ -88,11 +124,24 @@ class StatementTypes(CallTypes):
             return
         if isinstance(expected, List):
             self.report(target, "list rebound", name=ast.unparse(target))
-        elif expected is not None and found is not None and found is not expected:
+        elif expected is not None and found is not None and found != expected:
             self.report(target, "type change", name=ast.unparse(target), before=expected, after=found)
+
+    def _is_component(self, target: ast.expr) -> bool:
+        """Whether a target is an element or a component of a vector."""
+        if isinstance(target, ast.Subscript):
+            return isinstance(self.infer(target.value), Vector)
+        if not isinstance(target, ast.Attribute) or is_self_attribute(target):
+            return False
+        name = target.value.id if isinstance(target.value, ast.Name) else None
+        known = name is None or name in self.bound or name in self.function.parameters
+        return known and isinstance(self.infer(target.value), Vector)
 
     def bind_list(self, node: ast.stmt, target: ast.expr, value: ast.expr) -> None:
         """Check ``name = [0.0] * n`` or ``name = [a, b, c]``."""
+        if is_self_attribute(target) and isinstance(self.infer(target), Vector):
+            self.report(node, "list stored", name=ast.unparse(target))
+            return
         if not isinstance(target, ast.Name) or target.id in self.function.parameters:
             self.report(node, "list rebound", name=ast.unparse(target))
             return
@@ -122,19 +171,6 @@ class StatementTypes(CallTypes):
             self.report(node, "type change", name=target.id, before=before, after=found)
         self.function.types[value] = found
 
-    def fixed_size(self, node: ast.expr) -> int | None:
-        """Value of an int literal, an int constant or a length, for the size of a list."""
-        if self.infer(node) is not INT:
-            return None
-        if isinstance(node, ast.Constant):
-            return node.value if isinstance(node.value, int) else None
-        if node in self.function.constants:
-            return self.function.constants[node].value
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "len":
-            found = self.function.types[node.args[0]]
-            return found.size if isinstance(found, List) else None
-        return None
-
     def check_if(self, node: ast.If) -> None:
         self.infer_condition(node.test)
         self.block(node.body)
@@ -163,10 +199,21 @@ class StatementTypes(CallTypes):
             self.report(node, "loop else")
 
     def check_return(self, node: ast.Return) -> None:
-        found = self.infer(node.value) if node.value is not None else None
+        if isinstance(node.value, ast.Tuple):
+            kinds = [self.infer(value) for value in node.value.elts]
+            if not all(isinstance(kind, Scalar | Vector) for kind in kinds):
+                if None not in kinds:
+                    self.report(node, "return value", got="a list", expected=self.function.returns)
+                return
+            found: Type | Several | None = Several(tuple(kinds))  # type: ignore[arg-type]
+            self.function.types[node.value] = found
+        else:
+            found = self.infer_several(node.value) if node.value is not None else None
         if node.value is not None and found is None:
             return
-        if found is not self.function.returns:
+        if self.function.returns == ANY_VECTOR and isinstance(found, Vector):
+            self.function.returns = found  # of the size that it turns out to have
+        if found != self.function.returns:
             self.report(node, "return value", got=found, expected=self.function.returns)
 
 

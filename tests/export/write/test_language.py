@@ -3,22 +3,52 @@
 from __future__ import annotations
 
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export.c_translate import translate
-from perilune.fmus_src.export.subset import check
+from perilune.fmus_src.export.judge.subset import check
+from perilune.fmus_src.export.write.translate import translate
 from tests.support.kernels import samples
 from tests.support.kernels.comparison import Pair, fly
-from tests.support.kernels.language_blocks import Faults, Language
+from tests.support.kernels.language_blocks import Faults, Language, VectorFaults, VectorLanguage
 
 
 def test_blocks_are_in_the_subset() -> None:
     assert check(Language) == []
     assert check(Faults) == []
+    assert check(VectorLanguage) == []
+    assert check(VectorFaults) == []
 
 
 def test_every_construct_is_bitwise_equal() -> None:
     pair = Pair(Language, samples.generator("language"))
     rows, _ = fly(pair, samples.size(2000))
     assert len(set(rows)) > 0.9 * len(rows)
+
+
+def test_everything_that_vectors_can_do_is_bitwise_equal() -> None:
+    pair = Pair(VectorLanguage, samples.generator("vectors"))
+    rows, _ = fly(pair, samples.size(2000))
+    assert len(set(rows)) > 0.9 * len(rows)
+
+
+def test_vectors_of_any_floats_are_bitwise_equal() -> None:
+    pair = Pair(VectorLanguage, samples.generator("wild vectors"))
+    pair.wild = True
+    fly(pair, samples.size(2000))
+
+
+def test_every_fault_of_vectors_is_at_the_same_line_and_leaves_the_same_values() -> None:
+    pair = Pair(VectorFaults, samples.generator("vector faults"))
+    pair.wild = True
+    fly(pair, samples.size(3000))
+    lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
+    assert len(lines) >= 9, sorted(lines)
+
+
+def test_generated_vectors_are_readable() -> None:
+    text = translate(VectorLanguage, "{guid}")
+    assert "Vector3 kept; " in text
+    assert "a = add3(a, scale3(2.0, self->scale));" in text
+    assert "static inline Vector3 language_blocks_unit_3(" in text
+    assert "typedef struct Vector3Vector3DoubleInt64Bool {" in text
 
 
 def test_every_fault_is_at_the_same_line_and_leaves_the_same_values() -> None:

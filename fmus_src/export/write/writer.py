@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import ast
 
-from .c_expressions import ExpressionWriter
-from .c_layout import Lines
-from .c_names import C_TYPES, Names, identifier
-from .c_placement import Placement
-from .kernel import BOOL, FLOAT, INT, Function, List, Scalar
-from .kernel_effects import own_outcome
-from .kernel_source import comments_of
+from ..judge.effects import own_outcome
+from ..judge.kernel import BOOL, FLOAT, INT, Function, List, Scalar, Several, Vector
+from ..judge.source import comments_of
+from .expressions import ExpressionWriter
+from .layout import Lines
+from .names import C_TYPES, Names, c_type, identifier
+from .placement import Placement
 
 ZERO = {FLOAT: "0.0", INT: "0", BOOL: "false"}
 
@@ -45,15 +45,20 @@ class FunctionWriter:
 
     def check(self) -> None:
         """Return when a fault was recorded."""
-        value = f" {ZERO[self.function.returns]}" if self.function.returns else ""
+        returns = self.function.returns
+        value = ""
+        if isinstance(returns, Scalar):
+            value = f" {ZERO[returns]}"
+        elif returns is not None:
+            value = f" ({c_type(returns)}){'{{0.0}}' if isinstance(returns, Vector) else '{0}'}"
         self.lines.add(f"if (fault->what) return{value};")
 
     def keep(self, node: ast.expr, text: str, name: str) -> str:
         """Give the value of an expression a variable of its own, checked where it can fail."""
         kind = self.function.types[node]
-        assert isinstance(kind, Scalar)
+        assert isinstance(kind, Scalar | Vector | Several)
         variable = self.fresh(name)
-        self.add(f"const {C_TYPES[kind]} {variable} = {text};")
+        self.add(f"const {c_type(kind)} {variable} = {text};")
         if self.can_fault(node) or node in self.function.hoisted:
             self.check()
         return variable
@@ -74,7 +79,7 @@ class FunctionWriter:
         kind = self.function.locals[name]
         if isinstance(kind, List):
             return f"{C_TYPES[kind.element]} {identifier(name)}[{kind.size}]"
-        return f"{C_TYPES[kind]} {identifier(name)}"
+        return f"{c_type(kind)} {identifier(name)}"
 
     def comments_before(self, statement: ast.stmt) -> None:
         """The Python comments between the statement before and this one."""

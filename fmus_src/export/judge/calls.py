@@ -8,6 +8,8 @@ import math
 from collections.abc import Callable
 from types import FunctionType
 
+from ...mathlib.vector_types import vector
+from .expressions import ExpressionTypes
 from .kernel import (
     BOOL,
     FLOAT,
@@ -19,11 +21,12 @@ from .kernel import (
     List,
     MathCall,
     Scalar,
+    Several,
     Type,
+    Vector,
     is_self_attribute,
 )
-from .kernel_expressions import ExpressionTypes
-from .kernel_source import find_global, find_method
+from .source import find_global, find_method
 from .subset_table import BUILTIN_FUNCTIONS, MATH_FUNCTIONS, OTHER_FUNCTION, REFUSED_FUNCTIONS, RULES
 
 # Gives the Function for a callee and the types of its arguments; None after a violation in its declaration.
@@ -39,15 +42,31 @@ class CallTypes(ExpressionTypes):
 
     def infer_call(self, node: ast.Call) -> Type | None:
         """Type of a call used as a value; calls without a value are statements."""
-        found = self.call(node)
-        if isinstance(found, Function):
-            if found.returns is None:
-                self.report(node, "number", name="the value", got=f"{found.name}, which returns None")
-            return found.returns
+        found = self._value_of(node)
+        if not isinstance(found, Several):
+            return found
+        self.report(node, "several values", name=ast.unparse(node.func), got=found)
+        return None
+
+    def infer_several(self, node: ast.expr) -> Type | Several | None:
+        """Type of what is returned or assigned to several targets, which may be several values."""
+        if not isinstance(node, ast.Call):
+            return self.infer(node)
+        self.function.types[node] = found = self._value_of(node)
         return found
+
+    def _value_of(self, node: ast.Call) -> Type | Several | None:
+        found = self.call(node)
+        if not isinstance(found, Function):
+            return found
+        if found.returns is None:
+            self.report(node, "number", name="the value", got=f"{found.name}, which returns None")
+        return found.returns
 
     def call(self, node: ast.Call) -> Function | Type | None:
         """Resolve a call; the callee for a kernel function, else the type of its value."""
+        if self._callee(node.func)[0] is vector:
+            return self.make_vector(node)
         if node.keywords:
             self.report(node, "keyword")
         for argument in node.args:
@@ -106,13 +125,15 @@ class CallTypes(ExpressionTypes):
             return None
         argument = self.function.types[node.args[0]]
         if name == "len":
-            if argument is not None and not isinstance(argument, List):
-                self.report(node, "argument type", name=name, expected="a list", argument="its argument", got=argument)
+            if argument is not None and not isinstance(argument, List | Vector):
+                self.report(
+                    node, "argument type", name=name, expected="a list or vector", argument="its argument", got=argument
+                )
             return INT
-        if argument is not None and (isinstance(argument, List) or (name == "abs" and argument is BOOL)):
+        if argument is not None and (isinstance(argument, List | Vector) or (name == "abs" and argument is BOOL)):
             self.report(node, "number", name=name, got=argument)
             return None
-        if name == "abs":
+        if name == "abs" and isinstance(argument, Scalar):
             return argument
         return FLOAT if name == "float" else INT
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import ast
 from types import FunctionType
 
-from ..block import Block
-from .kernel import BOOL, FLOAT, INT, Function, Kernel, List, Scalar, Type, body_of
-from .kernel_source import Source, find_method, source_of
-from .kernel_statements import StatementTypes
+from ...block import Block
+from ...mathlib.vector_types import VECTORS
+from .kernel import BOOL, FLOAT, INT, Function, Kernel, List, Returned, Scalar, Several, Type, Vector, body_of
+from .source import Source, find_method, source_of
+from .statements import ANY_VECTOR, StatementTypes
 
-ANNOTATIONS = {"float": FLOAT, "int": INT, "bool": BOOL}
+ANNOTATIONS: dict[str, Scalar | Vector] = {"float": FLOAT, "int": INT, "bool": BOOL, "Vector": ANY_VECTOR}
+ANNOTATIONS |= {kind.__name__: Vector(size) for size, kind in VECTORS.items()}
 
 
 def typed_kernel(block_class: type[Block]) -> Kernel:
@@ -29,7 +31,7 @@ def typed_kernel(block_class: type[Block]) -> Kernel:
 
 
 class _Finder:
-    """Makes one Function per Python function and combination of list types."""
+    """Makes one Function per Python function and combination of list and vector types."""
 
     def __init__(self, kernel: Kernel) -> None:
         self.kernel = kernel
@@ -53,7 +55,7 @@ class _Finder:
         parameters = self._parameters(source, caller, call, types)
         if parameters is None:
             return None
-        key = (function, owner, tuple(found for found in parameters.values() if isinstance(found, List)))
+        key = (function, owner, tuple(found for found in parameters.values() if isinstance(found, List | Vector)))
         if key in self.under_way:
             self.kernel.report(source, source.node, "recursion", name=source.name)
             return None
@@ -97,31 +99,50 @@ class _Finder:
         for argument, given in zip(names, types, strict=True):
             declared = _annotation(argument.annotation)
             if declared is None:
-                detail = f"argument {argument.arg} is declared as none of float, int, bool, list"
+                detail = f"argument {argument.arg} is declared as none of float, int, bool, Vector3 (or 2, 4), list"
                 self.kernel.report(source, argument, "signature", name=source.name, detail=detail)
                 return None
-            fits = isinstance(given, List) if declared == "list" else given is declared
-            if not fits:
+            if not _fits(given, declared):
+                mixed = {List, Vector} == {type(given), List if declared == "list" else type(declared)}
                 self.kernel.report(
-                    *place, "argument type", name=source.name, expected=declared, argument=argument.arg, got=given
+                    *place,
+                    "list and vector" if mixed else "argument type",
+                    name=source.name,
+                    expected="vector" if declared == ANY_VECTOR else declared,
+                    argument=argument.arg,
+                    got=given,
                 )
                 return None
             parameters[argument.arg] = given
         return parameters
 
-    def _returns(self, source: Source) -> Scalar | None:
+    def _returns(self, source: Source) -> Returned | None:
         annotation = source.node.returns
         if isinstance(annotation, ast.Constant) and annotation.value is None:
             return None
-        found = _annotation(annotation)
-        if not isinstance(found, Scalar):
+        if isinstance(annotation, ast.Subscript) and ast.unparse(annotation.value) == "tuple":
+            several = annotation.slice.elts if isinstance(annotation.slice, ast.Tuple) else [annotation.slice]
+            parts = [_annotation(part) for part in several]
+            if len(parts) > 1 and all(isinstance(part, Scalar | Vector) and part != ANY_VECTOR for part in parts):
+                return Several(tuple(parts))  # type: ignore[arg-type]
+            found = None
+        else:
+            found = _annotation(annotation)
+        if not isinstance(found, Scalar | Vector):
             self.kernel.report(source, source.node, "return type", name=source.name)
             return None
         return found
 
 
-def _annotation(node: ast.expr | None) -> Scalar | str | None:
-    """``float``, ``int``, ``bool`` as Scalar, ``list`` and ``list[...]`` as "list"."""
+def _fits(given: Type, declared: Scalar | Vector | str) -> bool:
+    """Whether an argument is what is declared."""
+    if declared == "list":
+        return isinstance(given, List)
+    return given == declared or (declared == ANY_VECTOR and isinstance(given, Vector))
+
+
+def _annotation(node: ast.expr | None) -> Scalar | Vector | str | None:
+    """``float``, ``int``, ``bool`` as Scalar, ``Vector3`` as Vector, ``list`` and ``list[...]`` as "list"."""
     if isinstance(node, ast.Subscript):
         node = node.value
     if not isinstance(node, ast.Name):

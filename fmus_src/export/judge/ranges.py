@@ -8,9 +8,20 @@ from __future__ import annotations
 
 import ast
 
-from .kernel import INT, BuiltinCall, Function, Interval, Kernel, KernelCall, List, is_self_attribute
-from .kernel_expressions import is_read_only
-from .kernel_statements import range_step
+from .expressions import is_read_only
+from .kernel import (
+    INT,
+    BuiltinCall,
+    Function,
+    Interval,
+    Kernel,
+    KernelCall,
+    List,
+    Vector,
+    is_self_attribute,
+    targets_of,
+)
+from .statements import range_step
 
 INT64 = Interval(-(2**63), 2**63 - 1)
 INT32 = Interval(-(2**31), 2**31 - 1)  # FMI Integers, hence inputs and parameters
@@ -60,9 +71,11 @@ class _Ranges:
         if isinstance(node, ast.For) and isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Call):
             return [(node.target.id, self.loop_range(node.iter))]
         if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
-            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
-            if isinstance(target, ast.Name) and self.function.types.get(node.value) is INT:
-                return [(target.id, self.of(node.value))]
+            names = [target.id for target in targets_of(node) if isinstance(target, ast.Name)]
+            if len(targets_of(node)) > 1:
+                return [(name, INT64) for name in names if self.function.locals.get(name) is INT]
+            if names and self.function.types.get(node.value) is INT:
+                return [(names[0], self.of(node.value))]
         return []
 
     def loop_range(self, call: ast.Call) -> Interval:
@@ -107,7 +120,7 @@ class _Ranges:
         call = self.function.calls.get(node)
         if isinstance(call, BuiltinCall):
             argument = self.function.types[node.args[0]]
-            if call.name == "len" and isinstance(argument, List):
+            if call.name == "len" and isinstance(argument, List | Vector):
                 return Interval(argument.size, argument.size)
             if argument is INT:
                 inner = self.of(node.args[0])
@@ -121,7 +134,7 @@ class _Ranges:
         """Keep what needs a check at run time, report what is wrong for certain, pass ranges on to callees."""
         function = self.function
         for node, kind in list(function.types.items()):
-            if isinstance(node, ast.Subscript) and isinstance(function.types.get(node.value), List):
+            if isinstance(node, ast.Subscript) and node not in function.parts:
                 self._judge_index(node)
             computed = kind is INT and isinstance(node, ast.BinOp | ast.UnaryOp | ast.Call)
             if computed and not self.unbounded(node).within(INT64):
@@ -136,7 +149,7 @@ class _Ranges:
 
     def _judge_index(self, node: ast.Subscript) -> None:
         container = self.function.types[node.value]
-        assert isinstance(container, List)
+        assert isinstance(container, List | Vector)
         found = self.of(node.slice)
         if not found.within(Interval(0, container.size - 1)):
             self.function.unproven.add(node)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import ast
 
-from .c_names import identifier
-from .c_placement import assigned_names
-from .c_writer import ZERO, FunctionWriter
-from .kernel import KernelCall, List
-from .kernel_statements import is_list_binding, range_step
+from ..judge.kernel import KernelCall, List, Several
+from ..judge.statements import is_list_binding, range_step
+from .names import identifier
+from .placement import assigned_names
+from .writer import ZERO, FunctionWriter
 
 FEW = 8  # elements that are written out where a loop would do
 
@@ -52,7 +52,11 @@ class StatementWriter(FunctionWriter):
         self.add(f"return {self.expressions.write(node.value)};" if node.value is not None else "return;")
 
     def write_assign(self, node: ast.Assign) -> None:
-        self.assign(node, node.targets[0], node.value)
+        target = node.targets[0]
+        if isinstance(target, ast.Tuple):
+            self.unpack(node, target, node.value)
+        else:
+            self.assign(node, target, node.value)
 
     def write_annassign(self, node: ast.AnnAssign) -> None:
         assert node.value is not None
@@ -66,7 +70,7 @@ class StatementWriter(FunctionWriter):
             return
         text = self.expressions.write(value)
         if isinstance(target, ast.Name):
-            left = self.declared(target.id) if node in self.placement.with_value else identifier(target.id)
+            left = self.declared(target.id) if self.placement.declares(node, target.id) else identifier(target.id)
             self.add(f"{left} = {text};")
             if self.can_fault(value):
                 self.check()
@@ -81,12 +85,26 @@ class StatementWriter(FunctionWriter):
         if fails:
             self.check()
 
+    def unpack(self, node: ast.stmt, target: ast.Tuple, value: ast.expr) -> None:
+        """``a, b = function(...)`` or ``x, y, z = v``."""
+        whole = self.keep(value, self.expressions.write(value), "parts")
+        several = isinstance(self.function.types[value], Several)
+        for number, part in enumerate(target.elts):
+            text = f"{whole}.part{number}" if several else f"{whole}.x[{number}]"
+            if isinstance(part, ast.Name) and part.id not in self.function.locals:
+                continue  # _, which nothing reads
+            if isinstance(part, ast.Name):
+                left = self.declared(part.id) if self.placement.declares(node, part.id) else identifier(part.id)
+                self.add(f"{left} = {text};")
+            else:
+                self._store(part, text)
+
     def _store(self, target: ast.expr, text: str) -> None:
         if isinstance(target, ast.Subscript) and self.can_fault(target):
             place = self.fresh("place")
             self.add(f"const int64_t {place} = {self.expressions.index(target)};")
             self.check()
-            self.add(f"{self.expressions.write(target.value)}[{place}] = {text};")
+            self.add(f"{self.expressions.write(target.value)}{self.expressions.place(target, place)} = {text};")
         else:
             self.add(f"{self.expressions.write(target)} = {text};")
 
@@ -104,7 +122,7 @@ class StatementWriter(FunctionWriter):
         """``name = [a, b]`` or ``name = [a] * n``."""
         kind = self.function.locals[name]
         assert isinstance(kind, List)
-        declares = node in self.placement.with_value
+        declares = self.placement.declares(node, name)
         if isinstance(value, ast.BinOp):
             assert isinstance(value.left, ast.List)
             self._fill(name, value.left.elts[0], kind, declares)

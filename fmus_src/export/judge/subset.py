@@ -5,12 +5,12 @@ What the check accepts runs as plain Python and translates to C99 with the same 
 
 from __future__ import annotations
 
-from ..block import Block
+from ...block import Block
+from .effects import find_effects
+from .flow import FlowCheck
 from .kernel import Kernel, Violation
-from .kernel_effects import find_effects
-from .kernel_flow import FlowCheck
-from .kernel_ranges import find_ranges
-from .kernel_types import typed_kernel
+from .ranges import find_ranges
+from .typed import typed_kernel
 
 __all__ = ["SubsetError", "Violation", "analysed_kernel", "check"]
 

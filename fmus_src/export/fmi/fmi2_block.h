@@ -2,7 +2,7 @@
 #ifndef FMI2_BLOCK_H
 #define FMI2_BLOCK_H
 
-#include "kernel_math.h"
+#include "kernel_vectors.h"
 
 /* What an element is and when it may be set; bits, so that one test covers a whole list of elements. */
 typedef enum Trait {

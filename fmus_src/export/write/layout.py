@@ -5,14 +5,16 @@ from __future__ import annotations
 import re
 import textwrap
 
-from .c_names import comment
+from .names import comment
 
 WIDTH = 110
 LINE_COLUMN = 92  # where the numbers of Python lines stand
 MEMBER_COLUMN = 44  # where the descriptions of struct members stand
 INDENT = "    "
 NO_BREAK = "\x00"
-TYPE_AND_NAME = re.compile(r"\b(const|double|int64_t|bool|Fault|return) ")  # stay on one line with what follows
+TYPE_AND_NAME = re.compile(
+    r"\b(const|double|int64_t|bool|Vector2|Vector3|Vector4|Fault|return) "
+)  # stay on one line with what follows
 
 
 class Lines:

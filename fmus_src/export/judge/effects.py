@@ -9,8 +9,20 @@ from __future__ import annotations
 
 import ast
 
-from .kernel import FLOAT, INT, BuiltinCall, Function, Kernel, KernelCall, List, MathCall, is_self_attribute
-from .kernel_expressions import is_read_only
+from .expressions import is_read_only
+from .kernel import (
+    FLOAT,
+    INT,
+    BuiltinCall,
+    Function,
+    Kernel,
+    KernelCall,
+    List,
+    MathCall,
+    Vector,
+    is_self_attribute,
+    targets_of,
+)
 
 Outcomes = frozenset[tuple[int, object]]  # (line, what ends the call there)
 NO_OUTCOME: Outcomes = frozenset()
@@ -27,9 +39,11 @@ def find_effects(kernel: Kernel) -> None:
 
 
 def is_nonzero_constant(function: Function, node: ast.expr) -> bool:
-    """Whether a divisor is a literal or a module constant other than zero."""
+    """Whether a divisor is a literal or a module constant, no component of which is zero."""
     if isinstance(node, ast.Constant):
         return bool(node.value)
+    if isinstance(function.types.get(node), Vector):
+        return node in function.constants and all(function.constants[node].value)
     return node in function.constants and bool(function.constants[node].value)
 
 
@@ -68,12 +82,12 @@ class _Effects:
         whole: ast.expr | None = None
         outcomes = NO_OUTCOME
         if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None:
-            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
-            self._changes(target.value if isinstance(target, ast.Subscript) else target)
             whole = node.value
             outcomes = self._value(node.value)
-            if isinstance(target, ast.Subscript):
-                outcomes |= self.visit(target, False)
+            for target in targets_of(node):
+                self._changes(target.value if isinstance(target, ast.Subscript) else target)
+                if isinstance(target, ast.Subscript):
+                    outcomes |= self.visit(target, False)
         elif isinstance(node, ast.Expr | ast.Return) and node.value is not None:
             whole = node.value
             outcomes = self.visit(node.value, False)
@@ -156,7 +170,11 @@ def operands(node: ast.expr) -> list[ast.expr]:
     if isinstance(node, ast.Compare):
         return [node.left, *node.comparators]
     if isinstance(node, ast.Call):
-        return list(node.args)
+        return [argument for argument in node.args if not isinstance(argument, ast.Starred)]
     if isinstance(node, ast.Subscript):
-        return [node.slice]
+        return [node.value] if isinstance(node.slice, ast.Slice) else [node.value, node.slice]
+    if isinstance(node, ast.Attribute) and not is_self_attribute(node):
+        return [node.value]
+    if isinstance(node, ast.Tuple):
+        return node.elts
     return []

@@ -1,0 +1,141 @@
+"""Types of what vectors are written with: operators, components, parts, and making one."""
+
+from __future__ import annotations
+
+import ast
+from abc import ABC, abstractmethod
+
+from ...mathlib.vector_types import VECTORS
+from .kernel import FLOAT, INT, Function, List, MakeVector, Several, Type, Vector, is_self_attribute
+from .subset_table import Rule
+
+ON_VECTORS = (ast.Add, ast.Sub, ast.Mult, ast.Div)  # of two vectors, component by component
+BY_NUMBERS = (ast.Mult, ast.Div)  # of a vector and a number
+
+
+class VectorTypes(ABC):
+    """The part of type inference that is about vectors."""
+
+    function: Function
+
+    @abstractmethod
+    def report(self, node: ast.AST, rule: str | Rule, **details: object) -> None:
+        """Report a violation."""
+
+    @abstractmethod
+    def infer(self, node: ast.expr) -> Type | None:
+        """The type of an expression."""
+
+    @abstractmethod
+    def fixed_size(self, node: ast.expr) -> int | None:
+        """The value of a constant int."""
+
+    def operate_on_vectors(
+        self, node: ast.AST, operator: ast.operator, left: Type | Several, right: Type | Several
+    ) -> Type | None:
+        """Type of ``left operator right``, at least one of which is a vector."""
+        name = type(operator).__name__
+        if isinstance(left, List) or isinstance(right, List):
+            self.report(node, "list for vector", left=left, right=right)
+        elif isinstance(left, Vector) and isinstance(right, Vector):
+            if left.size != right.size:
+                self.report(node, "vector sizes", left=left, right=right)
+            elif isinstance(operator, ON_VECTORS):
+                return left
+            else:
+                self.report(node, "vector operator", name=name, left=left, right=right)
+        elif isinstance(left, Vector) and right in (FLOAT, INT) and isinstance(operator, BY_NUMBERS):
+            return left
+        elif isinstance(right, Vector) and left in (FLOAT, INT) and isinstance(operator, ast.Mult):
+            return right
+        else:
+            self.report(node, "vector operator", name=name, left=left, right=right)
+        return None
+
+    def component(self, node: ast.Attribute, kind: Vector) -> Type | None:
+        """Type of ``v.x``."""
+        names = VECTORS[kind.size].names
+        if node.attr not in names:
+            self.report(node, "component", name=node.attr, kind=kind, names=", ".join(names))
+            return None
+        self.function.components[node] = names.index(node.attr)
+        return FLOAT
+
+    def part(self, node: ast.Subscript, container: Type | None) -> int | None:
+        """How many elements of a vector or list ``v[1:4]`` has."""
+        assert isinstance(node.slice, ast.Slice)
+        if not isinstance(container, Vector | List):
+            if container is not None:
+                self.report(node, "number", name="a part", got=container)
+            return None
+        if not is_variable(node.value):
+            self.report(node, "part of an expression", name=ast.unparse(node.value))
+            return None
+        first = 0 if node.slice.lower is None else self.fixed_size(node.slice.lower)
+        end = container.size if node.slice.upper is None else self.fixed_size(node.slice.upper)
+        good = first is not None and end is not None and node.slice.step is None
+        if not good or not 0 <= first < end <= container.size:  # type: ignore[operator]
+            self.report(node, "part", part=ast.unparse(node), size=container.size)
+            return None
+        self.function.parts[node] = range(first, end)  # type: ignore[arg-type]
+        return end - first  # type: ignore[operator]
+
+    def part_of_vector(self, node: ast.Subscript, container: Type | None) -> Type | None:
+        """Type of ``v[1:4]`` as a value, which only vectors have."""
+        if isinstance(container, List):
+            self.report(node, "part of a list", part=ast.unparse(node))
+            return None
+        size = self.part(node, container)
+        if size is None:
+            return None
+        if size not in VECTORS:
+            self.report(node, "part", part=ast.unparse(node), size=len(self.function.parts.pop(node)))
+            return None
+        return Vector(size)
+
+    def make_vector(self, node: ast.Call) -> Type | None:
+        """Type of ``vector(x, y, z)`` or ``vector(*wrench[0:3])``."""
+        if node.keywords:
+            self.report(node, "keyword")
+            return None
+        if len(node.args) == 1 and isinstance(node.args[0], ast.Starred):
+            size = self._starred(node.args[0].value)
+        else:
+            size = len(node.args)
+            kinds = [self.infer(argument) for argument in node.args]
+            for argument, kind in zip(node.args, kinds, strict=True):
+                if kind not in (FLOAT, None):
+                    self.report(
+                        argument, "argument type", name="vector", expected=FLOAT, argument="a component", got=kind
+                    )
+            if None in kinds:
+                return None
+        if size is None:
+            return None
+        if size not in VECTORS:
+            self.report(node, "vector size", got=size)
+            return None
+        self.function.calls[node] = MakeVector()
+        return Vector(size)
+
+    def _starred(self, node: ast.expr) -> int | None:
+        """Number of elements of ``*wrench[0:3]`` or ``*row``; kept as a part."""
+        holder = node.value if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) else node
+        container = self.infer(holder)
+        if isinstance(container, List) and container.element is not FLOAT:
+            self.report(node, "argument type", name="vector", expected="floats", argument="its list", got=container)
+            return None
+        if holder is not node:
+            assert isinstance(node, ast.Subscript)
+            return self.part(node, container)
+        if not isinstance(container, List) or not is_variable(node):
+            if container is not None:
+                self.report(node, "argument type", name="vector", expected="a list", argument="*", got=container)
+            return None
+        self.function.parts[node] = range(container.size)
+        return container.size
+
+
+def is_variable(node: ast.expr) -> bool:
+    """Whether an expression is a name or ``self.name``, which C can write several times."""
+    return isinstance(node, ast.Name) or is_self_attribute(node)
