@@ -23,14 +23,16 @@ class AstarGuidance(AstarProgramme):
         g = self.gravity
         slope_p = dv + 3.0 * v
         slope_q = dv + 2.0 * v
+        far = 3.0 * dr
+        near = 2.0 * dr
         time = start
         converged = False
         for _ in range(50):
             if not converged:
                 # A T - 3 B and A T - 2 B with their derivatives; gravity acts on the third axis
-                p = slope_p * time - 3.0 * dr
+                p = slope_p * time - far
                 p = vector(p.x, p.y, p.z - 0.5 * g * time * time)
-                q = slope_q * time - 2.0 * dr
+                q = slope_q * time - near
                 first = vector(slope_p.x, slope_p.y, slope_p.z - g * time) * q
                 second = p * slope_q
                 value = 0.0 + dot(p, q)

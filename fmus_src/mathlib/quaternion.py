@@ -51,12 +51,12 @@ def turn(scalar: float, e: Vector3, v: Vector3) -> Vector3:
 
 def to_reference(q: Vector4, v: Vector3) -> Vector3:
     """q v q*: a vector in body components, expressed in the reference frame."""
-    return turn(q.w, q[1:4], v)
+    return turn(q.w, vector(q.x, q.y, q.z), v)
 
 
 def to_body(q: Vector4, v: Vector3) -> Vector3:
     """q* v q: a vector in reference components, expressed in the body frame."""
-    return turn(q.w, -q[1:4], v)
+    return turn(q.w, vector(-q.x, -q.y, -q.z), v)
 
 
 def from_rotation_vector(rotation: Vector3) -> Vector4:
