@@ -10,6 +10,7 @@ from perilune.analysis.errors import InputError
 from perilune.analysis.stability.ask.declaration import Declaration, Element, Limits, Loop, Point, Sweep
 from perilune.analysis.stability.ask.reading import read_declaration
 from perilune.analysis.system.description import Reader
+from perilune.analysis.system.options import Layer
 from tests.support.builders import component, document, pack, system
 from tests.support.loops.exact_systems import ring, with_stability
 
@@ -49,9 +50,7 @@ def test_all_that_can_be_declared():
         time=20.0,
         until=4000.0,
         phase="waits",
-        use={"jets": "f"},
-        parameters=("a.ssv", "b.ssv"),
-        set={"plant.start": "2"},
+        layer=Layer(use={"jets": "f"}, parameters=("a.ssv", "b.ssv"), set={"plant.start": "2"}),
     )
     elements = (
         Element("jets", "relay", {"level": 0.06, "dead_zone": 0.02}, {"jets": "r"}),
