@@ -7,14 +7,14 @@ demo: .venv/ready
 
 test: .venv/ready lint build
 	-@[ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null || $(MAKE) --no-print-directory browser
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 # What is proved without flights of whole systems: the mathematics, the blocks, the language, the arrows between rooms.
 QUICK := tests/blocks tests/campaign tests/compare tests/export/judge tests/laws tests/loops tests/mathlib tests/reports/kit tests/test_architecture.py tests/test_errors.py
 
 quick: .venv/ready
 	$(BIN)/ruff check .
-	$(BIN)/python -m pytest -n 2 $(QUICK)
+	$(BIN)/python -m pytest -n 2 --dist loadfile $(QUICK)
 
 build: .venv/ready
 	$(BIN)/python build_fmus.py

@@ -16,7 +16,7 @@ from perilune.analysis.campaign.plan import read_plan
 from perilune.analysis.system.options import SystemOptions
 
 SYSTEM = "lunar_terminal_guidance"
-TRIALS = 10
+TRIALS = 6
 COMPARE = {"guidance": ["analytic_guidance", "astar_modified_guidance"]}
 pytestmark = pytest.mark.usefixtures("fmus")
 

@@ -10,7 +10,7 @@ from tests.support.kernels import samples
 from tests.support.kernels.comparison import Pair, fly, only_switches
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
-STEPS = samples.size(1000)
+STEPS = samples.size(400)  # beside the 1000 of test_three_faces.py
 
 
 @pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.fmu_name)
