@@ -1,4 +1,4 @@
-# make demo | test | quick | build | explore | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | build | explore | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 
@@ -15,6 +15,10 @@ QUICK := tests/blocks tests/campaign tests/compare tests/export/judge tests/laws
 quick: .venv/ready
 	$(BIN)/ruff check .
 	$(BIN)/python -m pytest -n 2 --dist loadfile $(QUICK)
+
+# The checks that take their whole size: every published start, system and noise, of which `make test` takes a part.
+long: build
+	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $$(grep -rl 'support.lengths' tests --include='test_*.py')
 
 build: .venv/ready
 	$(BIN)/python build_fmus.py
@@ -49,4 +53,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick build explore bench sanitize browser lint clean
+.PHONY: demo test quick long build explore bench sanitize browser lint clean
