@@ -89,9 +89,10 @@ class StatementWriter(FunctionWriter):
         """``a, b = function(...)`` or ``x, y, z = v``."""
         whole = self.keep(value, self.expressions.write(value), "parts")
         several = isinstance(self.function.types[value], Several)
+        known = {*self.function.locals, *self.function.parameters}
         for number, part in enumerate(target.elts):
             text = f"{whole}.part{number}" if several else f"{whole}.x[{number}]"
-            if isinstance(part, ast.Name) and part.id not in self.function.locals:
+            if isinstance(part, ast.Name) and part.id not in known:
                 continue  # _, which nothing reads
             if isinstance(part, ast.Name):
                 left = self.declared(part.id) if self.placement.declares(node, part.id) else identifier(part.id)

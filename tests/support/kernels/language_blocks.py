@@ -230,6 +230,7 @@ class VectorLanguage(Block):
     flag = Output(False, direct=True, description="a bool")
     kept = State([0.0, 0.0, 0.0], description="a vector kept from before the step")
     longer = State([1.0, 2.0, 3.0, 4.0, 5.0, 6.0], description="a list")
+    u_moved = State([0.0, 0.0, 0.0], description="a vector")
     x_before = State(0.0, description="a number")
 
     def remember(self, v: Vector3) -> tuple[Vector3, float]:
@@ -242,6 +243,17 @@ class VectorLanguage(Block):
         if k == 0:
             return self.scale
         return -self.scale if k % 2 == 0 else UP
+
+    def moved_on(self, place: Vector3, speed: Vector3, time: float) -> tuple[Vector3, Vector3]:
+        """Arguments bound anew, from several values too."""
+        while time < 2.0:
+            place, speed = self.moved(place, speed, 0.5)
+            time = time + 0.75
+        return place, speed
+
+    def moved(self, place: Vector3, speed: Vector3, h: float) -> tuple[Vector3, Vector3]:
+        speed = speed - 0.25 * place
+        return place + h * speed, speed
 
     def operators(self) -> None:
         a = self.u
@@ -277,6 +289,7 @@ class VectorLanguage(Block):
         self.b, self.a, self.x_before, self.n, self.flag = swapped(self.longer, self.x)
         before, product = self.remember(self.u)
         self.y[5] = product
+        self.u_moved, self.kept = self.moved_on(self.scale, self.kept, 0.1)
         self.y[6] = norm(first - before)  # 0: a name keeps its vector whatever is stored meanwhile
         _, other, _, count, _ = halves(self.longer, self.x)
         self.y[7] = other.x + float(count)
