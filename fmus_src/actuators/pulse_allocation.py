@@ -1,0 +1,95 @@
+"""From the torque wanted to pulses of jets, with the rest carried over."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.vectors import clip, is_finite, vector
+
+GOOD = 0
+SATURATED = 1
+NOT_FINITE = 2
+
+
+class PulseAllocation(Block):
+    """Pulses about three axes whose moment of momentum is the one demanded: what does not fit is carried over.
+
+    At each tick the demand's time at full level joins the carried rest, rest + u T/M, T the sample_period; what is fired
+    has the rest's sign and its length, at most T, and is nothing below shortest_pulse. What is fired is taken off the
+    rest, which a pulse of full length clears. Outside full ticks the rest thus stays below shortest_pulse, and what is
+    fired differs from what is demanded by less than that from the start, and by less than twice that over any window.
+    With mean, the demand is passed as a torque that is held over the tick, within the level, and no jet fires: for
+    linear studies. A demand that is not finite fires nothing and leaves the rest as it is. Frame: body.
+    """
+
+    default_step = 0.2
+
+    jet_torque = Parameter(
+        [60.0, 120.0, 120.0], unit="N.m", minimum=1e-9, frame="body", description="of a jet about x, y, z, both ways"
+    )
+    shortest_pulse = Parameter(0.03, unit="s", minimum=0.0, description="shortest pulse that is fired")
+    mean = Parameter(False, description="pass the mean torque instead of pulses")
+    sample_period = Parameter(0.2, unit="s", minimum=1e-3, description="tick")
+    torque_command = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque wanted over the tick")
+    pulse_lengths = Output(
+        [0.0, 0.0, 0.0], unit="s", frame="body", direct=True, description="lengths of the pulses, with their sign"
+    )
+    pulse_count = Output(0, description="pulses so far; a change tells new ones")
+    mean_torque = Output([0.0, 0.0, 0.0], unit="N.m", frame="body", direct=True, description="torque instead of pulses")
+    remainder = Output(
+        [0.0, 0.0, 0.0], unit="s", frame="body", direct=True, description="demanded and not fired, with its sign"
+    )
+    status = Output(
+        GOOD, minimum=0, maximum=2, direct=True, description="0 good, 1 a demand beyond the tick, 2 demand not finite"
+    )
+    lengths = State([0.0] * 3, vector=False, unit="s", description="of the pulses, while they are worked out")
+    rests = State([0.0] * 3, vector=False, unit="s", description="demanded and not fired")
+
+    def initialize(self) -> None:
+        self.allocate()
+
+    def pulse(self, k: int) -> None:
+        """Length and rest of axis k."""
+        self.rests[k] = self.rests[k] + self.torque_command[k] * self.sample_period / self.jet_torque[k]
+        length = abs(self.rests[k])
+        if length >= self.sample_period:
+            length = self.sample_period
+            self.status = SATURATED
+        if length < self.shortest_pulse or length == 0.0:
+            return
+        self.lengths[k] = math.copysign(length, self.rests[k])
+        self.rests[k] = self.rests[k] - self.lengths[k]
+        if length == self.sample_period:
+            self.rests[k] = 0.0
+
+    def within_level(self, k: int) -> float:
+        """The demand about axis k within what its jet gives (N m)."""
+        if abs(self.torque_command[k]) > self.jet_torque[k]:
+            self.status = SATURATED
+        return clip(self.torque_command[k], -self.jet_torque[k], self.jet_torque[k])
+
+    def pass_mean(self) -> None:
+        """The demand within the levels as the mean torque."""
+        x = self.within_level(0)
+        y = self.within_level(1)
+        z = self.within_level(2)
+        self.mean_torque = vector(x, y, z)
+
+    def allocate(self) -> None:
+        """Pulses for the demand of this tick."""
+        self.pulse_count = self.pulse_count + 1
+        self.status = GOOD
+        for k in range(3):
+            self.lengths[k] = 0.0
+        self.mean_torque = vector(0.0, 0.0, 0.0)
+        if not is_finite(self.torque_command):
+            self.status = NOT_FINITE
+        elif self.mean:
+            self.pass_mean()
+        else:
+            for k in range(3):
+                self.pulse(k)
+        self.pulse_lengths = vector(*self.lengths)
+        self.remainder = vector(*self.rests)
+
+    def step(self, t: float, h: float) -> None:
+        self.allocate()

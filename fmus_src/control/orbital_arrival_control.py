@@ -1,0 +1,59 @@
+"""Orbital attitude by arriving everywhere at one time."""
+
+import math
+
+from ..interfaces.orbital_control import OrbitalControl
+from ..mathlib.orbital import angle_rates
+from ..mathlib.vectors import vector
+
+WORTHWHILE = 0.3  # of the wanted rate: a smaller change is not worth a pulse
+
+
+class OrbitalArrivalControl(OrbitalControl):
+    """All angles arrive at arrival_time with the least turning: one pulse to start, a coast, one to stop.
+
+    The wanted rate of an angle is what leads it to its band in the time that is left, least_time at the least.
+    What it differs from the rate is demanded as a torque where a pulse is worth it. With turn_angle yaw is led to that
+    angle and back again from turn_start on, which lets a filter find the gyros' biases. Equations: docs/orbital_attitude.md.
+    """
+
+    def turned(self, time: float) -> tuple[float, float]:
+        """The yaw to be led to (rad) and its rate (rad/s), ``time`` (s) after the start."""
+        ramp = abs(self.turn_angle) / self.turn_rate
+        rate = math.copysign(self.turn_rate, self.turn_angle)
+        since = time - self.turn_start
+        back = since - ramp - self.turn_stay
+        if since <= 0.0 or back >= ramp:
+            return 0.0, 0.0
+        if since < ramp:
+            return rate * since, rate
+        if back <= 0.0:
+            return self.turn_angle, 0.0
+        return self.turn_angle - rate * back, -rate
+
+    def torque_about(self, k: int, error: float, led: float, rate: float, time: float) -> float:
+        """Torque (N m) about axis k for an angle's error (rad), the rate it is led at and its own (rad/s)."""
+        left = self.arrival_time - time
+        if left < self.least_time:
+            left = self.least_time
+        beyond = abs(error) - self.band[k]
+        wanted = led
+        if beyond > 0.0:
+            wanted = led - math.copysign(beyond, error) / left
+        change = wanted - rate
+        mobility = self.inverse_inertia[4 * k]
+        worth = WORTHWHILE * abs(wanted)
+        least = mobility * self.jet_torque[k] * self.shortest_pulse
+        if worth < least:
+            worth = least
+        if abs(change) > worth:
+            return change / (mobility * self.sample_period)
+        return 0.0
+
+    def regulate(self, time: float) -> None:
+        yaw, led = self.turned(time)
+        rates = angle_rates(self.estimated_angles, self.estimated_angular_velocity, self.orbital_rate)
+        x = self.torque_about(0, self.estimated_angles.x, 0.0, rates.x, time)
+        y = self.torque_about(1, self.estimated_angles.y - yaw, led, rates.y, time)
+        z = self.torque_about(2, self.estimated_angles.z, 0.0, rates.z, time)
+        self.torque_command = vector(x, y, z)

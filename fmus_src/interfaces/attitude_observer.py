@@ -1,0 +1,168 @@
+"""The slot of observers of the orbital attitude: from roll, pitch and rates measured to all angles and rates."""
+
+import math
+
+from ..block import Input, Output, Parameter, State
+from ..mathlib.vectors import Vector3, clip, is_finite, vector
+from .orbital_body import OrbitalBody
+
+GOOD = 0
+HELD = 1
+NOT_FINITE = 2
+YAW_LIMITED = 3
+NO_GAIN = 4
+
+
+class AttitudeObserver(OrbitalBody, interface=True):
+    """Estimates roll, yaw, pitch and angular velocity where yaw is not measured.
+
+    Yaw acts on the roll rate through the orbit's turn only, by -w0 yaw. At each tick an observer is given a sample of
+    roll, pitch and angular velocity, and what the jets did over the tick that has passed. It starts from the first
+    sample with yaw 0. A tick without a new sample of both sensors, or with one that is not finite, carries the estimate
+    on by the observer's own equations of motion. The parameters are those that any observer of the slot may need, so that one set
+    of them serves all; the jets and the inertia are those known on board.
+
+    An observer writes `begin`, which may make gains, and `observe`, which sets angles_now and rates_now from the sample
+    (roll, pitch, rates), those of the tick before and the pulses between. Frames: orbital, body.
+    Equations: docs/orbital_attitude.md. Source: Lapin, thesis, chapter 3.1.
+    """
+
+    yaw_pole = Parameter(0.1, unit="1/s", minimum=1e-6, description="decay of a full observer's error of yaw")
+    measured_pole = Parameter(1.0, unit="1/s", minimum=1e-6, description="decay of its errors of what is measured")
+    reduced_yaw_pole = Parameter(0.1, unit="1/s", minimum=1e-6, description="decay of a reduced observer's error of yaw")
+    largest_yaw = Parameter(0.9, unit="rad", minimum=0.0, description="bound of the estimated yaw, but for a filter")
+    vertical_sigma = Parameter(
+        1.7453292519943296e-05, unit="rad", minimum=1e-12, description="of roll and pitch measured, 1 sigma, for a filter"
+    )
+    gyro_sigma = Parameter(
+        1.7453292519943296e-06, unit="rad/s", minimum=1e-12, description="of a rate measured, 1 sigma, for a filter"
+    )
+    gyro_bias_sigma = Parameter(
+        4.84813681109536e-09, unit="rad/s", minimum=1e-12, description="of a gyro's bias, 1 sigma, for a filter"
+    )
+    sample_period = Parameter(0.2, unit="s", minimum=1e-3, description="tick")
+    measured_roll = Input(0.0, unit="rad", description="roll")
+    measured_pitch = Input(0.0, unit="rad", description="pitch")
+    vertical_count = Input(0, description="samples of roll and pitch so far; a change tells a new one")
+    measured_angular_velocity = Input(
+        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity, absolute"
+    )
+    gyro_count = Input(0, description="samples of the gyros so far; a change tells a new one")
+    fired_pulses = Input(
+        [0.0, 0.0, 0.0], unit="s", frame="body", description="pulses of the tick that has passed, with their sign"
+    )
+    held_torque = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque beside the pulses over that tick")
+    true_angles = Input([0.0, 0.0, 0.0], unit="rad", description="for the observer that is told")
+    true_angular_velocity = Input([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="likewise, absolute")
+    estimated_angles = Output([0.0, 0.0, 0.0], unit="rad", direct=True, description="roll, yaw, pitch")
+    estimated_angular_velocity = Output(
+        [0.0, 0.0, 0.0], unit="rad/s", frame="body", direct=True, description="angular velocity, absolute"
+    )
+    estimated_gyro_bias = Output(
+        [0.0, 0.0, 0.0], unit="rad/s", frame="body", direct=True, description="bias of the gyros; 0 where it is not sought"
+    )
+    yaw_sigma = Output(0.0, unit="rad", direct=True, description="of the estimated yaw, 1 sigma; 0 where there is none")
+    status = Output(
+        GOOD,
+        minimum=0,
+        maximum=4,
+        direct=True,
+        description="0 good, 1 no new sample, 2 sample not finite, 3 yaw at its bound, 4 no gain: parameters unusable",
+    )
+    angles_now = State([0.0, 0.0, 0.0], unit="rad", description="estimated roll, yaw, pitch")
+    rates_now = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="estimated angular velocity, absolute")
+    last_roll = State(0.0, unit="rad", description="roll measured at the tick before")
+    last_pitch = State(0.0, unit="rad", description="pitch measured at the tick before")
+    last_rates = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="rates measured at the tick before")
+    vertical_counted = State(0, description="vertical_count of the last sample")
+    gyro_counted = State(0, description="gyro_count of the last sample")
+    ticks = State(0, description="ticks since the start")
+    usable = State(True, description="the gain could be made")
+
+    def begin(self) -> bool:
+        """Make what the observer needs from the parameters; whether that could be done."""
+        return True
+
+    def observe(self) -> None:
+        """Set angles_now and rates_now for the present sample."""
+
+    def mean_torque(self, pulses: Vector3) -> Vector3:
+        """Torque (N m, body) over the tick in the mean."""
+        return self.jet_torque * pulses / self.sample_period + self.held_torque
+
+    def carry(self, angles: Vector3, w: Vector3, split: bool) -> tuple[Vector3, Vector3]:
+        """Angles and rates of a state a tick ago, under its pulses: each one as it was, or all in the mean."""
+        if split:
+            angles, w = self.fire(angles, w, self.fired_pulses, self.held_torque, self.sample_period, math.inf)
+        else:
+            angles, w = self.turn(angles, w, self.mean_torque(self.fired_pulses), self.sample_period)
+        return angles, w
+
+    def take_measured(self, yaw: float) -> None:
+        """Roll, pitch and rates as measured, with an estimated yaw (rad)."""
+        self.angles_now = vector(self.measured_roll, yaw, self.measured_pitch)
+        self.rates_now = self.measured_angular_velocity
+
+    def finite(self) -> bool:
+        """Whether the sample is."""
+        angles = math.isfinite(self.measured_roll) and math.isfinite(self.measured_pitch)
+        return angles and is_finite(self.measured_angular_velocity)
+
+    def judge(self) -> None:
+        """Set the status from the sample."""
+        self.status = GOOD
+        if not self.finite():
+            self.status = NOT_FINITE
+        elif self.vertical_count == self.vertical_counted or self.gyro_count == self.gyro_counted:
+            self.status = HELD
+        if not self.usable:
+            self.status = NO_GAIN
+
+    def remember(self) -> None:
+        """Keep the sample for the next tick."""
+        self.last_roll = self.measured_roll
+        self.last_pitch = self.measured_pitch
+        self.last_rates = self.measured_angular_velocity
+        self.vertical_counted = self.vertical_count
+        self.gyro_counted = self.gyro_count
+
+    def coast(self) -> None:
+        """Set angles_now and rates_now without a sample."""
+        self.angles_now, self.rates_now = self.carry(self.angles_now, self.rates_now, True)
+
+    def bound(self) -> None:
+        """Keep yaw within largest_yaw."""
+        yaw = clip(self.angles_now.y, -self.largest_yaw, self.largest_yaw)
+        if yaw != self.angles_now.y:
+            self.status = YAW_LIMITED
+            self.angles_now = vector(self.angles_now.x, yaw, self.angles_now.z)
+
+    def publish(self) -> None:
+        """Put the estimate out."""
+        self.bound()
+        self.estimated_angles = self.angles_now
+        self.estimated_angular_velocity = self.rates_now
+
+    def initialize(self) -> None:
+        self.usable = self.weigh()
+        if self.usable:
+            self.usable = self.begin()
+        self.status = GOOD
+        if not self.finite():
+            self.status = NOT_FINITE
+        else:
+            self.take_measured(0.0)
+            self.remember()
+        if not self.usable:
+            self.status = NO_GAIN
+        self.publish()
+
+    def step(self, t: float, h: float) -> None:
+        self.ticks = self.ticks + 1
+        self.judge()
+        if self.status == GOOD:
+            self.observe()
+            self.remember()
+        elif self.usable:
+            self.coast()
+        self.publish()

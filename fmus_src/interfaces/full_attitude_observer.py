@@ -1,0 +1,37 @@
+"""What observers of the whole state have in common: one gain for angles and rates."""
+
+from ..block import State
+from ..mathlib.orbital import measured_state
+from ..mathlib.vectors import Vector3, vector
+from .attitude_observer import AttitudeObserver
+
+
+class FullAttitudeObserver(AttitudeObserver, interface=True):
+    """Observer of all six states with a constant gain on what is measured of them: m = (roll, pitch, rates).
+
+    With C picking m and e the unit vector of yaw, gains have the form M (C' + e l): a matrix M that sets the errors of
+    what is measured, and a row l that lets roll drive yaw. Equations: docs/orbital_attitude.md.
+    """
+
+    gain = State([0.0] * 30, columns=5, description="of angles and rates (SI) over roll, pitch and rates measured")
+
+    def compose(self, m: list, row: list) -> None:
+        """gain = m (C' + e row): m 6 x 6 by rows, row of five."""
+        for i in range(6):
+            for j in range(5):
+                self.gain[5 * i + j] = m[6 * i + measured_state(j)] + m[6 * i + 1] * row[j]
+
+    def correction(
+        self, angles: Vector3, w: Vector3, roll: float, pitch: float, rates: Vector3
+    ) -> tuple[Vector3, Vector3]:
+        """gain (m - C x): what a sample m (roll, pitch, rates) gives to a state x, its angles and rates."""
+        missing = [0.0] * 5
+        missing[0] = roll - angles.x
+        missing[1] = pitch - angles.z
+        for k in range(3):
+            missing[2 + k] = rates[k] - w[k]
+        change = [0.0] * 6
+        for i in range(6):
+            for j in range(5):
+                change[i] = change[i] + self.gain[5 * i + j] * missing[j]
+        return vector(*change[0:3]), vector(*change[3:6])

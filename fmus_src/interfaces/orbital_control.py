@@ -1,0 +1,76 @@
+"""The slot of regulators of the orbital attitude: from the estimate to the torque wanted over a tick."""
+
+import math
+
+from ..block import Input, Output, Parameter, State
+from ..mathlib.vectors import is_finite, vector
+from .orbital_body import OrbitalBody
+
+GOOD = 0
+NOT_FINITE = 1
+NO_GAIN = 2
+
+
+class OrbitalControl(OrbitalBody, interface=True):
+    """Torque that turns the body into the orbital frame and holds it there.
+
+    At each tick a regulator is given angles and rates and answers with the torque of the tick to come. The parameters
+    are those that any regulator of the slot may need; inertia and jets are those known on board. Inputs that are not
+    finite ask for no torque. A regulator writes `begin`, which may make gains, and `regulate`, which sets
+    torque_command. Frames: orbital, body. Equations: docs/orbital_attitude.md.
+    """
+
+    angle_poles = Parameter([0.10, 0.08, 0.10], unit="1/s", minimum=0.0, description="decay of roll, yaw, pitch")
+    rate_poles = Parameter([0.15, 0.12, 0.15], unit="1/s", minimum=0.0, description="decay of how they should decay")
+    arrival_time = Parameter(35.0, unit="s", minimum=0.0, description="when all angles are to arrive, after the start")
+    least_time = Parameter(8.0, unit="s", minimum=1e-3, description="shortest time to arrive in, also afterwards")
+    band = Parameter(
+        [0.15 * math.pi / 180.0, 0.1 * math.pi / 180.0, 0.15 * math.pi / 180.0],
+        unit="rad",
+        minimum=0.0,
+        description="errors of roll, yaw, pitch that are let be",
+    )
+    turn_angle = Parameter(0.0, unit="rad", description="yaw to turn to and back, which tells gyro biases from yaw")
+    turn_rate = Parameter(0.8 * math.pi / 180.0, unit="rad/s", minimum=1e-6, description="of that turn")
+    turn_start = Parameter(45.0, unit="s", minimum=0.0, description="when it begins, after the start")
+    turn_stay = Parameter(120.0, unit="s", minimum=0.0, description="how long the body stays turned")
+    shortest_pulse = Parameter(0.03, unit="s", minimum=0.0, description="shortest pulse that is fired")
+    sample_period = Parameter(0.2, unit="s", minimum=1e-3, description="tick")
+    estimated_angles = Input([0.0, 0.0, 0.0], unit="rad", description="roll, yaw, pitch")
+    estimated_angular_velocity = Input(
+        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity, absolute"
+    )
+    torque_command = Output(
+        [0.0, 0.0, 0.0], unit="N.m", frame="body", direct=True, description="torque wanted over the tick"
+    )
+    status = Output(
+        GOOD, minimum=0, maximum=2, direct=True, description="0 good, 1 estimate not finite, 2 parameters unusable"
+    )
+    start_time = State(0.0, unit="s", description="start of the flight")
+    usable = State(True, description="what the regulator needs could be made")
+
+    def begin(self) -> None:
+        """Make gains from the parameters."""
+
+    def regulate(self, time: float) -> None:
+        """Set torque_command for the estimate, ``time`` (s) after the start."""
+
+    def command(self, time: float) -> None:
+        """Torque and status, ``time`` (s) after the start."""
+        self.status = GOOD
+        self.torque_command = vector(0.0, 0.0, 0.0)
+        if not self.usable:
+            self.status = NO_GAIN
+        elif not (is_finite(self.estimated_angles) and is_finite(self.estimated_angular_velocity)):
+            self.status = NOT_FINITE
+        else:
+            self.regulate(time)
+
+    def initialize(self) -> None:
+        self.usable = self.weigh()
+        if self.usable:
+            self.begin()
+        self.command(0.0)
+
+    def step(self, t: float, h: float) -> None:
+        self.command(t + h - self.start_time)

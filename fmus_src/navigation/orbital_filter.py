@@ -1,0 +1,100 @@
+"""Orbital attitude by a Kalman filter that the gyros drive."""
+
+import math
+
+from ..block import Parameter, State
+from ..interfaces.attitude_observer import AttitudeObserver
+from ..mathlib.kalman import predict, update
+from ..mathlib.orbital import angle_rate_derivatives, angle_rates, applied
+from ..mathlib.vectors import Vector3, vector
+
+
+class OrbitalFilter(AttitudeObserver):
+    """Extended Kalman filter of angles and gyro biases; the gyros are its motion, so inertia and thrust hardly matter.
+
+    Over a tick the mean of two samples of the gyros, less the bias, turns the angles; what the mean misses of a pulse
+    is added from its length. Roll and pitch correct angles and biases. Rates follow the pulses and lean on
+    the gyros with rate_gain. Yaw and the bias of the roll gyro over w0 look the same to all sensors while yaw is
+    small: their sum is known no better than the bias at the start, unless the body turns about yaw.
+    Equations: docs/orbital_attitude.md. Source: Bar-Shalom, Li and Kirubarajan 2001, section 10.3.
+    """
+
+    first_yaw_sigma = Parameter(10.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="of yaw at the start")
+    rate_gain = Parameter(0.15, unit="1", minimum=0.0, maximum=1.0, description="of a sample in the estimated rates")
+    bias = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="estimated bias of the gyros")
+    covariance = State([0.0] * 36, columns=6, frozen=True, description="of angles and biases, SI")
+
+    def begin(self) -> bool:
+        for i in range(3):
+            self.covariance[7 * i] = self.vertical_sigma * self.vertical_sigma
+            self.covariance[7 * (i + 3)] = self.gyro_bias_sigma * self.gyro_bias_sigma
+        self.covariance[7] = self.first_yaw_sigma * self.first_yaw_sigma
+        return True
+
+    def predict_covariance(self, angles: Vector3, w: Vector3) -> None:
+        """The covariance a tick ahead, at angles (rad) and rates (rad/s) of its middle."""
+        period = self.sample_period
+        by_angles = [0.0] * 9
+        by_rates = [0.0] * 9
+        transition = [0.0] * 36
+        noise = [0.0] * 36
+        unmoved = [0.0] * 6
+        angle_rate_derivatives(angles, w, self.orbital_rate, by_angles, by_rates)
+        walk = self.gyro_sigma * period
+        for i in range(3):
+            transition[7 * i] = 1.0
+            transition[7 * (i + 3)] = 1.0
+            noise[7 * i] = walk * walk
+            for k in range(3):
+                transition[6 * i + k] = transition[6 * i + k] + period * by_angles[3 * i + k]
+                transition[6 * i + 3 + k] = -period * by_rates[3 * i + k]
+        predict(unmoved, self.covariance, transition, noise, 6)
+
+    def advance(self, w: Vector3) -> None:
+        """Angles and covariance a tick ahead, at the mean angular velocity w (rad/s, body)."""
+        half = 0.5 * self.sample_period
+        middle = self.angles_now + half * angle_rates(self.angles_now, w, self.orbital_rate)
+        self.predict_covariance(middle, w)
+        self.angles_now = self.angles_now + self.sample_period * angle_rates(middle, w, self.orbital_rate)
+
+    def correct(self) -> None:
+        """Take roll and pitch in."""
+        x = [0.0] * 6
+        for k in range(3):
+            x[k] = self.angles_now[k]
+            x[3 + k] = self.bias[k]
+        variance = self.vertical_sigma * self.vertical_sigma
+        of_roll = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+        of_pitch = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
+        update(x, self.covariance, of_roll, variance, self.measured_roll, 6)
+        update(x, self.covariance, of_pitch, variance, self.measured_pitch, 6)
+        self.angles_now = vector(*x[0:3])
+        self.bias = vector(*x[3:6])
+
+    def missed(self) -> Vector3:
+        """What the mean of the rates at both ends of a tick misses of its pulses (rad/s, body)."""
+        px, py, pz = self.fired_pulses
+        period = self.sample_period
+        after = vector(period - abs(px), period - abs(py), period - abs(pz))
+        return applied(
+            self.inverse_inertia, self.jet_torque * self.fired_pulses * after / (2.0 * period)
+        )
+
+    def observe(self) -> None:
+        gained = self.sample_period * applied(self.inverse_inertia, self.mean_torque(self.fired_pulses))
+        mean = 0.5 * (self.last_rates + self.measured_angular_velocity)
+        self.advance(mean + self.missed() - self.bias)
+        self.correct()
+        expected = self.rates_now + gained
+        self.rates_now = expected + self.rate_gain * (self.measured_angular_velocity - self.bias - expected)
+
+    def coast(self) -> None:
+        before = self.rates_now
+        angles, self.rates_now = self.carry(self.angles_now, self.rates_now, True)
+        self.advance(0.5 * (before + self.rates_now))
+        self.angles_now = angles
+
+    def bound(self) -> None:
+        """The filter's yaw is free; put out what it knows of it."""
+        self.estimated_gyro_bias = self.bias
+        self.yaw_sigma = math.sqrt(self.covariance[7])

@@ -1,0 +1,45 @@
+"""Orbital attitude by a continuous observer of yaw alone."""
+
+import math
+
+from ..block import State
+from ..interfaces.attitude_observer import AttitudeObserver
+
+
+class OrbitalObserverContinuousReduced(AttitudeObserver):
+    """Continuous observer of reduced order: yaw = z + l roll, l = -reduced_yaw_pole/w0; the rest is as measured.
+
+    z' = f - reduced_yaw_pole z, with all that is nonlinear or measured in f, which is held over a tick at the mean of
+    its two samples: solved exactly, without knowing torque or inertia.
+    Source: Lapin, thesis, chapter 3.1; equations: docs/orbital_attitude.md.
+    """
+
+    z = State(0.0, unit="rad", description="yaw less its share of roll")
+
+    def begin(self) -> bool:
+        self.z = self.reduced_yaw_pole / self.orbital_rate * self.measured_roll
+        return True
+
+    def observe(self) -> None:
+        w0 = self.orbital_rate
+        pole = self.reduced_yaw_pole
+        share = -pole / w0
+        roll = 0.5 * (self.last_roll + self.measured_roll)
+        pitch = 0.5 * (self.last_pitch + self.measured_pitch)
+        w = 0.5 * (self.last_rates + self.measured_angular_velocity)
+        sin_yaw = math.sin(self.angles_now.y)
+        cos_pitch = math.cos(pitch)
+        tan_pitch = math.tan(pitch)
+        q = w.y * math.cos(roll) - w.z * math.sin(roll)
+        yaw_rate = q / cos_pitch + w0 * sin_yaw * tan_pitch
+        roll_rate = w.x - tan_pitch * q
+        bent = sin_yaw / cos_pitch - self.angles_now.y
+        f = yaw_rate - share * roll_rate + share * w0 * bent + share * share * w0 * roll
+        kept = math.exp(-pole * self.sample_period)
+        self.z = kept * self.z + (1.0 - kept) * f / pole
+        self.take_measured(self.z + share * self.measured_roll)
+
+    def coast(self) -> None:
+        self.angles_now, self.rates_now = self.carry(self.angles_now, self.rates_now, True)
+        share = -self.reduced_yaw_pole / self.orbital_rate
+        self.z = self.angles_now.y - share * self.angles_now.x

@@ -1,0 +1,53 @@
+"""Orbital attitude by a discrete observer of the whole state."""
+
+import math
+
+from ..block import Parameter
+from ..interfaces.full_attitude_observer import FullAttitudeObserver
+from ..mathlib.matrices import exponential
+from ..mathlib.orbital import linear_model, measured_state
+
+
+class OrbitalObserverDiscrete(FullAttitudeObserver):
+    """Discrete observer of the whole state: the motion over a tick, F(x), then x = F(x) + L (m - C F(x)).
+
+    With Ad = exp(A T): L = (1 - exp(-measured_pole T) Ad^-1)(C' + e l), l = ((Ad)_yaw,yaw - exp(-yaw_pole T)) c'/(c'c),
+    c = C Ad e, gives the linear errors the multipliers exp(-measured_pole T) five times and exp(-yaw_pole T) once. F is
+    one step of Runge-Kutta's fourth order under the mean torque, or with split one between any two switch-offs.
+    Source: Lapin, thesis, chapter 3.1; gain: docs/orbital_attitude.md.
+    """
+
+    split = Parameter(False, description="follow each pulse instead of their mean")
+
+    def begin(self) -> bool:
+        period = self.sample_period
+        a = [0.0] * 36
+        ahead = [0.0] * 36
+        back = [0.0] * 36
+        row = [0.0] * 5
+        linear_model(self.inertia, self.inverse_inertia, self.orbital_rate, a)
+        exponential(a, period, ahead, 6)
+        exponential(a, -period, back, 6)
+        square = 0.0
+        for j in range(5):
+            row[j] = ahead[6 * measured_state(j) + 1]
+            square = square + row[j] * row[j]
+        if not square > 0.0:
+            return False
+        for j in range(5):
+            row[j] = (ahead[7] - math.exp(-self.yaw_pole * period)) * row[j] / square
+        forgotten = math.exp(-self.measured_pole * period)
+        for i in range(36):
+            back[i] = -forgotten * back[i]
+        for i in range(6):
+            back[7 * i] = 1.0 + back[7 * i]
+        self.compose(back, row)
+        return True
+
+    def observe(self) -> None:
+        angles, w = self.carry(self.angles_now, self.rates_now, self.split)
+        of_angles, of_rates = self.correction(
+            angles, w, self.measured_roll, self.measured_pitch, self.measured_angular_velocity
+        )
+        self.angles_now = angles + of_angles
+        self.rates_now = w + of_rates

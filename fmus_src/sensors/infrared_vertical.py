@@ -1,0 +1,52 @@
+"""Roll and pitch from an infrared vertical."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.rng import normals, seed_streams
+from ..mathlib.vectors import vector
+
+
+class InfraredVertical(Block):
+    """Roll and pitch against the horizon, each with a bias and a normal error; yaw is not seen.
+
+    measured = true + bias + sigma n. The errors n are white, or with a correlation_time those of a first-order
+    Gauss-Markov process with the same sigma, which is what real horizons do. The first sample is at the start; which
+    numbers a flight uses depends on seed, stream and the sample's number only.
+    """
+
+    default_step = 0.2
+
+    sigma = Parameter(0.0, unit="rad", minimum=0.0, description="error, 1 sigma per angle")
+    bias = Parameter([0.0, 0.0], unit="rad", description="constant error of roll and pitch")
+    correlation_time = Parameter(0.0, unit="s", minimum=0.0, description="of the errors; 0: white")
+    sample_period = Parameter(0.2, unit="s", minimum=0.0, description="between samples; 0: every communication point")
+    seed = Parameter(1, minimum=0, description="random numbers: seed")
+    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    angles = Input([0.0, 0.0, 0.0], unit="rad", description="true roll, yaw, pitch")
+    measured_roll = Output(0.0, unit="rad", direct=True, description="measured roll")
+    measured_pitch = Output(0.0, unit="rad", direct=True, description="measured pitch")
+    sample_count = Output(0, description="samples taken; tells a new one from a held one")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    error = State([0.0, 0.0], unit="1", frozen=True, description="errors of roll and pitch, in sigmas")
+
+    def initialize(self) -> None:
+        seed_streams(self.generator, self.seed, self.stream)
+        self.measure(0.0)
+
+    def measure(self, kept: float) -> None:
+        """Take a sample, whose errors keep a share of the last one's."""
+        numbers = normals(self.generator)
+        self.error = kept * self.error + math.sqrt(1.0 - kept * kept) * vector(numbers.x, numbers.y)
+        self.measured_roll = self.angles.x + self.bias.x + self.sigma * self.error.x
+        self.measured_pitch = self.angles.z + self.bias.y + self.sigma * self.error.y
+        self.sample_count = self.sample_count + 1
+
+    def step(self, t: float, h: float) -> None:
+        kept = 0.0
+        if self.correlation_time > 0.0:
+            period = self.sample_period
+            if period <= 0.0:
+                period = h
+            kept = math.exp(-period / self.correlation_time)
+        self.measure(kept)
