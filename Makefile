@@ -18,7 +18,7 @@ quick: .venv/ready
 
 # The checks that take their whole size: every published start, system and noise, of which `make test` takes a part.
 long: build
-	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $$(grep -rl 'support.lengths' tests --include='test_*.py')
+	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $$(grep -rlE 'support.lengths|mark.slow' tests --include='test_*.py')
 
 build: .venv/ready
 	$(BIN)/python build_fmus.py

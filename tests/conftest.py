@@ -20,6 +20,7 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.closure import closure_of
 from perilune.fmus_src.export.command import main as build_fmus
 from perilune.fmus_src.places import BUILD, built_fmu
+from tests.support.lengths import LONG
 from tests.support.pages.browser import NO_BROWSER, find_browser
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
@@ -48,14 +49,14 @@ def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    config.addinivalue_line("markers", "slow: takes minutes; run with PERILUNE_SLOW_TESTS=1")
+    config.addinivalue_line("markers", "slow: takes minutes; `make long` runs it")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    if os.environ.get("PERILUNE_SLOW_TESTS") != "1":
+    if not LONG:
         for item in items:
             if item.get_closest_marker("slow"):
-                item.add_marker(pytest.mark.skip(reason="slow: set PERILUNE_SLOW_TESTS=1"))
+                item.add_marker(pytest.mark.skip(reason="slow: make long"))
 
 
 @pytest.hookimpl(trylast=True)

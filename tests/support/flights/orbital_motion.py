@@ -1,0 +1,56 @@
+"""Attitude on a circular orbit once more, by numpy: direction cosines in inertial axes instead of angles.
+
+Written from Euler's equations and the gravity gradient of a rigid body (Hughes 1986, sections 3.1 and 8.1) alone.
+"""
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+ORBITAL_RATE = 0.0011
+INERTIA = np.array([[6500.0, -150.0, -100.0], [-150.0, 30000.0, -200.0], [-100.0, -200.0, 29000.0]])
+JET_TORQUE = np.array([60.0, 120.0, 120.0])
+DEGREE = np.pi / 180.0
+
+
+def body_from_orbital(angles):
+    """Direction cosines of (roll, yaw, pitch): yaw about y, then pitch about z, then roll about x."""
+    roll, yaw, pitch = angles
+    return Rotation.from_euler("YZX", [yaw, pitch, roll]).as_matrix().T
+
+
+def angles_of(matrix):
+    """(roll, yaw, pitch) of the direction cosines from the orbital frame to the body."""
+    yaw, pitch, roll = Rotation.from_matrix(matrix.T).as_euler("YZX")
+    return np.array([roll, yaw, pitch])
+
+
+def orbital_from_inertial(time):
+    """The orbital frame turns by -w0 t about its z axis; inertial axes are those of the start."""
+    return Rotation.from_rotvec([0.0, 0.0, -ORBITAL_RATE * time]).as_matrix().T
+
+
+def acceleration(matrix, w, torque, inertia=INERTIA):
+    """w' (body) for direction cosines from orbital to body."""
+    up = matrix[:, 1]
+    moment = 3.0 * ORBITAL_RATE**2 * np.cross(up, inertia @ up) - np.cross(w, inertia @ w) + torque
+    return np.linalg.solve(inertia, moment)
+
+
+def flown(angles, w, times, torque_at, cuts=(), inertia=INERTIA):
+    """(angles, w) at the times, integrated by DOP853 at 1e-13 in inertial axes, from cut to cut of the torque."""
+    state = np.concatenate([(body_from_orbital(angles) @ orbital_from_inertial(0.0)).ravel(), w])
+
+    def slopes(time, state, torque):
+        from_inertial, w = state[:9].reshape(3, 3), state[9:]
+        skew = np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+        from_orbital = from_inertial @ orbital_from_inertial(time).T
+        return np.concatenate([(-skew @ from_inertial).ravel(), acceleration(from_orbital, w, torque, inertia)])
+
+    rows, edges = {}, sorted({0.0, *times, *cuts})
+    for start, end in zip([0.0, *edges], edges, strict=False):
+        if end > start:
+            torque = torque_at(0.5 * (start + end))
+            state = solve_ivp(slopes, (start, end), state, "DOP853", args=(torque,), rtol=1e-13, atol=1e-15).y[:, -1]
+        rows[end] = (angles_of(state[:9].reshape(3, 3) @ orbital_from_inertial(end).T), state[9:])
+    return np.array([rows[time][0] for time in times]), np.array([rows[time][1] for time in times])
