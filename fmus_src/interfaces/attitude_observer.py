@@ -29,10 +29,15 @@ class AttitudeObserver(OrbitalBody, interface=True):
 
     yaw_pole = Parameter(0.1, unit="1/s", minimum=1e-6, description="decay of a full observer's error of yaw")
     measured_pole = Parameter(1.0, unit="1/s", minimum=1e-6, description="decay of its errors of what is measured")
-    reduced_yaw_pole = Parameter(0.1, unit="1/s", minimum=1e-6, description="decay of a reduced observer's error of yaw")
+    reduced_yaw_pole = Parameter(
+        0.1, unit="1/s", minimum=1e-6, description="decay of a reduced observer's error of yaw"
+    )
     largest_yaw = Parameter(0.9, unit="rad", minimum=0.0, description="bound of the estimated yaw, but for a filter")
     vertical_sigma = Parameter(
-        1.7453292519943296e-05, unit="rad", minimum=1e-12, description="of roll and pitch measured, 1 sigma, for a filter"
+        1.7453292519943296e-05,
+        unit="rad",
+        minimum=1e-12,
+        description="of roll and pitch measured, 1 sigma, for a filter",
     )
     gyro_sigma = Parameter(
         1.7453292519943296e-06, unit="rad/s", minimum=1e-12, description="of a rate measured, 1 sigma, for a filter"
@@ -51,7 +56,9 @@ class AttitudeObserver(OrbitalBody, interface=True):
     fired_pulses = Input(
         [0.0, 0.0, 0.0], unit="s", frame="body", description="pulses of the tick that has passed, with their sign"
     )
-    held_torque = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque beside the pulses over that tick")
+    held_torque = Input(
+        [0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque beside the pulses over that tick"
+    )
     true_angles = Input([0.0, 0.0, 0.0], unit="rad", description="for the observer that is told")
     true_angular_velocity = Input([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="likewise, absolute")
     estimated_angles = Output([0.0, 0.0, 0.0], unit="rad", direct=True, description="roll, yaw, pitch")
@@ -59,7 +66,11 @@ class AttitudeObserver(OrbitalBody, interface=True):
         [0.0, 0.0, 0.0], unit="rad/s", frame="body", direct=True, description="angular velocity, absolute"
     )
     estimated_gyro_bias = Output(
-        [0.0, 0.0, 0.0], unit="rad/s", frame="body", direct=True, description="bias of the gyros; 0 where it is not sought"
+        [0.0, 0.0, 0.0],
+        unit="rad/s",
+        frame="body",
+        direct=True,
+        description="bias of the gyros; 0 where it is not sought",
     )
     yaw_sigma = Output(0.0, unit="rad", direct=True, description="of the estimated yaw, 1 sigma; 0 where there is none")
     status = Output(

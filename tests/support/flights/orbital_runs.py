@@ -1,0 +1,53 @@
+"""An observer of the orbital slot fed with samples, tick by tick."""
+
+from importlib import import_module
+
+from perilune.fmus_src.runtime import Component
+
+TICK = 0.2
+OBSERVERS = [
+    "orbital_observer_continuous",
+    "orbital_observer_continuous_split",
+    "orbital_observer_continuous_reduced",
+    "orbital_observer_discrete",
+    "orbital_observer_discrete_split",
+    "orbital_observer_discrete_reduced",
+    "orbital_observer_discrete_reduced_split",
+    "orbital_filter",
+    "orbital_sequence",
+    "orbital_true_state",
+]
+
+
+def block_class(name, kind="navigation"):
+    """The class of a block by its FMU's name."""
+    module = import_module(f"perilune.fmus_src.{kind}.{name}")
+    return getattr(module, "".join(word.capitalize() for word in name.split("_")))
+
+
+class Run:
+    """One observer, given (roll, pitch, rates) at each tick and the pulses before it."""
+
+    def __init__(self, name, sample, pulses=(0.0, 0.0, 0.0), **parameters):
+        self.component = Component(block_class(name))
+        self.block = self.component.block
+        self.tick = 0
+        for parameter, value in parameters.items():
+            setattr(self.block, parameter, value)
+        self.give(sample, pulses, True)
+        self.component.start()
+
+    def give(self, sample, pulses, new):
+        roll, pitch, rates = sample
+        self.block.measured_roll, self.block.measured_pitch = roll, pitch
+        self.block.measured_angular_velocity, self.block.fired_pulses = rates, pulses
+        if new:
+            self.block.vertical_count = self.block.gyro_count = self.block.gyro_count + 1
+
+    def step(self, sample, pulses=(0.0, 0.0, 0.0), new=True):
+        """The next tick; the estimated angles and rates."""
+        period = self.block.sample_period
+        self.give(sample, pulses, new)
+        self.component.do_step(self.tick * period, period)
+        self.tick += 1
+        return [*self.block.estimated_angles, *self.block.estimated_angular_velocity]
