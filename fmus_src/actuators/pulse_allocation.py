@@ -13,9 +13,9 @@ NOT_FINITE = 2
 class PulseAllocation(Block):
     """Pulses about three axes whose moment of momentum is the one demanded: what does not fit is carried over.
 
-    At each tick the demand's time at full level joins the carried rest, rest + u T/M, T the sample_period; what is fired
-    has the rest's sign and its length, at most T, and is nothing below shortest_pulse. What is fired is taken off the
-    rest, which a pulse of full length clears. Outside full ticks the rest thus stays below shortest_pulse, and what is
+    At each tick the demand's time at full level joins the carried rest, rest + u T/M, T the sample_period; what is
+    fired has the rest's sign and its length, at most T, and is nothing below shortest_pulse. It is taken off the rest,
+    which a pulse of full length clears. Outside full ticks the rest thus stays below shortest_pulse, and what is
     fired differs from what is demanded by less than that from the start, and by less than twice that over any window.
     With mean, the demand is passed as a torque that is held over the tick, within the level, and no jet fires: for
     linear studies. A demand that is not finite fires nothing and leaves the rest as it is. Frame: body.

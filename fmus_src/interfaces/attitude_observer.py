@@ -19,8 +19,8 @@ class AttitudeObserver(OrbitalBody, interface=True):
     Yaw acts on the roll rate through the orbit's turn only, by -w0 yaw. At each tick an observer is given a sample of
     roll, pitch and angular velocity, and what the jets did over the tick that has passed. It starts from the first
     sample with yaw 0. A tick without a new sample of both sensors, or with one that is not finite, carries the estimate
-    on by the observer's own equations of motion. The parameters are those that any observer of the slot may need, so that one set
-    of them serves all; the jets and the inertia are those known on board.
+    on by the observer's own equations of motion. The parameters are those that any observer of the slot may need, so
+    that one set of them serves all; the jets and the inertia are those known on board.
 
     An observer writes `begin`, which may make gains, and `observe`, which sets angles_now and rates_now from the sample
     (roll, pitch, rates), those of the tick before and the pulses between. Frames: orbital, body.

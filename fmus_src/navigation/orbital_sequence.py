@@ -44,7 +44,7 @@ class OrbitalSequence(AttitudeObserver):
     def observe(self) -> None:
         yaw = 0.0
         if self.stage == HOLDING:
-            angles, w = self.carry(self.angles_now, self.rates_now, True)
+            angles, _ = self.carry(self.angles_now, self.rates_now, True)
             yaw = angles.y
         elif self.stage == AVERAGING:
             yaw = self.average()

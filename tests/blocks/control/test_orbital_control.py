@@ -90,9 +90,7 @@ def test_arrival_lets_small_errors_be(error, asked):
     block = regulator(OrbitalArrivalControl)
     needed = 0.1 + 8.0 * np.linalg.inv(INERTIA)[1, 1] * JET_TORQUE[1] * 0.03 / DEGREE
     yaw = 0.1 + (needed - 0.1) * (error / 0.5)
-    torque = answer(
-        block, [0.0, yaw * DEGREE, 0.0], [ORBITAL_RATE * yaw * DEGREE, 0.0, WANTED[2]], 200.0
-    )
+    torque = answer(block, [0.0, yaw * DEGREE, 0.0], [ORBITAL_RATE * yaw * DEGREE, 0.0, WANTED[2]], 200.0)
     assert (torque[1] != 0.0) == asked
 
 

@@ -86,7 +86,7 @@ def test_it_is_the_filter_of_filterpy():
         sample = (
             0.02 + random.normal(0.0, 1e-3),
             -0.01 + random.normal(0.0, 1e-3),
-            tuple([1e-4, -2e-4, -ORBITAL_RATE] + random.normal(0.0, 3e-5, 3)),
+            tuple(np.array([1e-4, -2e-4, -ORBITAL_RATE]) + random.normal(0.0, 3e-5, 3)),
         )
         pulses = tuple(random.uniform(-0.1, 0.1, 3))
         row = run.step(sample, pulses)

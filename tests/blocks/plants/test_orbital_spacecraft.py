@@ -1,7 +1,7 @@
 """The spacecraft on its orbit: motion, pulses, conservation, communication steps.
 
-Truth: direction cosines in inertial axes by scipy's DOP853 (tests/support/flights/orbital_motion.py); Jacobi's integral;
-the digits of another program. Tolerances at each test.
+Truth: direction cosines in inertial axes by scipy's DOP853 (tests/support/flights/orbital_motion.py); Jacobi's
+integral; the digits of another program. Tolerances at each test.
 """
 
 import numpy as np
@@ -91,7 +91,7 @@ def test_jet_seconds_are_the_lengths_of_the_pulses():
 
 
 def test_jacobi_s_integral_is_kept_without_jets():
-    """1/2 w'Jw, w against the orbit, + 3/2 w0^2 j'Jj - 1/2 w0^2 n'Jn, n along the orbit's normal: to 1e-13 over 500 s."""
+    """1/2 w'Jw, w against the orbit, + 3/2 w0^2 j'Jj - 1/2 w0^2 n'Jn, n the orbit's normal: to 1e-13 over 500 s."""
 
     def integral(row):
         matrix = body_from_orbital(row[:3])
