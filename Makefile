@@ -32,7 +32,7 @@ bench: build
 
 # The C of every block under the address and undefined-behaviour sanitizers, 10000 steps each.
 sanitize: .venv/ready
-	PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
+	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
 
 # What the tests of the HTML pages need, from Debian's packages (as root). `make test` tries it where it can; without a
 # browser these tests are left out, which the last lines say.

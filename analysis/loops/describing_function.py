@@ -23,6 +23,7 @@ import numpy as np
 
 Parameters = Mapping[str, float]
 INPUT, OUTPUT, RATIO = "unit of the input", "unit of the output", "unit of the output per unit of the input"
+INTEGRAL = "unit of the input times s"
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,8 @@ class Element:
     ``positive`` names those that may not be 0 (none may be negative). ``check`` says what is wrong with parameters
     that are valid one by one, or "". ``kinks`` lists the amplitudes, ascending, at which N is not smooth, up to
     ``farthest``, beyond which N is as good as that of a linear element (inf: N goes to 0). ``output`` is the
-    largest output, inf without limit, so that abs(N) <= 4 output/(pi a). ``note`` says what is assumed.
+    largest output, inf without limit, so that abs(N) <= 4 output/(pi a). ``of_integral``: the amplitude is that of the
+    input integrated over time. ``note`` says what is assumed.
     """
 
     gain: Callable[[np.ndarray, Parameters], np.ndarray]
@@ -47,6 +49,7 @@ class Element:
     farthest: Callable[[Parameters], float]
     output: Callable[[Parameters], float]
     note: str
+    of_integral: bool = False
 
 
 def _share(threshold: float, amplitude: np.ndarray) -> np.ndarray:
@@ -90,6 +93,22 @@ def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     return np.array([gain(a) for a in amplitude.tolist()], dtype=complex)
 
 
+def _carried_pulses(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
+    """What is fired follows the integral of the demand in steps of a least pulse, a whole one behind at the most: a
+    staircase of relays whose thresholds lie a least pulse apart, each with half of one as its hysteresis."""
+    least = parameters["least_pulse"]
+
+    def gain(a: float) -> complex:
+        """Half the sum over relays on both sides of the middle, switched at i - 1/2 and i + 1/2 least pulses."""
+        steps = np.arange(-math.floor(a / least - 0.5), math.floor(a / least - 0.5) + 1) * least
+        if not len(steps):
+            return 0.0 + 0.0j
+        sides = _share(steps - 0.5 * least, np.asarray(a)) + _share(steps + 0.5 * least, np.asarray(a))
+        return least / (math.pi * a) * (float(np.sum(sides)) - 1j * len(steps) * least / a)
+
+    return np.array([gain(a) for a in amplitude.tolist()], dtype=complex)
+
+
 def _pulse_width(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     level, dead_zone, gain = (parameters[name] for name in ("level", "dead_zone", "gain"))
     # up to the limit the mean is gain times the input; inside the dead zone that is taken away again, which is a
@@ -111,6 +130,7 @@ def _thresholds(*values: float) -> np.ndarray:
 
 
 _QUANTISER_LEVELS = 100  # N is within 1e-3 of 1 from there on
+_PULSE_STEPS = 700  # N is within 1e-3 of 1 from there on
 _DEAD_ZONES = 1e4  # N is within 2e-4 of 1 from there on
 
 ELEMENTS: dict[str, Element] = {
@@ -162,6 +182,20 @@ ELEMENTS: dict[str, Element] = {
         farthest=lambda parameters: _QUANTISER_LEVELS * parameters["step"],
         output=lambda parameters: math.inf,
         note="the nearest whole multiple of step",
+    ),
+    "carried pulses": Element(
+        gain=_carried_pulses,
+        required={"least_pulse": INTEGRAL},
+        optional={},
+        defaults={},
+        positive=("least_pulse",),
+        check=lambda parameters: "",
+        kinks=lambda parameters: (np.arange(_PULSE_STEPS) + 0.5) * parameters["least_pulse"],
+        farthest=lambda parameters: _PULSE_STEPS * parameters["least_pulse"],
+        output=lambda parameters: math.inf,
+        note="pulses no shorter than a least one, what is not fired carried over: the amplitude is that of the demand "
+        "integrated over time, and what is fired is a staircase in steps of least_pulse, one behind at the most",
+        of_integral=True,
     ),
     "pulse width": Element(
         gain=_pulse_width,

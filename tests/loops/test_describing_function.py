@@ -170,6 +170,7 @@ EXAMPLES = {
     "dead zone": {"dead_zone": 0.5},
     "saturation": {"limit": 0.5},
     "quantiser": {"step": 0.5},
+    "carried pulses": {"least_pulse": 0.5},
     "pulse width": {"level": 2.0, "dead_zone": 0.5},
 }
 
@@ -214,3 +215,22 @@ def test_amplitudes_are_positive(amplitude):
 def test_wrong_parameters(kind, parameters, text):
     with pytest.raises(ValueError, match=text):
         complete_parameters(kind, parameters)
+
+
+@given(sizes, st.floats(0.501, 12.0))
+def test_carried_pulses_are_a_staircase_that_lags(least, ratio):
+    """The element itself, stepped along a sine of the integrated demand until it repeats: 1 % of N."""
+    if abs(ratio % 1.0 - 0.5) < 0.02:
+        return  # at a step's very threshold
+    amplitude, points = ratio * least, 20000
+    angle = np.linspace(0.0, 2.0 * math.pi, points, endpoint=False)
+    fired, rows = -0.5 * least, []
+    for demanded in np.tile(amplitude * np.sin(angle), 2):
+        while demanded - fired >= least:
+            fired += least
+        while fired - demanded >= least:
+            fired -= least
+        rows.append(fired)
+    wave = np.array(rows[points:])
+    expected = 2.0 / (points * amplitude) * complex(wave @ np.sin(angle), wave @ np.cos(angle))
+    assert gain("carried pulses", amplitude, least_pulse=least) == pytest.approx(expected, rel=0.01, abs=0.003)

@@ -66,12 +66,12 @@ def test_several_crossovers_of_a_lightly_damped_resonance() -> None:
     assert outside(RESONANT) == 0
     assert found.encirclements == 0
     assert len(found.phase) == 3
-    frequency = np.linspace(1e-3, np.pi, 2_000_001)
+    frequency = np.linspace(1e-3, np.pi, 100_001)
     value = response_of(RESONANT)(frequency)
     crossed = np.flatnonzero(np.diff(np.abs(value) > 1.0))
-    np.testing.assert_allclose([crossing.frequency for crossing in found.phase], frequency[crossed], atol=2e-6)
+    np.testing.assert_allclose([crossing.frequency for crossing in found.phase], frequency[crossed], atol=4e-5)
     lags = np.angle(-value[crossed])
-    np.testing.assert_allclose([crossing.value for crossing in found.phase], lags, atol=2e-4)
+    np.testing.assert_allclose([crossing.value for crossing in found.phase], lags, atol=5e-3)
     # the delay margin is at the resonance, where the phase margin is largest: a lead counts as 2 pi less it
     assert found.delay_frequency == found.phase[2].frequency
     assert found.delay_margin == pytest.approx(np.min(lags % (2 * np.pi) / frequency[crossed]), rel=1e-4)

@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 
 import perilune
+from tests.support.lengths import either
 
 SYSTEM = "robot_rendezvous"
 ALLOCATIONS = ["jet_allocation_pseudo_inverse", "jet_allocation_least_propellant", "jet_allocation_quantised"]
 # Hold (m), attitude rms and largest in the turn (arcsec): what is asked for; the hold error has to be half of it.
 ASKED = {"paper": (0.03, 0.5, 2.0), "kalman": (0.015, 0.5, 2.0), "best": (0.006, 0.5, 2.0)}
+SEEDS = either(8, 3)
 pytestmark = pytest.mark.usefixtures("fmus")
 
 
@@ -22,10 +24,10 @@ def vector(flight, name, size=3):
 
 
 @pytest.mark.parametrize("name", ASKED)
-def test_eight_seeds_hold_place_and_attitude(name):
+def test_other_seeds_hold_place_and_attitude(name):
     hold, attitude, turn = ASKED[name]
-    for trials in perilune.batch(SYSTEM, "seeds", parameters=[f"{name}.ssv"]).trials.values():
-        assert len(trials.trial) == 8
+    for trials in perilune.batch(SYSTEM, "seeds", parameters=[f"{name}.ssv"], trials=SEEDS).trials.values():
+        assert len(trials.trial) == SEEDS
         assert trials.success.all()
         assert np.max(trials.metrics["hold_error"]) < 0.5 * hold
         assert np.max(trials.metrics["attitude_error_rms"]) < attitude
@@ -33,7 +35,7 @@ def test_eight_seeds_hold_place_and_attitude(name):
 
 
 def test_jets_wrong_by_five_percent_hold_within_two_centimetres():
-    for trials in perilune.batch(SYSTEM, "thruster_errors").trials.values():
+    for trials in perilune.batch(SYSTEM, "thruster_errors", trials=either(None, 4)).trials.values():
         assert np.max(trials.metrics["hold_error"]) < 0.02
 
 
@@ -44,7 +46,7 @@ def test_least_propellant_spends_least():
 
 
 def test_starts_beside_the_plan_come_back_to_it():
-    trials = perilune.batch(SYSTEM, "initial_errors", trials=10).trials["jet_allocation_quantised"]
+    trials = perilune.batch(SYSTEM, "initial_errors", trials=either(10, 4)).trials["jet_allocation_quantised"]
     assert np.max(trials.metrics["position_error_max"]) > 0.5
     assert np.max(trials.metrics["hold_error"]) < 0.01
 

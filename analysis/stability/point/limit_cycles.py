@@ -36,7 +36,8 @@ def element_report(
     """Harmonic balance of an element at a cut with the linear rest of the loop, L = ``response``.
 
     ``prepare`` gives the system with the element's own FMUs, in which its limit cycle is flown: amplitude and
-    period are read at what comes back to the cut. Raises InputError for parameters that the element cannot have.
+    period are read at what comes back to the cut, integrated where N is of the integral.
+    Raises InputError for parameters that the element cannot have.
     """
     try:
         parameters = complete_parameters(element.kind, element.parameters)
@@ -47,7 +48,10 @@ def element_report(
     except ValueError as error:
         raise StudyError(f"{channel.name}: element {element.name}: {error}") from error
     amplitude = np.geomspace(*amplitude_range(element.kind, parameters), POINTS)
-    flown = _flown(prepare(element.use), channel) if element.use else None
+    of_integral = ELEMENTS[element.kind].of_integral
+    flown = _flown(prepare(element.use), channel, of_integral) if element.use else None
+    if unit and of_integral:
+        unit = f"{unit}.s"
     stable = [balance for balance in balances if balance.stable]
     cycles = []
     for balance in balances:
@@ -75,12 +79,19 @@ def _lowest(response: Response, low: float, high: float) -> float:
     return float(frequency[below[0]]) if below.size else low
 
 
-def _flown(prepared: PreparedSystem, channel: Channel) -> tuple[float, float] | None:
-    """Amplitude and period (s) of what comes back to the cut in the last part of a whole flight, None if it rests."""
+def _flown(prepared: PreparedSystem, channel: Channel, integrated: bool) -> tuple[float, float] | None:
+    """Amplitude and period (s) of what comes back to the cut in the last part of a whole flight, None if it rests.
+
+    ``integrated``: of its integral over time, less the ramp that a constant disturbance leaves in it.
+    """
     with Simulation(prepared, wanted=channel.recorded) as simulation:
         flight = simulation.fly()
         if flight.status not in COMPLETE or flight.time.size < FEWEST:
             return None
         values = channel.back(flight.signals, np.zeros((flight.time.size, len(channel.connectors))))
+        if integrated:
+            half = flight.time.size // 2
+            held = np.append(0.0, np.cumsum(values[:-1] * np.diff(flight.time)))
+            values = held - np.polyval(np.polyfit(flight.time[half:], held[half:], 1), flight.time)
         found = find_oscillation(flight.time, values)
     return (found.amplitude, found.period) if found else None

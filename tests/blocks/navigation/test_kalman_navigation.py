@@ -87,6 +87,7 @@ def test_innovations_are_as_large_as_the_filter_says(ensemble, sensor, epoch):
     assert stats.kstest(squares, "chi2", args=(SQUARES[sensor],)).pvalue > 1e-3
 
 
+@pytest.mark.slow
 def test_nine_states_need_tuning_to_the_flight():
     """Without scale factors and misalignment the bias, twice as large, stands for all three.
 

@@ -1,0 +1,59 @@
+"""The loops of orbital_attitude as they fly, against the same loops in closed form, and the jets' limit cycle.
+
+Truth: tests/support/loops/exact_orbital.py, with margins by python-control; for the limit cycle the balance of
+that loop with a relay of two levels, by scipy.
+"""
+
+import numpy as np
+import pytest
+from scipy.optimize import fsolve
+
+import perilune
+from tests.support.lengths import either
+from tests.support.loops.exact_margins import crossings, disk_margin
+from tests.support.loops.exact_orbital import loop
+from tests.support.loops.sampled_loops import response_of
+
+DECIBEL = 20.0 / np.log(10.0)
+AXES = either({"roll": 0, "yaw": 1, "pitch": 2}, {"yaw": 1})
+
+
+@pytest.fixture(scope="module")
+def studied(fmus):
+    report = perilune.stability("orbital_attitude", loops=list(AXES), stop_time=2000)
+    return {(found.name, found.point): found for found in report.loops}
+
+
+@pytest.mark.parametrize("point", ["filter", "observer"])
+@pytest.mark.parametrize("name", AXES)
+def test_margins_are_those_of_the_closed_form(studied, name, point):
+    """1e-3 dB, 1e-2 deg and 1e-3 of the disk margin: with ideal sensors every estimate is the state."""
+    found, exact = studied[name, point], loop(AXES[name])
+    gains, phases, _ = crossings(exact)
+    nearest = min(gains, key=lambda k: abs(np.log(k)))
+    assert DECIBEL * np.log(found.classical.gain_margin.value / nearest) == pytest.approx(0.0, abs=1e-3)
+    assert np.degrees(found.classical.phase_margin.value) == pytest.approx(np.degrees(min(phases, key=abs)), abs=1e-2)
+    assert found.robust.disk_margin == pytest.approx(disk_margin(exact), rel=1e-3)
+    assert found.agreement.agrees
+    assert found.stable
+    assert found.verdict == "pass"
+
+
+@pytest.mark.parametrize("name", AXES)
+def test_the_limit_cycle_of_the_pulses(studied, name):
+    """Two pulses of least length, to and fro: predicted as by hand (1e-5), flown within a quarter of that."""
+    element = studied[name, "observer"].nonlinearities[0]
+    half = 0.5 * element.parameters["least_pulse"]
+    response = response_of(loop(AXES[name]))
+
+    def balance(unknown):
+        amplitude, frequency = np.exp(unknown)
+        relay = 4.0 / np.pi * half / amplitude * (np.sqrt(1.0 - (half / amplitude) ** 2) - 1j * half / amplitude)
+        value = 1.0 + relay * complex(response(np.array([frequency]))[0])
+        return [value.real, value.imag]
+
+    amplitude, frequency = np.exp(fsolve(balance, np.log([1.05 * half, 0.3])))
+    (cycle,) = [cycle for cycle in element.cycles if cycle.stable]
+    assert (cycle.amplitude, cycle.period) == pytest.approx((amplitude, 2.0 * np.pi / frequency), rel=1e-5)
+    assert cycle.simulated_amplitude == pytest.approx(amplitude, rel=0.25)
+    assert cycle.simulated_period == pytest.approx(cycle.period, rel=0.25)
