@@ -179,6 +179,8 @@ def test_groups_settled_and_first(grouped, capsys):
             assert group["metrics_all"]["near"]["mean"] == pytest.approx(np.mean([row["metric.near"] for row in mine]))
             assert group["metrics_all"]["never"]["p50"] == "inf"
             assert [variant, label, str(len(mine))] in printed
+    late, near = summary["metrics"]["late_mass"], summary["metrics"]["near"]
+    assert (late["condition"], late["delay"], near["truth"]) == ("plant.position[3] < 6000", 10.0, False)
     row = rows[17]
     drawn = {name[5:]: value for name, value in row.items() if name.startswith("draw.") and "." in name[5:]}
     flight = perilune.simulate(SYSTEM, use={"guidance": row["variant"]}, set=drawn)
@@ -188,6 +190,19 @@ def test_groups_settled_and_first(grouped, capsys):
     later = next(k for k, t in enumerate(flight.time) if t >= below[0] + 10 - 1e-6)
     assert row["metric.late_mass"] == flight["plant.mass"][later]
     assert row["metric.never"] == np.inf
+
+
+def test_other_conditions_are_noted_when_batches_are_compared(grouped, tmp_path, capsys):
+    text = (grouped / "c.toml").read_text().replace("delay = 10", "delay = 20")
+    (tmp_path / "c.toml").write_text(text)
+    for campaign in (grouped, tmp_path):
+        compare = ["--compare", "guidance=analytic_guidance"]
+        assert main(of_campaign(campaign, *compare, "--output", str(tmp_path / campaign.name))) == 0
+    capsys.readouterr()
+    assert main(["compare", str(tmp_path / grouped.name), str(tmp_path / tmp_path.name)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1] == f"{grouped.name} and {tmp_path.name} define the metric late_mass differently"
+    assert lines[0].split()[:3] == ["variant", "case", "trials"]
 
 
 def test_a_replay_says_null_for_what_never_settles(grouped, capsys):
