@@ -16,14 +16,15 @@ TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 def campaign_facts(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
     """Facts of a batch that its numbers do not show; ``systems`` are the prepared ones by variant.
 
-    ``description``, ``success`` (expression), ``metrics`` (expression, reduction, unit, description,
-    and whether the value is true or false), ``record`` (every, signals, trials, traces), ``signals`` (unit
-    and FMI type of what is recorded), ``targets`` (parameters target_position and target_velocity by
-    variant).
+    ``description``, ``success`` (expression), ``group`` (where there is one), ``metrics`` (expression, reduction,
+    unit, description, whether the value is true or false, and what else its reduction has), ``record`` (every,
+    signals, trials, traces), ``signals`` (unit and FMI type of what is recorded), ``targets`` (parameters
+    target_position and target_velocity by variant).
     """
     campaign = plan.campaign
     signals = _signals(systems)
-    return {
+    group = {} if campaign.group is None else {"group": campaign.group}
+    return group | {
         "description": campaign.description,
         "success": campaign.success.text,
         "metrics": {metric.name: _metric(metric, signals) for metric in campaign.metrics},
@@ -41,12 +42,13 @@ def campaign_facts(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> di
 def _metric(metric: Metric, signals: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     expression = metric.expression
     truth = expression.is_truth or signals.get(expression.text, {}).get("type") == "Boolean"
-    return {
+    condition = {} if metric.condition is None else {"condition": metric.condition.text, "delay": metric.delay}
+    return condition | {
         "expression": expression.text,
         "reduction": metric.reduction,
         "unit": metric.unit,
         "description": metric.description,
-        "truth": truth and metric.reduction in ("final", "min", "max"),
+        "truth": truth and metric.reduction in ("final", "min", "max", "first"),
     }
 
 

@@ -13,7 +13,8 @@ import pyarrow
 import pyarrow.parquet
 
 from ..campaign.plan import BatchPlan
-from .summary import summarise, summary_text
+from .summary import summarise
+from .tables import summary_text
 from .trials import Trials
 
 
@@ -53,7 +54,7 @@ class BatchResult:
 
     def text(self) -> str:
         """The summary for a terminal."""
-        return summary_text(self.summary)
+        return summary_text(self.summary, self.plan.campaign.group)
 
     def write(self, folder: Path) -> None:
         """Write trials.parquet, draws.parquet, summary.json, and traces/ where the campaign keeps them.
@@ -90,4 +91,4 @@ def batch_digest(provenance: dict[str, Any]) -> str:
 
 def make_result(plan: BatchPlan, trials: dict[str, Trials], provenance: dict[str, Any]) -> BatchResult:
     """The result with its summary; ``trials`` by variant, each in order of trial."""
-    return BatchResult(plan, trials, summarise(trials, plan.campaign.metrics), provenance)
+    return BatchResult(plan, trials, summarise(trials, plan.campaign.metrics, plan.groups), provenance)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import pyarrow.parquet
 
 from ..campaign.campaign import Metric
 from ..campaign.expressions import Expression
+from ..campaign.groups import Group, groups_of
 from ..errors import InputError
 from ..system.names import parted
 from .results import batch_digest, trace_path
@@ -49,6 +51,21 @@ class StoredBatch:
     def provenance(self) -> dict[str, Any]:
         """What the batch's numbers depend on: summary.json without the summary."""
         return {key: value for key, value in self.document.items() if key != "variants"}
+
+    @property
+    def group(self) -> str | None:
+        """The drawn or derived value that the campaign groups trials by, if it does."""
+        return self.document.get("group")
+
+    @cached_property
+    def groups(self) -> list[Group]:
+        """The groups of trials; none where the campaign does not ask for them. Raises InputError."""
+        where = (str(self.folder / "summary.json"), "group")
+        if self.group is None:
+            return []
+        if self.group not in self.draws:
+            raise InputError(*where, f"{self.group} is not a column of draws.parquet", AGAIN)
+        return groups_of(self.draws[self.group], where)
 
     def parted(self, name: str) -> tuple[str, str]:
         """Component and variable of a signal or parameter of any variant."""
@@ -125,11 +142,17 @@ def _metrics(document: Mapping[str, Any], path: Path) -> tuple[Metric, ...]:
                 reduction=fact["reduction"],
                 unit=fact["unit"],
                 description=fact["description"],
+                condition=_condition(fact, (str(path), f"metrics.{name}.condition")),
+                delay=fact.get("delay", 0.0),
             )
             for name, fact in document["metrics"].items()
         )
     except (AttributeError, KeyError, TypeError) as error:
         raise InputError(path, "metrics", "not as perilune batch writes them", AGAIN) from error
+
+
+def _condition(fact: Mapping[str, Any], where: tuple[str, str]) -> Expression | None:
+    return Expression(fact["condition"], where) if "condition" in fact else None
 
 
 def _numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:

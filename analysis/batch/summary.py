@@ -1,16 +1,18 @@
-"""What came of a campaign: rates with their intervals, metrics over trials, as a dict and as text."""
+"""What came of a campaign: rates with their intervals, metrics over trials, of variants and of groups of trials."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.stats import binomtest
 
 from ..campaign.campaign import Metric
+from ..campaign.groups import Group
+from .statistics import INFINITE, QUANTILES, statistics
 
 CONFIDENCE = 0.95
 
@@ -34,22 +36,13 @@ class TrialColumns:
     success: np.ndarray
     metrics: Mapping[str, np.ndarray]
 
-
-def statistics(values: np.ndarray, unit: str) -> dict[str, Any]:
-    """Count, mean, sample standard deviation, largest and smallest of the finite ``values`` (trials,).
-
-    What cannot be had from so few values (the deviation from one, everything from none) is None.
-    """
-    finite = values[np.isfinite(values)]
-    some = finite.size > 0
-    return {
-        "count": int(finite.size),
-        "mean": float(np.mean(finite)) if some else None,
-        "std": float(np.std(finite, ddof=1)) if finite.size > 1 else None,
-        "max": float(np.max(finite)) if some else None,
-        "min": float(np.min(finite)) if some else None,
-        "unit": unit,
-    }
+    def among(self, trials: np.ndarray) -> TrialColumns:
+        """Some of the trials, by their places in the columns."""
+        return TrialColumns(
+            [self.statuses[trial] for trial in trials],
+            np.asarray(self.success)[trials],
+            {name: np.asarray(column)[trials] for name, column in self.metrics.items()},
+        )
 
 
 def summarise_variant(trials: TrialColumns, metrics: Iterable[Metric]) -> dict[str, Any]:
@@ -69,16 +62,46 @@ def summarise_variant(trials: TrialColumns, metrics: Iterable[Metric]) -> dict[s
     }
 
 
-def summarise(variants: Mapping[str, TrialColumns], metrics: Sequence[Metric]) -> dict[str, Any]:
-    """The summaries of all variants by name. Every variant has one trial or more."""
-    return {name: summarise_variant(trials, metrics) for name, trials in variants.items()}
+def summarise(
+    variants: Mapping[str, TrialColumns], metrics: Sequence[Metric], groups: Sequence[Group] = ()
+) -> dict[str, Any]:
+    """The summaries of all variants by name. Every variant has one trial or more.
+
+    With ``groups`` a variant has ``groups`` too, by their labels: the same over the trials of each, and its ``value``.
+    """
+    found = {name: summarise_variant(trials, metrics) for name, trials in variants.items()}
+    if groups:
+        for name, trials in variants.items():
+            found[name]["groups"] = {
+                group.label: {"value": group.value, **summarise_variant(trials.among(group.trials), metrics)}
+                for group in groups
+            }
+    return found
+
+
+class SummaryRow(NamedTuple):
+    """A row of a summary's tables: a variant, or one group of its trials by its label, and what there is to say."""
+
+    variant: str
+    group: str | None
+    entry: dict[str, Any]
+
+
+def summary_rows(summary: Mapping[str, Any]) -> list[SummaryRow]:
+    """Every variant, each followed by its groups."""
+    rows = []
+    for name, variant in summary.items():
+        rows.append(SummaryRow(name, None, variant))
+        rows += [SummaryRow(name, label, entry) for label, entry in variant.get("groups", {}).items()]
+    return rows
 
 
 def requirement_values(summary: Mapping[str, Any]) -> dict[str, float]:
     """Every number of a summary under a dotted name, for requirements as expressions.
 
     ``variant.success_rate``, ``variant.success_interval[1]`` (low) and ``[2]`` (high),
-    ``variant.metrics.NAME.mean`` and so on; numbers that could not be had are nan.
+    ``variant.metrics.NAME.mean``, ``variant.groups["LABEL"].success_rate`` and so on; numbers that could not be
+    had are nan.
     """
     values: dict[str, float] = {}
 
@@ -91,38 +114,11 @@ def requirement_values(summary: Mapping[str, Any]) -> dict[str, float]:
                 walk(f"{prefix}[{index + 1}]", inner)
         elif not isinstance(entry, str):
             values[prefix] = float("nan") if entry is None else float(entry)
+        elif entry in INFINITE and prefix.endswith(tuple(f".{key}" for key in QUANTILES)):
+            values[prefix] = float(entry)
 
-    walk("", summary)
-    return values
-
-
-def aligned(rows: list[list[str]]) -> list[str]:
-    """Rows of cells as lines, the first column to the left, the others to the right."""
-    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
-    return [
-        "  ".join(
-            [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
-        )
-        for row in rows
-    ]
-
-
-def summary_text(summary: Mapping[str, Any]) -> str:
-    """A summary as plain text for the terminal: success rates, then metrics of successful trials."""
-    rates = [["variant", "trials", "success %", f"{100 * CONFIDENCE:g} % interval", "statuses"]]
     for name, variant in summary.items():
-        low, high = variant["success_interval"]
-        statuses = ", ".join(f"{count} {status}" for status, count in variant["statuses"].items())
-        rate = f"{100 * variant['success_rate']:.2f}"
-        rates.append([name, str(variant["trials"]), rate, f"{100 * low:.2f} to {100 * high:.2f}", statuses])
-    lines = aligned(rates)
-    columns = ("mean", "std", "min", "max")
-    cells = [["metric, successful trials", "variant", *columns, "unit"]]
-    for metric in dict.fromkeys(metric for variant in summary.values() for metric in variant["metrics"]):
-        for name, variant in summary.items():
-            found = variant["metrics"][metric]
-            numbers = ["-" if found[column] is None else f"{found[column]:.4g}" for column in columns]
-            cells.append([metric, name, *numbers, found["unit"]])
-    if len(cells) > 1:
-        lines += ["", *aligned(cells)]
-    return "\n".join(lines)
+        walk(name, {key: entry for key, entry in variant.items() if key != "groups"})
+        for label, group in variant.get("groups", {}).items():
+            walk(f'{name}.groups["{label}"]', group)
+    return values

@@ -11,7 +11,7 @@ from ..system.options import Layer
 from .distributions import Draw
 from .expressions import Expression
 
-REDUCTIONS = ("final", "min", "max", "mean", "rms", "last_outside")
+REDUCTIONS = ("final", "min", "max", "mean", "rms", "last_outside", "settled", "first")
 TRACES = ("none", "failures", "all")
 
 Setting = float | int | bool | str
@@ -21,8 +21,8 @@ Setting = float | int | bool | str
 class Metric:
     """One number per trial: an expression over the record, reduced over the rows of a window.
 
-    ``band`` (low, high) belongs to the reduction last_outside; ``window`` (t0, t1) is in s, both
-    ends included, None for the whole flight. ``unit`` labels the value.
+    ``band`` (low, high) belongs to the reduction last_outside, ``condition`` and ``delay`` (s) to first;
+    ``window`` (t0, t1) is in s, both ends included, None for the whole flight. ``unit`` labels the value.
     """
 
     name: str
@@ -32,6 +32,13 @@ class Metric:
     window: tuple[float, float] | None = None
     unit: str = "1"
     description: str = ""
+    condition: Expression | None = None
+    delay: float = 0.0
+
+    @property
+    def names(self) -> frozenset[str]:
+        """What its expressions refer to."""
+        return self.expression.names | (self.condition.names if self.condition is not None else frozenset())
 
 
 @dataclass(frozen=True)
@@ -62,7 +69,7 @@ class Campaign:
 
     ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are
     expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
-    [compare]. ``file`` is what errors name.
+    [compare], ``group`` is the drawn or derived value by which [group] sums trials up. ``file`` is what errors name.
     """
 
     file: str
@@ -78,6 +85,7 @@ class Campaign:
     parameters: tuple[str, ...] = ()
     record: Record = Record()
     description: str = ""
+    group: str | None = None
 
     def __post_init__(self) -> None:
         if self.trials < 1:

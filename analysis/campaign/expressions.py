@@ -91,7 +91,7 @@ ALLOWED = "numbers, names, + - * / // % **, comparisons, and, or, not, and funct
 
 
 def path_name(node: ast.expr) -> str | None:
-    """The variable that a node names (``x``, ``a.b``, ``a.b[1]``, ``a[1,2].c``), or None."""
+    """The variable that a node names (``x``, ``a.b``, ``a.b[1]``, ``a[1,2].c``, ``a["2.5"].b``), or None."""
     match node:
         case ast.Name(id=name):
             return name
@@ -100,6 +100,8 @@ def path_name(node: ast.expr) -> str | None:
             return None if prefix is None else f"{prefix}.{name}"
         case ast.Subscript(value=ast.Name() | ast.Attribute() as owner, slice=index):
             prefix = path_name(owner)
+            if prefix is not None and isinstance(index, ast.Constant) and isinstance(index.value, str):
+                return f'{prefix}["{index.value}"]'
             entries = index.elts if isinstance(index, ast.Tuple) else [index]
             numbers = [entry.value for entry in entries if isinstance(entry, ast.Constant)]
             if prefix is None or not entries or [type(n) for n in numbers] != [int] * len(entries):
@@ -109,12 +111,12 @@ def path_name(node: ast.expr) -> str | None:
 
 
 def is_name(text: str) -> bool:
-    """Whether ``text`` is a variable's name as expressions write it, without spaces."""
+    """Whether ``text`` is a variable's name as expressions write it, without spaces and quotes."""
     try:
         node = ast.parse(text, mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return False
-    return path_name(node) == text
+    return path_name(node) == text and '"' not in text
 
 
 class _Translator:
@@ -201,7 +203,8 @@ class Expression:
 
     ``text`` may span lines; ``where`` (file, element) is what errors point to. ``names`` are the
     variables it needs: identifiers or dotted paths, with an index where there is one, as in
-    ``plant.position[1]``. Raises InputError for a text that is not such an expression.
+    ``plant.position[1]``, or a text in quotes, as in ``default.groups["2.5"].trials``. Raises InputError
+    for a text that is not such an expression.
     """
 
     def __init__(self, text: str, where: Where = ("expression", "")) -> None:

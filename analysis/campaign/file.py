@@ -10,10 +10,11 @@ from ..errors import InputError, suggestion
 from .campaign import REDUCTIONS, TRACES, Campaign, Metric, Record, Setting
 from .distributions import Draw, read_draw
 from .expressions import RESERVED, Expression, is_name
-from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, read_toml, sequence, text
+from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, read_toml, sequence, text
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})  # of records and of the results' table
+REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that go with one reduction only
 
 
 def _check_name(table: Table, name: str, taken: Iterable[str]) -> None:
@@ -65,10 +66,11 @@ def _pair(table: Table, key: str, value: Any) -> tuple[float, float]:
 
 
 def _metric(name: str, table: Table) -> Metric:
-    table.only(["expression", "reduction", "band", "window", "unit", "description"])
+    table.only(["expression", "reduction", *REDUCTION_OF, "window", "unit", "description"])
     reduction = table.get("reduction", choice_of(*REDUCTIONS))
-    if reduction != "last_outside" and "band" in table.content:
-        raise table.error("band", f"not used by the reduction {reduction!r}", "drop it, or use last_outside")
+    for key, owner in REDUCTION_OF.items():
+        if reduction != owner and key in table.content:
+            raise table.error(key, f"not used by the reduction {reduction!r}", f"drop it, or use {owner}")
     return Metric(
         name=name,
         expression=table.get("expression", expression),
@@ -77,7 +79,16 @@ def _metric(name: str, table: Table) -> Metric:
         window=table.get("window", _pair, None),
         unit=table.get("unit", text, "1"),
         description=table.get("description", text, ""),
+        condition=table.get("condition", expression, REQUIRED if reduction == "first" else None),
+        delay=table.get("delay", _seconds_later, 0.0),
     )
+
+
+def _seconds_later(table: Table, key: str, value: Any) -> float:
+    found = number(table, key, value)
+    if found < 0.0:
+        raise table.error(key, f"{value!r} is before the condition", "give seconds, 0 or more")
+    return found
 
 
 def _metrics(table: Table, drawn: list[str]) -> tuple[Metric, ...]:
@@ -124,6 +135,14 @@ def _compare(table: Table) -> dict[str, tuple[str, ...]]:
     return {slot: names(table, slot, value) for slot, value in table.flat()}
 
 
+def _group(table: Table, drawn: list[str]) -> str:
+    table.only(["by"])
+    name = table.get("by", text)
+    if name not in drawn:
+        raise table.error("by", f"{name!r} is not a draw or a derived value", suggestion(name, drawn))
+    return name
+
+
 def _success(table: Table, metrics: tuple[Metric, ...]) -> Expression:
     table.only(["expression"])
     success = table.get("expression", expression)
@@ -137,7 +156,7 @@ def parse_campaign(table: Table) -> Campaign:
         remedy = "search with perilune synthesize, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
     keys = ["system", "description", "trials", "seed", "parameters"]
-    table.only([*keys, "set", "compare", "draw", "derive", "metric", "record", "success"])
+    table.only([*keys, "set", "compare", "draw", "derive", "group", "metric", "record", "success"])
     draws = _draws(table.table("draw"))
     derived = _derived(table.table("derive"), draws)
     drawn = [name for draw in draws for name in draw.names] + list(derived)
@@ -156,6 +175,7 @@ def parse_campaign(table: Table) -> Campaign:
         parameters=table.get("parameters", names, ()),
         record=_record(table.table("record")),
         description=" ".join(table.get("description", text, "").split()),
+        group=_group(table.table("group"), drawn) if "group" in table.content else None,
     )
 
 

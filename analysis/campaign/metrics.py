@@ -23,7 +23,7 @@ TIME = "time"  # the name under which expressions see the record's times, s
 
 def names_needed(metrics: Iterable[Metric], drawn: Iterable[str]) -> set[str]:
     """Recorded signals and parameters that the metrics refer to: all their names but times and draws."""
-    return {name for metric in metrics for name in metric.expression.names} - set(drawn) - {TIME}
+    return {name for metric in metrics for name in metric.names} - set(drawn) - {TIME}
 
 
 def rows_in(window: tuple[float, float], times: np.ndarray) -> np.ndarray:
@@ -31,8 +31,12 @@ def rows_in(window: tuple[float, float], times: np.ndarray) -> np.ndarray:
 
     Times are start + n h with rounding, so an end may be missed by a millionth of a step.
     """
-    margin = 1e-6 * (times[1] - times[0]) if len(times) > 1 else 0.0
+    margin = _rounding(times)
     return (times >= window[0] - margin) & (times <= window[1] + margin)
+
+
+def _rounding(times: np.ndarray) -> float:
+    return 1e-6 * (times[1] - times[0]) if len(times) > 1 else 0.0
 
 
 def last_outside(times: np.ndarray, values: np.ndarray, band: tuple[float, float]) -> float:
@@ -47,21 +51,60 @@ def last_outside(times: np.ndarray, values: np.ndarray, band: tuple[float, float
     return math.inf if outside[-1] == len(times) - 1 else float(times[outside[-1]])
 
 
+def _holds(condition: np.ndarray) -> np.ndarray:
+    """Where a condition is true: anything but 0 and nan."""
+    return (condition != 0.0) & ~np.isnan(condition)
+
+
+def settled(times: np.ndarray, condition: np.ndarray, start: float) -> float:
+    """The time (s) from ``start`` to the first row from which on the condition holds to the last row.
+
+    0 when it holds in every row, inf when it does not in the last one.
+    """
+    failing = np.flatnonzero(~_holds(condition))
+    if not failing.size:
+        return 0.0
+    row = failing[-1] + 1
+    return math.inf if row == len(times) else float(times[row]) - start
+
+
+def first(times: np.ndarray, values: np.ndarray, condition: np.ndarray, delay: float) -> float:
+    """The value in the first row where the condition holds, or in the first row ``delay`` (s) later or after that.
+
+    Nan when the condition never holds or the rows end before the delay is over. A millionth of a step may be
+    missing to the delay, since times are rounded.
+    """
+    holding = np.flatnonzero(_holds(condition))
+    if not holding.size:
+        return math.nan
+    row = np.searchsorted(times, times[holding[0]] + delay - _rounding(times))
+    return math.nan if row == len(times) else float(values[row])
+
+
 def evaluate_metric(metric: Metric, times: np.ndarray, values: Mapping[str, np.ndarray | float]) -> float:
     """One metric over a record: ``times`` (s, one per row), ``values`` (arrays over rows, or floats).
 
-    Mean and rms weigh all rows alike. Nan when no row lies in the window, as in a flight that
-    ended before it. Raises InputError for a name that ``values`` lacks.
+    Mean and rms weigh all rows alike. What settles is counted from the window's start, or from the flight's
+    if that is later. Nan when no row lies in the window, as in a flight that ended before it. Raises InputError
+    for a name that ``values`` lacks.
     """
-    signal = np.broadcast_to(metric.expression.evaluate(values), times.shape)
-    if metric.window is not None:
-        inside = rows_in(metric.window, times)
-        times, signal = times[inside], signal[inside]
-    if not times.size:
+    inside: slice | np.ndarray = slice(None) if metric.window is None else rows_in(metric.window, times)
+
+    def rows_of(formula: Expression) -> np.ndarray:
+        return np.broadcast_to(formula.evaluate(values), times.shape)[inside]
+
+    rows, signal = times[inside], rows_of(metric.expression)
+    if not rows.size:
         return math.nan
     if metric.reduction == "last_outside":
         assert metric.band is not None  # as the campaign was read
-        return last_outside(times, signal, metric.band)
+        return last_outside(rows, signal, metric.band)
+    if metric.reduction == "settled":
+        flight = float(times[0])
+        return settled(rows, signal, flight if metric.window is None else max(metric.window[0], flight))
+    if metric.reduction == "first":
+        assert metric.condition is not None  # as the campaign was read
+        return first(rows, signal, rows_of(metric.condition), metric.delay)
     return float(SIMPLE[metric.reduction](signal))
 
 

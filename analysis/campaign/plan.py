@@ -18,6 +18,7 @@ from ..system.prepared import PreparedSystem, prepare_system
 from .campaign import Campaign, Variant
 from .draws import DrawTable, draw_table, stream_numbers
 from .file import parse_campaign
+from .groups import Group, groups_of
 from .metrics import names_needed
 from .toml_table import Table
 
@@ -39,8 +40,19 @@ class BatchPlan:
 
     @cached_property
     def draws(self) -> DrawTable:
-        """The table of draws of all trials."""
-        return draw_table(self.campaign)
+        """The table of draws of all trials. Raises InputError."""
+        try:
+            return draw_table(self.campaign)
+        except MemoryError as error:
+            problem = f"the draws of {self.campaign.trials} trials do not fit into memory"
+            raise InputError(self.campaign.file, "trials", problem, "give fewer") from error
+
+    @cached_property
+    def groups(self) -> list[Group]:
+        """The groups of trials that results are summed up by; none without [group]. Raises InputError."""
+        if self.campaign.group is None:
+            return []
+        return groups_of(self.draws.columns[self.campaign.group], (self.campaign.file, "group.by"))
 
     def prepare(self, variant: Variant) -> PreparedSystem:
         """The system as one variant flies it. Raises InputError."""
@@ -91,11 +103,7 @@ def read_plan(
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
     """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
-    try:
-        _ = plan.draws
-    except MemoryError as error:
-        problem = f"the draws of {plan.campaign.trials} trials do not fit into memory"
-        raise InputError(plan.campaign.file, "trials", problem, "give fewer") from error
+    _ = plan.draws, plan.groups
     _refuse_conflicts(plan)
     systems = {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
     for prepared in systems.values():

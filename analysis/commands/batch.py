@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -93,10 +94,12 @@ def _check_requirements(plan: BatchPlan, requirements: list[Expression]) -> None
     nothing = np.full(1, np.nan)
     blank = TrialColumns([""], np.zeros(1, dtype=bool), {metric.name: nothing for metric in plan.campaign.metrics})
     variants = [variant.name for variant in plan.campaign.variants()]
-    known = requirement_values(summarise(dict.fromkeys(variants, blank), plan.campaign.metrics))
+    groups = [replace(group, trials=np.zeros(1, dtype=int)) for group in plan.groups]
+    known = requirement_values(summarise(dict.fromkeys(variants, blank), plan.campaign.metrics, groups))
+    statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
     for requirement in requirements:
         for name in sorted(requirement.names - set(known)):
-            if not any(name.startswith(f"{variant}.statuses.") for variant in variants):
+            if not name.startswith(statuses):
                 raise InputError("--require", name, "no such number in the summary", suggestion(name, known))
 
 

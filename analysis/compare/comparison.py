@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 
 from ..batch.stored import StoredBatch
-from ..batch.summary import CONFIDENCE, TrialColumns, aligned, success_interval, summarise
+from ..batch.summary import CONFIDENCE, TrialColumns, success_interval, summarise, summary_rows
+from ..batch.tables import aligned, metric_lines, who_cells, who_heads
 from ..batch.trials import Trials
 from ..campaign.campaign import Metric
+from ..campaign.groups import Group
 from .paired import PairedRates, PairedValues, paired_rates, paired_values
 
 SUCCESS = "success"
@@ -51,6 +53,21 @@ class Comparison:
     def first(self) -> StoredBatch:
         """The batch of the first folder."""
         return next(iter(self.batches.values()))
+
+    @cached_property
+    def _grouping(self) -> StoredBatch | None:
+        """The first batch whose campaign groups trials: all have its draws."""
+        return next((batch for batch in self.batches.values() if batch.group is not None), None)
+
+    @property
+    def group(self) -> str | None:
+        """The drawn or derived value that trials are grouped by, if they are."""
+        return None if self._grouping is None else self._grouping.group
+
+    @property
+    def groups(self) -> list[Group]:
+        """The groups of trials."""
+        return [] if self._grouping is None else self._grouping.groups
 
     @cached_property
     def metrics(self) -> list[Metric]:
@@ -99,7 +116,7 @@ class Comparison:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """Per contender what a batch's summary has, and ``rates``: count, rate and interval by name."""
+        """Per contender what a batch's summary has, and ``rates``: count, rate and interval by name; groups too."""
         columns = {
             label: TrialColumns(
                 contender.trials.statuses,
@@ -108,13 +125,15 @@ class Comparison:
             )
             for label, contender in self.contenders.items()
         }
-        found = summarise(columns, self.metrics)
-        for label, entry in found.items():
-            entry["rates"] = {name_of(rate): self._rate(label, rate) for rate in self.rates}
+        found = summarise(columns, self.metrics, self.groups)
+        members = {group.label: group.trials for group in self.groups}
+        for label, group, entry in summary_rows(found):
+            trials = slice(None) if group is None else members[group]
+            entry["rates"] = {name_of(rate): self._rate(label, rate, trials) for rate in self.rates}
         return found
 
-    def _rate(self, label: str, rate: Metric | None) -> dict[str, Any]:
-        yes = self.outcomes(label, rate)
+    def _rate(self, label: str, rate: Metric | None, trials: slice | np.ndarray) -> dict[str, Any]:
+        yes = self.outcomes(label, rate)[trials]
         count = int(yes.sum())
         interval = list(success_interval(count, yes.size, CONFIDENCE))
         return {"count": count, "trials": yes.size, "rate": count / yes.size, "interval": interval}
@@ -152,7 +171,8 @@ class Comparison:
 
     def document(self) -> dict[str, Any]:
         """The comparison as JSON: provenance of every batch, per contender its numbers, per pair theirs."""
-        return {
+        group = {} if self.group is None else {"group": self.group}
+        return group | {
             "batches": {str(batch.folder): batch.provenance for batch in self.batches.values()},
             "notes": list(self.notes),
             "variants": self.summary,
@@ -171,17 +191,13 @@ class Comparison:
     def text(self) -> str:
         """The comparison for a terminal: rates with intervals, then metrics of the successful trials."""
         names = [name_of(rate) for rate in self.rates]
-        rows = [["variant", "trials", *(f"{name} % ({100 * CONFIDENCE:g} %)" for name in names)]]
-        for label, entry in self.summary.items():
-            rows.append([label, str(entry["trials"]), *(_percent(entry["rates"][name]) for name in names)])
-        lines = aligned(rows)
-        cells = [["metric, successful trials", "variant", "mean", "std", "max", "unit"]]
-        for metric in self.metrics:
-            for label, entry in self.summary.items():
-                found = entry["metrics"][metric.name]
-                numbers = ["-" if found[key] is None else f"{found[key]:.4g}" for key in ("mean", "std", "max")]
-                cells.append([metric.name, label, *numbers, metric.unit])
-        return "\n".join([*lines, *(["", *aligned(cells)] if self.metrics else []), *self.notes])
+        rows = summary_rows(self.summary)
+        cells = [[*who_heads(self.group), "trials", *(f"{name} % ({100 * CONFIDENCE:g} %)" for name in names)]]
+        for row in rows:
+            rates = [_percent(row.entry["rates"][name]) for name in names]
+            cells.append([*who_cells(row, self.group), str(row.entry["trials"]), *rates])
+        found = metric_lines(rows, [metric.name for metric in self.metrics], self.group)
+        return "\n".join([*aligned(cells), *(["", *found] if found else []), *self.notes])
 
 
 def _percent(rate: Mapping[str, Any]) -> str:

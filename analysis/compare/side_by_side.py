@@ -19,6 +19,7 @@ DIFFERENCES = {
     "step": "have different steps",
     "algorithm": "exchange values by different algorithms",
 }
+DEFINITION = ("expression", "reduction", "condition", "delay")  # of a metric
 
 
 def compare(folders: Sequence[Path], reference: str | None = None) -> Comparison:
@@ -87,10 +88,12 @@ def _notes(batches: Mapping[str, StoredBatch]) -> Iterator[str]:
         for key, words in DIFFERENCES.items():
             if first.document[key] != other.document[key]:
                 yield f"{pair} {words}: {first.document[key]} and {other.document[key]}"
+        if None not in (first.group, other.group) and first.group != other.group:
+            yield f"{pair} group trials by different values: {first.group} and {other.group}"
         own = {metric.name: metric for metric in first.metrics}
         for metric in other.metrics:
             known = own.get(metric.name, metric)
-            if (known.expression, known.reduction) != (metric.expression, metric.reduction):
+            if any(getattr(known, key) != getattr(metric, key) for key in DEFINITION):
                 yield f"{pair} define the metric {metric.name} differently"
         if other.strangers:
             yield f"{other_name} holds {other.strangers} traces of another batch, which are left out"

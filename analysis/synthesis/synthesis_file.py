@@ -21,6 +21,11 @@ from .search_settings import SearchSettings
 from .variations import OUTPUTS, SIZE, SOURCES, edges_in, edges_out
 
 OWN_KEYS = ("component", "fmu", "law", "step", "stop_time", "objectives")
+REFUSED = {  # tables of a campaign, and why they do not go with a search
+    "compare": "one law flies at a time",
+    "record": "nothing is kept of the flights",
+    "group": "a law is judged by all trials",
+}
 LIMITS: Mapping[str, tuple[float, float]] = {
     "population": (2, 5000),
     "generations": (1, 100_000),
@@ -69,7 +74,7 @@ def read_synthesis(path: Path) -> Synthesis:
     whole = read_toml(path)
     if SYNTHESIS not in whole.content:
         raise whole.error(SYNTHESIS, "missing", f"add [{SYNTHESIS}] with component, law and objectives")
-    for key, reason in (("compare", "one law flies at a time"), ("record", "nothing is kept of the flights")):
+    for key, reason in REFUSED.items():
         if key in whole.content:
             raise whole.error(key, f"not for a synthesis: {reason}", "drop it; perilune batch flies what was found")
     rest = {key: value for key, value in whole.content.items() if key != SYNTHESIS}

@@ -6,9 +6,10 @@ import math
 import numpy as np
 import pytest
 
-from perilune.analysis.batch.summary import TrialColumns, requirement_values, success_interval, summarise, summary_text
+from perilune.analysis.batch.summary import TrialColumns, requirement_values, success_interval, summarise
 from perilune.analysis.campaign.campaign import Metric
 from perilune.analysis.campaign.expressions import Expression
+from perilune.analysis.campaign.groups import Group
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
 GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
@@ -30,14 +31,17 @@ def test_rates_and_statuses(summary):
 def test_metrics_are_over_successes_and_over_all(summary):
     good = summary["good"]
     assert good["metrics_over"] == "successful trials"
-    expected = {"count": 3, "mean": 3.0, "std": pytest.approx(math.sqrt(7)), "max": 6.0, "min": 1.0, "unit": "m"}
-    assert good["metrics"]["miss"] == expected
+    assert good["metrics"]["miss"] == {
+        "count": 3, "mean": 3.0, "std": pytest.approx(math.sqrt(7)), "max": 6.0, "min": 1.0,
+        "rms": pytest.approx(math.sqrt(41 / 3)), "p5": 1.0, "p50": 2.0, "p95": 6.0, "p99": 6.0, "unit": "m",
+    }  # fmt: skip
     assert good["metrics_all"]["miss"]["max"] == 500.0
 
 
 def test_what_cannot_be_had_is_none(summary):
     assert summary["bad"]["metrics"]["miss"] == {
-        "count": 0, "mean": None, "std": None, "max": None, "min": None, "unit": "m"
+        "count": 0, "mean": None, "std": None, "max": None, "min": None, "rms": None,
+        "p5": None, "p50": None, "p95": None, "p99": None, "unit": "m",
     }  # fmt: skip
     assert summary["bad"]["metrics_all"]["miss"]["count"] == 1
     assert summary["bad"]["metrics_all"]["miss"]["std"] is None
@@ -51,18 +55,39 @@ def test_requirements_reach_every_number(summary):
     values = requirement_values(summary)
     text = "good.success_rate > 0.7 and good.metrics.miss.max < 7 and good.success_interval[1] < bad.trials"
     assert Expression(text).evaluate(values) == 1.0
+    assert values["good.metrics.miss.p95"] == 6.0
     assert math.isnan(values["bad.metrics.miss.mean"])
 
 
-def test_text_is_aligned_and_complete(summary):
-    lines = summary_text(summary).splitlines()
-    rates, metrics = lines[:3], lines[4:]
-    assert rates[0].split("  ")[0] == "variant"
-    assert rates[1].split() == ["good", "4", "75.00", "19.41", "to", "99.37", "4", "finished"]
-    assert len({len(line) for line in rates}) == 1
-    assert metrics[1].split() == ["miss", "good", "3", "2.646", "1", "6", "m"]
-    assert metrics[2].split() == ["miss", "bad", "-", "-", "-", "-", "m"]
+def test_requirements_see_what_is_infinite():
+    """A trial that never settles: the quantile is infinite, so a bound on it is not met, and not 0 either."""
+    late = TrialColumns(["finished"] * 2, np.array([True, True]), {"miss": np.array([1.0, math.inf])})
+    summary = summarise({"late": late}, METRICS)
+    assert summary["late"]["metrics"]["miss"]["p95"] == "inf"
+    assert requirement_values(summary)["late.metrics.miss.p95"] == math.inf
+    assert requirement_values(summary)["late.metrics.miss.p50"] == 1.0
+    json.dumps(summary, allow_nan=False)
 
 
-def test_text_without_metrics():
-    assert len(summary_text(summarise({"good": GOOD}, [])).splitlines()) == 2
+GROUPS = [Group("0.5", 0.5, np.array([0, 3])), Group("2", 2.0, np.array([1, 2]))]
+
+
+def test_groups_are_summed_up_as_the_whole():
+    summary = summarise({"good": GOOD}, METRICS, GROUPS)
+    found = summary["good"].pop("groups")
+    assert summary == summarise({"good": GOOD}, METRICS)
+    assert list(found) == ["0.5", "2"]
+    for group in GROUPS:
+        column = GOOD.metrics["miss"][group.trials]
+        alone = TrialColumns(["finished"] * 2, GOOD.success[group.trials], {"miss": column})
+        entry = found[group.label]
+        assert entry.pop("value") == group.value
+        assert entry == summarise({"x": alone}, METRICS)["x"]
+
+
+def test_requirements_reach_groups_by_their_value():
+    values = requirement_values(summarise({"good": GOOD}, METRICS, GROUPS))
+    text = 'good.groups["0.5"].success_rate == 0.5 and good.groups["2"].metrics.miss.p95 == 6'
+    assert Expression(text).names <= set(values)
+    assert Expression(text).evaluate(values) == 1.0
+    assert values['good.groups["0.5"].success_interval[1]'] == success_interval(1, 2)[0]

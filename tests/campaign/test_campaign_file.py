@@ -47,6 +47,13 @@ expression = "plant.velocity[1]"
 reduction = "last_outside"
 band = [-inf, 1]
 window = [10, inf]
+[metric.at_gate]
+expression = "plant.mass"
+reduction = "first"
+condition = "plant.position[1] < 5"
+delay = "2 * 0.5"
+[group]
+by = "y"
 [record]
 final = ["plant.mass"]
 every = 10
@@ -64,9 +71,14 @@ def test_everything_is_read(parse):
     assert read.settings == {"plant.gravity": 1.6, "plant.position[1]": 2, "plant.latch": True}
     assert read.drawn_names() == ["x", "plant.mass", "u", "nav.bias[1]", "y", "plant.thrust"]
     assert read.draws[0].arguments == {"low": pytest.approx(-0.7853981633974483), "high": 1.0}
-    miss, settled = read.metrics
+    miss, settled, gate = read.metrics
     assert (miss.name, miss.reduction, miss.unit, miss.band, miss.window) == ("miss", "final", "m", None, None)
     assert (settled.band, settled.window) == ((-float("inf"), 1.0), (10.0, float("inf")))
+    assert (gate.condition.text, gate.delay, gate.names) == (
+        "plant.position[1] < 5", 1.0, {"plant.mass", "plant.position[1]"},
+    )  # fmt: skip
+    assert (miss.condition, miss.delay) == (None, 0.0)
+    assert read.group == "y"
     assert (read.record.every, read.record.traces) == (10, "failures")
     assert read.success.names == {"miss"}
 
@@ -142,6 +154,17 @@ METRIC = '[metric.m]\nexpression = "a.b"\nreduction = "{}"\n'
         (METRIC.format("median"), "metric.m.reduction: 'median' is not known; use one of final, min"),
         (METRIC.format("last_outside"), "metric.m.band: missing"),
         (METRIC.format("mean") + "band = [0, 1]\n", "metric.m.band: not used by the reduction 'mean'"),
+        (METRIC.format("settled") + "band = [0, 1]\n", "metric.m.band: not used by the reduction 'settled'"),
+        (METRIC.format("first"), "metric.m.condition: missing"),
+        (METRIC.format("first") + "condition = 1\n", "metric.m.condition: 1 is not a text"),
+        (METRIC.format("first") + 'condition = "1 +"\n', "metric.m.condition: invalid syntax"),
+        (METRIC.format("first") + 'condition = "a.b"\ndelay = -1\n', "metric.m.delay: -1 is before the condition"),
+        (METRIC.format("first") + 'condition = "a.b"\ndelay = inf\n', "metric.m.delay: inf is not finite"),
+        (METRIC.format("settled") + 'condition = "a.b"\n', "metric.m.condition: not used by the reduction 'settled'"),
+        (
+            METRIC.format("max") + "delay = 1\n",
+            "metric.m.delay: not used by the reduction 'max'; drop it, or use first",
+        ),
         (METRIC.format("mean") + "window = [1, 0]\n", "metric.m.window: [1, 0] is not an interval"),
         (METRIC.format("mean") + "window = [nan, 0]\n", "metric.m.window[1]: nan is not a number"),
         ('[metric."a.b"]\n', "metric.a.b: 'a.b' is not a plain name"),
@@ -161,7 +184,7 @@ def test_what_is_wrong_is_named_with_its_place(campaign, text, says):
 
 def test_success_is_over_metrics_only(parse):
     with pytest.raises(
-        InputError, match=r"success\.expression: 'plant\.mass' is not a metric; use one of miss, settled"
+        InputError, match=r"success\.expression: 'plant\.mass' is not a metric; use one of at_gate, miss, settled"
     ):
         parse(FULL.replace("miss < 1", "plant.mass < 1"))
 

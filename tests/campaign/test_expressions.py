@@ -123,6 +123,12 @@ def test_a_component_may_be_called_like_a_function():
     assert value("min.x + pi.y", **{"min.x": 1.0, "pi.y": 2.0}) == 3.0
 
 
+def test_entries_have_their_keys_in_quotes():
+    name = 'a.groups["-2.5"].b[1]'
+    assert value(f"{name} + 1", **{name: 2.0}) == 3.0
+    assert value("a.groups['-2.5'].b[1]", **{name: 2.0}) == 2.0
+
+
 def test_deep_comparisons_cost_no_more_than_their_length():
     text = "x"
     for _ in range(60):
@@ -199,6 +205,6 @@ def test_names(text):
     assert is_name(text)
 
 
-@pytest.mark.parametrize("text", ["", "1x", "a b", "a.", "a[x]", "a+b", "a[1 ]", "f()", "lambda", "a-b"])
+@pytest.mark.parametrize("text", ["", "1x", "a b", "a.", "a[x]", "a+b", "a[1 ]", "f()", "lambda", "a-b", 'a["b"]'])
 def test_no_names(text):
     assert not is_name(text)

@@ -6,11 +6,13 @@ success rate, 1 when a requirement is not met, 2 for wrong input.
 
 import json
 
+import numpy as np
 import pyarrow.parquet
 import pytest
 
 import perilune
 from perilune.analysis.cli import main
+from perilune.fmus_src.places import SYSTEMS
 
 SYSTEM = "lunar_terminal_guidance"
 SMALL = ["batch", SYSTEM, "--campaign", "paper", "--trials", "10", "--workers", "1"]
@@ -119,3 +121,120 @@ def test_a_batch_in_which_all_fail_is_reported_not_crashed(tmp_path, capsys):
     assert found["metrics"]["position_error"]["mean"] is None
     messages = pyarrow.parquet.read_table(tmp_path / "trials.parquet")["message"].to_pylist()
     assert all("sample_period" in text for text in messages)
+
+
+GROUPED = """
+[draw.case]
+distribution = "choice"
+values = [1, 2, 3.5]
+[group]
+by = "case"
+[metric.near]
+expression = "plant.position[3] < 6000"
+reduction = "settled"
+window = [20.05, 1000]
+unit = "s"
+[metric.late_mass]
+expression = "plant.mass"
+reduction = "first"
+condition = "plant.position[3] < 6000"
+delay = 10
+unit = "kg"
+[metric.never]
+expression = "time < 0"
+reduction = "settled"
+unit = "s"
+"""
+
+
+@pytest.fixture(scope="module")
+def grouped(fmus, tmp_path_factory):
+    """The published campaign with cases and new reductions, flown into a folder."""
+    folder = tmp_path_factory.mktemp("grouped")
+    (folder / "c.toml").write_text((SYSTEMS / SYSTEM / "campaigns" / "paper.toml").read_text() + GROUPED)
+    return folder
+
+
+def of_campaign(folder, *options):
+    return ["batch", SYSTEM, "--campaign", str(folder / "c.toml"), "--trials", "12", "--workers", "1", *options]
+
+
+def test_groups_settled_and_first(grouped, capsys):
+    """Truth: trials.parquet filtered by hand; a flight of one trial's draws, row by row."""
+    compare = ["--compare", "guidance=analytic_guidance,astar_guidance"]
+    need = ["--require", 'astar_guidance.groups["3.5"].metrics.near.p95 < 200']
+    files = ["--output", str(grouped / "out"), "--report", str(grouped / "page.html")]
+    assert main(of_campaign(grouped, *compare, *need, *files)) == 0
+    printed = [line.split()[:3] for line in capsys.readouterr().out.splitlines()]
+    summary = json.loads((grouped / "out" / "summary.json").read_text())
+    assert summary["group"] == "case"
+    rows = pyarrow.parquet.read_table(grouped / "out" / "trials.parquet").to_pylist()
+    for variant, entry in summary["variants"].items():
+        assert list(entry["groups"]) == ["1", "2", "3.5"]
+        assert sum(group["trials"] for group in entry["groups"].values()) == 12
+        for label, group in entry["groups"].items():
+            mine = [row for row in rows if row["variant"] == variant and row["draw.case"] == float(label)]
+            assert group["value"] == float(label)
+            assert group["success_rate"] == np.mean([row["success"] for row in mine])
+            assert group["metrics_all"]["near"]["mean"] == pytest.approx(np.mean([row["metric.near"] for row in mine]))
+            assert group["metrics_all"]["never"]["p50"] == "inf"
+            assert [variant, label, str(len(mine))] in printed
+    late, near = summary["metrics"]["late_mass"], summary["metrics"]["near"]
+    assert (late["condition"], late["delay"], near["truth"]) == ("plant.position[3] < 6000", 10.0, False)
+    row = rows[17]
+    drawn = {name[5:]: value for name, value in row.items() if name.startswith("draw.") and "." in name[5:]}
+    flight = perilune.simulate(SYSTEM, use={"guidance": row["variant"]}, set=drawn)
+    below = [float(t) for t, z in zip(flight.time, flight["plant.position[3]"], strict=True) if z < 6000]
+    last_above = max(t for t, z in zip(flight.time, flight["plant.position[3]"], strict=True) if z >= 6000)
+    assert row["metric.near"] == pytest.approx(min(t for t in below if t > last_above) - 20.05)
+    later = next(k for k, t in enumerate(flight.time) if t >= below[0] + 10 - 1e-6)
+    assert row["metric.late_mass"] == flight["plant.mass"][later]
+    assert row["metric.never"] == np.inf
+
+
+def test_other_conditions_are_noted_when_batches_are_compared(grouped, tmp_path, capsys):
+    text = (grouped / "c.toml").read_text().replace("delay = 10", "delay = 20")
+    (tmp_path / "c.toml").write_text(text)
+    for campaign in (grouped, tmp_path):
+        compare = ["--compare", "guidance=analytic_guidance"]
+        assert main(of_campaign(campaign, *compare, "--output", str(tmp_path / campaign.name))) == 0
+    capsys.readouterr()
+    assert main(["compare", str(tmp_path / grouped.name), str(tmp_path / tmp_path.name)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1] == f"{grouped.name} and {tmp_path.name} define the metric late_mass differently"
+    assert lines[0].split()[:3] == ["variant", "case", "trials"]
+
+
+def test_a_replay_says_null_for_what_never_settles(grouped, capsys):
+    assert main(of_campaign(grouped, "--replay", "2", "--json", "-")) == 0
+    metrics = json.loads(capsys.readouterr().out)["variants"]["astar_guidance"]["metrics"]
+    assert metrics["never"] is None
+    assert metrics["near"] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("requirement", "status", "words"),
+    [
+        ('analytic_guidance.groups["2"].trials > 0', 0, ""),
+        ('analytic_guidance.groups["2"].statuses.failed == 0', 0, ""),
+        ("analytic_guidance.metrics_all.never.p95 > 0", 1, "not met"),
+        ('analytic_guidance.groups["4"].trials > 0', 2, "no such number in the summary"),
+        ("analytic_guidance.groups[2].trials > 0", 2, 'analytic_guidance.groups["2"].trials'),
+    ],
+)
+def test_requirements_on_groups(grouped, capsys, requirement, status, words):
+    options = ["--compare", "guidance=analytic_guidance", "--require", requirement]
+    assert main(of_campaign(grouped, *options)) == status
+    error = capsys.readouterr().err
+    assert words in error
+    assert error.count("\n") == (1 if words else 0)
+
+
+def test_too_many_groups_are_refused_before_anything_flies(grouped, tmp_path, capsys):
+    text = (grouped / "c.toml").read_text().replace('by = "case"', 'by = "azimuth"')
+    (tmp_path / "c.toml").write_text(text)
+    assert main([*of_campaign(tmp_path, "--output", str(tmp_path / "out")), "--trials", "101"]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert f"{tmp_path / 'c.toml'}: group.by: 101 different values in 101 trials" in error
+    assert not (tmp_path / "out").exists()

@@ -115,6 +115,7 @@ def changed(old, new):
         (changed('speed = "final_speed"', '"a b" = "final_speed"'), "'a b' is not a plain name"),
         (TEXT.split("[network_operator.objectives]")[0], "network_operator.objectives: no objective"),
         (TEXT + '[compare]\nguidance = ["a", "b"]\n', "compare: not for a synthesis: one law flies at a time"),
+        (TEXT + '[group]\nby = "x"\n', "group: not for a synthesis: a law is judged by all trials"),
         (TEXT + '[record]\ntraces = "all"\n', "record: not for a synthesis: nothing is kept"),
         (changed('"sensor.altitude_noise" = 0.02', '"guidance.q[2]" = 1'), "guidance.q[2]: a part of the law"),
         (

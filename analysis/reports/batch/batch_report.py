@@ -11,6 +11,7 @@ from ..kit.page import write_page
 from .distributions import distributions_figure, sort_metrics
 from .failures import failures_figure, telling_scores
 from .rates import rates_figure
+from .rows import HEADINGS, group_rows, variant_rows
 
 
 def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
@@ -25,6 +26,9 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         campaign=campaign,
         provenance=result.provenance,
         summary=result.summary,
+        rows=variant_rows(result.summary),
+        group_rows=group_rows(result.summary),
+        statistics=HEADINGS,
         rates=rates_figure(result),
         distributions=distributions_figure(result, drawn) if drawn else None,
         still=still,

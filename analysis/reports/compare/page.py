@@ -9,8 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ...batch.summary import SummaryRow
 from ...compare.comparison import Comparison, name_of
 from ..batch.batch_report import fmu_rows
+from ..batch.rows import HEADINGS, group_rows, variant_rows
 from ..kit.page import write_page
 from ..kit.panels import Panel, swatch
 from ..kit.style import COLOURS, DASHES, MARKERS, Look, look
@@ -65,6 +67,7 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
     drawn, still, empty = sort_metrics(shown)
     errors = {metric: all_values(comparison, metric) for metric in comparison.metrics if is_over_sigma(metric)}
     first = comparison.first.document
+    rows, grouped = variant_rows(comparison.summary), group_rows(comparison.summary)
     paired = [metric for metric in comparison.metrics if metric in drawn]
     write_page(
         path,
@@ -75,7 +78,11 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         first=first,
         summary=comparison.summary,
         swatches={label: swatch(style) for label, style in looks.items()},
-        rates=[(name_of(rate), rate, _axis_start(comparison, name_of(rate))) for rate in comparison.rates],
+        rows=rows,
+        group_rows=grouped,
+        statistics=HEADINGS,
+        rates=[(name_of(rate), rate, _axis_start(rows, name_of(rate))) for rate in comparison.rates],
+        group_rates=[(name_of(rate), rate, _axis_start(grouped, name_of(rate))) for rate in comparison.rates],
         rate_pairs=rate_pairs(comparison),
         metric_pairs=metric_pairs(comparison, paired, successful=True),
         metric_pairs_all=metric_pairs(comparison, paired, successful=False),
@@ -117,9 +124,9 @@ def looks_of(comparison: Comparison) -> dict[str, Look]:
     return found
 
 
-def _axis_start(comparison: Comparison, rate: str) -> float:
+def _axis_start(rows: Iterable[SummaryRow], rate: str) -> float:
     """Where the axis of a rate's intervals begins: at the tenth below the lowest."""
-    lowest = min(entry["rates"][rate]["interval"][0] for entry in comparison.summary.values())
+    lowest = min((row.entry["rates"][rate]["interval"][0] for row in rows), default=1.0)
     return min(0.9, math.floor(10.0 * lowest) / 10.0)
 
 

@@ -6,10 +6,11 @@ import re
 import numpy as np
 import pytest
 
+from perilune.analysis.batch.statistics import STATISTICS
 from perilune.analysis.reports.batch.batch_report import write_batch_report
 from perilune.analysis.reports.batch.failures import failures_figure, telling_scores
-from tests.support.pages.checks import assert_self_contained, data_values, text_of
-from tests.support.pages.samples import DIGEST, METRICS, batch_result, mixed_batch
+from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.samples import DIGEST, DRAWS, METRICS, batch_result, grouped_batch, mixed_batch
 
 
 def write(result, path):
@@ -42,7 +43,7 @@ def test_every_number_of_the_summary_is_there(result, page):
             assert repr(number) in values
         for table in ("metrics", "metrics_all"):
             for found in variant[table].values():
-                assert {repr(found[column]) for column in ("count", "mean", "std", "min", "max")} <= values
+                assert {repr(found[column]) for column in ("count", *STATISTICS)} <= values
 
 
 def test_every_name_is_there(result, page):
@@ -51,6 +52,43 @@ def test_every_name_is_there(result, page):
         assert name in text
     assert result.plan.campaign.success.text in text
     assert "stop_time (ship.status 2)" in text
+
+
+def test_every_group_has_rows_of_its_own(tmp_path):
+    """Truth: the trials of each case, filtered here."""
+    result = grouped_batch()
+    page = write(result, tmp_path / "page.html")
+    assert_self_contained(page)
+    (section,) = (part for part in parse(page).xpath("//section") if part.xpath("h2")[0].text == "By case")
+    rates, good, everything = (
+        [[float(value) for value in row.xpath(".//data/@value")] for row in table.xpath(".//tbody/tr[td]")]
+        for table in section.xpath(".//table")
+    )
+    case = result.plan.draws.columns["case"]
+    places = [(variant, np.flatnonzero(case == k)) for variant in ("steady", "shaky") for k in (0.5, 1.0, 2.0)]
+    assert [row[:2] for row in rates] == [[len(at), result.trials[name].success[at].mean()] for name, at in places]
+    for rows, metric, chosen in (
+        (good[:6], "miss", lambda trials: trials.success),
+        (everything[6:], "tilt", lambda trials: np.full(trials.success.size, True)),
+    ):
+        for row, (name, at) in zip(rows, places, strict=True):
+            trials = result.trials[name]
+            values = trials.metrics[metric][at][chosen(trials)[at]]
+            quantiles = [np.sort(values)[math.ceil(percent * values.size / 100) - 1] for percent in (5, 50, 95, 99)]
+            expected = [values.mean(), values.std(ddof=1), math.sqrt(np.mean(values**2)), values.min(), *quantiles]
+            assert row == pytest.approx([*expected, values.max(), values.size], rel=1e-12)
+    cells = [row.xpath("td")[1].text for row in section.xpath(".//table")[0].xpath(".//tbody/tr")]
+    assert cells == ["0.5", "1", "2"] * 2
+
+
+def test_without_groups_there_is_no_such_section(page):
+    assert not [part for part in parse(page).xpath("//h2") if part.text.startswith("By ")]
+
+
+def test_infinite_quantiles_are_shown(tmp_path):
+    rows = [(True, float(k), math.inf if k > 17 else 0.1) for k in range(20)]
+    page = write(batch_result({"late": rows}, DRAWS + METRICS), tmp_path / "page.html")
+    assert page.count('<data value="inf">∞</data>') == 4  # 95 and 99 %, of the successful and of all trials
 
 
 def test_angles_are_in_degrees_on_screen(result, page):

@@ -66,6 +66,13 @@ def table_rows(element, columns):
     return [row for row in found if len(row) == columns]
 
 
+def statistics_of(values):
+    """What a metric's row says, in its order."""
+    quantiles = np.quantile(values, [0.05, 0.5, 0.95, 0.99], method="inverted_cdf")
+    rms = math.sqrt(np.mean(values**2))
+    return [values.mean(), values.std(ddof=1), rms, values.min(), *quantiles, values.max(), len(values)]
+
+
 def test_stands_alone(page):
     assert_self_contained(page)
     assert "<script" not in page
@@ -92,8 +99,8 @@ def test_metrics_of_the_successful_and_of_all_trials(page, trials):
         for metric in ("miss", "propellant", "tilt", "x_error_over_sigma"):
             for variant in VARIANTS:
                 values = trials[variant][f"metric.{metric}"][chosen(trials[variant])]
-                expected.append([values.mean(), values.std(ddof=1), values.min(), values.max(), len(values)])
-    np.testing.assert_allclose(table_rows(section(page, "Metrics of the successful trials"), 5), expected, rtol=1e-12)
+                expected.append(statistics_of(values))
+    np.testing.assert_allclose(table_rows(section(page, "Metrics of the successful trials"), 10), expected, rtol=1e-12)
     tilt = trials["beta"]["metric.tilt"][trials["beta"]["success"]].mean()
     assert f">{math.degrees(tilt):.4g}</data>" in page
 
@@ -207,6 +214,60 @@ def test_every_variant_has_one_colour_everywhere(folder, page):
             assert not drawn & {colour.lower() for other, colour in colours.items() if other != label}
     assert len(seen) == 3 * 11  # paths from the side and in plan, two ends, seven quantities
     assert set(seen) == set(colours)
+
+
+CASES = """[draw.case]
+distribution = "grid"
+values = [1, 2]
+[group]
+by = "case"
+"""
+
+
+def test_groups(tmp_path):
+    """A row per contender and group; truth: the trials filtered here, two cases in turn."""
+    text = CAMPAIGN.replace("[draw.offset]", f"{CASES}[draw.offset]")
+    write_sample(tmp_path / "out", text=text, traced=0)
+    page = write([tmp_path / "out"], tmp_path / "page.html")
+    assert_self_contained(page)
+    rows = pyarrow.parquet.read_table(tmp_path / "out" / "trials.parquet").to_pylist()
+    rates, metrics = [], []
+    for name in ("success", "metric.pinpoint"):
+        for variant in VARIANTS:
+            for case in (1.0, 2.0):
+                found = [row[name] for row in rows if (row["variant"], row["draw.case"]) == (variant, case)]
+                interval = scipy.stats.binomtest(int(sum(found)), 20).proportion_ci(method="exact")
+                rates.append([sum(found) / 20, interval.low, interval.high, sum(found), 20])
+    for good_only in (True, False):
+        for metric in ("miss", "propellant", "tilt", "x_error_over_sigma"):
+            for variant in VARIANTS:
+                for case in (1.0, 2.0):
+                    mine = [row for row in rows if (row["variant"], row["draw.case"]) == (variant, case)]
+                    kept = [row[f"metric.{metric}"] for row in mine if row["success"] or not good_only]
+                    metrics.append(statistics_of(np.array(kept)))
+    tree = section(page, "By case")
+    np.testing.assert_allclose(table_rows(tree, 5), rates, rtol=1e-9)
+    np.testing.assert_allclose(table_rows(tree, 10), metrics, rtol=1e-12)
+    found = compare([tmp_path / "out"])
+    assert found.document()["group"] == "case"
+    assert found.summary["beta"]["groups"]["2"]["rates"]["success"]["trials"] == 20
+    assert [line.split()[:3] for line in found.text().splitlines()[1:4]] == [
+        ["alpha", "all", "40"], ["alpha", "1", "20"], ["alpha", "2", "20"],
+    ]  # fmt: skip
+
+
+def test_a_batch_that_says_how_to_group_is_enough(tmp_path):
+    """The same draws, grouped in the second folder's campaign only, or differently."""
+    plain = CASES.split("[group]")[0]
+    for name, head in (("plain", plain), ("grouped", CASES), ("other", CASES.replace('by = "case"', 'by = "sort"'))):
+        head += '[derive]\nsort = "3 - case"\n'
+        write_sample(tmp_path / name, text=CAMPAIGN.replace("[draw.offset]", f"{head}[draw.offset]"), traced=0)
+    found = compare([tmp_path / "plain", tmp_path / "grouped"])
+    assert (found.group, found.notes) == ("case", ())
+    assert list(found.summary["plain: beta"]["groups"]) == ["1", "2"]
+    notes = compare([tmp_path / "grouped", tmp_path / "other"]).notes
+    assert notes == ("grouped and other group trials by different values: case and sort",)
+    assert "groups" not in compare([tmp_path / "plain"]).summary["beta"]
 
 
 def test_several_folders(folder, tmp_path):

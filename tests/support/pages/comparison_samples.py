@@ -64,7 +64,7 @@ def facts(campaign, variants, targets=True):
     target = {f"pilot.target_{kind}[{i + 1}]": float(value) for kind, at in
               (("position", TARGET), ("velocity", np.zeros(3))) for i, value in enumerate(at)}  # fmt: skip
     record = campaign.record
-    return {
+    return ({} if campaign.group is None else {"group": campaign.group}) | {
         "description": campaign.description,
         "success": campaign.success.text,
         "metrics": {

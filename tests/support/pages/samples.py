@@ -85,6 +85,15 @@ def run_result(rows: int = 200, status: str = "finished", message: str = "") -> 
     )
 
 
+CASES = """
+[draw.case]
+distribution = "choice"
+values = [1, 2, 0.5]
+[group]
+by = "case"
+"""
+
+
 def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str = DRAWS + METRICS) -> BatchResult:
     """A batch from (success, miss, tilt) of every trial by variant."""
     trials = len(next(iter(outcomes.values())))
@@ -117,11 +126,16 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
     return make_result(BatchPlan("ship", campaign, SystemOptions()), found, provenance)
 
 
-def mixed_batch(trials: int = 40) -> BatchResult:
+def grouped_batch(trials: int = 60) -> BatchResult:
+    """The mixed batch with a drawn `case` by which trials are grouped."""
+    return mixed_batch(trials, CASES + DRAWS + METRICS)
+
+
+def mixed_batch(trials: int = 40, text: str = DRAWS + METRICS) -> BatchResult:
     """Two variants: one that always succeeds, one that fails where the draw `offset` is large either way."""
     source = np.random.default_rng(5)
-    probe = batch_result({"steady": [(True, 0.0, 0.0)] * trials})
+    probe = batch_result({"steady": [(True, 0.0, 0.0)] * trials}, text)
     offset = probe.plan.draws.columns["offset"]
     steady = [(True, float(source.lognormal(-3, 2)), float(source.normal())) for _ in range(trials)]
     shaky = [(bool(abs(x) < 0.6), float(10 ** (4 * abs(x) - 2)), 0.1) for x in offset]
-    return batch_result({"steady": steady, "shaky": shaky})
+    return batch_result({"steady": steady, "shaky": shaky}, text)

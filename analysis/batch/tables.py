@@ -1,0 +1,61 @@
+"""Summaries as plain text for a terminal: rows of cells as aligned lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from .statistics import STATISTICS
+from .summary import CONFIDENCE, SummaryRow, summary_rows
+
+
+def aligned(rows: list[list[str]]) -> list[str]:
+    """Rows of cells as lines, the first column to the left, the others to the right."""
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return [
+        "  ".join(
+            [row[0].ljust(widths[0]), *(cell.rjust(width) for cell, width in zip(row[1:], widths[1:], strict=True))]
+        )
+        for row in rows
+    ]
+
+
+def who_heads(group: str | None) -> list[str]:
+    """Headings of `who_cells`; ``group`` is what trials are grouped by, if they are."""
+    return ["variant"] if group is None else ["variant", group]
+
+
+def who_cells(row: SummaryRow, group: str | None) -> list[str]:
+    """A row's variant and, where trials are grouped, its group's value, or that it is all of them."""
+    return [row.variant] if group is None else [row.variant, row.group or "all"]
+
+
+def metric_lines(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str | None) -> list[str]:
+    """A line per metric and row: statistics over successful trials."""
+    cells = [["metric, successful trials", *who_heads(group), *STATISTICS, "unit"]]
+    for metric in metrics:
+        for row in rows:
+            found = row.entry["metrics"][metric]
+            cells.append([metric, *who_cells(row, group), *(_cell(found[key]) for key in STATISTICS), found["unit"]])
+    return aligned(cells) if len(cells) > 1 else []
+
+
+def _cell(value: float | str | None) -> str:
+    if value is None:
+        return "-"
+    return value if isinstance(value, str) else f"{value:.4g}"
+
+
+def summary_text(summary: Mapping[str, Any], group: str | None = None) -> str:
+    """A summary for the terminal: success rates, then metrics of successful trials, of all trials and of groups."""
+    rows = summary_rows(summary)
+    rates = [[*who_heads(group), "trials", "success %", f"{100 * CONFIDENCE:g} % interval", "statuses"]]
+    for row in rows:
+        low, high = row.entry["success_interval"]
+        statuses = ", ".join(f"{count} {status}" for status, count in row.entry["statuses"].items())
+        rate = f"{100 * row.entry['success_rate']:.2f}"
+        interval = f"{100 * low:.2f} to {100 * high:.2f}"
+        rates.append([*who_cells(row, group), str(row.entry["trials"]), rate, interval, statuses])
+    metrics = dict.fromkeys(metric for variant in summary.values() for metric in variant["metrics"])
+    found = metric_lines(rows, metrics, group)
+    return "\n".join([*aligned(rates), *(["", *found] if found else [])])
