@@ -52,7 +52,7 @@ class Element:
     of_integral: bool = False
 
 
-def _share(threshold: float, amplitude: np.ndarray) -> np.ndarray:
+def _share(threshold: float | np.ndarray, amplitude: np.ndarray) -> np.ndarray:
     """sqrt(1 - (threshold/amplitude)^2) where the amplitude reaches the threshold, else 0."""
     ratio = np.minimum(abs(threshold) / amplitude, 1.0)
     return np.sqrt((1.0 - ratio) * (1.0 + ratio))
