@@ -1,0 +1,267 @@
+"""A capsule that enters the Earth's atmosphere and turns by jets in pulses."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.cubic_spline import cubic_value, curvatures
+from ..mathlib.entry_motion import attitude_rates, body_axes, earth_forces, path_rates, velocity_axes_rate
+from ..mathlib.matrices import inverse
+from ..mathlib.newtonian_cap import cap_tables
+from ..mathlib.orbital import applied
+from ..mathlib.pulses import left_after, lengths_of, next_switch_off
+from ..mathlib.standard_atmosphere import air
+from ..mathlib.vectors import Vector3, cross, dot, norm, vector
+
+KNOTS = 13
+MACHS = 10
+ANGLE_STEP = 5.0 * math.pi / 180.0  # between the knots
+STEP_ROUNDING = 1e-9
+GOOD = 0
+BEYOND_TABLES = 1
+NO_INERTIA = 2
+HEAD_ON = 1e-9  # sine of the spatial angle of attack below which the aerodynamic roll is taken as 0
+MACH_NUMBERS = [1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 30.0]
+AXIAL, NORMAL = cap_tables(1.1, 2.235, MACH_NUMBERS, [5.0 * k for k in range(KNOTS)])
+
+
+class EntryCapsule(Block):
+    """Rigid body in the atmosphere of a turning, spherical Earth, with jets about its axes and constant mass.
+
+    Position is distance, longitude and latitude; velocity is speed over the turning Earth, path angle (up) and course
+    (from east, counter-clockwise from above). Velocity axes: x along the velocity, y up in the vertical plane
+    through it, z = x x y. Body axes: x along the axis of symmetry, out through the heat shield; bank, sideslip and
+    attack lead from velocity to body axes. Axial and normal coefficients are splines in the spatial angle of attack,
+    linear in Mach number between them; the last values hold beyond the tables, which the status says.
+    The air is the US standard atmosphere of 1976 times density_factor, moved by wind (velocity axes).
+
+    A change of pulse_count tells new pulses, which start at once and take the place of what is left of the last; each is
+    cut exactly where it ends, whatever the communication step. mean_torque acts beside them. jet_torque and jet_factor:
+    +x, -x, +y, -y, +z, -z. Runge-Kutta of fourth order in steps of at most internal_step.
+    Equations: docs/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
+    """
+
+    default_step = 0.2
+
+    mass = Parameter(2900.0, unit="kg", minimum=1e-3, description="mass")
+    inertia = Parameter(
+        [1400.0, -40.0, 0.0, -40.0, 1250.0, 0.0, 0.0, 0.0, 1200.0],
+        columns=3,
+        unit="kg.m2",
+        frame="body",
+        description="matrix of inertia",
+    )
+    reference_area = Parameter(3.8, unit="m2", minimum=0.0, description="of the coefficients")
+    reference_length = Parameter(2.2, unit="m", minimum=0.0, description="of the damping")
+    pressure_arm = Parameter(
+        [-1.335, -0.066353, 0.0], unit="m", frame="body", description="from the centre of mass to that of pressure"
+    )
+    damping_coefficient = Parameter(-0.1, unit="1", description="moment over angular velocity, length and speed")
+    mach_numbers = Parameter(MACH_NUMBERS, unit="1", minimum=0.0, description="of the tables, ascending")
+    axial_coefficient = Parameter(
+        AXIAL, columns=KNOTS, unit="1", description="along -x, by Mach number and spatial angle of attack, 0 to 60 deg"
+    )
+    normal_coefficient = Parameter(NORMAL, columns=KNOTS, unit="1", description="across x, likewise")
+    jet_torque = Parameter(
+        [100.0, 100.0, 80.0, 80.0, 80.0, 80.0], unit="N.m", minimum=0.0, description="of each jet, a level of its own"
+    )
+    gravitational_parameter = Parameter(3.986e14, unit="m3/s2", minimum=0.0, description="of the Earth")
+    earth_rate = Parameter(7.29e-5, unit="rad/s", description="turn of the Earth")
+    earth_radius = Parameter(6371000.0, unit="m", minimum=1.0, description="of the sphere under the height")
+    initial_height = Parameter(100000.0, unit="m", description="height at the start")
+    initial_longitude = Parameter(60.0 * math.pi / 180.0, unit="rad", description="longitude at the start")
+    initial_latitude = Parameter(45.0 * math.pi / 180.0, unit="rad", description="latitude at the start")
+    initial_speed = Parameter(7620.0, unit="m/s", minimum=1e-3, description="speed at the start, over the Earth")
+    initial_path_angle = Parameter(-1.45 * math.pi / 180.0, unit="rad", description="path angle at the start")
+    initial_course = Parameter(40.0 * math.pi / 180.0, unit="rad", description="course at the start")
+    initial_bank = Parameter(60.0 * math.pi / 180.0, unit="rad", description="bank at the start")
+    initial_sideslip = Parameter(0.0, unit="rad", description="sideslip at the start")
+    initial_attack = Parameter(-20.0 * math.pi / 180.0, unit="rad", description="attack at the start")
+    initial_angular_velocity = Parameter(
+        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity at the start, absolute"
+    )
+    final_height = Parameter(25000.0, unit="m", description="height below which the flight ends")
+    internal_step = Parameter(0.025, unit="s", minimum=1e-4, description="longest integration step")
+    pulse_lengths = Input([0.0, 0.0, 0.0], unit="s", frame="body", description="lengths of the pulses, with their sign")
+    pulse_count = Input(0, description="pulses so far; a change tells new ones")
+    mean_torque = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque beside the pulses, held")
+    wind = Input([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="of the air over the turning Earth")
+    density_factor = Input(1.0, unit="1", description="on the density of the standard atmosphere")
+    jet_factor = Input([1.0] * 6, unit="1", description="on the torque of each jet")
+    height = Output(100000.0, unit="m", description="above the sphere")
+    longitude = Output(0.0, unit="rad", description="longitude")
+    latitude = Output(0.0, unit="rad", description="latitude")
+    speed = Output(0.0, unit="m/s", description="over the turning Earth")
+    path_angle = Output(0.0, unit="rad", description="of the velocity over the horizon")
+    course = Output(0.0, unit="rad", description="of the velocity, from east, counter-clockwise from above")
+    bank = Output(0.0, unit="rad", description="bank")
+    sideslip = Output(0.0, unit="rad", description="sideslip")
+    attack = Output(0.0, unit="rad", description="attack")
+    angular_velocity = Output([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity, absolute")
+    dynamic_pressure = Output(0.0, unit="Pa", description="of the standard atmosphere at rest")
+    mach = Output(0.0, unit="1", description="Mach number against the air")
+    fired_pulses = Output([0.0, 0.0, 0.0], unit="s", frame="body", description="the last pulses, with their sign")
+    jet_seconds = Output([0.0, 0.0, 0.0], unit="s", frame="body", description="time that jets have fired about x, y, z")
+    finished = Output(False, description="below final_height")
+    status = Output(
+        GOOD, minimum=0, maximum=2, description="0 good, 1 beyond the tables, 2 inertia cannot be inverted"
+    )
+    place = State([6471000.0, 0.0, 0.0], frozen=True, description="distance (m), longitude, latitude (rad)")
+    path = State([7620.0, 0.0, 0.0], frozen=True, description="speed (m/s), path angle, course (rad)")
+    attitude = State([0.0, 0.0, 0.0], unit="rad", description="bank, sideslip, attack")
+    inverse_inertia = State([0.0] * 9, columns=3, description="inverse of inertia, 1/(kg m2)")
+    axial_curvature = State([0.0] * 130, columns=KNOTS, description="second derivatives of the splines, 1/rad2")
+    normal_curvature = State([0.0] * 130, columns=KNOTS, description="likewise")
+    left = State([0.0, 0.0, 0.0], unit="s", frame="body", description="what is left of the pulses, with their sign")
+    counted = State(0, description="pulse_count of the last pulses")
+
+    def initialize(self) -> None:
+        invertible = inverse(self.inertia, self.inverse_inertia, 3)
+        if not invertible:
+            self.status = NO_INERTIA
+        for k in range(MACHS):
+            curvatures(self.axial_coefficient, KNOTS * k, KNOTS, ANGLE_STEP, True, self.axial_curvature)
+            curvatures(self.normal_coefficient, KNOTS * k, KNOTS, ANGLE_STEP, False, self.normal_curvature)
+        self.place = vector(self.earth_radius + self.initial_height, self.initial_longitude, self.initial_latitude)
+        self.path = vector(self.initial_speed, self.initial_path_angle, self.initial_course)
+        self.attitude = vector(self.initial_bank, self.initial_sideslip, self.initial_attack)
+        self.angular_velocity = self.initial_angular_velocity
+        self.publish()
+
+    def coefficient(self, values: list, second: list, mach: float, angle: float) -> float:
+        """A coefficient at a Mach number and a spatial angle of attack (rad)."""
+        if mach <= self.mach_numbers[0]:
+            return cubic_value(values, second, 0, KNOTS, ANGLE_STEP, angle)
+        if mach >= self.mach_numbers[MACHS - 1]:
+            return cubic_value(values, second, KNOTS * (MACHS - 1), KNOTS, ANGLE_STEP, angle)
+        k = 0
+        while k < MACHS - 2 and mach >= self.mach_numbers[k + 1]:
+            k = k + 1
+        share = (mach - self.mach_numbers[k]) / (self.mach_numbers[k + 1] - self.mach_numbers[k])
+        below = cubic_value(values, second, KNOTS * k, KNOTS, ANGLE_STEP, angle)
+        above = cubic_value(values, second, KNOTS * (k + 1), KNOTS, ANGLE_STEP, angle)
+        return below + share * (above - below)
+
+    def spatial_angle(self, v: Vector3) -> float:
+        """Angle (rad) between the axis of symmetry and the velocity v against the air (body)."""
+        return math.atan2(math.sqrt(v.y * v.y + v.z * v.z), v.x)
+
+    def air_force(self, v: Vector3, density: float, sound: float) -> Vector3:
+        """Force of the air (N, body) at the velocity v (m/s, body) against it."""
+        across = math.sqrt(v.y * v.y + v.z * v.z)
+        speed = norm(v)
+        angle = self.spatial_angle(v)
+        mach = speed / sound
+        pushed = 0.5 * density * speed * speed * self.reference_area
+        axial = self.coefficient(self.axial_coefficient, self.axial_curvature, mach, angle)
+        normal = self.coefficient(self.normal_coefficient, self.normal_curvature, mach, angle)
+        if across < HEAD_ON * speed:
+            return pushed * vector(-axial, normal, 0.0)
+        return pushed * vector(-axial, -normal * v.y / across, -normal * v.z / across)
+
+    def slopes(
+        self, place: Vector3, path: Vector3, attitude: Vector3, w: Vector3, torque: Vector3
+    ) -> tuple[Vector3, Vector3, Vector3, Vector3]:
+        """Rates of place, path, attitude and angular velocity under a torque of the jets (N m, body)."""
+        x, y, z = body_axes(attitude)
+        moving = vector(path.x, 0.0, 0.0) - self.wind
+        v = vector(dot(x, moving), dot(y, moving), dot(z, moving))
+        density, sound = air(place.x - self.earth_radius)
+        density = density * self.density_factor
+        force = self.air_force(v, density, sound)
+        speed = norm(v)
+        length = self.reference_length
+        damping = 0.5 * self.damping_coefficient * density * speed * self.reference_area * length * length
+        moment = cross(self.pressure_arm, force) + damping * w + torque
+        push = (force.x * x + force.y * y + force.z * z) / self.mass
+        push = push + earth_forces(place, path, self.gravitational_parameter, self.earth_rate)
+        moved, turned = path_rates(place, path, push)
+        relative = w - self.in_body(x, y, z, velocity_axes_rate(place, path, turned, self.earth_rate))
+        spun = applied(self.inverse_inertia, cross(applied(self.inertia, w), w) + moment)
+        return moved, turned, attitude_rates(attitude, relative), spun
+
+    def in_body(self, x: Vector3, y: Vector3, z: Vector3, v: Vector3) -> Vector3:
+        """A vector of velocity axes in the body, whose axes are given in velocity axes."""
+        return vector(dot(x, v), dot(y, v), dot(z, v))
+
+    def move(self, torque: Vector3, h: float) -> None:
+        """Move by h (s) under a torque of the jets (N m, body)."""
+        p1, v1, a1, w1 = self.slopes(self.place, self.path, self.attitude, self.angular_velocity, torque)
+        half = 0.5 * h
+        p2, v2, a2, w2 = self.slopes(
+            self.place + half * p1,
+            self.path + half * v1,
+            self.attitude + half * a1,
+            self.angular_velocity + half * w1,
+            torque,
+        )
+        p3, v3, a3, w3 = self.slopes(
+            self.place + half * p2,
+            self.path + half * v2,
+            self.attitude + half * a2,
+            self.angular_velocity + half * w2,
+            torque,
+        )
+        p4, v4, a4, w4 = self.slopes(
+            self.place + h * p3, self.path + h * v3, self.attitude + h * a3, self.angular_velocity + h * w3, torque
+        )
+        self.place = self.place + h * (p1 + 2.0 * p2 + 2.0 * p3 + p4) / 6.0
+        self.path = self.path + h * (v1 + 2.0 * v2 + 2.0 * v3 + v4) / 6.0
+        self.attitude = self.attitude + h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0
+        self.angular_velocity = self.angular_velocity + h * (w1 + 2.0 * w2 + 2.0 * w3 + w4) / 6.0
+
+    def jet(self, k: int, length: float, time: float) -> float:
+        """Torque (N m) of the jets about axis k after ``time`` (s) of a pulse (s, with its sign)."""
+        if length > time:
+            return self.jet_factor[2 * k] * self.jet_torque[2 * k]
+        if length < -time:
+            return -self.jet_factor[2 * k + 1] * self.jet_torque[2 * k + 1]
+        return 0.0
+
+    def fly(self, h: float) -> None:
+        """Move by h (s), cut where jets go off."""
+        time = 0.0
+        while time < h:
+            end = next_switch_off(self.left, time, h)
+            x = self.jet(0, self.left.x, time)
+            y = self.jet(1, self.left.y, time)
+            z = self.jet(2, self.left.z, time)
+            torque = vector(x, y, z) + self.mean_torque
+            pieces = int((end - time) / self.internal_step - STEP_ROUNDING) + 1
+            for _ in range(pieces):
+                self.move(torque, (end - time) / float(pieces))
+            time = end
+
+    def publish(self) -> None:
+        """Put the state out."""
+        self.height = self.place.x - self.earth_radius
+        self.longitude = self.place.y
+        self.latitude = self.place.z
+        self.speed = self.path.x
+        self.path_angle = self.path.y
+        self.course = self.path.z
+        self.bank = self.attitude.x
+        self.sideslip = self.attitude.y
+        self.attack = self.attitude.z
+        density, sound = air(self.height)
+        self.dynamic_pressure = 0.5 * density * self.speed * self.speed
+        x, y, z = body_axes(self.attitude)
+        v = self.in_body(x, y, z, vector(self.speed, 0.0, 0.0) - self.wind)
+        self.mach = norm(v) / sound
+        if self.status != NO_INERTIA:
+            self.status = GOOD
+            outside = self.mach < self.mach_numbers[0] or self.mach > self.mach_numbers[MACHS - 1]
+            if outside or self.spatial_angle(v) > ANGLE_STEP * float(KNOTS - 1):
+                self.status = BEYOND_TABLES
+        self.finished = self.height < self.final_height
+
+    def step(self, t: float, h: float) -> None:
+        if self.pulse_count != self.counted:
+            self.counted = self.pulse_count
+            self.left = self.pulse_lengths
+            self.fired_pulses = self.pulse_lengths
+        if self.status != NO_INERTIA:
+            self.fly(h)
+        before = lengths_of(self.left)
+        self.left = left_after(self.left, h)
+        self.jet_seconds = self.jet_seconds + before - lengths_of(self.left)
+        self.publish()
