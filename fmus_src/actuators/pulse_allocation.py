@@ -17,6 +17,7 @@ class PulseAllocation(Block):
     fired has the rest's sign and its length, at most T, and is nothing below shortest_pulse. It is taken off the rest,
     which a pulse of full length clears. Outside full ticks the rest thus stays below shortest_pulse, and what is
     fired differs from what is demanded by less than that from the start, and by less than twice that over any window.
+    At a tick without any demand the rest fades to rest_kept of itself.
     With mean, the demand is passed as a torque that is held over the tick, within the level, and no jet fires: for
     linear studies. A demand that is not finite fires nothing and leaves the rest as it is. Frame: body.
     """
@@ -27,6 +28,9 @@ class PulseAllocation(Block):
         [60.0, 120.0, 120.0], unit="N.m", minimum=1e-9, frame="body", description="of a jet about x, y, z, both ways"
     )
     shortest_pulse = Parameter(0.03, unit="s", minimum=0.0, description="shortest pulse that is fired")
+    rest_kept = Parameter(
+        1.0, unit="1", minimum=0.0, maximum=1.0, description="share of the rest that a tick without a demand leaves"
+    )
     mean = Parameter(False, description="pass the mean torque instead of pulses")
     sample_period = Parameter(0.2, unit="s", minimum=1e-3, description="tick")
     torque_command = Input([0.0, 0.0, 0.0], unit="N.m", frame="body", description="torque wanted over the tick")
@@ -54,12 +58,13 @@ class PulseAllocation(Block):
         if length >= self.sample_period:
             length = self.sample_period
             self.status = SATURATED
-        if length < self.shortest_pulse or length == 0.0:
-            return
-        self.lengths[k] = math.copysign(length, self.rests[k])
-        self.rests[k] = self.rests[k] - self.lengths[k]
+        if length >= self.shortest_pulse and length > 0.0:
+            self.lengths[k] = math.copysign(length, self.rests[k])
+            self.rests[k] = self.rests[k] - self.lengths[k]
         if length == self.sample_period:
             self.rests[k] = 0.0
+        if self.torque_command[k] == 0.0:
+            self.rests[k] = self.rest_kept * self.rests[k]
 
     def within_level(self, k: int) -> float:
         """The demand about axis k within what its jet gives (N m)."""

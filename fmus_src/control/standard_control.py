@@ -1,0 +1,41 @@
+"""Bank and rates held by relays, as capsules are flown."""
+
+import math
+
+from ..block import Parameter, State
+from ..interfaces.entry_control import EntryControl
+from ..mathlib.vectors import Vector3, clip, vector
+
+
+class StandardControl(EntryControl):
+    """Relays with hysteresis: bank with its rate about x, damping about y and z.
+
+    A relay closes where its signal is beyond a threshold y and opens where it is within y/2; closed, it demands the full
+    level, so that pulses fill the tick. Roll: x = clip(bank - target) + lead_time wx; yaw and pitch: their rates. What is
+    known of the real one is that it holds no better than 3 deg; this one is ours. Source: Lapin, thesis, chapter 3.2.
+    """
+
+    bank_limit = Parameter(24.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="error of bank acted on")
+    lead_time = Parameter(2.0, unit="s", minimum=0.0, description="of the roll rate in the roll signal")
+    thresholds = Parameter(
+        [2.0 * math.pi / 180.0, 1.0 * math.pi / 180.0, 1.0 * math.pi / 180.0],
+        minimum=0.0,
+        description="of roll (rad), yaw and pitch (rad/s)",
+    )
+    signs = State([0.0, 0.0, 0.0], vector=False, unit="1", description="of the relays, 0 open")
+
+    def relay(self, k: int, x: float) -> float:
+        """Demand (N m) of relay k for its signal."""
+        if self.signs[k] * x < 0.5 * self.thresholds[k]:
+            self.signs[k] = 0.0
+        if abs(x) > self.thresholds[k]:
+            self.signs[k] = math.copysign(1.0, x)
+        return -self.signs[k] * self.jet_torque[k]
+
+    def regulate(self) -> Vector3:
+        w = self.measured_angular_velocity
+        error = clip(self.wrapped(self.measured_bank - self.target_bank), -self.bank_limit, self.bank_limit)
+        x = self.relay(0, error + self.lead_time * w.x)
+        y = self.relay(1, w.y)
+        z = self.relay(2, w.z)
+        return vector(x, y, z)

@@ -1,0 +1,40 @@
+"""Wind and density that are not those of the standard atmosphere."""
+
+import math
+
+from ..block import Block, Output, Parameter, State
+from ..mathlib.vectors import vector
+
+
+class AirDisturbance(Block):
+    """A gust, gust (1 - cos)/2 over gust_duration from gust_time on, and a density that changes once, at density_time."""
+
+    default_step = 0.2
+
+    wind = Parameter([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="of the air throughout")
+    gust = Parameter([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="height of the gust over that")
+    gust_time = Parameter(0.0, unit="s", description="its begin after the start")
+    gust_duration = Parameter(10.0, unit="s", minimum=1e-3, description="from its begin to its end")
+    density = Parameter(1.0, unit="1", minimum=0.0, description="factor on the density before density_time")
+    density_time = Parameter(1e9, unit="s", description="of the change after the start")
+    later_density = Parameter(1.0, unit="1", minimum=0.0, description="factor on the density from then on")
+    air_velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="velocity", description="of the air over the ground")
+    density_factor = Output(1.0, unit="1", description="on the density of the standard atmosphere")
+    start_time = State(0.0, unit="s", description="start of the flight")
+
+    def initialize(self) -> None:
+        self.put_out(0.0)
+
+    def put_out(self, time: float) -> None:
+        """Outputs ``time`` (s) after the start."""
+        since = time - self.gust_time
+        share = 0.0
+        if since > 0.0 and since < self.gust_duration:
+            share = 0.5 * (1.0 - math.cos(2.0 * math.pi * since / self.gust_duration))
+        self.air_velocity = self.wind + share * self.gust
+        self.density_factor = self.density
+        if time >= self.density_time:
+            self.density_factor = self.later_density
+
+    def step(self, t: float, h: float) -> None:
+        self.put_out(t + h - self.start_time)

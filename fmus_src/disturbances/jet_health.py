@@ -1,0 +1,19 @@
+"""What is left of the torque of each jet."""
+
+from ..block import Block, Output, Parameter
+
+
+class JetHealth(Block):
+    """Factors on the torques of six jets, constant over a flight; faults on the connectors change them in flight."""
+
+    default_step = 0.2
+
+    factors = Parameter([1.0] * 6, unit="1", minimum=0.0, description="of +x, -x, +y, -y, +z, -z")
+    jet_factor = Output([1.0] * 6, unit="1", description="likewise")
+
+    def initialize(self) -> None:
+        for k in range(6):
+            self.jet_factor[k] = self.factors[k]
+
+    def step(self, t: float, h: float) -> None:
+        pass

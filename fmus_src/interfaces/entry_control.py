@@ -1,0 +1,89 @@
+"""The slot of regulators of an entry capsule: from bank and rates measured to the torque wanted over a tick."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter
+from ..mathlib.vectors import Vector3, clip, is_finite, vector
+
+GOOD = 0
+NOT_FINITE = 1
+
+
+class EntryControl(Block, interface=True):
+    """Torque that holds the capsule at its trim and at the bank of a programme, from bank and rates alone.
+
+    Attack, sideslip, speed and pressure are not measured; dynamic_pressure is for regulators that are told. At trim the
+    capsule turns about its velocity by w = rate (cos a0, -sin a0, 0), a0 = trim_attack. Demands below dead_zone of a
+    level are put out as 0. A regulator writes `regulate`, which sets demand. Inputs that are not finite ask for no torque.
+    Frame: body. Equations: docs/entry_attitude.md. Source: Lapin, thesis, chapter 3.2.
+    """
+
+    default_step = 0.2
+
+    inertia = Parameter(
+        [1400.0, -40.0, 0.0, -40.0, 1250.0, 0.0, 0.0, 0.0, 1200.0],
+        columns=3,
+        unit="kg.m2",
+        frame="body",
+        description="matrix of inertia, as known on board",
+    )
+    jet_torque = Parameter(
+        [100.0, 80.0, 80.0], unit="N.m", minimum=1e-9, frame="body", description="levels as known on board, both ways"
+    )
+    trim_attack = Parameter(-20.0 * math.pi / 180.0, unit="rad", description="attack at which the capsule trims")
+    dead_zone = Parameter(0.0, unit="1", minimum=0.0, description="share of a level below which nothing is demanded")
+    sample_period = Parameter(0.2, unit="s", minimum=1e-3, description="tick")
+    measured_bank = Input(0.0, unit="rad", description="bank")
+    measured_angular_velocity = Input(
+        [0.0, 0.0, 0.0], unit="rad/s", frame="body", description="angular velocity, absolute"
+    )
+    target_bank = Input(0.0, unit="rad", description="target of the programme")
+    reference_bank = Input(0.0, unit="rad", description="bank to be at now")
+    reference_bank_rate = Input(0.0, unit="rad/s", description="its rate")
+    reference_bank_acceleration = Input(0.0, unit="rad/s2", description="its second derivative")
+    error_limit = Input(math.pi, unit="rad", description="largest error of bank to act on")
+    dynamic_pressure = Input(1000.0, unit="Pa", description="for regulators that are told")
+    torque_command = Output(
+        [0.0, 0.0, 0.0], unit="N.m", frame="body", direct=True, description="torque wanted over the tick"
+    )
+    status = Output(GOOD, minimum=0, maximum=1, direct=True, description="0 good, 1 inputs not finite")
+
+    def regulate(self) -> Vector3:
+        """The torque (N m, body) for the present inputs."""
+        return vector(0.0, 0.0, 0.0)
+
+    def wrapped(self, angle: float) -> float:
+        """An angle (rad) within +-pi."""
+        return angle - 2.0 * math.pi * float(math.floor(angle / (2.0 * math.pi) + 0.5))
+
+    def bank_error(self) -> float:
+        """Measured bank less the reference (rad), within error_limit."""
+        return clip(self.wrapped(self.measured_bank - self.reference_bank), -self.error_limit, self.error_limit)
+
+    def beyond(self, demand: float, level: float) -> float:
+        """A demand, 0 within the dead zone of a level (N m)."""
+        if abs(demand) < self.dead_zone * level:
+            return 0.0
+        return demand
+
+    def command(self) -> None:
+        """Set torque_command and status."""
+        bank = math.isfinite(self.measured_bank) and math.isfinite(self.reference_bank)
+        lead = math.isfinite(self.reference_bank_rate) and math.isfinite(self.reference_bank_acceleration)
+        told = math.isfinite(self.dynamic_pressure) and math.isfinite(self.error_limit)
+        if not (bank and lead and told and is_finite(self.measured_angular_velocity)):
+            self.status = NOT_FINITE
+            self.torque_command = vector(0.0, 0.0, 0.0)
+            return
+        self.status = GOOD
+        demand = self.regulate()
+        x = self.beyond(demand.x, self.jet_torque.x)
+        y = self.beyond(demand.y, self.jet_torque.y)
+        z = self.beyond(demand.z, self.jet_torque.z)
+        self.torque_command = vector(x, y, z)
+
+    def initialize(self) -> None:
+        self.command()
+
+    def step(self, t: float, h: float) -> None:
+        self.command()
