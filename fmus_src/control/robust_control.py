@@ -12,10 +12,10 @@ class RobustControl(EntryControl):
     """Rolls about the velocity, so that attack and sideslip stay, and damps what is across: free of pressure and speed.
 
     u = J (c0 x1 + s0 x2, -s0 x1 + c0 x2, -pitch_damping wz), c0, s0 of trim_attack, with the turn gd = wx c0 - wy s0
-    about the velocity and bd = wx s0 + wy c0 across it: x1 = reference'' - bank_damping (gd - reference') - bank_stiffness
-    error, within largest_acceleration, and x2 = -sideslip_damping bd. At frozen pressure the closed loop is
-    (p^2 + k_x p + k_g)(p^2 + k_b p + w_b^2)(p^2 + k_z p + w_a^2), stable for any pressure. With the time-optimal bank
-    programme it is the thesis's combined algorithm. Source: Lapin, thesis, chapter 3.2; gains ours.
+    about the velocity and bd = wx s0 + wy c0 across it: x1 = reference'' - bank_damping (gd - reference') -
+    bank_stiffness error, within largest_acceleration, and x2 = -sideslip_damping bd. At frozen pressure the closed
+    loop is (p^2 + k_x p + k_g)(p^2 + k_b p + w_b^2)(p^2 + k_z p + w_a^2), stable for any pressure. With the
+    time-optimal bank programme it is the thesis's combined algorithm. Source: Lapin, thesis, chapter 3.2; gains ours.
     """
 
     dead_zone = EntryControl.dead_zone.with_start(0.02)

@@ -10,9 +10,10 @@ from ..mathlib.vectors import Vector3, clip, vector
 class StandardControl(EntryControl):
     """Relays with hysteresis: bank with its rate about x, damping about y and z.
 
-    A relay closes where its signal is beyond a threshold y and opens where it is within y/2; closed, it demands the full
-    level, so that pulses fill the tick. Roll: x = clip(bank - target) + lead_time wx; yaw and pitch: their rates. What is
-    known of the real one is that it holds no better than 3 deg; this one is ours. Source: Lapin, thesis, chapter 3.2.
+    A relay closes where its signal is beyond a threshold y and opens where it is within y/2; closed, it demands the
+    full level, so that pulses fill the tick. Roll: x = clip(bank - target) + lead_time wx; yaw and pitch: their rates.
+    What is known of the real one is that it holds no better than 3 deg; this one is ours. Source: Lapin, thesis,
+    chapter 3.2.
     """
 
     bank_limit = Parameter(24.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="error of bank acted on")

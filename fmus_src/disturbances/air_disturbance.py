@@ -3,11 +3,10 @@
 import math
 
 from ..block import Block, Output, Parameter, State
-from ..mathlib.vectors import vector
 
 
 class AirDisturbance(Block):
-    """A gust, gust (1 - cos)/2 over gust_duration from gust_time on, and a density that changes once, at density_time."""
+    """A gust (1 - cos)/2 over gust_duration from gust_time on, and a density that changes once, at density_time."""
 
     default_step = 0.2
 

@@ -14,11 +14,10 @@ NEVER = 1e9
 class BankProgramme(Block):
     """Target bank that changes its sign at up to two reversals, and the reference that leads there.
 
-    method 0, ideal: the reference is the target. 1, limited: likewise, with a limit on the error that the regulator may
-    act on. 2, time-optimal: the reference accelerates with bank_acceleration, coasts at bank_rate at most, and brakes
-    likewise, the quickest way within both (a limit on the rate is one on propellant).
-    Reversals at or after 1e9 s do not come. Equations: docs/entry_attitude.md. Source: Lapin, thesis, chapter 3.2; numbers
-    ours.
+    method 0, ideal: the reference is the target. 1, limited: likewise, with a limit on the error that the regulator
+    may act on. 2, time-optimal: the reference accelerates with bank_acceleration, coasts at bank_rate at most, and
+    brakes likewise, the quickest way within both (a limit on the rate is one on propellant). Reversals at or after 1e9
+    s do not come. Equations: docs/entry_attitude.md. Source: Lapin, thesis, chapter 3.2; numbers ours.
     """
 
     default_step = 0.2

@@ -1,4 +1,4 @@
-"""Coefficients of a spherical cap in supersonic flow by Newton's law, for tables that blocks declare. No kernel functions.
+"""Coefficients of a spherical cap in supersonic flow by Newton's law, for tables that blocks declare. No kernels.
 
 The cap's windward side takes Cp sin^2 of the local inclination, Cp the stagnation point's behind a normal shock
 (Rayleigh's pitot formula). With k = sin^2 of the cap's half angle, while all of it is windward:

@@ -1,8 +1,8 @@
 """The US standard atmosphere of 1976. Kernel functions.
 
 Up to 86 km the layers of geopotential height, each with its lapse rate; above, the logarithm of the density is linear
-between tabulated points and the speed of sound stays. Source: U.S. Standard Atmosphere 1976 (NASA-TM-X-74335), equations
-23 and 33 and table IV.
+between tabulated points and the speed of sound stays. Source: U.S. Standard Atmosphere 1976 (NASA-TM-X-74335),
+equations 23 and 33 and table IV.
 """
 
 import math

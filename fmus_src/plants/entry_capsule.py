@@ -34,10 +34,10 @@ class EntryCapsule(Block):
     linear in Mach number between them; the last values hold beyond the tables, which the status says.
     The air is the US standard atmosphere of 1976 times density_factor, moved by wind (velocity axes).
 
-    A change of pulse_count tells new pulses, which start at once and take the place of what is left of the last; each is
-    cut exactly where it ends, whatever the communication step. mean_torque acts beside them. jet_torque and jet_factor:
-    +x, -x, +y, -y, +z, -z. Runge-Kutta of fourth order in steps of at most internal_step.
-    Equations: docs/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
+    A change of pulse_count tells new pulses, which start at once and take the place of what is left of the last; each
+    is cut exactly where it ends, whatever the communication step. mean_torque acts beside them. jet_torque and
+    jet_factor: +x, -x, +y, -y, +z, -z. Runge-Kutta of fourth order in steps of at most internal_step. Equations:
+    docs/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
     """
 
     default_step = 0.2
@@ -102,9 +102,7 @@ class EntryCapsule(Block):
     fired_pulses = Output([0.0, 0.0, 0.0], unit="s", frame="body", description="the last pulses, with their sign")
     jet_seconds = Output([0.0, 0.0, 0.0], unit="s", frame="body", description="time that jets have fired about x, y, z")
     finished = Output(False, description="below final_height")
-    status = Output(
-        GOOD, minimum=0, maximum=2, description="0 good, 1 beyond the tables, 2 inertia cannot be inverted"
-    )
+    status = Output(GOOD, minimum=0, maximum=2, description="0 good, 1 beyond the tables, 2 inertia cannot be inverted")
     place = State([6471000.0, 0.0, 0.0], frozen=True, description="distance (m), longitude, latitude (rad)")
     path = State([7620.0, 0.0, 0.0], frozen=True, description="speed (m/s), path angle, course (rad)")
     attitude = State([0.0, 0.0, 0.0], unit="rad", description="bank, sideslip, attack")
