@@ -61,10 +61,10 @@ class Eigenvectors:
         real, pair = across[: self.reals], across[self.reals :]
         return np.concatenate([real.real.ravel(), pair.real.ravel(), pair.imag.ravel()])
 
-    def complex(self, real: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """All eigenvectors (n, n) as columns and their poles (n,), from Y."""
+    def as_complex(self, real: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """All unit eigenvectors (n, n) as columns and their poles (n,), from Y."""
         middle = self.reals + self.pairs
-        pairs = real[:, self.reals : middle] + 1j * real[:, middle:]
+        pairs = np.sqrt(0.5) * (real[:, self.reals : middle] + 1j * real[:, middle:])
         poles = np.array([*self.spectrum.real, *self.spectrum.pairs, *np.conj(self.spectrum.pairs)])
         return np.hstack([real[:, : self.reals], pairs, pairs.conj()]), poles
 

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.linalg import qr
 from scipy.optimize import minimize
 
+from .controllability import TOLERANCE
 from .eigenvectors import Eigenvectors
 from .multilevel import Level, decompose, place_on_levels
 from .refusal import PlacementError, Reason
@@ -29,33 +30,27 @@ _COARSE, _FINE = (1e-2, 200), (1e-5, 400)  # slope and steps at which a descent 
 _KEPT = 2  # starts that are gone on with
 
 
-def least_condition(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int) -> StateFeedback:
+def least_condition(
+    a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int, tolerance: float = TOLERANCE
+) -> StateFeedback:
     """The placement of least kappa that ``starts`` searches find. Raises PlacementError.
 
     They minimise |Y|_q |Y^-1|_q of the eigenvectors Y in Schatten norms of growing order q.
     """
-    levels, family = family_of(a, b, spectrum)
+    levels, family = family_of(a, b, spectrum, tolerance)
     found = _search(family, [partial(condition, order=order) for order in _ORDERS], starts, seed)
     return on_levels(levels, family, found)
 
 
-def least_norm(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int) -> StateFeedback:
+def least_norm(
+    a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int, tolerance: float = TOLERANCE
+) -> StateFeedback:
     """The placement of least |K| that ``starts`` searches find. Raises PlacementError.
 
     They minimise Schatten norms of growing order q.
     """
-    levels, family = family_of(a, b, spectrum)
-
-    def norm(vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
-        """log |K|_q and its gradient in Y."""
-        gain = family.gain(vectors)
-        left, sizes, right = np.linalg.svd(gain, full_matrices=False)
-        size, share = _norm(sizes, order)
-        seen = np.linalg.solve(vectors, ((left * share) @ right).T).T
-        outer = family.inverse.T @ seen
-        return size, outer @ family.matrix.T - a.T @ outer - gain.T @ seen
-
-    found = _search(family, [partial(norm, order=order) for order in _ORDERS], starts, seed)
+    levels, family = family_of(a, b, spectrum, tolerance)
+    found = _search(family, [partial(gain_norm, family, order=order) for order in _ORDERS], starts, seed)
     return on_levels(levels, family, found)
 
 
@@ -67,6 +62,16 @@ def condition(vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
     return size + inverse_size, (left * (share - inverse_share / sizes**2)) @ right
 
 
+def gain_norm(family: Eigenvectors, vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
+    """log |K|_q in the Schatten norm of order q, and its gradient in Y."""
+    gain = family.gain(vectors)
+    left, sizes, right = np.linalg.svd(gain, full_matrices=False)
+    size, share = _norm(sizes, order)
+    seen = np.linalg.solve(vectors, ((left * share) @ right).T).T
+    outer = family.inverse.T @ seen
+    return size, outer @ family.matrix.T - family.a.T @ outer - gain.T @ seen
+
+
 def on_levels(levels: Sequence[Level], family: Eigenvectors, free: np.ndarray) -> StateFeedback:
     """The placement with these eigenvectors, by its Phi_i.
 
@@ -74,7 +79,7 @@ def on_levels(levels: Sequence[Level], family: Eigenvectors, free: np.ndarray) -
     chooses, so that they are well conditioned. What remains goes up through P. Where the rows part a conjugate pair,
     Phi_i is complex; the gain is not.
     """
-    vectors, poles = family.complex(family.at(free))
+    vectors, poles = family.as_complex(family.at(free))
     wanted, remaining = [], poles
     for level in levels:
         rows = np.linalg.solve(vectors, level.left)
@@ -84,9 +89,11 @@ def on_levels(levels: Sequence[Level], family: Eigenvectors, free: np.ndarray) -
     return place_on_levels(levels, wanted, family.spectrum.poles)
 
 
-def family_of(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> tuple[list[Level], Eigenvectors]:
+def family_of(
+    a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE
+) -> tuple[list[Level], Eigenvectors]:
     """The levels of a pair, and the eigenvectors that its closed loops may have. Raises PlacementError."""
-    levels = decompose(a, b)
+    levels = decompose(a, b, tolerance)
     rank = levels[0].rank
     most = max(np.unique(spectrum.poles, return_counts=True)[1])
     if most > rank:

@@ -10,15 +10,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from .controllability import controllability_indices
+from .controllability import TOLERANCE, controllability_indices
 from .polynomial import wanted_polynomial
 from .results import StateFeedback
 from .spectrum import Spectrum
 
 
-def indices(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:
+def indices(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
     """Place the spectrum. Raises PlacementError for a pair that is not controllable."""
-    lengths = controllability_indices(a, b)
+    lengths = controllability_indices(a, b, tolerance)
     used = [i for i, length in enumerate(lengths) if length]
     degrees = [lengths[i] for i in used]
     columns = [b[:, i] for i in used]

@@ -61,7 +61,10 @@ def decompose(
         if not rank:
             raise _unreachable(len(found), len(a), values, scale, tolerance)
         if sizes is None:
-            factor, rest, down = left[:, :rank] * values[:rank], right[:rank], left[:, rank:].T
+            # signs that do not depend on the state's coordinates: the largest element of each row of R is positive
+            rest = right[:rank]
+            signs = np.sign(rest[np.arange(rank), np.argmax(np.abs(rest), axis=1)])
+            factor, rest, down = left[:, :rank] * (values[:rank] * signs), signs[:, None] * rest, left[:, rank:].T
         else:
             _check_size(sizes, len(found), rank, b)
             factor, rest, down = np.eye(len(a), rank), b[:rank], np.eye(len(a))[rank:]
@@ -92,12 +95,12 @@ def place_on_levels(
     return StateFeedback(method, gain, poles, closed_loop, levels=[level.values for level in levels])
 
 
-def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:
+def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
     """Place the spectrum with diagonal Phi_i, 2 x 2 blocks for pairs, the fastest poles on level 0.
 
     Raises PlacementError. A pair needs a level of rank 2 or more to itself.
     """
-    levels = decompose(a, b)
+    levels = decompose(a, b, tolerance)
     parts = spectrum.ranked([level.rank for level in levels])
     if parts is None:
         raise PlacementError(

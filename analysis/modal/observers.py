@@ -6,13 +6,15 @@ Luenberger, "Observers for multivariable systems", IEEE Transactions on Automati
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import null_space
 
 from ..errors import InputError
 from .controllability import TOLERANCE
-from .place import STARTS, Choice, place
+from .place import place
 from .plant import input_matrix, output_matrix, state_matrix
 from .refusal import PlacementError, Reason
 from .results import Observer, ReducedObserver, StateFeedback
@@ -22,20 +24,17 @@ def observer(
     a: ArrayLike,
     c: ArrayLike,
     poles: ArrayLike,
-    *,
-    method: str | None = None,
-    choice: str = Choice.DIAGONAL,
-    starts: int = STARTS,
-    seed: int = 0,
+    **options: Any,
 ) -> Observer:
     """The gain L (n, p) of x_h' = A x_h + B u + L (y - C x_h) that gives A - L C the n ``poles``.
 
-    ``a`` is A (n, n), ``c`` C (p, n); the rest is as in `place`, of which this is the dual: L' = K of (A', C').
+    ``a`` is A (n, n), ``c`` C (p, n); ``options`` are those of `place` (method, choice, tolerance, starts, seed), of
+    which this is the dual: L' = K of (A', C').
     Raises InputError; PlacementError where the pair is not observable or the method does not apply.
     """
     state = state_matrix(a)
     outputs = output_matrix(c, len(state))
-    dual = _dual(state, outputs, poles, method, choice, starts, seed)
+    dual = _dual(state, outputs, poles, options)
     return Observer(dual.method, dual.gain.T, dual.wanted, state - dual.gain.T @ outputs, dual.condition_u, dual.levels)
 
 
@@ -45,10 +44,7 @@ def reduced_observer(
     poles: ArrayLike,
     *,
     b: ArrayLike | None = None,
-    method: str | None = None,
-    choice: str = Choice.DIAGONAL,
-    starts: int = STARTS,
-    seed: int = 0,
+    **options: Any,
 ) -> ReducedObserver:
     """The observer of order n - p for outputs without noise, with its n - p ``poles``.
 
@@ -73,7 +69,7 @@ def reduced_observer(
         raise InputError("modal", "C", "it measures every state", "take x = C^-1 y")
     hidden, inverse = null_space(outputs), np.linalg.pinv(outputs)
     own, seen = hidden.T @ state, outputs @ state
-    dual = _dual(own @ hidden, seen @ hidden, poles, method, choice, starts, seed)
+    dual = _dual(own @ hidden, seen @ hidden, poles, options)
     gain = dual.gain.T
     matrix = own @ hidden - gain @ seen @ hidden
     return ReducedObserver(
@@ -90,11 +86,9 @@ def reduced_observer(
     )
 
 
-def _dual(
-    a: np.ndarray, c: np.ndarray, poles: ArrayLike, method: str | None, choice: str, starts: int, seed: int
-) -> StateFeedback:
+def _dual(a: np.ndarray, c: np.ndarray, poles: ArrayLike, options: dict[str, Any]) -> StateFeedback:
     try:
-        return place(a.T, c.T, poles, method=method, choice=choice, starts=starts, seed=seed)
+        return place(a.T, c.T, poles, **options)
     except PlacementError as error:
         if error.reason is not Reason.NOT_CONTROLLABLE:
             raise
