@@ -8,7 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from .spectrum import distance
+from .spectrum import distance, matched
+
+_SEMISIMPLE = 1e-9  # relative, of the singular values that count as none
 
 
 @dataclass(frozen=True)
@@ -40,9 +42,18 @@ class Placement:
     def kappa(self) -> float:
         """Condition number of the closed loop's eigenvectors of unit length: how far a small change moves a pole.
 
-        Infinite, or of the size of 1/eps, where there is no full set of them.
+        Of a pole wanted several times they are orthogonal where it has as many; infinite, or of the size of 1/eps,
+        where there is no full set.
         """
-        return float(np.linalg.cond(self._eigen[1]))
+        vectors = self._eigen[1].astype(complex)
+        places = matched(self.wanted, self.poles)
+        for pole in np.unique(self.wanted):
+            alike = np.flatnonzero(places == pole)
+            if len(alike) > 1:
+                _, sizes, right = np.linalg.svd(self.closed_loop - pole * np.eye(len(places)))
+                if sizes[-len(alike)] <= _SEMISIMPLE * np.linalg.norm(self.closed_loop, 2):
+                    vectors[:, alike] = right[-len(alike) :].conj().T
+        return float(np.linalg.cond(vectors))
 
     @cached_property
     def error(self) -> float:
