@@ -1,4 +1,4 @@
-# make demo | test | quick | long | build | explore | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | build | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 
@@ -27,6 +27,10 @@ build: .venv/ready
 explore: build
 	PERILUNE_EXPLORE=1 $(BIN)/python -m pytest -n 2 $$(grep -rl 'from hypothesis' tests --include='test_*.py')
 
+# Gains that follow from the capsule's aerodynamic table, into the module that its regulators read.
+gains: .venv/ready
+	$(BIN)/python -m perilune.analysis.synthesis.entry_gains
+
 bench: build
 	$(BIN)/perilune benchmark
 
@@ -53,4 +57,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long build explore bench sanitize browser lint clean
+.PHONY: demo test quick long build explore gains bench sanitize browser lint clean

@@ -10,6 +10,7 @@ from __future__ import annotations
 from .analysis.modal.observers import observer, reduced_observer
 from .analysis.modal.output.common import CommonFeedback, common_feedback
 from .analysis.modal.output.feedback import output_feedback
+from .analysis.modal.output.levels import output_feedback_levels
 from .analysis.modal.output.parametric import OutputFeedbackSet, output_feedback_set
 from .analysis.modal.place import place, place_levels, place_polynomial, polynomial_of_gain
 from .analysis.modal.polynomial import polynomial_of_solvents
@@ -31,6 +32,7 @@ __all__ = [
     "common_feedback",
     "observer",
     "output_feedback",
+    "output_feedback_levels",
     "output_feedback_set",
     "place",
     "place_levels",

@@ -20,15 +20,18 @@ from scipy.linalg import null_space
 from ..controllability import TOLERANCE
 from ..place import placed
 from ..refusal import PlacementError, Reason
-from ..results import OutputFeedback
+from ..results import OutputFeedback, StateFeedback
 from ..spectrum import Spectrum
 
 
 class ZerothLevel:
     """The zeroth level of a plant with full ranks: m + p >= n."""
 
-    def __init__(self, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> None:
-        """Of A (n, n), B (n, m), C (p, n). Raises PlacementError."""
+    def __init__(self, a: np.ndarray, b: np.ndarray, c: np.ndarray, basis: np.ndarray | None = None) -> None:
+        """Of A (n, n), B (n, m), C (p, n); ``basis`` (n, n - m), columns with P = basis', else those of the null space.
+
+        Raises PlacementError.
+        """
         for name, matrix, rank in (("B", b, b.shape[1]), ("C", c, len(c))):
             sizes = np.linalg.svd(matrix, compute_uv=False)
             if len(sizes) < rank or sizes[-1] <= TOLERANCE * sizes[0]:
@@ -41,7 +44,7 @@ class ZerothLevel:
                     "leave out inputs or outputs that others stand for",
                 )
         self.a, self.b, self.c = a, b, c
-        self.inverse, self.down = np.linalg.pinv(b), null_space(b.T).T
+        self.inverse, self.down = np.linalg.pinv(b), null_space(b.T).T if basis is None else basis.T
         self.hidden, self.seen = null_space(c), np.linalg.pinv(c)
         self.above = self.down @ a @ self.down.T, self.down @ a @ b
 
@@ -72,7 +75,11 @@ class ZerothLevel:
 
 def direct(level: ZerothLevel, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
     """``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p > n. Raises PlacementError."""
-    first = placed(*level.above, upper) if upper.size else None
+    return under(level, placed(*level.above, upper) if upper.size else None, upper, lower)
+
+
+def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
+    """The zeroth level under the gain of the upper one, ``first``. Raises PlacementError."""
     inverse, x, y = level.lower_matrices(-first.gain if first else np.zeros((lower.size, 0)))
     condition = condition_of(x)
     own, q = y @ np.linalg.pinv(x), null_space(x.T).T

@@ -12,9 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.fmus_src.control.no_control import NoControl
-from perilune.fmus_src.control.output_feedback_control import OutputFeedbackControl
 from perilune.fmus_src.control.robust_control import RobustControl
 from perilune.fmus_src.control.standard_control import StandardControl
+from perilune.fmus_src.interfaces.output_feedback_control import OutputFeedbackControl
 
 DEGREE = math.pi / 180.0
 COS, SIN = math.cos(-20.0 * DEGREE), math.sin(-20.0 * DEGREE)

@@ -3,16 +3,17 @@
 import math
 
 from ..block import Parameter
-from ..interfaces.entry_control import EntryControl
 from ..mathlib.orbital import applied
 from ..mathlib.vectors import Vector3, vector
+from .entry_control import EntryControl
 
 
-class OutputFeedbackControl(EntryControl):
+class OutputFeedbackControl(EntryControl, interface=True):
     """u = F (bank error, wx, wy against the reference) + J (c0, -s0, 0) reference'', pitch damped by itself.
 
     F places the poles of bank, sideslip and two rates at one pressure, or is interpolated in its logarithm between
-    three. Gains: `perilune synthesize entry-gains`. Source: Lapin, thesis, chapters 2 and 3.2; numbers ours.
+    three. Gains: mathlib/entry_gains.py, which `make gains` writes. Source: Lapin, thesis, chapters 2 and 3.2; numbers
+    ours.
     """
 
     dead_zone = EntryControl.dead_zone.with_start(0.05)
