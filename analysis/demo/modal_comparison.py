@@ -39,7 +39,8 @@ def draws(
         poles = np.zeros(states)
         while np.min(np.diff(np.sort(poles))) < 0.2:
             poles = random.uniform(-4.0, -0.5, states)
-        yield (*(random.normal(size=size) for size in ((states, states), (states, inputs), (outputs, states))), poles)
+        a, b, c = (random.normal(size=size) for size in ((states, states), (states, inputs), (outputs, states)))
+        yield a, b, c, poles
 
 
 def state_feedback(states: int, inputs: int) -> np.ndarray:

@@ -80,7 +80,7 @@ def free_figure() -> Figure:
     """e and b after the same start under one regulator, for springs that differ by a factor of 160."""
     c, s = np.cos(TURN), np.sin(TURN)
     b = np.vstack([np.zeros((2, 2)), [[c, s], [-s, c]]])
-    wanted = [[[0.25, 0.0], [0.0, np.nan]], np.eye(2)]
+    wanted = np.array([[[0.25, 0.0], [0.0, np.nan]], np.eye(2)])
     found = common_feedback([turned_plant(q) for q in PLANTS], b, np.eye(4)[[0, 2, 3]], wanted)
     figure = new_figure(3.2)
     panels = figure.subplots(1, 2, sharex=True)
