@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from . import modal
     from .analysis.api import batch, simulate, stability
     from .analysis.batch.results import BatchResult
     from .analysis.errors import InputError
@@ -33,6 +34,7 @@ __all__ = [
     "State",
     "StudyError",
     "batch",
+    "modal",
     "simulate",
     "stability",
 ]
@@ -56,6 +58,8 @@ if not (Path(__file__).parent / "analysis").is_dir():
 
 
 def __getattr__(name: str) -> Any:
+    if name == "modal":
+        return import_module(".modal", __name__)
     for module, names in _HOMES.items():
         if name in names:
             return getattr(import_module(f".{module}", __name__), name)

@@ -1,0 +1,84 @@
+"""Generalised Ackermann formula: several inputs, without canonical forms.
+
+For n = p m states and U = [B AB .. A^(p-1) B] nonsingular, T = [0 .. 0 I] U^-1, u = -K x with
+
+    K = T A^p + sum N_i T A^i    gives    det(s I - A + B K) = det(I s^p + N_(p-1) s^(p-1) + .. + N_0).
+
+The m x m matrices N_i are free apart from that determinant: a parametrised set that contains every K.
+Ackermann, "Der Entwurf linearer Regelungssysteme im Zustandsraum", Regelungstechnik 20 (1972), for m = 1; for several
+inputs Lapin's thesis (2.1.2.3) and Zubov, Mikrin and Ryabchenko; the formulas were derived here, T' U' = ..
+by T A^i B = 0 for i < p - 1 and T A^(p-1) B = I.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .controllability import controllability_matrix
+from .polynomial import block_companion, wanted_polynomial
+from .refusal import PlacementError, Reason
+from .results import StateFeedback
+from .spectrum import Spectrum
+
+
+def ackermann(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:
+    """Place the spectrum with diagonal N_i as far as its pairs let. Raises PlacementError."""
+    rows, _ = last_rows(a, b)
+    return ackermann_of(a, b, wanted_polynomial(spectrum, [len(a) // len(rows)] * len(rows)), spectrum.poles)
+
+
+def ackermann_of(
+    a: np.ndarray, b: np.ndarray, coefficients: np.ndarray, wanted: np.ndarray | None = None
+) -> StateFeedback:
+    """The gain of given N (p, m, m); ``wanted`` are its poles where they are known. Raises PlacementError."""
+    rows, condition = last_rows(a, b)
+    gain = rows
+    for block in coefficients[::-1]:  # Horner
+        gain = gain @ a + block @ rows
+    if wanted is None:
+        wanted = np.linalg.eigvals(block_companion(coefficients))
+    return StateFeedback("ackermann", gain, wanted, a - b @ gain, condition)
+
+
+def coefficients_of(a: np.ndarray, b: np.ndarray, gain: np.ndarray) -> np.ndarray:
+    """The N (p, m, m) of any u = -K x: N = (K - T A^p) V^-1. Raises PlacementError."""
+    stack, power, _ = row_stack(a, b)
+    return split(np.linalg.solve(stack.T, (gain - power).T).T, b.shape[1])
+
+
+def last_rows(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, float]:
+    """T (m, n), and cond(U). Raises PlacementError where n is no multiple of m, or U is singular."""
+    states, inputs = b.shape
+    if states % inputs:
+        raise PlacementError(
+            "generalised Ackermann",
+            Reason.CLASS,
+            f"n/m = {states}/{inputs} = {states / inputs:.3g} is not whole",
+            states / inputs,
+            "take method indices or multilevel",
+        )
+    matrix = controllability_matrix(a, b, states // inputs)
+    condition = float(np.linalg.cond(matrix))
+    if not condition < 1.0 / (states * np.finfo(float).eps):
+        raise PlacementError(
+            "generalised Ackermann",
+            Reason.CLASS,
+            f"U = [B AB ..] of {states} columns is singular, cond(U) = {condition:.2g}",
+            condition,
+            "take method indices or multilevel, which say whether it is controllable",
+        )
+    return np.linalg.solve(matrix.T, np.eye(states, inputs, inputs - states)).T, condition
+
+
+def row_stack(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    """V = [T; T A; ..; T A^(p-1)] (n, n), T A^p (m, n), and cond(U). Raises PlacementError."""
+    rows, condition = last_rows(a, b)
+    stacked = [rows]
+    for _ in range(len(a) // len(rows)):
+        stacked.append(stacked[-1] @ a)
+    return np.vstack(stacked[:-1]), stacked[-1], condition
+
+
+def split(side_by_side: np.ndarray, inputs: int) -> np.ndarray:
+    """[N_0 .. N_(p-1)] (m, n) as (p, m, m)."""
+    return np.stack(np.hsplit(side_by_side, side_by_side.shape[1] // inputs))

@@ -1,0 +1,143 @@
+"""The freedom of a placement with several inputs, used: least condition of the eigenvectors, or least gain.
+
+A level's Phi_i = S_i D_i S_i^-1 has the poles D_i for any S_i, and the poles can be spread over the levels. Which
+closed loops come out are those of Moore's eigenvectors (`eigenvectors`), so the search is among these, where every
+point is a closed loop and nothing is singular: quasi-Newton steps (BFGS) from several starts, the best kept. What it
+finds is put on the levels again (`on_levels`), which place it exactly. The search was made here; the criteria are
+those of Kautsky, Nichols and Van Dooren (1985) and of Kochetkov and Utkin, "Minimizing the feedback matrix norm in
+modal control problems", Automation and Remote Control 75 (2014).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+from scipy.linalg import qr
+from scipy.optimize import minimize
+
+from .controllability import TOLERANCE
+from .eigenvectors import Eigenvectors
+from .multilevel import Level, decompose, place_on_levels
+from .refusal import PlacementError, Reason
+from .results import StateFeedback
+from .spectrum import Spectrum
+
+Objective = Callable[[np.ndarray], tuple[float, np.ndarray]]
+_ORDERS = (2.0, 16.0, 128.0)  # of the norms that tend to the largest singular value; the first is smooth everywhere
+_COARSE, _FINE = (1e-2, 200), (1e-5, 400)  # slope and steps at which a descent ends
+_KEPT = 2  # starts that are gone on with
+
+
+def least_condition(
+    a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int, tolerance: float = TOLERANCE
+) -> StateFeedback:
+    """The placement of least kappa that ``starts`` searches find. Raises PlacementError.
+
+    They minimise |Y|_q |Y^-1|_q of the eigenvectors Y in Schatten norms of growing order q.
+    """
+    levels, family = family_of(a, b, spectrum, tolerance)
+    found = _search(family, [partial(condition, order=order) for order in _ORDERS], starts, seed)
+    return on_levels(levels, family, found)
+
+
+def least_norm(
+    a: np.ndarray, b: np.ndarray, spectrum: Spectrum, starts: int, seed: int, tolerance: float = TOLERANCE
+) -> StateFeedback:
+    """The placement of least |K| that ``starts`` searches find. Raises PlacementError.
+
+    They minimise Schatten norms of growing order q.
+    """
+    levels, family = family_of(a, b, spectrum, tolerance)
+    found = _search(family, [partial(gain_norm, family, order=order) for order in _ORDERS], starts, seed)
+    return on_levels(levels, family, found)
+
+
+def condition(vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
+    """log |Y|_q |Y^-1|_q in Schatten norms of order q, and its gradient in Y."""
+    left, sizes, right = np.linalg.svd(vectors)
+    size, share = _norm(sizes, order)
+    inverse_size, inverse_share = _norm(1.0 / sizes, order)
+    return size + inverse_size, (left * (share - inverse_share / sizes**2)) @ right
+
+
+def gain_norm(family: Eigenvectors, vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
+    """log |K|_q in the Schatten norm of order q, and its gradient in Y."""
+    gain = family.gain(vectors)
+    left, sizes, right = np.linalg.svd(gain, full_matrices=False)
+    size, share = _norm(sizes, order)
+    seen = np.linalg.solve(vectors, ((left * share) @ right).T).T
+    outer = family.inverse.T @ seen
+    return size, outer @ family.matrix.T - family.a.T @ outer - gain.T @ seen
+
+
+def on_levels(levels: Sequence[Level], family: Eigenvectors, free: np.ndarray) -> StateFeedback:
+    """The placement with these eigenvectors, by its Phi_i.
+
+    Phi of a level has as left eigenvectors w Bt, w rows of the inverse of the eigenvectors; which rows, pivoting
+    chooses, so that they are well conditioned. What remains goes up through P. Where the rows part a conjugate pair,
+    Phi_i is complex; the gain is not.
+    """
+    vectors, poles = family.as_complex(family.at(free))
+    wanted, remaining = [], poles
+    for level in levels:
+        rows = np.linalg.solve(vectors, level.left)
+        chosen = qr(rows.conj().T, mode="r", pivoting=True)[1][: level.rank]
+        wanted.append(np.linalg.solve(rows[chosen], remaining[chosen, None] * rows[chosen]))
+        vectors, remaining = level.down @ np.delete(vectors, chosen, axis=1), np.delete(remaining, chosen)
+    return place_on_levels(levels, wanted, family.spectrum.poles)
+
+
+def family_of(
+    a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE
+) -> tuple[list[Level], Eigenvectors]:
+    """The levels of a pair, and the eigenvectors that its closed loops may have. Raises PlacementError."""
+    levels = decompose(a, b, tolerance)
+    rank = levels[0].rank
+    most = max(np.unique(spectrum.poles, return_counts=True)[1])
+    if most > rank:
+        raise PlacementError(
+            "free eigenvectors",
+            Reason.RANK,
+            f"a pole is wanted {most} times and B has rank {rank}: there is no full set of eigenvectors",
+            float(most),
+            "take choice diagonal",
+        )
+    return levels, Eigenvectors(levels[0], spectrum)
+
+
+def _search(family: Eigenvectors, objectives: Sequence[Objective], starts: int, seed: int) -> np.ndarray:
+    """The parameters at the least value of the last objective.
+
+    All starts go down the first objective a part of the way, the best of them down all objectives.
+    """
+    random = np.random.default_rng(seed)
+    first = [_down(family, objectives[0], random.normal(size=family.parameters), *_COARSE) for _ in range(starts)]
+    found = []
+    for value, free in sorted(first, key=lambda end: end[0])[:_KEPT]:
+        for objective in objectives:
+            value, free = _down(family, objective, free, *_FINE)
+        found.append((value, free))
+    return min(found, key=lambda end: end[0])[1]
+
+
+def _down(
+    family: Eigenvectors, objective: Objective, free: np.ndarray, slope: float, steps: int
+) -> tuple[float, np.ndarray]:
+    """Value and place where the gradient is below ``slope``, or after so many steps."""
+
+    def value(at: np.ndarray) -> tuple[float, np.ndarray]:
+        size, by_vectors = objective(family.at(at))
+        return size, family.slope(at, by_vectors)
+
+    result = minimize(value, free, jac=True, method="BFGS", options={"gtol": slope, "maxiter": steps})
+    return float(result.fun), result.x
+
+
+def _norm(sizes: np.ndarray, order: float) -> tuple[float, np.ndarray]:
+    """The logarithm of a Schatten norm, and its gradient in the singular values."""
+    largest = np.max(sizes)
+    powers = (sizes / largest) ** (order - 1.0)
+    total = np.sum(powers * sizes / largest)
+    return float(np.log(largest) + np.log(total) / order), powers / (total * largest)

@@ -1,0 +1,143 @@
+"""Exact placement by multilevel decomposition: any controllable pair, any multiplicity.
+
+Level 0 is the pair (A, B). On every level B = Bt R, full-rank factors, and P with orthonormal rows and P Bt = 0; the
+next level is (P A P', P A Bt), until B has full row rank. Back from there, the last level with B^- = Bt^+, the others
+with B^- = Bt^+ - K P, where K is the gain of the level above,
+
+    K = R^+ (Phi B^- - B^- A),    u = K x,
+
+which makes B^- (A + B K) = Phi B^-: each level's Phi keeps its poles, and the closed loop has all of them.
+Zubov, Mikrin, Misrikhanov and Ryabchenko, "Modification of the exact pole placement method and its application for the
+control of spacecraft motion", Journal of Computer and Systems Sciences International 52 (2013); the formulas were
+derived here. Inside of this file u = K x as in the source; the result's gain has the other sign.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from .controllability import TOLERANCE
+from .refusal import PlacementError, Reason
+from .results import StateFeedback
+from .spectrum import Spectrum
+
+_OUTSIDE = 1e-8  # relative; how far a basis that is given may miss what is driven
+
+
+@dataclass(frozen=True)
+class Level:
+    """One level: its pair ``a``, ``b`` = ``left`` ``right``, the rows P = ``down``, and the singular values kept."""
+
+    a: np.ndarray
+    b: np.ndarray
+    left: np.ndarray
+    right: np.ndarray
+    down: np.ndarray
+    values: np.ndarray
+
+    @property
+    def rank(self) -> int:
+        return self.left.shape[1]
+
+
+def decompose(
+    a: np.ndarray, b: np.ndarray, tolerance: float = TOLERANCE, sizes: Sequence[int] | None = None
+) -> list[Level]:
+    """The levels of a pair, level 0 first.
+
+    Bt = U S and R = V' of the singular value decomposition; values above ``tolerance`` of |B| are kept, on the levels
+    above of |A| |Bt| of the level below. With ``sizes`` the levels are the first states, the next and so on instead,
+    and Bt picks them, so that a level's Phi is meant in these coordinates.
+    Raises PlacementError for a pair that is not controllable, or states that are not what a level drives.
+    """
+    found: list[Level] = []
+    scale = float(np.linalg.norm(b, 2))
+    while True:
+        left, values, right = np.linalg.svd(b)
+        rank = int(np.sum(values > tolerance * scale))
+        if not rank:
+            raise _unreachable(len(found), len(a), values, scale, tolerance)
+        if sizes is None:
+            # signs that do not depend on the state's coordinates: the largest element of each row of R is positive
+            rest = right[:rank]
+            signs = np.sign(rest[np.arange(rank), np.argmax(np.abs(rest), axis=1)])
+            factor, rest, down = left[:, :rank] * (values[:rank] * signs), signs[:, None] * rest, left[:, rank:].T
+        else:
+            _check_size(sizes, len(found), rank, b)
+            factor, rest, down = np.eye(len(a), rank), b[:rank], np.eye(len(a))[rank:]
+        found.append(Level(a, b, factor, rest, down, values[:rank]))
+        if rank == len(a):
+            return found
+        scale = float(np.linalg.norm(a, 2) * np.linalg.norm(factor, 2))
+        a, b = down @ a @ down.T, down @ a @ factor
+
+
+def assemble(levels: Sequence[Level], wanted: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """K of u = K x and B^-, both of level 0, for Phi_i = ``wanted``, real or complex, level 0 first."""
+    gain = inverse = np.zeros((0, 0))
+    for level, phi in zip(reversed(levels), reversed(wanted), strict=True):
+        inverse = np.linalg.pinv(level.left)
+        if len(level.down):
+            inverse = inverse - gain @ level.down
+        gain = np.linalg.pinv(level.right) @ (phi @ inverse - inverse @ level.a)
+    return gain, inverse
+
+
+def place_on_levels(
+    levels: Sequence[Level], wanted: Sequence[np.ndarray], poles: np.ndarray, method: str = "multilevel"
+) -> StateFeedback:
+    """The gain of u = -K x for Phi_i = ``wanted``, level 0 first, which have the ``poles`` together."""
+    gain = -np.real(assemble(levels, wanted)[0])
+    closed_loop = levels[0].a - levels[0].b @ gain
+    return StateFeedback(method, gain, poles, closed_loop, levels=[level.values for level in levels])
+
+
+def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
+    """Place the spectrum with diagonal Phi_i, 2 x 2 blocks for pairs, the fastest poles on level 0.
+
+    Raises PlacementError. A pair needs a level of rank 2 or more to itself.
+    """
+    levels = decompose(a, b, tolerance)
+    parts = spectrum.ranked([level.rank for level in levels])
+    if parts is None:
+        raise PlacementError(
+            "multilevel placement",
+            Reason.SPREAD,
+            f"{len(spectrum.pairs)} conjugate pairs do not fit on levels of rank "
+            + ", ".join(str(level.rank) for level in levels),
+            len(spectrum.pairs),
+            "take method indices, or choice least_condition or least_norm",
+        )
+    return place_on_levels(levels, [part.matrix for part in parts], spectrum.poles)
+
+
+def _check_size(sizes: Sequence[int], level: int, rank: int, b: np.ndarray) -> None:
+    wanted = sizes[level] if level < len(sizes) else 0
+    outside = float(np.linalg.norm(b[rank:], 2) / np.linalg.norm(b, 2)) if len(b) > rank else 0.0
+    if wanted == rank and outside <= _OUTSIDE:
+        return
+    says = (
+        f"{wanted} states where the rank is {rank}" if wanted != rank else f"{outside:.2g} of what drives it left out"
+    )
+    raise PlacementError(
+        "multilevel placement",
+        Reason.RANK,
+        f"the basis of level {level} has {says}",
+        float(wanted) if wanted != rank else outside,
+        "give a basis of what B drives, then one of what these states drive, and so on",
+    )
+
+
+def _unreachable(level: int, states: int, values: np.ndarray, scale: float, tolerance: float) -> PlacementError:
+    largest = float(values[0]) if len(values) else 0.0
+    return PlacementError(
+        "multilevel placement",
+        Reason.NOT_CONTROLLABLE,
+        f"{states} states are left on level {level}, where the largest singular value left out is {largest:.2g}, "
+        f"no more than {tolerance:g} of {scale:.2g}",
+        largest,
+        "leave these states out, or add an input",
+    )

@@ -1,0 +1,1 @@
+"""Placing poles from measured outputs alone, u = F y."""

@@ -1,0 +1,65 @@
+"""Monic matrix polynomials with a wanted determinant.
+
+Phi(s) = I s^p + N_(p-1) s^(p-1) + .. + N_0 is kept as its coefficients N (p, m, m), N_0 first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .plant import real_matrix
+from .spectrum import Spectrum
+
+
+def wanted_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
+    """N (largest degree, r, r) of a matrix polynomial that has the spectrum; column j is of degree k_j at most.
+
+    Each element of the diagonal has poles of its own. Where conjugate pairs outnumber what fits there, a pair a +- i b
+    lies across two elements of odd degree: [(s - a) f, -b g; b f, (s - a) g] has the determinant f g ((s - a)^2 + b^2).
+    """
+    odd = [j for j, degree in enumerate(degrees) if degree % 2]
+    across = max(0, len(spectrum.pairs) - sum(degree // 2 for degree in degrees))
+    lying = list(zip(odd[0 : 2 * across : 2], odd[1 : 2 * across : 2], spectrum.pairs[:across], strict=True))
+    rooms = [degree - any(j in (first, second) for first, second, _ in lying) for j, degree in enumerate(degrees)]
+    parts = Spectrum(spectrum.real, spectrum.pairs[across:]).dealt(rooms)
+    assert parts is not None  # what does not fit lies across
+    found = np.zeros((max(degrees) + 1, len(degrees), len(degrees)))
+    for j, part in enumerate(parts):
+        found[: part.size + 1, j, j] = part.polynomial
+    for first, second, pair in lying:
+        for j, other, sign in ((first, second, 1.0), (second, first, -1.0)):
+            factor = found[:, j, j].copy()
+            found[:, other, j] = sign * pair.imag * factor
+            found[:, j, j] = np.roll(factor, 1) - pair.real * factor
+    return found[:-1] - _leading(degrees, found.shape)[:-1]
+
+
+def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
+    """N (p, m, m) of Phi(s) = (s I - S_p) .. (s I - S_1) for ``solvents`` S_1 .. S_p, real (m, m) each.
+
+    Its spectrum is the union of theirs. Raises InputError.
+    """
+    size = len(np.atleast_2d(solvents[0]))
+    found = np.eye(size)[None]
+    for place, solvent in enumerate(solvents):
+        factor = real_matrix(f"solvents[{place}]", solvent, (size, size))
+        none = np.zeros((1, size, size))
+        found = np.concatenate([none, found]) - np.concatenate([factor @ found, none])
+    return found[:-1]
+
+
+def block_companion(coefficients: np.ndarray) -> np.ndarray:
+    """The real matrix (p m, p m) that has the spectrum of the polynomial N (p, m, m)."""
+    blocks, size, _ = coefficients.shape
+    below = np.hstack(list(-coefficients))
+    return np.vstack([np.eye((blocks - 1) * size, blocks * size, size), below])
+
+
+def _leading(degrees: Sequence[int], shape: tuple[int, ...]) -> np.ndarray:
+    ones = np.zeros(shape)
+    for j, degree in enumerate(degrees):
+        ones[degree, j, j] = 1.0
+    return ones

@@ -1,0 +1,111 @@
+"""What every placement returns: the gain, and how well it can be believed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .spectrum import distance, matched
+
+_SEMISIMPLE = 1e-9  # relative, of the singular values that count as none
+
+
+@dataclass(frozen=True)
+class Placement:
+    """A gain and the closed loop that it makes.
+
+    ``method`` is what found it; ``wanted`` the poles asked for (n,); ``closed_loop`` the real matrix (n, n) that has
+    them. ``condition_u`` is the condition number of the controllability matrix (of Q for "indices"), None for methods
+    that do not invert one; ``levels`` are the singular values kept on each level of a decomposition, level 0 first.
+    """
+
+    method: str
+    gain: np.ndarray
+    wanted: np.ndarray
+    closed_loop: np.ndarray
+    condition_u: float | None = None
+    levels: Sequence[np.ndarray] = ()
+
+    @cached_property
+    def _eigen(self) -> tuple[np.ndarray, np.ndarray]:
+        return np.linalg.eig(self.closed_loop)
+
+    @property
+    def poles(self) -> np.ndarray:
+        """Eigenvalues of the closed loop (n,) as they came out."""
+        return self._eigen[0]
+
+    @cached_property
+    def kappa(self) -> float:
+        """Condition number of the closed loop's eigenvectors of unit length: how far a small change moves a pole.
+
+        Of a pole wanted several times they are orthogonal where it has as many; infinite, or of the size of 1/eps,
+        where there is no full set.
+        """
+        vectors = self._eigen[1].astype(complex)
+        places = matched(self.wanted, self.poles)
+        for pole in np.unique(self.wanted):
+            alike = np.flatnonzero(places == pole)
+            if len(alike) > 1:
+                _, sizes, right = np.linalg.svd(self.closed_loop - pole * np.eye(len(places)))
+                if sizes[-len(alike)] <= _SEMISIMPLE * np.linalg.norm(self.closed_loop, 2):
+                    vectors[:, alike] = right[-len(alike) :].conj().T
+        return float(np.linalg.cond(vectors))
+
+    @cached_property
+    def error(self) -> float:
+        """The largest distance of a pole from the wanted one that it is matched with."""
+        return distance(self.wanted, self.poles)
+
+    @cached_property
+    def norm(self) -> float:
+        """|K|: the largest singular value of the gain."""
+        return float(np.linalg.norm(self.gain, 2))
+
+    def text(self) -> str:
+        """One line: method, |K|, kappa, error, and what the method inverted."""
+        parts = [f"{self.method}: |K| {self.norm:.4g}", f"kappa {self.kappa:.4g}", f"error {self.error:.1e}"]
+        if self.condition_u is not None:
+            parts.append(f"cond(U) {self.condition_u:.4g}")
+        if self.levels:
+            parts.append("levels " + " | ".join(" ".join(f"{value:.4g}" for value in values) for values in self.levels))
+        return ", ".join(parts)
+
+
+@dataclass(frozen=True)
+class StateFeedback(Placement):
+    """u = -K x with K = ``gain`` (m, n): the closed loop is A - B K."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutputFeedback(Placement):
+    """u = F y with F = ``gain`` (m, p): the closed loop is A + B F C.
+
+    ``upper`` are the poles that the upper level took, ``condition_x`` is that of X, whose inverse gives Phi_0; both
+    None where there are none.
+    """
+
+    upper: np.ndarray | None = None
+    condition_x: float | None = None
+
+
+@dataclass(frozen=True)
+class Observer(Placement):
+    """x_h' = A x_h + B u + L (y - C x_h) with L = ``gain`` (n, p): the error's matrix is A - L C."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReducedObserver(Placement):
+    """zeta' = M zeta + from_y y + from_u u and x_h = of_zeta zeta + of_y y, M = ``closed_loop`` (n - p, n - p).
+
+    ``gain`` is Lr (n - p, p); M = W'A W - Lr C A W is the error's matrix, W = of_zeta (n, n - p), of_y (n, p),
+    from_y (n - p, p), from_u (n - p, m).
+    """
+
+    from_y: np.ndarray
+    from_u: np.ndarray
+    of_zeta: np.ndarray
+    of_y: np.ndarray

@@ -1,0 +1,42 @@
+"""Poles placed by formula: state feedback, output feedback, observers, pulses. See docs/modal_synthesis.md.
+
+Signs: `place` and its kin return K of **u = -K x**, `output_feedback` and its kin F of **u = F y**, observers L of
+x_h' = A x_h + B u + L (y - C x_h). Everything is for continuous plants and, with multipliers as poles, for sampled
+ones.
+"""
+
+from __future__ import annotations
+
+from .analysis.modal.observers import observer, reduced_observer
+from .analysis.modal.output.common import CommonFeedback, common_feedback
+from .analysis.modal.output.feedback import output_feedback
+from .analysis.modal.output.parametric import OutputFeedbackSet, output_feedback_set
+from .analysis.modal.place import place, place_levels, place_polynomial, polynomial_of_gain
+from .analysis.modal.polynomial import polynomial_of_solvents
+from .analysis.modal.pulses import PulsedPlant, pulsed_step
+from .analysis.modal.refusal import PlacementError, Reason
+from .analysis.modal.results import Observer, OutputFeedback, Placement, ReducedObserver, StateFeedback
+
+__all__ = [
+    "CommonFeedback",
+    "Observer",
+    "OutputFeedback",
+    "OutputFeedbackSet",
+    "Placement",
+    "PlacementError",
+    "PulsedPlant",
+    "Reason",
+    "ReducedObserver",
+    "StateFeedback",
+    "common_feedback",
+    "observer",
+    "output_feedback",
+    "output_feedback_set",
+    "place",
+    "place_levels",
+    "place_polynomial",
+    "polynomial_of_gain",
+    "polynomial_of_solvents",
+    "pulsed_step",
+    "reduced_observer",
+]

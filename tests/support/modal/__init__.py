@@ -1,0 +1,1 @@
+"""Random plants and spectra for tests of modal synthesis."""
