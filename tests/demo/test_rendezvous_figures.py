@@ -41,7 +41,7 @@ def test_bytes_repeat_labels_are_there_and_the_kept_ones_are_these(flight, tmp_p
 
 def test_the_text_shows_each_figure_once():
     text = (ROOT / "docs" / "systems" / "robot_rendezvous.md").read_text(encoding="utf-8")
-    assert sorted(re.findall(r"\(images/(\w+)\.svg\)", text)) == sorted(LABELS)
+    assert sorted(re.findall(r"\(../images/(\w+)\.svg\)", text)) == sorted(LABELS)
 
 
 def test_gimbals_are_drawn_from_the_isotropic_angles_and_back(flight):
