@@ -10,7 +10,7 @@ test: .venv/ready lint build
 	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 # What is proved without flights of whole systems: the mathematics, the blocks, the language, the arrows between rooms.
-QUICK := tests/blocks tests/campaign tests/compare tests/export/judge tests/laws tests/loops tests/mathlib tests/reports/kit tests/test_architecture.py tests/test_errors.py
+QUICK := tests/blocks tests/campaign tests/compare tests/export/judge tests/laws tests/loops tests/mathlib tests/modal tests/reports/kit tests/test_architecture.py tests/test_errors.py
 
 quick: .venv/ready
 	$(BIN)/ruff check .

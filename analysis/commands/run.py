@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..flight.simulation import Simulation
+from ..reports.run.reading import read_figures
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
 from .options import add_json, add_system, json_number, system_options, write_json
@@ -27,12 +28,13 @@ def run(options: argparse.Namespace) -> int:
     if options.output is not None and options.output.suffix not in OUTPUT_SUFFIXES:
         raise InputError("--output", str(options.output), "neither .csv nor .parquet", "end the name with one of them")
     prepared = prepare_system(options.system, system_options(options))
+    figures = read_figures(prepared) if options.report is not None else []
     with Simulation(prepared) as simulation:
         result = simulation.fly()
     if options.output is not None:
         result.write(options.output)
     if options.report is not None:
-        write_run_report(result, options.report, prepared.archive.name)
+        write_run_report(result, options.report, prepared.archive.name, figures)
     final = {name: json_number(value) for name, value in result.final().items()}
     if not write_json(result.summary() | {"final": final}, options.json):
         end = f" at t = {result.time[-1]:g} s" if result.time.size else ""

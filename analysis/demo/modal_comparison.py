@@ -39,7 +39,8 @@ def draws(
         poles = np.zeros(states)
         while np.min(np.diff(np.sort(poles))) < 0.2:
             poles = random.uniform(-4.0, -0.5, states)
-        yield (*(random.normal(size=size) for size in ((states, states), (states, inputs), (outputs, states))), poles)
+        a, b, c = (random.normal(size=size) for size in ((states, states), (states, inputs), (outputs, states)))
+        yield a, b, c, poles
 
 
 def state_feedback(states: int, inputs: int) -> np.ndarray:
@@ -55,18 +56,19 @@ def state_feedback(states: int, inputs: int) -> np.ndarray:
     return np.array(found)
 
 
-def spreads() -> tuple[np.ndarray, np.ndarray]:
-    """|F| of every real spread, direct (systems, 20) and dual (systems, 15)."""
+def spreads() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """|F| of every real spread, direct (systems, 20) and dual (systems, 15), and of choice smallest (systems, 1)."""
     states, inputs, outputs = OUTPUT
-    found: tuple[list, list] = ([], [])
-    for a, b, c, poles in draws(*OUTPUT):
-        for norms, method, size in zip(found, ("direct", "dual"), (states - inputs, states - outputs), strict=True):
+    found: tuple[list, list, list] = ([], [], [])
+    for a, b, c, poles in tqdm(list(draws(*OUTPUT)), desc="n, m, p = {}, {}, {}".format(*OUTPUT), disable=None):
+        for norms, method, size in zip(found, ("direct", "dual"), (states - inputs, states - outputs), strict=False):
             uppers = [upper.poles for upper, _ in Spectrum.of(poles, states).splits(size)]
             norms.append([output_feedback(a, b, c, poles, method=method, upper=upper).norm for upper in uppers])
-    return np.array(found[0]), np.array(found[1])
+        found[2].append([output_feedback(a, b, c, poles, choice="smallest").norm])
+    return np.array(found[0]), np.array(found[1]), np.array(found[2])
 
 
-def tables(table: dict[tuple[int, int], np.ndarray], direct: np.ndarray, dual: np.ndarray) -> str:
+def tables(table: dict[tuple[int, int], np.ndarray], direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -> str:
     """The page's tables, medians over the systems."""
     lines = [f"medians over {SYSTEMS} systems each", f"{'n, m':6}" + "".join(f"{way:>18}" for way in WAYS)]
     for what, name in ((KAPPA, "kappa"), (NORM, "|K|")):
@@ -80,9 +82,9 @@ def tables(table: dict[tuple[int, int], np.ndarray], direct: np.ndarray, dual: n
         f"{states}, {inputs}  {np.median(found[:, 2, KAPPA] / found[:, 0, KAPPA]):18.3g}"
         for (states, inputs), found in table.items()
     ]
-    both = np.hstack([direct, dual])
-    lines.append("|F|, n, m, p = {}, {}, {}: first spread, best direct, best of all".format(*OUTPUT))
-    lines.append("  ".join(f"{np.median(one):.3g}" for one in (direct[:, 0], direct.min(axis=1), both.min(axis=1))))
+    lines.append("|F|, n, m, p = {}, {}, {}: first spread, best direct, best of all, smallest".format(*OUTPUT))
+    columns = (direct[:, 0], direct.min(axis=1), np.hstack([direct, dual]).min(axis=1), smallest)
+    lines.append("  ".join(f"{np.median(one):.3g}" for one in columns))
     return "\n".join(lines)
 
 

@@ -9,7 +9,7 @@ from scipy.linalg import expm
 
 from ..modal.output.common import common_feedback
 from ..reports.kit.quantities import log_tick
-from ..reports.kit.style import BLUE, FAINT, VERMILION, look, new_figure, plain_ticks
+from ..reports.kit.style import BLUE, FAINT, INK, VERMILION, look, new_figure, plain_ticks
 
 TURN = np.radians(-20.0)
 PLANTS = (0.05, 0.5, 2.0, 8.0)
@@ -41,14 +41,15 @@ def choices_figure(kappa: dict[str, np.ndarray], norm: dict[str, np.ndarray]) ->
     return figure
 
 
-def spreads_figure(direct: np.ndarray, dual: np.ndarray) -> Figure:
-    """|F| of every spread for every system, systems in the order of the least."""
+def spreads_figure(direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -> Figure:
+    """|F| of every spread for every system, and where it comes down to; systems in the order of the least."""
     figure = new_figure(3.6)
     axes = figure.subplots()
     order = np.argsort(np.minimum(direct.min(axis=1), dual.min(axis=1)))
     for norms, colour, marker, shift, label in (
         (direct, BLUE, "o", -0.12, "direct, 20 spreads"),
         (dual, VERMILION, "s", 0.12, "dual, 15 spreads"),
+        (smallest, INK, "D", 0.0, "smallest, down from the least"),
     ):
         places = np.repeat(np.arange(1, len(norms) + 1), norms.shape[1]) + shift
         axes.plot(
@@ -79,7 +80,7 @@ def free_figure() -> Figure:
     """e and b after the same start under one regulator, for springs that differ by a factor of 160."""
     c, s = np.cos(TURN), np.sin(TURN)
     b = np.vstack([np.zeros((2, 2)), [[c, s], [-s, c]]])
-    wanted = [[[0.25, 0.0], [0.0, np.nan]], np.eye(2)]
+    wanted = np.array([[[0.25, 0.0], [0.0, np.nan]], np.eye(2)])
     found = common_feedback([turned_plant(q) for q in PLANTS], b, np.eye(4)[[0, 2, 3]], wanted)
     figure = new_figure(3.2)
     panels = figure.subplots(1, 2, sharex=True)

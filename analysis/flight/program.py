@@ -61,6 +61,11 @@ def build_program(
     return builder.program(schedule, algorithm, instances), builder.layout()
 
 
+def layout_of(network: Network, settings: Settings) -> Layout:
+    """Where everything of a flight that records all signals will lie: which signals there are, before one flies."""
+    return _Builder(network, settings, None, ()).layout()
+
+
 class _Builder:
     def __init__(
         self, network: Network, settings: Settings, wanted: Collection[str] | None, injections: Sequence[Injection]

@@ -137,7 +137,7 @@ def place_levels(
     return replace(found, gain=gain, closed_loop=state - inputs @ gain)
 
 
-def place_polynomial(a: ArrayLike, b: ArrayLike, coefficients: ArrayLike) -> StateFeedback:
+def place_polynomial(a: ArrayLike, b: ArrayLike, coefficients: Sequence[ArrayLike] | np.ndarray) -> StateFeedback:
     """The gain K of u = -K x with det(s I - A + B K) = det(I s^p + N_(p-1) s^(p-1) + .. + N_0), n = p m.
 
     ``coefficients`` are the N (p, m, m), N_0 first: generalised Ackermann formula. Raises InputError, PlacementError.

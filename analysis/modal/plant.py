@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -34,7 +36,7 @@ def output_matrix(value: ArrayLike, states: int) -> np.ndarray:
     return found
 
 
-def real_matrix(name: str, value: ArrayLike, shape: tuple[int, ...] | None = None) -> np.ndarray:
+def real_matrix(name: str, value: ArrayLike | Sequence[ArrayLike], shape: tuple[int, ...] | None = None) -> np.ndarray:
     """A real, finite array of the ``shape``, or of any with two dimensions. Raises InputError."""
     try:
         found = np.asarray(value)

@@ -6,10 +6,20 @@ A component's name holds dots where systems are nested, and a variable's where i
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 
 
 def parted(name: str, components: Iterable[str]) -> tuple[str, str]:
     """Component and variable of a name; the component is empty for the system's own connectors."""
     owner = max((component for component in components if name.startswith(f"{component}.")), key=len, default="")
     return owner, name.removeprefix(f"{owner}.") if owner else name
+
+
+def elements(name: str, known: Container[str]) -> list[str]:
+    """The known names that one stands for: its own, or name[1], name[2] ... of a vector; none where it is unknown."""
+    if name in known:
+        return [name]
+    found: list[str] = []
+    while f"{name}[{len(found) + 1}]" in known:
+        found.append(f"{name}[{len(found) + 1}]")
+    return found

@@ -22,7 +22,7 @@ class AttitudeControl(Block):
     gain (lead s + 1)/(lag s + 1), discretised by Tustin's rule at sample_period. law 1: m = w0^2 attitude_error
     + 2 damping w0 rate_error with the natural frequency w0. The torque is held until the next sample. Inputs that
     are not finite leave it as it is.
-    Frame: body. Equations, gains and margins: docs/robot_rendezvous.md.
+    Frame: body. Equations, gains and margins: docs/systems/robot_rendezvous.md.
     Source: Somov, Butyrin, Somov and Somova, see there; m has the opposite sign there.
     """
 

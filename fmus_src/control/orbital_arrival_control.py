@@ -15,7 +15,7 @@ class OrbitalArrivalControl(OrbitalControl):
     The wanted rate of an angle is what leads it to its band in the time that is left, least_time at the least.
     What it differs from the rate is demanded as a torque where a pulse is worth it. With turn_angle yaw is led to that
     angle and back again from turn_start on, which lets a filter find the gyros' biases.
-    Equations: docs/orbital_attitude.md.
+    Equations: docs/systems/orbital_attitude.md.
     """
 
     def turned(self, time: float) -> tuple[float, float]:

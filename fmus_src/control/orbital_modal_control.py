@@ -12,7 +12,7 @@ class OrbitalModalControl(OrbitalControl):
 
     u = J ((N A11 - S0 N - A21) a + (N + S0 - A22)(w - wp)), N = S1 - A11, S diagonal with minus the poles: multilevel
     placement with the levels angles and rates, made from the inertia known on board. The law is linear in yaw.
-    Source: Lapin, thesis, chapter 3.1; formula: docs/orbital_attitude.md.
+    Source: Lapin, thesis, chapter 3.1; formula: docs/systems/orbital_attitude.md.
     """
 
     angle_gain = State([0.0] * 9, columns=3, description="torque over angles, N m/rad, body")

@@ -18,7 +18,7 @@ class TranslationControl(Block):
     whose design_period is nearest to translation_period is used. Where the design changes the lead's state
     is set so that its output does not jump. The force is held until the next tick; a new tick is told
     by its count, the one at the start counts. Inputs that are not finite leave the force as it is.
-    Frame: inertial. Equations, gains and margins: docs/robot_rendezvous.md.
+    Frame: inertial. Equations, gains and margins: docs/systems/robot_rendezvous.md.
     Source: Somov, Butyrin, Somov and Somova, see there.
     """
 

@@ -12,7 +12,7 @@ class AnalyticGuidance(TerminalGuidance):
 
     Pitch is measured from the horizontal, yaw from x towards y. Assumes a flat Moon, constant
     gravity and thrust acceleration, and that the vehicle is braking (pitch within 90 deg).
-    Source: Fomichev and Li 2017, with the corrections listed in docs/lunar_terminal_guidance.md.
+    Source: Fomichev and Li 2017, with the corrections listed in docs/systems/lunar_terminal_guidance.md.
     """
 
     def solve(self) -> None:

@@ -15,7 +15,7 @@ class AnalyticExactGuidance(CertainTime):
     ones, fly with the least effort instead: see CertainTime, also for its limits. Assumes a flat
     Moon and constant gravity.
     Source: Fomichev and Li 2017; the cubic term and the exact rate are restored here, see
-    docs/lunar_terminal_guidance.md.
+    docs/systems/lunar_terminal_guidance.md.
     """
 
     terminal_step = CertainTime.terminal_step.with_start(1)

@@ -17,7 +17,7 @@ class AstarRobustGuidance(AstarProgramme, CertainTime):
     Starts that do not brake fly with the least effort instead: see CertainTime, also for its
     limits. There, and where thrust has too small a part along x for the arcsines to express, the
     direction and its rate come from a0 + a1 t itself.
-    Source: Fomichev and Li 2017, method A*; the changes are ours, see docs/lunar_terminal_guidance.md.
+    Source: Fomichev and Li 2017, method A*; the changes are ours, see docs/systems/lunar_terminal_guidance.md.
     """
 
     terminal_step = AstarProgramme.terminal_step.with_start(1)

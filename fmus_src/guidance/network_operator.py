@@ -29,7 +29,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     terminal_step and last_burn, since the hand-over is a state to reach and not a burn to time, and
     frozen_time_to_go, since the command does not depend on a time.
     With a matrix that is no network operator the status is 3 and there is no thrust.
-    Source: Diveev, Pupkov and Sofronova 2013; see docs/lunar_descent_2d.md.
+    Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
     """
 
     target_position = TerminalGuidance.target_position.with_start([0.0, 0.0, 1500.0])

@@ -12,7 +12,7 @@ class PlanarNetworkOperator(NetworkOperatorLaw):
     Angles are from the local vertical, with the sign of planar_moon_lander's. With a matrix that is
     no network operator the thrust is 0 and the status 1. The law has no end of its own: it works
     down to final_altitude and a few m/s, where another guidance has to take over.
-    Source: Diveev, Pupkov and Sofronova 2013; see docs/lunar_descent_2d.md.
+    Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
     """
 
     final_altitude = Parameter(1500.0, unit="m", description="hf, where to arrive")

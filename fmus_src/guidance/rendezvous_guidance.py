@@ -29,7 +29,7 @@ class RendezvousGuidance(Block):
     multiple of fast_period. What is commanded at a tick acts from delay_fraction times the period later until the
     next command does; planned_acceleration is the mean over that time, the first one from the start on.
     Phases out of order make no plan: status 1, and the robot is to stay at rest.
-    Frames: inertial; body of the plan. Equations: docs/robot_rendezvous.md.
+    Frames: inertial; body of the plan. Equations: docs/systems/robot_rendezvous.md.
     Source: Somov, Butyrin, Somov and Somova, see there.
     """
 

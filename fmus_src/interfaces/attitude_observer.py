@@ -24,7 +24,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
 
     An observer writes `begin`, which may make gains, and `observe`, which sets angles_now and rates_now from the sample
     (roll, pitch, rates), those of the tick before and the pulses between. Frames: orbital, body.
-    Equations: docs/orbital_attitude.md. Source: Lapin, thesis, chapter 3.1.
+    Equations: docs/systems/orbital_attitude.md. Source: Lapin, thesis, chapter 3.1.
     """
 
     yaw_pole = Parameter(0.1, unit="1/s", minimum=1e-6, description="decay of a full observer's error of yaw")

@@ -29,7 +29,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
     innovation_gate of its own sigmas is rejected. The filter cannot tell a wrong sensor from
     a wrong estimate: a sensor whose samples are rejected rejection_limit times in a row is reported by
     the status and, with reacquire, believed again after the covariance has grown to fit it.
-    Frame: landing site. Equations: docs/lunar_navigation.md.
+    Frame: landing site. Equations: docs/systems/lunar_navigation.md.
     Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.4 and 10.3; Groves 2013, chapter 14.
     """
 

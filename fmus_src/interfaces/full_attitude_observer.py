@@ -10,7 +10,7 @@ class FullAttitudeObserver(AttitudeObserver, interface=True):
     """Observer of all six states with a constant gain on what is measured of them: m = (roll, pitch, rates).
 
     With C picking m and e the unit vector of yaw, gains have the form M (C' + e l): a matrix M that sets the errors of
-    what is measured, and a row l that lets roll drive yaw. Equations: docs/orbital_attitude.md.
+    what is measured, and a row l that lets roll drive yaw. Equations: docs/systems/orbital_attitude.md.
     """
 
     gain = State([0.0] * 30, columns=5, description="of angles and rates (SI) over roll, pitch and rates measured")

@@ -20,7 +20,7 @@ class GyroSteering(Block, interface=True):
     sample_period makes it nearly so in the mean. Rates beyond gimbal_rate_limit are scaled together, which
     keeps the torque's direction. A steering writes `steer`, which sets gimbal_rates and status from the
     rate of the cluster's momentum that is wanted.
-    Equations: docs/robot_rendezvous.md.
+    Equations: docs/systems/robot_rendezvous.md.
     """
 
     default_step = 0.125

@@ -37,7 +37,7 @@ class NetworkOperatorLaw(Block, interface=True):
     from the local vertical to the velocity, h the altitude, hf the final and h0 the reference
     altitude. Outputs: z15, the angle from the local vertical to the thrust (kept in 0 to pi rad),
     and z16, the thrust above nominal (kgf, kept within thrust_variation).
-    Source: Diveev, Pupkov and Sofronova 2013; see docs/lunar_descent_2d.md.
+    Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
     """
 
     matrix = Parameter(

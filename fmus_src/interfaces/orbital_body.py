@@ -16,7 +16,7 @@ class OrbitalBody(Block, interface=True):
     A pulse is a signed length (s) about one axis: the jet of that sign gives jet_torque from the start of the tick
     for so long. Motion: `mathlib.orbital`; a block may add to `slopes` what drives its model. Inertia is the matrix
     that multiplies angular velocity: elements off the diagonal are minus the products of inertia.
-    Frames: orbital and body. Equations: docs/orbital_attitude.md.
+    Frames: orbital and body. Equations: docs/systems/orbital_attitude.md.
     """
 
     default_step = 0.2

@@ -17,7 +17,7 @@ class OrbitalControl(OrbitalBody, interface=True):
     At each tick a regulator is given angles and rates and answers with the torque of the tick to come. The parameters
     are those that any regulator of the slot may need; inertia and jets are those known on board. Inputs that are not
     finite ask for no torque. A regulator writes `begin`, which may make gains, and `regulate`, which sets
-    torque_command. Frames: orbital, body. Equations: docs/orbital_attitude.md.
+    torque_command. Frames: orbital, body. Equations: docs/systems/orbital_attitude.md.
     """
 
     angle_poles = Parameter([0.10, 0.08, 0.10], unit="1/s", minimum=0.0, description="decay of roll, yaw, pitch")

@@ -5,7 +5,7 @@ plane, pair 2 about -y in the xz plane, all gimbal angles (rad) counted from x. 
 of the four angles free. With x1 and x2 what each pair has along x, a and b the most that it could
 have beside y and z, u = x1/a and v = x2/b, the distribution law u - v + rho (u v - 1) = 0 takes that
 freedom: the pairs bias each other and stay away from their singular states, which are |pair| = 0 and 2.
-Derivations: docs/robot_rendezvous.md. Source: Somov 2013; Somov, Platonov and Sorokin 2005.
+Derivations: docs/systems/robot_rendezvous.md. Source: Somov 2013; Somov, Platonov and Sorokin 2005.
 """
 
 import math

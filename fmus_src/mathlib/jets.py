@@ -4,8 +4,8 @@ Jet p stands at rho_p = S_p (bx, by, bz), its nozzle points along e_p = S_p (ca 
 signs S_p of its corner, a the tilt and b the azimuth; a thrust p_p >= 0 gives the force -p_p e_p and the
 torque -p_p rho_p x e_p. So [P; M] = B p, and row k of B is strength[k] times row k of WALSH: the rows are
 orthogonal, which makes the pseudo-inverse WALSH'/(8 strength) and the null space the two rows left over.
-Wrenches are [force (N), torque (N.m)] in body axes. Derivations: docs/robot_rendezvous.md.
-Source: Somov, Butyrin, Somov and Somova (docs/robot_rendezvous.md), whose D p = t has the opposite sign.
+Wrenches are [force (N), torque (N.m)] in body axes. Derivations: docs/systems/robot_rendezvous.md.
+Source: Somov, Butyrin, Somov and Somova (docs/systems/robot_rendezvous.md), whose D p = t has the opposite sign.
 """
 
 import math

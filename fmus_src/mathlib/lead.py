@@ -6,7 +6,7 @@ is the vector (decay, share, direct):
     decay = (2 lag - T)/(2 lag + T)    direct = gain (2 lead + T)/(2 lag + T)
     share = gain ((T - 2 lead)/(2 lag + T) + decay (2 lead + T)/(2 lag + T))
 
-Source: Franklin, Powell and Workman 1998, section 6.1.2; derivation in docs/robot_rendezvous.md.
+Source: Franklin, Powell and Workman 1998, section 6.1.2; derivation in docs/systems/robot_rendezvous.md.
 """
 
 from .vectors import Vector3, vector

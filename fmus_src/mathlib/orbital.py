@@ -2,7 +2,7 @@
 
 Orbital frame: y radially up, x along the velocity, z = x x y; it turns with (0, 0, -w0). Angles are
 (roll, yaw, pitch), numbered as the axes they turn about; the turns are yaw, pitch, roll in this order. Angular
-velocities are absolute, in body axes. Pitch within 90 deg. Equations: docs/orbital_attitude.md.
+velocities are absolute, in body axes. Pitch within 90 deg. Equations: docs/systems/orbital_attitude.md.
 Source: Lapin, thesis, chapter 1.1.
 """
 

@@ -8,7 +8,7 @@ and E = duration times what the slope gains:
     degree 5: (10 D - 4 E) s^3 + (-15 D +  7 E) s^4 + ( 6 D -  3 E) s^5
     degree 6: (20 D - 10 E) s^3 + (-45 D + 25 E) s^4 + (36 D - 21 E) s^5 + (-10 D + 6 E) s^6
 
-Derivation: docs/robot_rendezvous.md.
+Derivation: docs/systems/robot_rendezvous.md.
 """
 
 

@@ -2,7 +2,7 @@
 
 Gravity g acts along -k (k up, third axis). With dr = r_T - r, dV = V_T - V and time-to-go T:
 A = dV + g T k, B = dr - V T + g T^2/2 k, a0 = -(2/T^2)(A T - 3 B), a1 = (6/T^3)(A T - 2 B).
-Source: Fomichev and Li 2017, with the corrections of docs/lunar_terminal_guidance.md.
+Source: Fomichev and Li 2017, with the corrections of docs/systems/lunar_terminal_guidance.md.
 """
 
 import math

@@ -40,8 +40,8 @@ class AttitudeFilter(Block):
     it is taken to change by jet_torque_error times the change of force (about 0.2 m times the
     relative error of a jet), and process_noise and disturbance_noise are what else happens.
 
-    A sample that is not finite is left out and reported. sample_period is how often the filter looks; new samples
-    are told by their count. Frames: body, quaternions from body to inertial. Equations: docs/robot_rendezvous.md.
+    A sample that is not finite is left out and reported. sample_period is how often the filter looks; new samples are
+    told by their count. Frames: body, quaternions from body to inertial. Equations: docs/systems/robot_rendezvous.md.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2; Lefferts, Markley and Shuster 1982 (error in body axes).
     """
 

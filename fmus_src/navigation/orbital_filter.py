@@ -16,7 +16,7 @@ class OrbitalFilter(AttitudeObserver):
     is added from its length. Roll and pitch correct angles and biases. Rates follow the pulses and lean on
     the gyros with rate_gain. Yaw and the bias of the roll gyro over w0 look the same to all sensors while yaw is
     small: their sum is known no better than the bias at the start, unless the body turns about yaw.
-    Equations: docs/orbital_attitude.md. Source: Bar-Shalom, Li and Kirubarajan 2001, section 10.3.
+    Equations: docs/systems/orbital_attitude.md. Source: Bar-Shalom, Li and Kirubarajan 2001, section 10.3.
     """
 
     first_yaw_sigma = Parameter(10.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="of yaw at the start")

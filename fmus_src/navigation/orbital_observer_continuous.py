@@ -10,8 +10,9 @@ class OrbitalObserverContinuous(FullAttitudeObserver):
     """Continuous observer of the whole state: x' = f(x, u) + L (m - C x), the sample m held over a tick.
 
     L = (A + measured_pole)(C' + e l), l = (-yaw_pole/w0, 0, 0, 0, 0) gives the linear errors yaw_pole once and
-    measured_pole five times. Integrated over a tick by one step of Runge-Kutta's fourth order under the mean torque, or
-    with split between the switch-offs of the jets. Source: Lapin, thesis, chapter 3.1; gain: docs/orbital_attitude.md.
+    measured_pole five times. Integrated over a tick by one step of Runge-Kutta's fourth order under the mean torque,
+    or with split between the switch-offs of the jets. Source: Lapin, thesis, chapter 3.1; gain:
+    docs/systems/orbital_attitude.md.
     """
 
     split = Parameter(False, description="follow each pulse instead of their mean")

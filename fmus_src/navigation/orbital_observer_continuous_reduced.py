@@ -11,7 +11,7 @@ class OrbitalObserverContinuousReduced(AttitudeObserver):
 
     z' = f - reduced_yaw_pole z, with all that is nonlinear or measured in f, which is held over a tick at the mean of
     its two samples: solved exactly, without knowing torque or inertia.
-    Source: Lapin, thesis, chapter 3.1; equations: docs/orbital_attitude.md.
+    Source: Lapin, thesis, chapter 3.1; equations: docs/systems/orbital_attitude.md.
     """
 
     z = State(0.0, unit="rad", description="yaw less its share of roll")

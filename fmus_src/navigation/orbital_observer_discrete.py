@@ -14,7 +14,7 @@ class OrbitalObserverDiscrete(FullAttitudeObserver):
     With Ad = exp(A T): L = (1 - exp(-measured_pole T) Ad^-1)(C' + e l), l = ((Ad)_yaw,yaw - exp(-yaw_pole T)) c'/(c'c),
     c = C Ad e, gives the linear errors the multipliers exp(-measured_pole T) five times and exp(-yaw_pole T) once. F is
     one step of Runge-Kutta's fourth order under the mean torque, or with split one between any two switch-offs.
-    Source: Lapin, thesis, chapter 3.1; gain: docs/orbital_attitude.md.
+    Source: Lapin, thesis, chapter 3.1; gain: docs/systems/orbital_attitude.md.
     """
 
     split = Parameter(False, description="follow each pulse instead of their mean")

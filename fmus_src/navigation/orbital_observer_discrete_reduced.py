@@ -12,7 +12,7 @@ class OrbitalObserverDiscreteReduced(AttitudeObserver):
     From the last estimate, its measured parts as measured, the motion gives yaw and roll; yaw is moved by
     -(1 - exp(-reduced_yaw_pole T))/(w0 T) times what the roll measured is ahead. Motion: one step of Runge-Kutta's
     fourth order under the mean torque, or with split one between any two switch-offs.
-    Source: Lapin, thesis, chapter 3.1; equations: docs/orbital_attitude.md.
+    Source: Lapin, thesis, chapter 3.1; equations: docs/systems/orbital_attitude.md.
     """
 
     split = Parameter(False, description="follow each pulse instead of their mean")

@@ -16,7 +16,7 @@ class OrbitalSequence(AttitudeObserver):
     Until levelling_end the vehicle levels and stops. Until averaging_end the measured roll rate is integrated;
     what roll has not turned of that is w0 yaw times the time. From then on yaw is that of the motion from the last
     estimate, pulse by pulse, with nothing to correct it. Angles and rates are as measured throughout.
-    The baseline that observers are compared with; docs/orbital_attitude.md says what is known of the real one.
+    The baseline that observers are compared with; docs/systems/orbital_attitude.md says what is known of the real one.
     """
 
     levelling_end = Parameter(90.0, unit="s", minimum=0.0, description="end of the first stage after the start")

@@ -32,7 +32,7 @@ class TranslationFilter(Block):
     force_error_time; process_noise is what else disturbs. A measured range below near_range has near_sigma.
 
     A sample that is not finite is left out and reported. sample_period is how often the filter looks; new samples
-    are told by their count. Frames: inertial, except for the force. Equations: docs/robot_rendezvous.md.
+    are told by their count. Frames: inertial, except for the force. Equations: docs/systems/robot_rendezvous.md.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2.
     """
 

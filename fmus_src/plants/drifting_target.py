@@ -12,7 +12,7 @@ class DriftingTarget(Block):
 
     Exact at any time. Its body axes are the inertial ones at the start; a spin_axis of length 0 means that it
     does not turn. The paper does not give the rate of the spin. Frame: inertial.
-    Source: Somov, Butyrin, Somov and Somova, see docs/robot_rendezvous.md.
+    Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md.
     """
 
     default_step = 0.125

@@ -19,7 +19,7 @@ class FreeFlyingRobot(Block):
     being the angular momentum in inertial axes: without jets G does not change by a bit, whatever the gimbals do.
     Thrusts are kept within 0 and maximum_thrust and scaled by 1 + thrust_error times a normal number per jet,
     constant over a flight and not below 0. Frames: body, principal axes with the origin at the centre of mass;
-    inertial. Equations: docs/robot_rendezvous.md.
+    inertial. Equations: docs/systems/robot_rendezvous.md.
 
     Runge-Kutta of fourth order in steps of internal_step, or equal parts of the communication step no longer
     than that: results are the same to the bit for all communication steps that are whole multiples of

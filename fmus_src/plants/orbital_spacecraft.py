@@ -15,7 +15,7 @@ class OrbitalSpacecraft(OrbitalBody):
     the last; the count at the start counts. A pulse is cut exactly where it ends, whatever the communication step;
     between, Runge-Kutta of fourth order in steps of at most internal_step. mean_torque is a torque beside the pulses,
     held over the step, for the study of what pulses do in the mean. Jets are at full level at once; inertia does not
-    change. Frames: orbital, body. Equations: docs/orbital_attitude.md. Source: Lapin, thesis, chapter 1.1.
+    change. Frames: orbital, body. Equations: docs/systems/orbital_attitude.md. Source: Lapin, thesis, chapter 1.1.
     """
 
     initial_angles = Parameter([0.0, 0.0, 0.0], unit="rad", description="roll, yaw, pitch at the start")

@@ -20,7 +20,7 @@ class PlanarMoonLander(Block):
     and are regular at V = 0. ``curvature`` adds what they leave out, vx^2/R and -vz vx/R. Gravity
     falls with the square of R = moon_radius + altitude. Fourth-order Runge-Kutta with a step of its
     own. On the ground the motion stops and is kept. Thrust ends where the mass would.
-    Source: Diveev, Pupkov and Sofronova 2013; see docs/lunar_descent_2d.md.
+    Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
     """
 
     initial_speed = Parameter(1689.0, unit="m/s", minimum=0.0, description="speed at the start")

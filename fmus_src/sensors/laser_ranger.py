@@ -11,7 +11,7 @@ class LaserRanger(Block):
     Each inertial component has an independent normal error: far_sigma at a true range of near_range and
     beyond, near_sigma below. All three components are taken, as the ranges alone would not tell where the robot
     is. The first sample is at the start. Which normal numbers a flight uses depends on seed, stream and
-    the sample's number only. Source: Somov, Butyrin, Somov and Somova, see docs/robot_rendezvous.md.
+    the sample's number only. Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md.
     """
 
     default_step = 0.125

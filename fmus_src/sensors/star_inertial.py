@@ -10,7 +10,7 @@ class StarInertial(Block):
 
     The rotation vector has normal, independent components of attitude_sigma in body axes. The first
     sample is at the start. Which normal numbers a flight uses depends on seed, stream and the
-    sample's number only. Source: Somov, Butyrin, Somov and Somova, see docs/robot_rendezvous.md.
+    sample's number only. Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md.
     """
 
     default_step = 0.125

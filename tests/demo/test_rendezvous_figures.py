@@ -1,4 +1,4 @@
-"""The figures of docs/robot_rendezvous.md: reproduced, labelled, small, and those that the text shows."""
+"""The figures of docs/systems/robot_rendezvous.md: reproduced, labelled, small, and those that the text shows."""
 
 import re
 
@@ -40,12 +40,12 @@ def test_bytes_repeat_labels_are_there_and_the_kept_ones_are_these(flight, tmp_p
 
 
 def test_the_text_shows_each_figure_once():
-    text = (ROOT / "docs" / "robot_rendezvous.md").read_text(encoding="utf-8")
-    assert sorted(re.findall(r"\(images/(\w+)\.svg\)", text)) == sorted(LABELS)
+    text = (ROOT / "docs" / "systems" / "robot_rendezvous.md").read_text(encoding="utf-8")
+    assert sorted(re.findall(r"\(../images/(\w+)\.svg\)", text)) == sorted(LABELS)
 
 
 def test_gimbals_are_drawn_from_the_isotropic_angles_and_back(flight):
-    isotropic = np.degrees(np.arccos(np.sqrt(2.0 / 3.0)))  # docs/robot_rendezvous.md, Gyros
+    isotropic = np.degrees(np.arccos(np.sqrt(2.0 / 3.0)))  # docs/systems/robot_rendezvous.md, Gyros
     expected = np.array([isotropic, -isotropic, 180.0 + isotropic, 180.0 - isotropic])
     drawn = [line.get_ydata() for line in gyros_figure(flight).axes[0].get_lines() if len(line.get_ydata()) > 2]
     assert [angles[0] for angles in drawn] == pytest.approx(expected, abs=1e-9)

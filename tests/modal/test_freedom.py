@@ -71,7 +71,7 @@ def test_as_many_inputs_as_states_give_orthogonal_eigenvectors() -> None:
 
 def test_the_least_gain_that_shifts_a_spectrum() -> None:
     """B = I: |K| is at least |tr K|/n, which K = shift I reaches."""
-    for a, _, _, _ in random_systems(either(20, 3), 4, 4, seed=14):
+    for a, _, _, _ in random_systems(either(20, 2), 4, 4, seed=14):
         poles = np.linalg.eigvals(a) - 3.0
         found = least_norm(a, np.eye(4), Spectrum.of(poles, 4), STARTS, 0)
         assert 3.0 * (1.0 - 1e-12) <= found.norm < 3.0 * 1.02
@@ -79,7 +79,7 @@ def test_the_least_gain_that_shifts_a_spectrum() -> None:
 
 
 @pytest.mark.parametrize(
-    ("states", "inputs", "count"), [(4, 2, either(100, 5)), (6, 2, either(20, 4)), (6, 3, either(20, 3))]
+    ("states", "inputs", "count"), [(4, 2, either(100, 5)), (6, 2, either(20, 4)), (6, 3, either(20, 2))]
 )
 def test_least_condition_is_below_place_poles(states: int, inputs: int, count: int) -> None:
     ratios = []
@@ -92,7 +92,7 @@ def test_least_condition_is_below_place_poles(states: int, inputs: int, count: i
         assert np.median(ratios) <= 0.8
 
 
-@pytest.mark.parametrize(("states", "inputs", "count"), [(4, 2, 4), (6, 2, 2), (6, 3, 2)])
+@pytest.mark.parametrize(("states", "inputs", "count"), [(4, 2, 3), (6, 2, 1), (6, 3, 1)])
 def test_least_gain_is_below_the_others(states: int, inputs: int, count: int) -> None:
     norms = []
     for a, b, _, poles in random_systems(either(20, count), states, inputs, most_pairs=0, seed=16):

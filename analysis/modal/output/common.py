@@ -42,7 +42,9 @@ class CommonFeedback:
     loops: Sequence[OutputFeedback]
 
 
-def common_feedback(plants: Sequence[ArrayLike], b: ArrayLike, c: ArrayLike, wanted: ArrayLike) -> CommonFeedback:
+def common_feedback(
+    plants: Sequence[ArrayLike], b: ArrayLike, c: ArrayLike, wanted: Sequence[ArrayLike] | np.ndarray
+) -> CommonFeedback:
     """The F of u = F y that gives every plant the prescribed coefficients.
 
     ``plants`` are A (n, n), ``b`` is B (n, m), ``c`` C (p, n), n = p_u m. ``wanted`` (p_u, m, m), N_0 first, holds the

@@ -14,6 +14,7 @@ from ..plant import input_matrix, output_matrix, state_matrix
 from ..refusal import PlacementError, Reason
 from ..results import OutputFeedback
 from ..spectrum import Spectrum
+from .newton import descended
 from .square import square
 from .zeroth_level import ZerothLevel, direct
 
@@ -29,7 +30,8 @@ class Spread(StrEnum):
     """Which of the ways to spread the poles over the levels is taken."""
 
     FIRST = "first"  # that applies
-    LEAST_NORM = "least_norm"  # of all
+    LEAST_NORM = "least_norm"  # the smallest of all
+    SMALLEST = "smallest"  # and down from there along every F that has the poles
 
 
 def output_feedback(
@@ -48,8 +50,9 @@ def output_feedback(
 
     ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), of full ranks; ``poles`` as in `place`. ``method`` is direct or
     dual, both without one; ``upper`` names the poles of the upper level (n - m of them, dual n - p). Else ``choice`` is
-    first, the first spread that applies, or least_norm: every real spread is tried and the smallest |F| returned. For
-    m + p > n generic plants have a solution; for m + p = n one is searched for from ``starts`` starts.
+    first, the first spread that applies; least_norm: every real spread is tried and the smallest |F| returned; or
+    smallest, which goes down from there along the set of all F with these poles, m p - n numbers wide. For m + p > n
+    generic plants have a solution; for m + p = n one is searched for from ``starts`` starts.
     Raises InputError; PlacementError where no spread that may be tried applies, with the reason of the last.
     """
     state = state_matrix(a)
@@ -59,30 +62,46 @@ def output_feedback(
         raise InputError("modal", f"method {method!r}", "there is none of that name", suggestion(str(method), Route))
     if choice not in [*Spread]:
         raise InputError("modal", f"choice {choice!r}", "there is none of that name", suggestion(choice, Spread))
+    if upper is not None and method is None:
+        raise InputError("modal", "upper", "how many there are depends on the method", "give method direct or dual")
+    if starts < 1:
+        raise InputError("modal", "starts", f"there are {starts}", "give 1 or more")
     _check_class(*plant)
-    tried = [
-        (Route.DIRECT, plant),
-        (Route.DUAL, (state.T, plant[2].T, plant[1].T)),
-    ]
-    tried = [route for route in tried if method in (None, route[0])]
-    best, refusal = None, None
-    for route, matrices in tried:
-        level = ZerothLevel(*matrices)
-        for high, low in _spreads(spectrum, len(state) - level.b.shape[1], upper):
+    refusals: list[PlacementError] = []
+    found = _placements(*plant, spectrum, method, upper, starts, seed, refusals)
+    best = next(found, None) if choice == Spread.FIRST else min(found, key=lambda one: one.norm, default=None)
+    if best is None:
+        raise refusals[-1] if refusals else _no_spread(spectrum)
+    return descended(best, *plant) if choice == Spread.SMALLEST else best
+
+
+def _placements(
+    a: np.ndarray,
+    b: np.ndarray,
+    c: np.ndarray,
+    spectrum: Spectrum,
+    method: str | None,
+    upper: ArrayLike | None,
+    starts: int,
+    seed: int,
+    refusals: list[PlacementError],
+) -> Iterator[OutputFeedback]:
+    """One after the other, direct before dual; what does not apply goes to ``refusals``."""
+    for route, plant in ((Route.DIRECT, (a, b, c)), (Route.DUAL, (a.T, c.T, b.T))):
+        if method not in (None, route):
+            continue
+        level = ZerothLevel(*plant)
+        for high, low in _spreads(spectrum, len(level.down), upper):
             try:
                 found = square(level, high, low, starts, seed) if level.meets else direct(level, high, low)
             except PlacementError as error:
-                refusal = error
+                refusals.append(error)
                 continue
-            if route is Route.DUAL:
-                found = replace(found, method=route, gain=found.gain.T, closed_loop=found.closed_loop.T)
-            if choice == Spread.FIRST:
-                return found
-            if best is None or found.norm < best.norm:
-                best = found
-    if best is None:
-        raise refusal or _no_spread(spectrum)
-    return best
+            yield found if route is Route.DIRECT else _transposed(found)
+
+
+def _transposed(found: OutputFeedback) -> OutputFeedback:
+    return replace(found, method=Route.DUAL, gain=found.gain.T, closed_loop=found.closed_loop.T)
 
 
 def _spreads(spectrum: Spectrum, size: int, upper: ArrayLike | None) -> Iterator[tuple[Spectrum, Spectrum]]:

@@ -15,12 +15,12 @@ from scipy.optimize import least_squares
 from ..freedom import family_of, on_levels
 from ..refusal import PlacementError, Reason
 from ..results import OutputFeedback
-from ..spectrum import Spectrum, matched
+from ..spectrum import Spectrum
+from .newton import polished
 from .zeroth_level import ZerothLevel, condition_of
 
 _SOLVED = 1e-5  # of the polynomial's coefficients, poles measured by the largest wanted one; the rest is for Newton
 _STEPS = 60  # of a search: those that arrive took fewer
-_POLISH = 3
 
 
 def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, seed: int) -> OutputFeedback:
@@ -43,7 +43,7 @@ def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, se
             inverse, x, y = level.lower_matrices(-first.gain)
             phi = np.linalg.solve(x.T, y.T).T
             placed = replace(level.feedback(inverse, phi, upper, lower, condition_of(x)), levels=first.levels)
-            return _polished(placed, level)
+            return polished(placed, level.a, level.b, level.c)
     raise PlacementError(
         "output feedback",
         Reason.RESIDUAL,
@@ -51,21 +51,3 @@ def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, se
         least,
         "give more starts, spread the poles in another way, or measure more",
     )
-
-
-def _polished(found: OutputFeedback, level: ZerothLevel) -> OutputFeedback:
-    """The nearest to what is wanted after Newton steps on F itself, each the smallest: dlambda = w B dF C v.
-
-    X and K_1 may be larger than F, and so are the errors that they bring.
-    """
-    best = found
-    for _ in range(_POLISH):
-        poles, right = np.linalg.eig(found.closed_loop)
-        left = np.linalg.solve(right, level.b.astype(complex))
-        by_gain = (left[:, :, None] * (level.c @ right).T[:, None, :]).reshape(len(poles), -1)
-        lacking = matched(found.wanted, poles) - poles
-        rows, sides = np.vstack([by_gain.real, by_gain.imag]), np.concatenate([lacking.real, lacking.imag])
-        gain = found.gain + np.linalg.lstsq(rows, sides)[0].reshape(found.gain.shape)
-        found = replace(found, gain=gain, closed_loop=level.a + level.b @ gain @ level.c)
-        best = min(best, found, key=lambda one: one.error)
-    return best

@@ -22,6 +22,11 @@ def exact(value: Any, unit: str | None = None, digits: int = 4) -> Markup:
     return Markup('<data value="{}">{}</data>').format(raw, shown)
 
 
+def breakable(name: str) -> Markup:
+    """A variant's name, which may go on in a new line where the next FMU of it begins."""
+    return Markup("__<wbr>").join(name.split("__"))
+
+
 def render_page(template: Path, **content: Any) -> str:
     """A page from a template, which may use those of this folder and of its own.
 
@@ -35,7 +40,7 @@ def render_page(template: Path, **content: Any) -> str:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.filters |= {"exact": exact, "unit": shown_unit, "number": number}
+    environment.filters |= {"exact": exact, "unit": shown_unit, "number": number, "breakable": breakable}
     style = Markup((FOLDER / "page.css").read_text(encoding="utf-8"))
     return environment.get_template(template.name).render(style=style, **content)
 

@@ -14,6 +14,7 @@ from .svg import inline_svg
 
 PANEL_WIDTH = 3.4  # in; three in the page's column
 PANEL_HEIGHT = 2.5  # in
+HALF_WIDTH = 5.1  # in; two in the page's column
 KILOMETRES = 1e4  # m, from which on lengths are in km
 
 
@@ -24,10 +25,17 @@ class Panel(NamedTuple):
     figure: Markup
 
 
-def panel(label: str, name: str, description: str, draw: Callable[[Axes], None], height: float = PANEL_HEIGHT) -> Panel:
-    """A panel that ``draw`` draws; ``name`` must differ between the figures of a page."""
+def panel(
+    label: str,
+    name: str,
+    description: str,
+    draw: Callable[[Axes], None],
+    height: float = PANEL_HEIGHT,
+    width: float = PANEL_WIDTH,
+) -> Panel:
+    """A panel that ``draw`` draws, sizes in inches; ``name`` must differ between the figures of a page."""
     with house_style():
-        figure = new_figure(height, PANEL_WIDTH)
+        figure = new_figure(height, width)
         draw(figure.subplots())
         return Panel(label, inline_svg(figure, name, description, fill=True))
 

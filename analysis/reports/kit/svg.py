@@ -32,9 +32,9 @@ def inline_svg(figure: Figure, name: str, description: str, *, fill: bool = Fals
     """A figure as an <svg> element for a page.
 
     Every id is prefixed with ``name``, which must differ between the figures of a page;
-    ``description`` is what a screen reader says. Text stays text: it can be searched and copied. With
-    ``fill`` the figure is as wide as what it stands in, otherwise its share of the page's column, and its
-    coordinates are cut to hundredths of a point, since such figures come in dozens.
+    ``description`` is what a screen reader says. Text stays text: it can be searched and copied. Coordinates are
+    cut to hundredths of a point. With ``fill`` the figure is as wide as what it stands in, otherwise its share of the
+    page's column, below which it is not shrunk on a narrow screen.
     """
     root = etree.fromstring(svg_bytes(figure, name, text_as_paths=False), etree.XMLParser(resolve_entities=False))
     for unwanted in (*root.iter(f"{SVG}metadata"), *root.iter(f"{SVG}style")):
@@ -51,7 +51,7 @@ def inline_svg(figure: Figure, name: str, description: str, *, fill: bool = Fals
                 element.set(key, f"#{name}-{value[1:]}")
             elif "url(#" in value:
                 element.set(key, REFERENCE.sub(rf"url(#{name}-\1)", value))
-            elif fill and key in ("d", "x", "y"):
+            elif key in ("d", "x", "y"):
                 element.set(key, DECIMALS.sub(r"\1", value))
     etree.strip_tags(root, etree.Comment)
     del root.attrib["width"], root.attrib["height"]
@@ -59,5 +59,5 @@ def inline_svg(figure: Figure, name: str, description: str, *, fill: bool = Fals
     root.set("aria-label", description)
     root.set("class", "figure")
     if not fill:
-        root.set("style", f"max-width: {100.0 * figure.get_figwidth() / WIDTH:.0f}%")
+        root.set("style", f"--share: {figure.get_figwidth() / WIDTH:.2f}")
     return Markup(etree.tostring(root, encoding="unicode"))

@@ -1,7 +1,8 @@
-"""The page of one run: how it ended, where it went, every signal over time, what it was made of."""
+"""The page of one run: how it ended, where it went, what its system asks for, every signal, what it was made of."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ import numpy as np
 from ...flight.results import Result
 from ..kit.page import write_page
 from ..kit.signals import SignalGroup, distinct, signal_groups
+from .declared import Figure
+from .own_figures import joint_findings, own_sections
 from .time_histories import time_histories
 from .trajectory import trajectory_figure
 
@@ -22,8 +25,11 @@ STATUS_WORDS = {
 KEY_VECTORS = ("position", "velocity")
 
 
-def write_run_report(result: Result, path: Path, title: str) -> None:
-    """Write one self-contained HTML page about a run; the same result gives the same bytes."""
+def write_run_report(result: Result, path: Path, title: str, figures: Sequence[Figure] = ()) -> None:
+    """Write one self-contained HTML page about a run; the same result gives the same bytes.
+
+    ``figures`` are those that the system asks for, see reading.py.
+    """
     trajectory = trajectory_figure(result)
     write_page(
         path,
@@ -35,6 +41,8 @@ def write_run_report(result: Result, path: Path, title: str) -> None:
         provenance=result.provenance,
         key_values=key_values(result),
         trajectory=trajectory,
+        joint=joint_findings(figures, result),
+        own=own_sections(figures, result),
         histories=time_histories(result),
         signals=signal_table(result),
     )

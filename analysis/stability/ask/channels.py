@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...errors import InputError, suggestion
+from ...system.names import elements
 from ...system.network import Network
 from .declaration import Loop
 
@@ -135,9 +136,7 @@ def _vector(network: Network, name: str, where: str) -> list[str]:
 
 def _connectors(network: Network, name: str, where: str) -> list[str]:
     """The Real connectors that a name stands for: its own, or those of the vector of this name."""
-    found = [name] if name in network.nodes else []
-    while name not in network.nodes and f"{name}[{len(found) + 1}]" in network.nodes:
-        found.append(f"{name}[{len(found) + 1}]")
+    found = elements(name, network.nodes)
     if not found:
         known = [node.name for node in network.nodes.values() if node.component is not None]
         raise InputError(network.file, where, f"no connector {name}", suggestion(name, known))

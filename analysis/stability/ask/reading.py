@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Collection
 from dataclasses import fields
 
 from lxml import etree
 
-from ...errors import InputError, suggestion
+from ...errors import suggestion
 from ...loops.describing_function import ELEMENTS, complete_parameters
+from ...system.annotations import AnnotationReader
 from ...system.description import Description
-from ...system.documents import tag
 from ...system.options import Layer
 from .declaration import Declaration, Element, Limits, Loop, Point, Sweep
 
@@ -26,51 +24,9 @@ def read_declaration(description: Description) -> Declaration:
     return _Reader(description.file).declaration(annotation)
 
 
-class _Reader:
-    def __init__(self, file: str) -> None:
-        self.file = file
-
-    def refuse(self, element: etree._Element, problem: str, remedy: str) -> InputError:
-        return InputError(self.file, f"{tag(element)} (line {element.sourceline})", problem, remedy)
-
-    def attributes(self, element: etree._Element, needed: Collection[str], more: Collection[str] = ()) -> dict:
-        """The attributes of an element; refuses missing and unknown ones."""
-        for name in needed:
-            if not element.get(name, "").strip():
-                raise self.refuse(element, f"no {name}", f'write {name}="..."')
-        for name in element.attrib:
-            if name not in needed and name not in more:
-                raise self.refuse(element, f"unknown attribute {name}", suggestion(str(name), [*needed, *more]))
-        return {str(name): str(value).strip() for name, value in element.attrib.items()}
-
-    def parts(self, element: etree._Element, known: Collection[str]) -> dict[str, list[etree._Element]]:
-        """The children by tag; refuses unknown ones."""
-        found: dict[str, list[etree._Element]] = {name: [] for name in known}
-        for item in element:
-            if not isinstance(item.tag, str):
-                continue  # a comment
-            if tag(item) not in known:
-                raise self.refuse(item, "unknown element", suggestion(tag(item), known))
-            found[tag(item)].append(item)
-        return found
-
-    def number(self, element: etree._Element, name: str, positive: bool = False) -> float | None:
-        text = element.get(name)
-        if text is None:
-            return None
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
-        if not math.isfinite(value) or (positive and value <= 0.0):
-            raise self.refuse(element, f"{name} {text!r} is not a {'positive ' if positive else ''}number", "mend it")
-        return value
-
+class _Reader(AnnotationReader):
     def declaration(self, annotation: etree._Element) -> Declaration:
-        root = self.parts(annotation, ("Stability",))["Stability"]
-        if len(root) != 1:
-            raise self.refuse(annotation, f"{len(root)} elements Stability", "write one")
-        parts = self.parts(root[0], ("Limits", "Point", "Loop", "Sweep"))
+        parts = self.parts(self.content(annotation, "Stability"), ("Limits", "Point", "Loop", "Sweep"))
         points = tuple(self.point(item) for item in parts["Point"])
         loops = tuple(self.loop(item, {point.name for point in points}) for item in parts["Loop"])
         by_name = {loop.name: loop for loop in loops}

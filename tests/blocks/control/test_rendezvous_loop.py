@@ -1,7 +1,7 @@
 """The whole loop of the rendezvous in plain Python, over a short approach: signs, sampling and connections.
 
 Truth: the plan, which the true motion must follow within a few of the sensors' sigmas, and the momentum,
-which is conserved. The figures of the whole flight are the system's: docs/robot_rendezvous.md.
+which is conserved. The figures of the whole flight are the system's: docs/systems/robot_rendezvous.md.
 """
 
 import numpy as np

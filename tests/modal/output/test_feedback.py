@@ -74,7 +74,7 @@ def test_measuring_every_state_is_state_feedback() -> None:
 
 
 @given(st.integers(0, 2**32 - 1))
-@settings(max_examples=either(100, 15))
+@settings(max_examples=either(100, 6))
 def test_the_dual_of_the_transposed_plant_is_the_direct_route(seed: int) -> None:
     random = np.random.default_rng(seed)
     a, b, c, poles = next(random_systems(1, 5, 3, 3, most_pairs=1, seed=seed))
@@ -132,7 +132,15 @@ def test_plants_with_modes_out_of_reach() -> None:
     ("options", "line"),
     [
         ({"method": "both"}, "modal: method 'both': there is none of that name; use one of direct, dual"),
-        ({"choice": "best"}, "modal: choice 'best': there is none of that name; use one of first, least_norm"),
+        (
+            {"choice": "best"},
+            "modal: choice 'best': there is none of that name; use one of first, least_norm, smallest",
+        ),
+        (
+            {"upper": [-1.0, -2.0]},
+            "modal: upper: how many there are depends on the method; give method direct or dual",
+        ),
+        ({"starts": 0}, "modal: starts: there are 0; give 1 or more"),
         ({"upper": [-9.0], "method": "direct"}, "modal: upper: there are 1; give 2, repeated ones repeated"),
         ({"upper": [-9.0, -1.0], "method": "direct"}, "modal: upper: -9 is none of the poles; name some of them"),
     ],

@@ -308,6 +308,18 @@ def test_what_is_not_recorded_is_said_and_not_drawn(tmp_path):
     ]
 
 
+def test_of_what_goes_nowhere_no_path_and_no_propellant_are_missed(tmp_path):
+    bare = CAMPAIGN[: CAMPAIGN.index("[metric.propellant]")] + CAMPAIGN[CAMPAIGN.index("[metric.tilt]") :]
+    sampling = 'every = 2\nsignals = ["pilot.status"]\ntrials = 4'
+    write_sample(tmp_path / "still", final=False, text=bare.replace("{sampling}", sampling))
+    page = write([tmp_path / "still"], tmp_path / "page.html")
+    assert_self_contained(page)
+    assert lines(page) == []
+    headings = [part.text for part in parse(page).xpath("//h2 | //h3")]
+    assert not {"Trajectories", "At the end", "Other recorded signals"} & set(headings)
+    assert "pilot.status" in [part.text for part in parse(page).xpath("//h4")]
+
+
 def test_propellant_from_final_masses_where_no_metric_tells_it(tmp_path):
     text = CAMPAIGN[: CAMPAIGN.index("[metric.propellant]")] + CAMPAIGN[CAMPAIGN.index("[metric.tilt]") :]
     write_sample(tmp_path / "mass", text=text)

@@ -11,7 +11,7 @@ Across: the direction commanded at kh is the plan's h + lead later, y_k = a0 + (
 an even rate from y_(k-1) at kh to y_k at (k + 1)h, and the attitude follows with a lag as long as the lead.
 Along: the thrust commanded is the plan's mean over the cycle, y_k = a0 + a1 h/2, held, and followed with a lag.
 
-L(z) is minus the transfer from what acts to y. Derivation: docs/lunar_terminal_guidance.md, "A frozen plan".
+L(z) is minus the transfer from what acts to y. Derivation: docs/systems/lunar_terminal_guidance.md, "A frozen plan".
 """
 
 from dataclasses import dataclass

@@ -15,13 +15,17 @@ ANGLE_POLES, RATE_POLES = np.diag([0.10, 0.08, 0.10]), np.diag([0.15, 0.12, 0.15
 WANTED = np.array([0.0, 0.0, 0.0, 0.0, 0.0, -ORBITAL_RATE])
 
 
+def skew(v):
+    """The matrix of v x."""
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
 def motion(x):
     """(angles, w)' by direction cosines."""
     matrix = body_from_orbital(x[:3])
     relative = x[3:] + ORBITAL_RATE * matrix[:, 2]
-    skew = np.array([[0, -relative[2], relative[1]], [relative[2], 0, -relative[0]], [-relative[1], relative[0], 0]])
     h = 1e-4
-    turned = expm(-0.5 * h * skew)
+    turned = expm(-0.5 * h * skew(relative))
     rates = (angles_of(turned @ matrix) - angles_of(turned.T @ matrix)) / h
     return np.concatenate([rates, acceleration(matrix, x[3:], 0.0)])
 
@@ -30,6 +34,16 @@ def linear_motion():
     """A about the wanted state, by differences."""
     h = 1e-3
     return np.array([(motion(WANTED + h * e) - motion(WANTED - h * e)) / (2.0 * h) for e in np.eye(6)]).T
+
+
+def linear_matrix(inertia):
+    """A about the wanted state, [A11 I; A21 A22] of the docs."""
+    spin, up = WANTED[3:], np.array([0.0, 1.0, 0.0])
+    tilt = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])
+    kinematics = np.array([[0.0, -ORBITAL_RATE, 0.0], [ORBITAL_RATE, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    gyric = np.linalg.solve(inertia, skew(inertia @ spin) - skew(spin) @ inertia)
+    gradient = 3.0 * ORBITAL_RATE**2 * np.linalg.solve(inertia, skew(up) @ inertia - skew(inertia @ up)) @ tilt
+    return np.block([[kinematics, np.eye(3)], [gradient, gyric]])
 
 
 def placed_gain(a):

@@ -1,0 +1,88 @@
+"""Gains that the orbital FMUs make at initialisation, against the modal library: 1e-9, with inertia, tick, poles drawn.
+
+Truth: `perilune.modal` on matrices written out in tests/support/loops/exact_orbital.py, apart from the blocks' kernels.
+"""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from perilune import modal
+from perilune.analysis.flight.instance import instantiate
+from perilune.analysis.system.fmu import load_fmu
+from perilune.fmus_src.places import built_fmu
+from tests.support.loops.exact_orbital import linear_matrix
+
+pytestmark = pytest.mark.usefixtures("fmus")
+DRAWS = range(20)
+C = np.delete(np.eye(6), 1, axis=0)
+PLACES = [[f"[{row + 1},{column + 1}]" for column in range(9)] for row in range(9)]
+
+
+def drawn(number):
+    """Inertia (kg m2), tick (s) and poles (1/s)."""
+    random = np.random.default_rng(number)
+    root = random.normal(size=(3, 3))
+    inertia = 2000.0 * (root @ root.T + 4.0 * np.eye(3))
+    return inertia, random.uniform(0.1, 1.0), random.uniform(0.02, 0.3, 3), random.uniform(0.1, 0.5, 3)
+
+
+class Fmu:
+    """A native FMU, initialised with parameters."""
+
+    def __init__(self, name, **parameters):
+        path = built_fmu(name, "native")
+        fmu = load_fmu(path.read_bytes(), str(path))
+        self.instance = instantiate(fmu, name)
+        self.references = {key: variable.valueReference for key, variable in fmu.variables.items()}
+        slave = self.instance.slave
+        for key, value in parameters.items():
+            values = np.ravel(value)
+            names = [key] if np.ndim(value) == 0 else [f"{key}{PLACES[i // 3][i % 3]}" for i in range(9)]
+            if np.ndim(value) == 1:
+                names = [f"{key}[{i + 1}]" for i in range(len(values))]
+            slave.setReal([self.references[each] for each in names], values.tolist())
+        slave.setupExperiment(startTime=0.0)
+        slave.enterInitializationMode()
+        slave.exitInitializationMode()
+
+    def matrix(self, name, rows, columns):
+        names = [f"{name}{PLACES[i][k]}" for i in range(rows) for k in range(columns)]
+        values = self.instance.slave.getReal([self.references[each] for each in names])
+        return np.reshape(values, (rows, columns))
+
+
+@pytest.mark.parametrize("number", DRAWS)
+def test_the_modal_regulator(number):
+    """Levels of angles and rates in their own coordinates."""
+    inertia, tick, _, poles = drawn(number)
+    angles, rates = poles, 1.5 * poles[::-1]
+    fmu = Fmu("orbital_modal_control", inertia=inertia, sample_period=tick, angle_poles=angles, rate_poles=rates)
+    driven = np.vstack([np.zeros((3, 3)), np.linalg.inv(inertia)])
+    columns = np.eye(6)
+    placed = modal.place_levels(
+        linear_matrix(inertia), driven, [-np.diag(rates), -np.diag(angles)], bases=[columns[:, 3:], columns[:, :3]]
+    )
+    found = np.hstack([fmu.matrix("angle_gain", 3, 3), fmu.matrix("rate_gain", 3, 3)])
+    assert np.abs(found + placed.gain).max() < 1e-9 * np.abs(placed.gain).max()
+
+
+@pytest.mark.parametrize("number", DRAWS)
+def test_the_continuous_observer(number):
+    inertia, tick, poles, _ = drawn(number)
+    slow, fast = poles[0], 3.0 * poles[1] + 0.1
+    fmu = Fmu("orbital_observer_continuous", inertia=inertia, sample_period=tick, yaw_pole=slow, measured_pole=fast)
+    placed = modal.place_levels(linear_matrix(inertia).T, C.T, [-fast * np.eye(5), [[-slow]]]).gain.T
+    assert np.abs(fmu.matrix("gain", 6, 5) - placed).max() < 1e-9 * np.abs(placed).max()
+
+
+@pytest.mark.parametrize("number", DRAWS)
+def test_the_discrete_observer(number):
+    """Ad L is the dual placement for (Ad, C)."""
+    inertia, tick, poles, _ = drawn(number)
+    slow, fast = poles[0], 3.0 * poles[1] + 0.1
+    fmu = Fmu("orbital_observer_discrete", inertia=inertia, sample_period=tick, yaw_pole=slow, measured_pole=fast)
+    sampled = expm(linear_matrix(inertia) * tick)
+    wanted = [np.exp(-fast * tick) * np.eye(5), [[np.exp(-slow * tick)]]]
+    placed = np.linalg.solve(sampled, modal.place_levels(sampled.T, C.T, wanted).gain.T)
+    assert np.abs(fmu.matrix("gain", 6, 5) - placed).max() < 1e-9 * np.abs(placed).max()

@@ -1,0 +1,45 @@
+"""The code of docs/modal_synthesis.md, run from its beginning to its end, prints what the page says.
+
+Truth: what the page prints is held by the other tests of this folder; here only that a reader gets the same.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+
+import pytest
+
+from perilune import modal
+from perilune.fmus_src.places import ROOT
+
+PAGE = (ROOT / "docs" / "modal_synthesis.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"```python\n(.*?)```\n(?:```text\n(.*?)```\n)?", PAGE, re.DOTALL)
+NUMBER = re.compile(r"[-+]?\d+\.?\d*(?:e[-+]\d+)?")
+
+
+def test_every_block_prints_what_the_page_says() -> None:
+    assert len(BLOCKS) > 10
+    names: dict = {}
+    for code, expected in BLOCKS:
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(code, names)
+        assert words(printed.getvalue()) == words(expected), code
+        # rounding differs between processors
+        assert numbers(printed.getvalue()) == pytest.approx(numbers(expected), rel=5e-3, abs=2e-6), code
+
+
+def test_the_page_names_everything_there_is() -> None:
+    values = {"CommonFeedback", "Observer", "OutputFeedback", "OutputFeedbackSet", "Placement", "ReducedObserver"}
+    for name in set(modal.__all__) - values - {"Reason", "StateFeedback"}:
+        assert f"`{name}" in PAGE or f"modal.{name}" in PAGE, name
+
+
+def words(text: str) -> list[str]:
+    return NUMBER.sub("", text).split()
+
+
+def numbers(text: str) -> list[float]:
+    return [float(number) for number in NUMBER.findall(text)]
