@@ -2,7 +2,7 @@
 
 Bank, sideslip and two rates at trim, at frozen pressure q: bank' = c0 wx - s0 wy, sideslip' = s0 wx + c0 wy,
 J (wx', wy')' = q m sideslip + (ux, uy), measured bank, wx, wy. The poles -0.35, -0.6, -0.7 +- 0.8i are spread over the
-levels in four ways. Source: Lapin, thesis, chapters 2 and 3.2; numbers ours: docs/entry_attitude.md.
+levels in four ways. Source: Lapin, thesis, chapters 2 and 3.2; numbers ours: docs/systems/entry_attitude.md.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ class BankProgramme(Block):
     method 0, ideal: the reference is the target. 1, limited: likewise, with a limit on the error that the regulator
     may act on. 2, time-optimal: the reference accelerates with bank_acceleration, coasts at bank_rate at most, and
     brakes likewise, the quickest way within both (a limit on the rate is one on propellant). Reversals at or after 1e9
-    s do not come. Equations: docs/entry_attitude.md. Source: Lapin, thesis, chapter 3.2; numbers ours.
+    s do not come. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 3.2; numbers ours.
     """
 
     default_step = 0.2

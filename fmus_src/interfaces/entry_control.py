@@ -15,7 +15,7 @@ class EntryControl(Block, interface=True):
     Attack, sideslip, speed and pressure are not measured; dynamic_pressure is for regulators that are told. At trim
     the capsule turns about its velocity by w = rate (cos a0, -sin a0, 0), a0 = trim_attack. Demands below dead_zone of
     a level are put out as 0. A regulator writes `regulate`, which sets demand. Inputs that are not finite ask for no
-    torque. Frame: body. Equations: docs/entry_attitude.md. Source: Lapin, thesis, chapter 3.2.
+    torque. Frame: body. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 3.2.
     """
 
     default_step = 0.2

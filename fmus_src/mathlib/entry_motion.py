@@ -3,7 +3,7 @@
 place: distance r from the centre (m), longitude, latitude (rad). path: speed over the Earth (m/s), path angle up,
 course from east, counter-clockwise from above (rad). Velocity axes: x along the velocity, y up in the vertical plane
 through it, z = x x y. attitude: bank, sideslip, attack (rad), turns about velocity x, then body -y and z as written in
-`body_axes`. Equations: docs/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
+`body_axes`. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
 """
 
 import math

@@ -37,7 +37,7 @@ class EntryCapsule(Block):
     A change of pulse_count tells new pulses, which start at once and take the place of what is left of the last; each
     is cut exactly where it ends, whatever the communication step. mean_torque acts beside them. jet_torque and
     jet_factor: +x, -x, +y, -y, +z, -z. Runge-Kutta of fourth order in steps of at most internal_step. Equations:
-    docs/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
+    docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
     """
 
     default_step = 0.2
