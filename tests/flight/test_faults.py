@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.errors import InputError
-from perilune.analysis.flight.faults import Fault
+from perilune.analysis.system.faults import Fault
 from tests.support.builders import component, connection, document, fly, pack, system
 
 RAMP = component("ramp", "ramp", "output y Real m; output flag Boolean; output count Integer")
