@@ -52,10 +52,7 @@ class Fault:
 
 def _text(value: float | bool) -> str:
     """A number in so many digits that it is read back as it was."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    short = f"{value:g}"
-    return short if float(short) == value else repr(float(value))
+    return str(value).lower() if isinstance(value, bool) else repr(float(value)).removesuffix(".0")
 
 
 def parse_fault(text: str, option: str = "--fault") -> Fault:
