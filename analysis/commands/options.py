@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..system.faults import FORM, Fault, parse_fault
+from ..system.faults import KINDS, Fault, parse_fault
 from ..system.options import ALGORITHMS, FLAVOURS, SystemOptions
 
 
@@ -47,7 +47,11 @@ def add_system(parser: argparse.ArgumentParser) -> None:
 
 def add_faults(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "--fault", action="append", default=[], metavar="FAULT", help=f"{FORM}; T in s; may be repeated"
+        "--fault",
+        action="append",
+        default=[],
+        metavar="FAULT",
+        help=f"fly with a fault, COMPONENT.CONNECTOR=KIND[:VALUE]@T[..T]: {' or '.join(KINDS)} from T s on, or until T",
     )
 
 

@@ -137,7 +137,10 @@ def test_what_does_not_fly_may_be_anything(plan):
         (fault(start="true"), "fault.x.start: True is not a finite number"),
         (fault(rest="value = [1]"), "fault.x.value: [1] is not a finite number"),
         (fault(rest="value = 1\nend = inf"), "fault.x.end: inf is not a finite number"),
-        (fault(start='"failure_tim"'), "fault.x.start: 'failure_tim' is not a draw or a derived value; use one of fail"),
+        (
+            fault(start='"failure_tim"'),
+            "fault.x.start: 'failure_tim' is not a draw or a derived value; use one of fail",
+        ),
         (fault(rest='value = 1\nwhen = "jett == 1"'), "fault.x.when: 'jett' is not a draw or a derived value"),
         (fault(rest="value = 1\nwhen = true"), "fault.x.when: True is not a text"),
         (fault(start='"1 +"'), "fault.x.start: invalid syntax"),
@@ -156,7 +159,7 @@ def test_a_wrong_file_is_refused_in_one_line(campaign, text, says):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (fault(start='"1 / (jet - 3)"'), "fault.x.start: '1 / (jet - 3)' is inf in trial 2; every value must be finite"),
+        (fault(start='"1 / (jet - 3)"'), "fault.x.start: '1 / (jet - 3)' is inf in trial 2; every value must be fin"),
         (fault(rest='value = "sqrt(3 - jet)"'), "fault.x.value: 'sqrt(3 - jet)' is nan in trial 3"),
         (fault(rest='value = 1\nwhen = "0 / (jet - 1)"'), "fault.x.when: '0 / (jet - 1)' is nan in trial 0"),
         (fault(rest='value = 1\nend = "1 / 0"'), "fault.x.end: '1 / 0' is inf in trial 0"),
