@@ -11,12 +11,12 @@ from .batch.results import BatchResult
 from .batch.runner import run_batch
 from .campaign.plan import read_plan
 from .errors import InputError, suggestion
-from .flight.faults import Fault
 from .flight.results import Result
 from .flight.simulation import Simulation
 from .stability.ask.request import read_request
 from .stability.results.report import StabilityReport
 from .stability.study import study
+from .system.faults import Fault
 from .system.options import SystemOptions
 from .system.parameter_sets import ParameterValue
 from .system.prepared import prepare_system
@@ -56,15 +56,23 @@ def batch(
     use: Mapping[str, str] | None = None,
     parameters: Sequence[str] = (),
     set: Mapping[str, ParameterValue] | None = None,
+    faults: Sequence[Fault] = (),
     **options: Any,
 ) -> BatchResult:
     """Fly a campaign, by name or path of its .toml file; see docs/campaigns.md.
 
     ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for
-    trials.parquet, draws.parquet and summary.json. The rest is as in `simulate`. Raises InputError.
+    trials.parquet, draws.parquet and summary.json; ``faults`` fly in every trial, after the campaign's own. The rest
+    is as in `simulate`. Raises InputError.
     """
     plan = read_plan(
-        system, campaign, _options(use, parameters, set, options), trials=trials, seed=seed, compare=compare
+        system,
+        campaign,
+        _options(use, parameters, set, options),
+        trials=trials,
+        seed=seed,
+        compare=compare,
+        faults=faults,
     )
     return run_batch(plan, workers=workers, output=Path(output) if output is not None else None)
 

@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from .analysis.api import batch, simulate, stability
     from .analysis.batch.results import BatchResult
     from .analysis.errors import InputError
-    from .analysis.flight.faults import Fault
     from .analysis.flight.results import Result
     from .analysis.stability.bench.bench import StudyError
     from .analysis.stability.results.report import StabilityReport
+    from .analysis.system.faults import Fault
     from .fmus_src.block import Block, Input, Output, Parameter, State
 
 __all__ = [
@@ -43,10 +43,10 @@ _HOMES = {
     "analysis.api": ("batch", "simulate", "stability"),
     "analysis.batch.results": ("BatchResult",),
     "analysis.errors": ("InputError",),
-    "analysis.flight.faults": ("Fault",),
     "analysis.flight.results": ("Result",),
     "analysis.stability.bench.bench": ("StudyError",),
     "analysis.stability.results.report": ("StabilityReport",),
+    "analysis.system.faults": ("Fault",),
     "fmus_src.block": ("Block", "Input", "Output", "Parameter", "State"),
 }
 

@@ -46,7 +46,8 @@ class Flyer:
                 names = variant_names(self.plan, prepared)
                 everything = self.plan.campaign.record.traces != "none"
                 wanted = None if everything else {*names.signals, *names.statuses}
-                self._ready[variant] = Simulation(prepared, varied=names.varied, wanted=wanted), names
+                faults = self.plan.declared_faults()
+                self._ready[variant] = Simulation(prepared, varied=names.varied, wanted=wanted, faults=faults), names
         return self._ready[variant]
 
     def fly(self, variant: str, trials: range) -> Trials:
@@ -71,6 +72,7 @@ class Flyer:
         the variant's last flight.
         """
         simulation, names = self.simulation(variant)
+        simulation.set_faults(self.plan.faults_of(trial))
         parameters = {**self.plan.parameters(simulation.prepared, trial), **(overlay or {})}
         return self._judge(simulation.run(parameters), names, trial)
 
@@ -78,7 +80,8 @@ class Flyer:
         """Fly one trial with every signal recorded; same bits as in the batch."""
         prepared = self.plan.prepare(self.variants[variant])
         names = variant_names(self.plan, prepared)
-        with Simulation(prepared, varied=names.varied) as simulation:
+        with Simulation(prepared, varied=names.varied, faults=self.plan.declared_faults()) as simulation:
+            simulation.set_faults(self.plan.faults_of(trial))
             result = simulation.fly(self.plan.parameters(prepared, trial))
         return result, self._judge(result, names, trial)
 

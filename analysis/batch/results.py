@@ -14,7 +14,7 @@ import pyarrow.parquet
 
 from ..campaign.plan import BatchPlan
 from .summary import summarise
-from .tables import summary_text
+from .tables import faults_line, summary_text
 from .trials import Trials
 
 
@@ -28,7 +28,7 @@ class BatchResult:
     provenance: dict[str, Any]
 
     def table(self) -> pyarrow.Table:
-        """A row per variant and trial: variant, trial, status, draws, final values, metrics."""
+        """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics."""
         found = list(self.trials.values())
         rows = sum(len(part.trial) for part in found)
         arrays: dict[str, Any] = {
@@ -41,6 +41,8 @@ class BatchResult:
         }
         for name, values in self.plan.draws.columns.items():
             arrays[f"draw.{name}"] = np.resize(values, rows)  # the same for every variant
+        for fault in self.plan.drawn_faults:
+            arrays |= {name: np.resize(values, rows) for name, values in fault.columns().items()}
         for name in found[0].final:
             arrays[f"final.{name}"] = np.concatenate([part.final[name] for part in found])
         for name in found[0].metrics:
@@ -54,7 +56,9 @@ class BatchResult:
 
     def text(self) -> str:
         """The summary for a terminal."""
-        return summary_text(self.summary, self.plan.campaign.group)
+        found = summary_text(self.summary, self.plan.campaign.group)
+        faults = self.plan.fault_texts()
+        return f"{found}\n{faults_line(faults)}" if faults else found
 
     def write(self, folder: Path) -> None:
         """Write trials.parquet, draws.parquet, summary.json, and traces/ where the campaign keeps them.

@@ -57,6 +57,11 @@ class StoredBatch:
         """The drawn or derived value that the campaign groups trials by, if it does."""
         return self.document.get("group")
 
+    @property
+    def faults(self) -> list[str]:
+        """The faults that flew, the campaign's and the user's."""
+        return self.document.get("faults", [])
+
     @cached_property
     def groups(self) -> list[Group]:
         """The groups of trials; none where the campaign does not ask for them. Raises InputError."""

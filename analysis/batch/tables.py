@@ -46,6 +46,11 @@ def _cell(value: float | str | None) -> str:
     return value if isinstance(value, str) else f"{value:.4g}"
 
 
+def faults_line(faults: Iterable[object]) -> str:
+    """What results say of the faults that flew."""
+    return f"with faults: {'; '.join(map(str, faults))}"
+
+
 def summary_text(summary: Mapping[str, Any], group: str | None = None) -> str:
     """A summary for the terminal: success rates, then metrics of successful trials, of all trials and of groups."""
     rows = summary_rows(summary)

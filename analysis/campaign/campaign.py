@@ -10,6 +10,7 @@ from ..errors import InputError
 from ..system.options import Layer
 from .distributions import Draw
 from .expressions import Expression
+from .faults import CampaignFault
 
 REDUCTIONS = ("final", "min", "max", "mean", "rms", "last_outside", "settled", "first")
 TRACES = ("none", "failures", "all")
@@ -69,7 +70,8 @@ class Campaign:
 
     ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are
     expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
-    [compare], ``group`` is the drawn or derived value by which [group] sums trials up. ``file`` is what errors name.
+    [compare], ``group`` is the drawn or derived value by which [group] sums trials up, ``faults`` are [fault].
+    ``file`` is what errors name.
     """
 
     file: str
@@ -86,6 +88,7 @@ class Campaign:
     record: Record = Record()
     description: str = ""
     group: str | None = None
+    faults: tuple[CampaignFault, ...] = ()
 
     def __post_init__(self) -> None:
         if self.trials < 1:

@@ -10,6 +10,7 @@ from ..errors import InputError, suggestion
 from .campaign import REDUCTIONS, TRACES, Campaign, Metric, Record, Setting
 from .distributions import Draw, read_draw
 from .expressions import RESERVED, Expression, is_name
+from .faults import CampaignFault, read_fault
 from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, read_toml, sequence, text
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
@@ -135,6 +136,17 @@ def _compare(table: Table) -> dict[str, tuple[str, ...]]:
     return {slot: names(table, slot, value) for slot, value in table.flat()}
 
 
+def _faults(table: Table, drawn: list[str]) -> tuple[CampaignFault, ...]:
+    for name in table.content:
+        if not name.isidentifier():
+            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
+    faults = tuple(read_fault(name, table.table(name)) for name in table.content)
+    for fault in faults:
+        for formula in fault.formulas:
+            _check_names_in(formula, drawn, "a draw or a derived value")
+    return faults
+
+
 def _group(table: Table, drawn: list[str]) -> str:
     table.only(["by"])
     name = table.get("by", text)
@@ -156,7 +168,7 @@ def parse_campaign(table: Table) -> Campaign:
         remedy = "search with perilune synthesize, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
     keys = ["system", "description", "trials", "seed", "parameters"]
-    table.only([*keys, "set", "compare", "draw", "derive", "group", "metric", "record", "success"])
+    table.only([*keys, "set", "compare", "draw", "derive", "fault", "group", "metric", "record", "success"])
     draws = _draws(table.table("draw"))
     derived = _derived(table.table("derive"), draws)
     drawn = [name for draw in draws for name in draw.names] + list(derived)
@@ -176,6 +188,7 @@ def parse_campaign(table: Table) -> Campaign:
         record=_record(table.table("record")),
         description=" ".join(table.get("description", text, "").split()),
         group=_group(table.table("group"), drawn) if "group" in table.content else None,
+        faults=_faults(table.table("fault"), drawn),
     )
 
 

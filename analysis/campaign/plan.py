@@ -13,10 +13,12 @@ import numpy as np
 
 from ..errors import InputError, suggestion
 from ..system.archive import open_system
+from ..system.faults import Fault, check_fault
 from ..system.options import Layer, SystemOptions
 from ..system.prepared import PreparedSystem, prepare_system
 from .campaign import Campaign, Variant
 from .draws import DrawTable, draw_table, stream_numbers
+from .faults import DrawnFault, check_drawn, drawn_fault
 from .file import parse_campaign
 from .groups import Group, groups_of
 from .metrics import names_needed
@@ -29,7 +31,8 @@ class BatchPlan:
 
     ``options`` are the user's system options, which come after the campaign's own and win; draws
     win over parameter sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names
-    parameters that whoever flies the plan gives anew with every flight.
+    parameters that whoever flies the plan gives anew with every flight. ``faults`` are the user's, which fly in
+    every trial after the campaign's own.
     """
 
     system: str
@@ -37,6 +40,7 @@ class BatchPlan:
     options: SystemOptions
     campaign_sha256: str = ""
     overlaid: tuple[str, ...] = ()
+    faults: tuple[Fault, ...] = ()
 
     @cached_property
     def draws(self) -> DrawTable:
@@ -53,6 +57,23 @@ class BatchPlan:
         if self.campaign.group is None:
             return []
         return groups_of(self.draws.columns[self.campaign.group], (self.campaign.file, "group.by"))
+
+    @cached_property
+    def drawn_faults(self) -> list[DrawnFault]:
+        """The campaign's faults in all trials. Raises InputError."""
+        return [drawn_fault(fault, self.draws.columns, self.draws.trials) for fault in self.campaign.faults]
+
+    def declared_faults(self) -> list[Fault]:
+        """All faults, the campaign's first, with their connectors and kinds; value and times are a trial's."""
+        return [*(Fault(fault.connector, fault.kind) for fault in self.campaign.faults), *self.faults]
+
+    def faults_of(self, trial: int) -> list[Fault | None]:
+        """The faults of one trial, in the order of `declared_faults`; None for one that does not fly in it."""
+        return [*(fault.in_trial(trial) for fault in self.drawn_faults), *self.faults]
+
+    def fault_texts(self) -> list[str]:
+        """All faults as results name them."""
+        return [str(fault) for fault in (*self.campaign.faults, *self.faults)]
 
     def prepare(self, variant: Variant) -> PreparedSystem:
         """The system as one variant flies it. Raises InputError."""
@@ -77,10 +98,11 @@ def read_plan(
     trials: int | None = None,
     seed: int | None = None,
     compare: Mapping[str, Sequence[str]] | None = None,
+    faults: Sequence[Fault] = (),
 ) -> BatchPlan:
     """Read a campaign by name or path, with the command line's changes. Raises InputError.
 
-    ``compare`` replaces the campaign's own comparison.
+    ``compare`` replaces the campaign's own comparison, ``faults`` come after its own.
     """
     archive = open_system(system)
     data, label = archive.campaign(campaign)
@@ -98,17 +120,22 @@ def read_plan(
         changes["seed"] = seed
     if compare is not None:
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
-    return BatchPlan(str(system), replace(read, **changes), options, hashlib.sha256(data).hexdigest())
+    changed = replace(read, **changes)
+    return BatchPlan(str(system), changed, options, hashlib.sha256(data).hexdigest(), faults=tuple(faults))
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
     """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
-    _ = plan.draws, plan.groups
+    _ = plan.draws, plan.groups, plan.drawn_faults
     _refuse_conflicts(plan)
     systems = {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
     for prepared in systems.values():
         for name in variant_names(plan, prepared).varied:
             _check_varied(plan, prepared, name)
+        for drawn in plan.drawn_faults:
+            check_drawn(drawn, prepared.network)
+        for fault in plan.faults:
+            check_fault(prepared.network, fault)
     return systems
 
 

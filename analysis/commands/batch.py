@@ -14,17 +14,19 @@ import numpy as np
 from ..batch.flyer import Flyer
 from ..batch.runner import run_batch
 from ..batch.summary import TrialColumns, requirement_values, summarise
+from ..batch.tables import faults_line
 from ..campaign.expressions import Expression
 from ..campaign.plan import BatchPlan, check_plan, read_plan
 from ..errors import InputError, suggestion
 from ..reports.batch.batch_report import write_batch_report
-from .options import add_json, add_system, json_number, pairs, system_options, write_json
+from .options import add_faults, add_json, add_system, faults, json_number, pairs, system_options, write_json
 
 HELP = "fly a campaign: many trials, variants compared on the same draws"
 
 
 def add(parser: argparse.ArgumentParser) -> None:
     add_system(parser)
+    add_faults(parser)
     parser.add_argument("--campaign", required=True, metavar="NAME", help="a campaign of the system, or a .toml file")
     parser.add_argument("--trials", type=int, metavar="N", help="instead of the campaign's number")
     parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
@@ -58,6 +60,7 @@ def run(options: argparse.Namespace) -> int:
         trials=options.trials,
         seed=options.seed,
         compare=compare,
+        faults=faults(options),
     )
     if options.replay is not None:
         for name in ("require", "report"):
@@ -117,9 +120,13 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
             result.write(options.output / f"{variant}_{trial:06d}.parquet")
         metrics = {name: json_number(value) for name, value in found.metrics.items()}
         document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
-    if not write_json({"trial": trial, "variants": document}, options.json):
+    flown = [str(fault) for fault in plan.faults_of(trial) if fault is not None]
+    declared = {"faults": flown} if plan.fault_texts() else {}
+    if not write_json({"trial": trial, **declared, "variants": document}, options.json):
         for variant, entry in document.items():
             numbers = [(name, "none" if value is None else f"{value:.6g}") for name, value in entry["metrics"].items()]
             metrics_text = ", ".join(f"{name} {number}" for name, number in numbers)
             print(f"{variant}: trial {trial}: {entry['status']}, success {entry['success']}: {metrics_text}")
+        if flown:
+            print(faults_line(flown))
     return 0

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..system.faults import KINDS, Fault, parse_fault
 from ..system.options import ALGORITHMS, FLAVOURS, SystemOptions
 
 
@@ -42,6 +43,21 @@ def add_system(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--no-feedthrough", action="append", default=[], metavar="COMPONENT", help="its outputs wait for no input"
     )
+
+
+def add_faults(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--fault",
+        action="append",
+        default=[],
+        metavar="FAULT",
+        help=f"fly with a fault, COMPONENT.CONNECTOR=KIND[:VALUE]@T[..T]: {' or '.join(KINDS)} from T s on, or until T",
+    )
+
+
+def faults(options: argparse.Namespace) -> list[Fault]:
+    """The faults of a parsed command line."""
+    return [parse_fault(text) for text in options.fault]
 
 
 def _seconds(text: str) -> float:

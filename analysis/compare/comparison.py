@@ -12,13 +12,14 @@ import numpy as np
 
 from ..batch.stored import StoredBatch
 from ..batch.summary import CONFIDENCE, TrialColumns, success_interval, summarise, summary_rows
-from ..batch.tables import aligned, metric_lines, who_cells, who_heads
+from ..batch.tables import aligned, faults_line, metric_lines, who_cells, who_heads
 from ..batch.trials import Trials
 from ..campaign.campaign import Metric
 from ..campaign.groups import Group
 from .paired import PairedRates, PairedValues, paired_rates, paired_values
 
 SUCCESS = "success"
+NO_FAULTS = "without faults"
 
 
 @dataclass(frozen=True)
@@ -169,6 +170,11 @@ class Comparison:
             a, b = a[both], b[both]
         return paired_values(a, b)
 
+    @property
+    def has_faults(self) -> bool:
+        """Whether any of the batches flew with faults."""
+        return any(batch.faults for batch in self.batches.values())
+
     def document(self) -> dict[str, Any]:
         """The comparison as JSON: provenance of every batch, per contender its numbers, per pair theirs."""
         group = {} if self.group is None else {"group": self.group}
@@ -197,7 +203,14 @@ class Comparison:
             rates = [_percent(row.entry["rates"][name]) for name in names]
             cells.append([*who_cells(row, self.group), str(row.entry["trials"]), *rates])
         found = metric_lines(rows, [metric.name for metric in self.metrics], self.group)
-        return "\n".join([*aligned(cells), *(["", *found] if found else []), *self.notes])
+        return "\n".join([*aligned(cells), *(["", *found] if found else []), *self._fault_lines(), *self.notes])
+
+    def _fault_lines(self) -> list[str]:
+        """With which faults every batch flew; nothing where none did."""
+        lines = {name: faults_line(batch.faults) if batch.faults else NO_FAULTS for name, batch in self.batches.items()}
+        if not self.has_faults:
+            return []
+        return list(lines.values()) if len(lines) == 1 else [f"{name}: {line}" for name, line in lines.items()]
 
 
 def _percent(rate: Mapping[str, Any]) -> str:

@@ -24,8 +24,13 @@ ARROW_SCALE = 2.2  # km of arrow per m/s2
 def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> list[Result]:
     """Some trials of a campaign with every signal; the same flights as in its batch."""
     prepared = plan.prepare(variant)
-    with Simulation(prepared, varied=variant_names(plan, prepared).varied) as simulation:
-        return [_copy(simulation.fly(plan.parameters(prepared, trial))) for trial in trials]
+    varied = variant_names(plan, prepared).varied
+    landings = []
+    with Simulation(prepared, varied=varied, faults=plan.declared_faults()) as simulation:
+        for trial in trials:
+            simulation.set_faults(plan.faults_of(trial))
+            landings.append(_copy(simulation.fly(plan.parameters(prepared, trial))))
+    return landings
 
 
 def _copy(result: Result) -> Result:

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, suggestion
 from ..system.assignments import Settings, numbers
+from ..system.faults import connector_type
 from ..system.network import Link, Network, Node
 from ..system.schedule import Schedule, origin
 from ..system.transformations import IDENTITY
 from . import loop
-from .faults import Injection
+from .injections import Injection
 from .instance import Instance
 from .instructions import InstructionList, write_instructions
 
@@ -80,7 +80,9 @@ class _Builder:
         self.types: dict[str, str] = {}
         self.units: dict[str, str | None] = {}
         read = {link.source.name for link in network.driver.values()}
-        self.fetched = None if wanted is None else read | set(wanted) | {injection.name for injection in injections}
+        self.fetched = (
+            None if wanted is None else read | set(wanted) | {injection.connector for injection in injections}
+        )
         self.ranges = np.zeros((len(self.names), len(EXCHANGES), 2), dtype=np.int64)
         for index, name in enumerate(self.names):
             self._place_component(index, name)
@@ -212,7 +214,7 @@ class _Builder:
             table_to=np.array([entry[1] for entry in flat], dtype=np.float64),
             finished_slot=self.slots["finished"] if has_finish else -1,
             fault_slot=np.array(fault_slots, dtype=np.int64),
-            fault_kind=np.array([injection.kind_number for injection in self.injections], dtype=np.int64),
+            fault_kind=np.array([injection.kind for injection in self.injections], dtype=np.int64),
             fault_window=np.array([injection.window for injection in self.injections], dtype=np.float64).reshape(-1, 2),
             fault_value=np.array([injection.value for injection in self.injections], dtype=np.float64),
         )
@@ -224,15 +226,8 @@ class _Builder:
         return _connection_code(link), number, self.slots[link.source.name], self.slots[link.target.name]
 
     def _fault_slot(self, injection: Injection) -> int:
-        if injection.name not in self.slots or "." not in injection.name:
-            names = [name for name in self.slots if "." in name]
-            raise InputError(
-                type(injection).__name__.lower(),
-                injection.name,
-                "no such connector of a component",
-                suggestion(injection.name, names),
-            )
-        return self.slots[injection.name]
+        connector_type(self.network, injection.connector, ("connector", injection.connector))  # refuses all others
+        return self.slots[injection.connector]
 
     def layout(self) -> Layout:
         whole = np.zeros(self.values.size, dtype=np.int32)

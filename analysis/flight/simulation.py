@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
 from importlib.metadata import version
 from typing import Any
 
@@ -11,10 +10,11 @@ import numpy as np
 
 from ..errors import InputError
 from ..system.assignments import Settings
+from ..system.faults import Fault, check_fault
 from ..system.parameter_sets import ParameterValue, parse_value
 from ..system.prepared import PreparedSystem
 from . import loop
-from .faults import Excitation, Fault
+from .injections import NEVER, of_excitation, of_fault
 from .instance import Instance, instantiate
 from .program import build_program
 from .results import Flight, Result
@@ -37,8 +37,8 @@ class Simulation:
 
     ``varied`` names the parameters (``component.variable``) that `fly` may be given anew;
     ``wanted`` the signals to record (None: all outputs, connected inputs and system connectors);
-    ``excited`` the connectors that `advance` may add signals to. Use it as a context manager: it
-    frees the instances. Not shared between threads.
+    ``faults`` those that fly unless `set_faults` says otherwise; ``excited`` the connectors that `advance` may
+    add signals to. Use it as a context manager: it frees the instances. Not shared between threads.
     """
 
     def __init__(
@@ -56,8 +56,11 @@ class Simulation:
         self._place_varied()
         self.instances: dict[str, Instance] = {}
         self._wanted = wanted
-        self._faults = faults
-        self._excitations = [Excitation(name, column) for column, name in enumerate(excited)]
+        for fault in faults:
+            check_fault(prepared.network, fault)
+        self._declared = faults
+        self._faults: Sequence[Fault | None] = faults
+        self._excitations = [of_excitation(name, column) for column, name in enumerate(excited)]
         self._instantiate()
 
     def _place_varied(self) -> None:
@@ -86,8 +89,7 @@ class Simulation:
         prepared = self.prepared
         for name, fmu in prepared.network.fmus.items():
             self.instances[name] = instantiate(fmu, name)
-        margin = TIME_MARGIN * prepared.step
-        faults = [replace(fault, start=fault.start - margin, stop=fault.stop - margin) for fault in self._faults]
+        faults = [of_fault(fault, TIME_MARGIN * prepared.step) for fault in self._declared]
         self.program, self.layout = build_program(
             prepared.network,
             self.settings,
@@ -97,6 +99,7 @@ class Simulation:
             self._wanted,
             [*faults, *self._excitations],
         )
+        self.set_faults(self._faults)
         self.signal_names = [name for name in self.layout.slots if self._wanted is None or name in self._wanted]
         for name in self._wanted or ():
             if name not in self.layout.slots:
@@ -108,7 +111,7 @@ class Simulation:
         self.buffers = loop.Buffers(
             values=np.zeros(len(self.layout.slots)),
             whole=np.zeros(len(self.layout.slots), dtype=np.int32),
-            frozen=np.zeros(len(self._faults) + len(self._excitations)),
+            frozen=np.zeros(len(self._declared) + len(self._excitations)),
             outcome=np.zeros(5, dtype=np.int64),
         )
         self._record = np.empty((0, 0))
@@ -138,6 +141,21 @@ class Simulation:
         """Give varied parameters other values, from the next start on."""
         for name, value in values.items():
             self.layout.set_parameter(self._varied[name], value)  # type: ignore[arg-type]
+
+    def set_faults(self, faults: Sequence[Fault | None]) -> None:
+        """Give faults other values and windows, from the next start on.
+
+        There is one for each that the simulation was made with, on its connector and of its kind, or None
+        where that one does not fly.
+        """
+        for number, (declared, fault) in enumerate(zip(self._declared, faults, strict=True)):
+            self.program.fault_window[number] = NEVER
+            if fault is not None:
+                assert (fault.name, fault.kind) == (declared.name, declared.kind)
+                injection = of_fault(fault, TIME_MARGIN * self.prepared.step)
+                self.program.fault_window[number] = injection.window
+                self.program.fault_value[number] = injection.value
+        self._faults = faults
 
     def advance(self, first: int, last: int, excitation: np.ndarray = NOTHING) -> Flight:
         """Fly on from communication point ``first`` to ``last``, as FMUs and buffers are; rows first + 1 to last.
@@ -252,10 +270,7 @@ class Simulation:
             "stop_time": prepared.start + prepared.steps * prepared.step,
             "variant": prepared.options.variant,
             "no_feedthrough": list(prepared.options.no_feedthrough),
-            "faults": [
-                f"{fault.name} {fault.kind} {fault.value!r} from {fault.start!r} to {fault.stop!r} s"
-                for fault in self._faults
-            ],
+            "faults": [str(fault) for fault in self._faults if fault is not None],
             "algorithm": prepared.options.algorithm,
             "perilune": version("perilune"),
         }

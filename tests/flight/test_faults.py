@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from perilune.analysis.errors import InputError
-from perilune.analysis.flight.faults import Fault
+from perilune.analysis.flight.simulation import Simulation
+from perilune.analysis.system.faults import Fault
+from perilune.analysis.system.prepared import prepare_system
 from tests.support.builders import component, connection, document, fly, pack, system
 
 RAMP = component("ramp", "ramp", "output y Real m; output flag Boolean; output count Integer")
@@ -112,6 +114,38 @@ def test_a_fault_ends_with_the_flight_it_was_made_for(flown):
     assert flown() == before
 
 
+def test_other_faults_from_flight_to_flight(tiny, tmp_path):
+    """One simulation, reset and reused: the values, windows and absences of its last `set_faults`, and no others."""
+    path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, TWIN, DELAY, WHOLE, connections=WIRES)))
+    bias, hold = Fault("gain.u", "bias", 1.0, 0.25), Fault("ramp.y", "freeze", start=0.5)
+    flights = [
+        ((bias, hold), [1.0, 2.5, 3.0, 3.0, 3.0]),
+        ((None, None), TRUE),
+        ((Fault("gain.u", "bias", -1.0, 0.75, 1.0), None), [1.0, 1.5, 2.0, 1.5, 3.0]),
+        ((None, Fault("ramp.y", "freeze", start=0.25, stop=0.75)), [1.0, 1.5, 1.5, 2.5, 3.0]),
+        ((bias, hold), [1.0, 2.5, 3.0, 3.0, 3.0]),
+    ]
+    with Simulation(prepare_system(path), faults=(bias, hold)) as simulation:
+        for faults, seen in flights:
+            simulation.set_faults(faults)
+            result = simulation.fly()
+            assert result["gain.u"].tolist() == seen
+            assert result.provenance["faults"] == [str(fault) for fault in faults if fault is not None]
+
+
+def test_faults_outlive_a_fatal_error(tmp_path, tiny_folder):
+    """After one, FMI allows no instance to be used again: new ones fly with the faults that were set."""
+    fail = component("trouble", "trouble", "output y Real m")
+    gain = component("gain", "gain", "input u Real m; output y Real m")
+    wires = connection("trouble.y", "gain.u")
+    path = pack(tmp_path / "s.ssp", tiny_folder / "native", document(system(fail, gain, connections=wires)))
+    prepared = prepare_system(path)
+    with Simulation(prepared, faults=[Fault("gain.u", "override", 1.0)]) as simulation:
+        simulation.set_faults([Fault("gain.u", "override", 7.0, 0.5)])
+        simulation._replace_instances()  # as `_advance` does
+        assert simulation.fly()["gain.u"].tolist() == [1.0, 2.0, 7.0, 7.0, 7.0]
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -120,6 +154,8 @@ def test_a_fault_ends_with_the_flight_it_was_made_for(flown):
         ({"name": "ramp.y", "kind": "bias", "start": 2.0, "stop": 1.0}, "empty window"),
         ({"name": "ramp.y", "kind": "bias", "value": math.nan}, "not finite"),
         ({"name": "ramp.y", "kind": "bias", "start": math.nan}, "empty window"),
+        ({"name": "ramp.y", "kind": "freeze", "value": 1.0}, "ramp.y: a freeze has no value; leave it out"),
+        ({"name": "ramp.flag", "kind": "bias", "value": 1.0}, "ramp.flag: a Boolean has no bias"),
     ],
 )
 def test_refused(flown, arguments, words):

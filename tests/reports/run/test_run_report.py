@@ -33,6 +33,13 @@ def test_header(page):
         assert words in text
 
 
+def test_faults_are_listed_where_there_are_any(page, tmp_path):
+    result = run_result()
+    result.provenance["faults"] = ["ship.mass=bias:1@2", "ship.status=freeze@3..4"]
+    assert "Faults: ship.mass=bias:1@2; ship.status=freeze@3..4." in text_of(write(result, tmp_path / "x.html"))
+    assert "Faults" not in page
+
+
 def test_every_signal_has_its_numbers(page):
     result, text, values = run_result(), text_of(page), set(data_values(page))
     for name, signal in result.signals.items():

@@ -71,6 +71,7 @@ def run_result(rows: int = 200, status: str = "finished", message: str = "") -> 
         "parameters": {"ship.length": 3.25, "ship.sails": 2, "ship.armed": False, "ship.name": "<b>Beagle</b>"},
         "start_time": 0.0,
         "step": 0.5,
+        "faults": [],
         "algorithm": "sequential",
         "perilune": "0.0.1",
     }
