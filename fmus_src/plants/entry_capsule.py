@@ -101,6 +101,7 @@ class EntryCapsule(Block):
     mach = Output(0.0, unit="1", description="Mach number against the air")
     fired_pulses = Output([0.0, 0.0, 0.0], unit="s", frame="body", description="the last pulses, with their sign")
     jet_seconds = Output([0.0, 0.0, 0.0], unit="s", frame="body", description="time that jets have fired about x, y, z")
+    total_jet_seconds = Output(0.0, unit="s", description="their sum: the propellant")
     finished = Output(False, description="below final_height")
     status = Output(GOOD, minimum=0, maximum=2, description="0 good, 1 beyond the tables, 2 inertia cannot be inverted")
     place = State([6471000.0, 0.0, 0.0], frozen=True, description="distance (m), longitude, latitude (rad)")
@@ -262,4 +263,5 @@ class EntryCapsule(Block):
         before = lengths_of(self.left)
         self.left = left_after(self.left, h)
         self.jet_seconds = self.jet_seconds + before - lengths_of(self.left)
+        self.total_jet_seconds = self.jet_seconds.x + self.jet_seconds.y + self.jet_seconds.z
         self.publish()

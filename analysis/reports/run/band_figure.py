@@ -8,18 +8,20 @@ from matplotlib.axes import Axes
 
 from ...flight.results import Result
 from ..kit.page import exact
+from ..kit.panels import HALF_WIDTH, Panel, panel
 from ..kit.quantities import shown_factor, shown_unit
 from ..kit.style import FAINT, GREEN, INK, look
-from .declared import Band
-from .section import Section, history_panel, legend_of, seconds, sentence
+from .declared import Band, Signal
+from .section import HEIGHT, Section, history_panel, legend_of, seconds, sentence
 
 CLOSE = 3.0  # widths of the band that the close-up shows
+DECADES = 100.0  # ratio of an abscissa's ends from which on it is logarithmic
 FAR = 4.0  # widths of the band from which on the whole flight leaves too little of it to see
 
 
 def inside(band: Band, result: Result) -> np.ndarray:
     """Where each element is within the band, limits included, elements by rows; nan is not."""
-    values = band.signal.values(result)
+    values = band.values(result)
     low, high = (-np.inf if band.low is None else band.low), (np.inf if band.high is None else band.high)
     return (values >= low) & (values <= high) & np.isfinite(values)
 
@@ -43,7 +45,7 @@ def since(name: str, time: np.ndarray, held: np.ndarray) -> Markup:
 
 def band_section(band: Band, result: Result, name: str) -> Section:
     """The figures and findings of a band; ``name`` must differ between the figures of a page."""
-    held, values, time = inside(band, result), band.signal.shown(result), result.time
+    held, values, time = inside(band, result), band.shown(result), result.time
     row = settled_row(np.logical_and.reduce(held))
     factor, unit = shown_factor(band.signal.unit_name), shown_unit(band.signal.unit_name)
     low, high = (None if limit is None else factor * limit for limit in (band.low, band.high))
@@ -54,6 +56,8 @@ def band_section(band: Band, result: Result, name: str) -> Section:
             style = look(index)
             axes.plot(time, line, color=style.colour, linestyle=style.dashes, marker="." if time.size == 1 else "")
         _shade(axes, low, high)
+        for begin, end in _spans(band, result):
+            axes.axvspan(begin, end, color=FAINT, alpha=0.35, linewidth=0.0)
         if limits is not None:
             axes.set_ylim(limits)
         if row:
@@ -66,6 +70,8 @@ def band_section(band: Band, result: Result, name: str) -> Section:
         panels.append(
             history_panel(label, f"{name}-close", f"{what}, close up", unit, time, lambda axes: draw(axes, close))
         )
+    for number, other in enumerate(band.against):
+        panels.append(_against(band, result, other, f"{name}-against{number}", (low, high)))
     return Section(
         title=band.title,
         panels=panels,
@@ -73,6 +79,37 @@ def band_section(band: Band, result: Result, name: str) -> Section:
         findings=[_findings(band, time, held)],
         notes=[_reading(band, unit, row), *(Markup("{}").format(note) for note in band.notes)],
     )
+
+
+def _spans(band: Band, result: Result) -> list[tuple[float, float]]:
+    """Begin and end (s) of the times that are shaded."""
+    if band.shade is None:
+        return []
+    below = np.append(band.shade.values(result)[0] < band.shade_below, False).astype(int)
+    edges = np.diff(np.append(0, below))
+    time = np.append(result.time, result.time[-1])
+    begins, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
+    return [(float(time[begin]), float(time[end])) for begin, end in zip(begins, ends, strict=True)]
+
+
+def _against(band: Band, result: Result, other: Signal, name: str, limits: tuple[float | None, float | None]) -> Panel:
+    """The signal over another one, on a logarithmic scale where that spans decades."""
+    across = other.shown(result)[0]
+    decades = bool(np.all(across > 0.0)) and float(np.nanmax(across)) > DECADES * float(np.nanmin(across))
+    unit = shown_unit(other.unit_name)
+
+    def draw(axes: Axes) -> None:
+        for index, line in enumerate(band.shown(result)):
+            style = look(index)
+            axes.plot(across, line, color=style.colour, linestyle=style.dashes)
+        _shade(axes, *limits)
+        if decades:
+            axes.set_xscale("log")
+        axes.set_xlabel(f"{other.label}, {unit}" if unit else other.label)
+        axes.set_title(shown_unit(band.signal.unit_name), loc="left", pad=4)
+
+    label = f"Against {other.label.rpartition('.')[2].replace('_', ' ')}"
+    return panel(label, name, f"{band.title} against {other.label}, with the band", draw, HEIGHT, HALF_WIDTH)
 
 
 def _close_up(values: np.ndarray, low: float, high: float) -> tuple[float, float] | None:
@@ -121,6 +158,10 @@ def _reading(band: Band, unit: str, row: int | None) -> Markup:
     else:
         words = Markup("shaded: {} to {} {}").format(exact(band.low, name), exact(band.high, name), unit)
     words = Markup("{} of {}").format(words, band.signal.label)
+    if band.less is not None:
+        words = Markup("{} less {}").format(words, band.less.label)
+    if band.shade is not None:
+        words = Markup("{}; grey: {} below {}").format(words, band.shade.label, exact(band.shade_below))
     if band.about:
         values = Markup(", ").join(exact(value, name) for value in band.about)
         words = Markup("{} less ({}) {}").format(words, values, unit)

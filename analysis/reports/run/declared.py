@@ -53,7 +53,8 @@ class Band(Own):
     """A signal that is to come into a band and stay: from ``low`` to ``high`` in its unit, None for no limit.
 
     ``name`` says in a word what it is when it has: "settled". ``about`` is what was subtracted, in the signal's unit;
-    empty: nothing. ``labels`` name the elements of a vector.
+    empty: nothing; ``less`` is a signal that is subtracted. ``labels`` name the elements of a vector. Where ``shade``
+    is below ``shade_below`` the time is shaded; the signal is drawn against each of ``against``, too.
     """
 
     signal: Signal
@@ -62,6 +63,20 @@ class Band(Own):
     name: str
     about: tuple[float, ...]
     labels: tuple[str, ...]
+    less: Signal | None = None
+    shade: Signal | None = None
+    shade_below: float = 0.0
+    against: tuple[Signal, ...] = ()
+
+    def values(self, flight: Flight) -> np.ndarray:
+        """What is to come into the band, in the signal's unit, elements by rows of time."""
+        values = self.signal.values(flight)
+        return values if self.less is None else values - self.less.values(flight)
+
+    def shown(self, flight: Flight) -> np.ndarray:
+        """Likewise as it is drawn: angles in deg, nan for what is not finite."""
+        values = self.values(flight)
+        return np.where(np.isfinite(values), values, np.nan) * shown_factor(self.signal.unit_name)
 
 
 @dataclass(frozen=True)

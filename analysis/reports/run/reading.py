@@ -20,6 +20,7 @@ ANNOTATION = "org.perilune.report"
 SECOND = Unit("s", tuple(int(name == "s") for name in BASE_UNITS))
 NUMBERS = ("Real", "Integer")
 INSIDE = "within the band"
+BAND = ("low", "high", "unit", "about", "less", "shade", "shade_below", "against", "name", "labels", "title")
 
 
 def read_figures(prepared: PreparedSystem) -> list[Figure]:
@@ -62,7 +63,7 @@ class _Reader(AnnotationReader):
         return found
 
     def band(self, element: etree._Element) -> Band:
-        found = self.attributes(element, ("signal",), ("low", "high", "unit", "about", "name", "labels", "title"))
+        found = self.attributes(element, ("signal",), BAND)
         low, high = self.number(element, "low"), self.number(element, "high")
         if low is None and high is None:
             raise self.refuse(element, "neither low nor high", "give one of them, or both")
@@ -74,6 +75,8 @@ class _Reader(AnnotationReader):
         if about:
             self.as_many(element, f"about has {len(about)} numbers", len(about), signal)
             signal = replace(signal, offsets=tuple(-value for value in about))
+        if ("shade" in found) != ("shade_below" in found):
+            raise self.refuse(element, "shade and shade_below belong together", "give both, or neither")
         return Band(
             title=self.title(element, signal.label),
             notes=tuple(self.notes),
@@ -83,7 +86,17 @@ class _Reader(AnnotationReader):
             name=found.get("name") or INSIDE,
             about=about,
             labels=self.labels(element, signal),
+            less=self.signal(element, "less", like=signal) if "less" in found else None,
+            shade=self.scalar(element, "shade") if "shade" in found else None,
+            shade_below=self.number(element, "shade_below") or 0.0,
+            against=tuple(self.named(element, "against", name) for name in found.get("against", "").split()),
         )
+
+    def named(self, element: etree._Element, attribute: str, name: str) -> Signal:
+        """A scalar among several that an attribute names."""
+        if name not in self.types or self.types[name] not in NUMBERS:
+            raise self.unfit(element, name, f"{attribute} {name}: no such scalar", suggestion(name, self.types))
+        return Signal(name, (name,), self.unit_of(name), 1.0, (0.0,))
 
     def pulses(self, element: etree._Element) -> Pulses:
         self.attributes(element, ("lengths",), ("count", "remainder", "total", "labels", "title"))
