@@ -11,15 +11,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.linalg import qr
 from scipy.optimize import minimize
 
 from ..refusal import PlacementError, Reason
 from ..results import OutputFeedback
 from .newton import polished
 
-_STARTS = 5  # searches, from the smallest that the spreads gave
+_STARTS = 5  # the smallest that the spreads gave
 _ACCURACY = 1e-10  # of |F|^2, relative to the start's
-_STEPS = 500
+_STEPS = 100  # of one search
+_ROUNDS, _WORTH = 10, 0.01  # searches one after the other, and what the last must have brought
 _ALLOWED = 1000.0 * np.finfo(float).eps  # of kappa |Ac|; how far from the poles rounding may leave an F
 
 
@@ -35,8 +37,7 @@ def smallest(found: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, c: n
             "output feedback", Reason.RANK, "poles are repeated: they have no derivative", 0.0, "take choice least_norm"
         )
     starts = sorted(found, key=lambda one: one.norm)[:_STARTS]
-    ends = [_from(start, a, b, c) for start in starts]
-    return min((starts[0], *(end for end in ends if end is not None)), key=lambda one: one.norm)
+    return min((_from(start, a, b, c) for start in starts), key=lambda one: one.norm)
 
 
 def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -49,35 +50,56 @@ def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.array(coefficients), np.array(adjugate[:-1])
 
 
-def _from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback | None:
-    """Where a search ends, None where that is no F with the poles."""
-    radius = float(np.max(np.abs(start.wanted)))
+def _from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
+    """Where searches end that each begin where the last one ended, as long as that is on the set and smaller."""
+    for _ in range(_ROUNDS):
+        end = _search(start, a, b, c)
+        if end is None or end.norm >= (1.0 - _WORTH) * start.norm:
+            break
+        start = end
+    return start
+
+
+def _search(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback | None:
+    """Where one search ends, None where that is no F with the poles."""
+    radius, scale = float(np.max(np.abs(start.wanted))), float(np.linalg.norm(start.gain))
     wanted = np.poly(start.wanted / radius).real[1:]
-    shape, size = start.gain.shape, float(np.sum(start.gain**2))
+    driven = b * (scale / radius)
 
     def loop(free: np.ndarray) -> np.ndarray:
-        return (a + b @ free.reshape(shape) @ c) / radius
+        return a / radius + driven @ free.reshape(start.gain.shape) @ c
 
+    def slope(free: np.ndarray) -> np.ndarray:
+        return -(c @ polynomial_and_slope(loop(free))[1] @ driven).swapaxes(1, 2).reshape(len(a), -1)
+
+    first = start.gain.ravel() / scale
+    # combinations of the equations whose derivatives are orthonormal where it starts
+    mixed = np.linalg.pinv(qr(slope(first).T, mode="economic")[1].T)
     ended = minimize(
-        lambda free: (free @ free / size, 2.0 * free / size),
-        start.gain.ravel(),
+        lambda free: (free @ free, 2.0 * free),
+        first,
         jac=True,
         method="SLSQP",
         constraints={
             "type": "eq",
-            "fun": lambda free: polynomial_and_slope(loop(free))[0] - wanted,
-            "jac": lambda free: (
-                -(c @ polynomial_and_slope(loop(free))[1] @ b / radius).swapaxes(1, 2).reshape(len(a), -1)
-            ),
+            "fun": lambda free: mixed @ (polynomial_and_slope(loop(free))[0] - wanted),
+            "jac": lambda free: mixed @ slope(free),
         },
         options={"ftol": _ACCURACY, "maxiter": _STEPS},
     )
     if not np.all(np.isfinite(ended.x)):
         return None
-    gain = ended.x.reshape(shape)
+    gain = scale * ended.x.reshape(start.gain.shape)
     there = replace(
-        start, method="smallest", gain=gain, closed_loop=a + b @ gain @ c, levels=(), upper=None, condition_x=None
+        start,
+        method="smallest",
+        gain=gain,
+        closed_loop=a + b @ gain @ c,
+        condition_u=None,
+        levels=(),
+        upper=None,
+        condition_x=None,
     )
-    there = polished(replace(there, condition_u=None), a, b, c)
+    there = polished(there, a, b, c)
     allowed = _ALLOWED * there.kappa * np.linalg.norm(there.closed_loop, 2)
     return there if there.error <= allowed else None
