@@ -49,7 +49,7 @@ def spreads_figure(direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -
     for norms, colour, marker, shift, label in (
         (direct, BLUE, "o", -0.12, "direct, 20 spreads"),
         (dual, VERMILION, "s", 0.12, "dual, 15 spreads"),
-        (smallest, INK, "D", 0.0, "smallest, down from the least"),
+        (smallest, INK, "D", 0.0, "smallest, from there"),
     ):
         places = np.repeat(np.arange(1, len(norms) + 1), norms.shape[1]) + shift
         axes.plot(

@@ -26,7 +26,7 @@ from .spectrum import Spectrum
 
 Objective = Callable[[np.ndarray], tuple[float, np.ndarray]]
 _ORDERS = (2.0, 16.0, 128.0)  # of the norms that tend to the largest singular value; the first is smooth everywhere
-_COARSE, _FINE = (1e-2, 200), (1e-5, 400)  # slope and steps at which a descent ends
+_COARSE, _FINE = (1e-3, 400), (1e-6, 600)  # slope and steps at which a descent ends
 _KEPT = 2  # starts that are gone on with
 
 

@@ -119,13 +119,13 @@ def _check_size(sizes: Sequence[int], level: int, rank: int, b: np.ndarray) -> N
     outside = float(np.linalg.norm(b[rank:], 2) / np.linalg.norm(b, 2)) if len(b) > rank else 0.0
     if wanted == rank and outside <= _OUTSIDE:
         return
-    says = (
-        f"{wanted} states where the rank is {rank}" if wanted != rank else f"{outside:.2g} of what drives it left out"
-    )
+    says = f"has {wanted} states where the rank is {rank}"
+    if wanted == rank:
+        says = f"leaves out {outside:.2g} of what drives it"
     raise PlacementError(
         "multilevel placement",
         Reason.RANK,
-        f"the basis of level {level} has {says}",
+        f"the basis of level {level} {says}",
         float(wanted) if wanted != rank else outside,
         "give a basis of what B drives, then one of what these states drive, and so on",
     )

@@ -11,6 +11,7 @@ HELD = 1
 NOT_FINITE = 2
 YAW_LIMITED = 3
 NO_GAIN = 4
+NOT_POSITIVE = 5
 
 
 class AttitudeObserver(OrbitalBody, interface=True):
@@ -76,9 +77,9 @@ class AttitudeObserver(OrbitalBody, interface=True):
     status = Output(
         GOOD,
         minimum=0,
-        maximum=4,
+        maximum=5,
         direct=True,
-        description="0 good, 1 no new sample, 2 sample not finite, 3 yaw at its bound, 4 no gain: parameters unusable",
+        description="0 good, 1 no new sample, 2 not finite, 3 yaw at its bound, 4 no gain, 5 variance of yaw not positive",
     )
     angles_now = State([0.0, 0.0, 0.0], unit="rad", description="estimated roll, yaw, pitch")
     rates_now = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="estimated angular velocity, absolute")

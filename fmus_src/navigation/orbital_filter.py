@@ -3,7 +3,7 @@
 import math
 
 from ..block import Parameter, State
-from ..interfaces.attitude_observer import AttitudeObserver
+from ..interfaces.attitude_observer import NOT_POSITIVE, AttitudeObserver
 from ..mathlib.kalman import predict, update
 from ..mathlib.orbital import angle_rate_derivatives, angle_rates, applied
 from ..mathlib.vectors import Vector3, vector
@@ -95,4 +95,8 @@ class OrbitalFilter(AttitudeObserver):
     def bound(self) -> None:
         """The filter's yaw is free; put out what it knows of it."""
         self.estimated_gyro_bias = self.bias
-        self.yaw_sigma = math.sqrt(self.covariance[7])
+        if self.covariance[7] > 0.0:
+            self.yaw_sigma = math.sqrt(self.covariance[7])
+        else:
+            self.yaw_sigma = 0.0
+            self.status = NOT_POSITIVE

@@ -144,7 +144,7 @@ def test_wrong_levels_are_one_line() -> None:
         (wanted, [eye[:, 2:], eye[:, 2:]], "together they are no orthonormal basis"),
         (wanted, [eye[:, 2:], eye[:, :1]], "together they are no orthonormal basis"),
         (wanted, [eye[:, 2:], 2.0 * eye[:, :2]], "together they are no orthonormal basis"),
-        (wanted, [eye[:, :2], eye[:, 2:]], "the basis of level 0 has 1 of what drives it left out"),
+        (wanted, [eye[:, :2], eye[:, 2:]], "the basis of level 0 leaves out 1 of what drives it"),
         (wanted, [eye[:, 3:], eye[:, :3]], "the basis of level 0 has 1 states where the rank is 2"),
     ):
         with pytest.raises(InputError, match=problem):

@@ -56,7 +56,10 @@ def common_feedback(
     states = [state_matrix(plant) for plant in plants]
     inputs, outputs = input_matrix(b, len(states[0])), output_matrix(c, len(states[0]))
     size, order = inputs.shape[1], len(states[0])
-    prescribed = np.array(wanted, dtype=float)
+    try:
+        prescribed = np.array(wanted, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("modal", "wanted", "it is no array of numbers", "give p matrices, nan for free") from None
     if any(len(state) != order for state in states) or order % size:
         raise InputError("modal", "plants", f"their sizes do not fit {size} inputs", "give n by n matrices, n = p m")
     if prescribed.shape != (order // size, size, size):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from enum import StrEnum
+from itertools import islice
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +15,7 @@ from ..plant import input_matrix, output_matrix, state_matrix
 from ..refusal import PlacementError, Reason
 from ..results import OutputFeedback
 from ..spectrum import Spectrum
-from .newton import descended
+from .smallest import smallest
 from .square import square
 from .zeroth_level import ZerothLevel, direct
 
@@ -31,7 +32,7 @@ class Spread(StrEnum):
 
     FIRST = "first"  # that applies
     LEAST_NORM = "least_norm"  # the smallest of all
-    SMALLEST = "smallest"  # and down from there along every F that has the poles
+    SMALLEST = "smallest"  # of what is found from there among all F that have the poles
 
 
 def output_feedback(
@@ -51,7 +52,7 @@ def output_feedback(
     ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), of full ranks; ``poles`` as in `place`. ``method`` is direct or
     dual, both without one; ``upper`` names the poles of the upper level (n - m of them, dual n - p). Else ``choice`` is
     first, the first spread that applies; least_norm: every real spread is tried and the smallest |F| returned; or
-    smallest, which goes down from there along the set of all F with these poles, m p - n numbers wide. For m + p > n
+    smallest, a search from there in the set of all F with these poles, which is m p - n numbers wide. For m + p > n
     generic plants have a solution; for m + p = n one is searched for from ``starts`` starts.
     Raises InputError; PlacementError where no spread that may be tried applies, with the reason of the last.
     """
@@ -69,10 +70,10 @@ def output_feedback(
     _check_class(*plant)
     refusals: list[PlacementError] = []
     found = _placements(*plant, spectrum, method, upper, starts, seed, refusals)
-    best = next(found, None) if choice == Spread.FIRST else min(found, key=lambda one: one.norm, default=None)
-    if best is None:
+    tried = [*islice(found, 1)] if choice == Spread.FIRST else [*found]
+    if not tried:
         raise refusals[-1] if refusals else _no_spread(spectrum)
-    return descended(best, *plant) if choice == Spread.SMALLEST else best
+    return smallest(tried, *plant) if choice == Spread.SMALLEST else min(tried, key=lambda one: one.norm)
 
 
 def _placements(

@@ -19,7 +19,7 @@ from ..spectrum import Spectrum
 from .newton import polished
 from .zeroth_level import ZerothLevel, condition_of
 
-_SOLVED = 1e-5  # of the polynomial's coefficients, poles measured by the largest wanted one; the rest is for Newton
+_SOLVED = 1e-5  # of the polynomial's coefficients, poles measured by the largest wanted one; Newton does the rest
 _STEPS = 60  # of a search: those that arrive took fewer
 
 

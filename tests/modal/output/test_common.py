@@ -71,6 +71,7 @@ def test_plants_that_a_common_feedback_made() -> None:
     [
         ([], np.eye(2), "plants: there are none"),
         ([np.eye(4), np.eye(2)], np.zeros((2, 2, 2)), "plants: their sizes do not fit 2 inputs"),
+        ([turned_plant(1.0)], [np.eye(2), [1.0]], "wanted: it is no array of numbers; give p matrices"),
         ([turned_plant(1.0)], np.eye(2), r"wanted: it is \(2, 2\); give \(2, 2, 2\)"),
     ],
 )

@@ -43,7 +43,7 @@ def draw(
     if isinstance(start, bool):
         return random.random() < 0.5
     if variable.name == "sample_period":
-        return random.choice([0.0, h, h, 2.0 * h])
+        return max(random.choice([0.0, h, h, 2.0 * h]), h if variable.minimum else 0.0)
     if isinstance(start, int) and variable.columns == SIZE:
         return draw_operation(random, *divmod(position, SIZE))
     low = -float("inf") if variable.minimum is None else variable.minimum

@@ -1,0 +1,105 @@
+"""The smallest of all F that have the wanted poles, from a few that do.
+
+They are a set m p - n numbers wide, given by the coefficients of the characteristic polynomial, whose derivatives are
+those of det(s I - M): d det = -tr(adj(s I - M) dM), adj(s I - M) by Faddeev and Leverrier. On it |F| is minimised by
+sequential quadratic programming (scipy's SLSQP, Kraft 1988), and Newton's method takes the poles to rounding. Ours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.linalg import qr
+from scipy.optimize import minimize
+
+from ..refusal import PlacementError, Reason
+from ..results import OutputFeedback
+from .newton import polished
+
+_STARTS = 5  # the smallest that the spreads gave
+_ACCURACY = 1e-10  # of |F|^2, relative to the start's
+_STEPS = 100  # of one search
+_ROUNDS, _WORTH = 10, 0.01  # searches one after the other, and what the last must have brought
+_ALLOWED = 1000.0 * np.finfo(float).eps  # of kappa |Ac|; how far from the poles rounding may leave an F
+
+
+def smallest(found: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
+    """Of the feedbacks ``found`` and of where they lead the one with the least |F|.
+
+    Raises PlacementError for repeated poles, at which Newton's method has no derivative.
+    """
+    wanted = found[0].wanted
+    apart = np.abs(wanted[:, None] - wanted[None, :]) + np.diag(np.full(len(wanted), np.inf))
+    if not np.min(apart) > 0.0:
+        raise PlacementError(
+            "output feedback", Reason.RANK, "poles are repeated: they have no derivative", 0.0, "take choice least_norm"
+        )
+    starts = sorted(found, key=lambda one: one.norm)[:_STARTS]
+    return min((_from(start, a, b, c) for start in starts), key=lambda one: one.norm)
+
+
+def polynomial_and_slope(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients of det(s I - M) below the leading one, highest first (n,), and adj(s I - M) (n, n, n) likewise."""
+    adjugate, coefficients = [np.eye(len(matrix))], []
+    for k in range(1, len(matrix) + 1):
+        product = matrix @ adjugate[-1]
+        coefficients.append(-np.trace(product) / k)
+        adjugate.append(product + coefficients[-1] * np.eye(len(matrix)))
+    return np.array(coefficients), np.array(adjugate[:-1])
+
+
+def _from(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
+    """Where searches end that each begin where the last one ended, as long as that is on the set and smaller."""
+    for _ in range(_ROUNDS):
+        end = _search(start, a, b, c)
+        if end is None or end.norm >= (1.0 - _WORTH) * start.norm:
+            break
+        start = end
+    return start
+
+
+def _search(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback | None:
+    """Where one search ends, None where that is no F with the poles."""
+    radius, scale = float(np.max(np.abs(start.wanted))), float(np.linalg.norm(start.gain))
+    wanted = np.poly(start.wanted / radius).real[1:]
+    driven = b * (scale / radius)
+
+    def loop(free: np.ndarray) -> np.ndarray:
+        return a / radius + driven @ free.reshape(start.gain.shape) @ c
+
+    def slope(free: np.ndarray) -> np.ndarray:
+        return -(c @ polynomial_and_slope(loop(free))[1] @ driven).swapaxes(1, 2).reshape(len(a), -1)
+
+    first = start.gain.ravel() / scale
+    # combinations of the equations whose derivatives are orthonormal where it starts
+    mixed = np.linalg.pinv(qr(slope(first).T, mode="economic")[1].T)
+    ended = minimize(
+        lambda free: (free @ free, 2.0 * free),
+        first,
+        jac=True,
+        method="SLSQP",
+        constraints={
+            "type": "eq",
+            "fun": lambda free: mixed @ (polynomial_and_slope(loop(free))[0] - wanted),
+            "jac": lambda free: mixed @ slope(free),
+        },
+        options={"ftol": _ACCURACY, "maxiter": _STEPS},
+    )
+    if not np.all(np.isfinite(ended.x)):
+        return None
+    gain = scale * ended.x.reshape(start.gain.shape)
+    there = replace(
+        start,
+        method="smallest",
+        gain=gain,
+        closed_loop=a + b @ gain @ c,
+        condition_u=None,
+        levels=(),
+        upper=None,
+        condition_x=None,
+    )
+    there = polished(there, a, b, c)
+    allowed = _ALLOWED * there.kappa * np.linalg.norm(there.closed_loop, 2)
+    return there if there.error <= allowed else None
