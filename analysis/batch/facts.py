@@ -16,33 +16,27 @@ TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 def campaign_facts(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
     """Facts of a batch that its numbers do not show; ``systems`` are the prepared ones by variant.
 
-    ``description``, ``success`` (expression), ``group`` and ``faults`` (where there are any), ``metrics`` (expression,
+    ``group`` and ``faults`` (where there are any), ``description``, ``success`` (expression), ``metrics`` (expression,
     reduction, unit, description, whether the value is true or false, and what else its reduction has), ``record``
     (every, signals, trials, traces), ``signals`` (unit and FMI type of what is recorded), ``targets`` (parameters
     target_position and target_velocity by variant).
     """
     campaign = plan.campaign
     signals = _signals(systems)
-    group = {} if campaign.group is None else {"group": campaign.group}
-    texts = plan.fault_texts()
-    faults = {"faults": texts} if texts else {}
-    return (
-        group
-        | faults
-        | {
-            "description": campaign.description,
-            "success": campaign.success.text,
-            "metrics": {metric.name: _metric(metric, signals) for metric in campaign.metrics},
-            "record": {
-                "every": campaign.record.every,
-                "signals": list(campaign.record.signals),
-                "trials": campaign.record.trials,
-                "traces": campaign.record.traces,
-            },
-            "signals": {name: fact for name, fact in signals.items() if _is_kept(plan, name)},
-            "targets": {variant: _targets(prepared) for variant, prepared in systems.items()},
-        }
-    )
+    some = {"group": campaign.group, "faults": plan.fault_texts()}
+    return {name: fact for name, fact in some.items() if fact} | {
+        "description": campaign.description,
+        "success": campaign.success.text,
+        "metrics": {metric.name: _metric(metric, signals) for metric in campaign.metrics},
+        "record": {
+            "every": campaign.record.every,
+            "signals": list(campaign.record.signals),
+            "trials": campaign.record.trials,
+            "traces": campaign.record.traces,
+        },
+        "signals": {name: fact for name, fact in signals.items() if _is_kept(plan, name)},
+        "targets": {variant: _targets(prepared) for variant, prepared in systems.items()},
+    }
 
 
 def _metric(metric: Metric, signals: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
