@@ -20,11 +20,11 @@ from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.closure import closure_of
 from perilune.fmus_src.export.command import main as build_fmus
 from perilune.fmus_src.places import BUILD, built_fmu
-from tests.support.lengths import LONG
+from tests.support.lengths import LONG, either
 from tests.support.pages.browser import NO_BROWSER, find_browser
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
-hypothesis.settings.register_profile("same", derandomize=True, deadline=None)
+hypothesis.settings.register_profile("same", derandomize=True, deadline=None, max_examples=either(100, 40))
 hypothesis.settings.register_profile("explore", deadline=None)
 hypothesis.settings.load_profile("explore" if os.environ.get("PERILUNE_EXPLORE") == "1" else "same")
 

@@ -79,7 +79,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         minimum=0,
         maximum=5,
         direct=True,
-        description="0 good, 1 no new sample, 2 not finite, 3 yaw at its bound, 4 no gain, 5 variance of yaw not positive",
+        description="0 good, 1 no new sample, 2 not finite, 3 yaw at its bound, 4 no gain, 5 variance not positive",
     )
     angles_now = State([0.0, 0.0, 0.0], unit="rad", description="estimated roll, yaw, pitch")
     rates_now = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="estimated angular velocity, absolute")

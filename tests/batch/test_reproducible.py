@@ -14,6 +14,7 @@ from perilune.analysis.batch.trials import joined
 from perilune.analysis.batch.workers import tasks_of
 from perilune.analysis.campaign.plan import read_plan
 from perilune.analysis.system.options import SystemOptions
+from tests.support.lengths import either
 
 SYSTEM = "lunar_terminal_guidance"
 TRIALS = 6
@@ -39,7 +40,9 @@ def bits(table):
     }
 
 
-@pytest.mark.parametrize(("flavour", "workers"), [("native", 2), ("native", 3), ("python", 1), ("python", 2)])
+@pytest.mark.parametrize(
+    ("flavour", "workers"), [("native", 2), ("native", 3), ("python", 2), *either([("python", 1)], [])]
+)
 def test_any_number_of_workers_in_either_flavour(reference, flavour, workers):
     assert bits(flown(flavour, workers=workers).table()) == bits(reference)
 

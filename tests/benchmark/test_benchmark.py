@@ -38,6 +38,7 @@ PROMISED_RATIOS = {
 FLOWN = either(CONTESTANTS, [each for each in CONTESTANTS if each.name in {*PROMISED_TIMES, "fmucontainer_native"}])
 
 
+@pytest.mark.slow
 def test_a_tiny_run_has_every_contestant_and_all_agree(
     fmus: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -296,6 +296,7 @@ def test_dispersed_limits_fail_with_a_line_of_their_own(packed, campaign, capsys
 
 
 @pytest.mark.usefixtures("fmus")
+@pytest.mark.slow
 def test_the_robot_s_margins_over_its_uncertain_inertia(capsys):
     given = ["robot_rendezvous", "--parameters", "paper.ssv", "--loop", "translation_4s"]
     found, _ = run(capsys, *given, "--campaign", "inertia", "--trials", "3")
