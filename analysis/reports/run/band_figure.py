@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.ticker import NullFormatter
 
 from ...flight.results import Result
 from ..kit.page import exact
@@ -105,6 +106,8 @@ def _against(band: Band, result: Result, other: Signal, name: str, limits: tuple
         _shade(axes, *limits)
         if decades:
             axes.set_xscale("log")
+            axes.xaxis.set_major_formatter("{x:g}")  # plain digits: the text of a figure is not set as mathematics
+            axes.xaxis.set_minor_formatter(NullFormatter())
         axes.set_xlabel(f"{other.label}, {unit}" if unit else other.label)
         axes.set_title(shown_unit(band.signal.unit_name), loc="left", pad=4)
 

@@ -114,6 +114,21 @@ WRONG = {
     "unknown signal": ('<Band signal="plant.angels" low="0"/>', "Band", "signal plant.angels: no such signal; the"),
     "element beyond a vector": ('<Band signal="plant.angles[4]" low="0"/>', "Band", "plant.angles[4]: no such signal"),
     "unconnected input": ('<Band signal="plant.orbital_rate" low="0"/>', "Band", "plant.orbital_rate: no such signal"),
+    "shade without a value": (
+        '<Band signal="plant.angles" low="0" shade="plant.jet_seconds"/>',
+        "Band",
+        "shade and shade_below belong together",
+    ),
+    "against a vector": (
+        '<Band signal="plant.angles" low="0" against="plant.angles"/>',
+        "Band",
+        "against plant.angles: no such scalar",
+    ),
+    "less of another size": (
+        '<Band signal="plant.angles" low="0" less="plant.angles[1]"/>',
+        "Band",
+        "less plant.angles[1] has 1 elements",
+    ),
     "unknown unit": ('<Band signal="plant.angles" low="0" unit="grad"/>', "Band", "unit grad is not defined"),
     "unit that does not fit": (
         '<Band signal="plant.angles" low="0" unit="s"/>', "Band", "signal plant.angles: its unit is rad, asked for is s"

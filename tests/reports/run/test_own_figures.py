@@ -281,3 +281,27 @@ def test_a_flight_of_the_orbital_attitude(use, parameters):
         within = sum(off[row] <= times * result["observer.yaw_sigma"][row] for row in np.flatnonzero(later))
         assert repr(int(within) / int(later.sum())) in values
     assert sum(len(panel.figure) for section in sections for panel in section.panels) < 300_000
+
+
+def test_a_band_less_a_signal_shaded_and_against_another():
+    """Roll follows a target within 0.2 deg from 50 s on; shaded while the clock is below 20; two panels more."""
+    roll = np.where(TIME < 50.0, 5.0, 0.2) * DEGREE
+    band = replace(
+        ANGLES,
+        signal=scalar("ship.roll", DEG, 1.0 / DEGREE),
+        labels=("",),
+        less=scalar("ship.target", DEG, 1.0 / DEGREE),
+        shade=scalar("ship.clock"),
+        shade_below=20.0,
+        against=(scalar("ship.pressure"), scalar("ship.height")),
+    )
+    result = flown(
+        roll=roll + 0.3, target=np.full(ROWS, 0.3), clock=TIME, pressure=np.exp(0.1 * TIME), height=1e5 - TIME
+    )
+    (section,) = own_sections([band], result)
+    assert 'from <data value="50.0">50</data> s on' in str(section.findings[0])
+    assert [panel.label for panel in section.panels][-2:] == ["Against pressure", "Against height"]
+    words = " ".join(map(str, section.notes))
+    assert "less ship.target" in words
+    assert "ship.clock below 20" in words
+    assert "mathdefault" not in str(section.panels[-2].figure)
