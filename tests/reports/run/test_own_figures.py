@@ -303,5 +303,5 @@ def test_a_band_less_a_signal_shaded_and_against_another():
     assert [panel.label for panel in section.panels][-2:] == ["Against pressure", "Against height"]
     words = " ".join(map(str, section.notes))
     assert "less ship.target" in words
-    assert "ship.clock below 20" in words
+    assert "grey: ship.clock below" in words
     assert "mathdefault" not in str(section.panels[-2].figure)
