@@ -25,8 +25,8 @@ def curvatures(values: list, first: int, n: int, step: float, clamped: bool, res
 
 
 def cubic_value(values: list, second: list, first: int, n: int, step: float, x: float) -> float:
-    """A curve at x, counted from its first knot; the end values beyond the ends."""
-    if x <= 0.0:
+    """A curve at x, counted from its first knot; the end values beyond the ends, the first for what is no number."""
+    if not x > 0.0:
         return values[first]
     if x >= step * float(n - 1):
         return values[first + n - 1]

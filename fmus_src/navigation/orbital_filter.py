@@ -97,6 +97,6 @@ class OrbitalFilter(AttitudeObserver):
         self.estimated_gyro_bias = self.bias
         if self.covariance[7] > 0.0:
             self.yaw_sigma = math.sqrt(self.covariance[7])
-        else:
+        elif self.usable:
             self.yaw_sigma = 0.0
             self.status = NOT_POSITIVE

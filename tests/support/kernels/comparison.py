@@ -69,9 +69,15 @@ def draw_operation(random: Random, row: int, column: int) -> int:
     return random.choice(UNARY_OPERATIONS) if row < column and random.random() < 0.2 else 0
 
 
+# Blocks that put out levels, targets or constants: their rows repeat by nature.
+LEVELS = ("bank_programme", "no_control", "standard_control", "jet_health")
+
+
 def only_switches(block: type[Block]) -> bool:
-    """Whether all that a block computes is Boolean, so that most rows repeat earlier ones."""
-    return all(v.type_name == "Boolean" for v in block.variables.values() if not isinstance(v, Parameter | Input))
+    """Whether all that a block computes is Boolean or one of a few levels, so that most rows repeat earlier ones."""
+    return block.fmu_name in LEVELS or all(
+        v.type_name == "Boolean" for v in block.variables.values() if not isinstance(v, Parameter | Input)
+    )
 
 
 class Pair:
