@@ -1,1 +1,1 @@
-"""Plans of least propellant: the simplified programme of a hover transfer, its true optimum, bounds that no flight beats."""
+"""Plans of least propellant: the simplified programme of a hover transfer, its true optimum, bounds."""

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from .path import OFF, PlannedPath
 from .point_mass import PointMassProblem
 from .solvers import clarabel
 
@@ -24,9 +25,9 @@ TOLERANCE = 1e-10
 
 @dataclass(frozen=True)
 class PointMassPath:
-    """A solution over ``time`` (s), N + 1 points: ``position`` (m) and ``velocity`` (m/s), a row each, and ``log_mass``,
-    ln of mass over the mass at the start; over each of the N intervals the ``thrust_acceleration`` (m/s2) is constant,
-    and ``size`` is what it was held to in the convex form.
+    """A solution over ``time`` (s), N + 1 points: ``position`` (m) and ``velocity`` (m/s), a row each, and
+    ``log_mass``, ln of mass over the mass at the start; over each of the N intervals the ``thrust_acceleration`` (m/s2)
+    is constant, and ``size`` is what it was held to in the convex form.
     """
 
     time: np.ndarray
@@ -45,6 +46,13 @@ class PointMassPath:
     def looseness(self) -> float:
         """Largest s - |u| (m/s2): near 0, and the convex form has the solutions of the problem itself."""
         return float(np.max(self.size - np.linalg.norm(self.thrust_acceleration, axis=1)))
+
+    def planned(self, problem: PointMassProblem) -> PlannedPath:
+        """How it goes, for pages and tables."""
+        force = self.thrust_acceleration
+        throttle = self.size / problem.most * np.exp((self.log_mass[1:] + self.log_mass[:-1]) / 2.0)
+        pitch = np.where(throttle > OFF, np.arctan2(force[:, 1], force[:, 0]), np.nan)
+        return PlannedPath(self.time, self.position, self.velocity, -np.expm1(self.log_mass), throttle, pitch)
 
 
 def solve_fixed_time(
@@ -135,7 +143,9 @@ def _solve(
     right += [np.zeros(matrix.shape[0]) if value is None else value for matrix, value in cones]
     equalities = sum(matrix.shape[0] for matrix, _ in equal)
     cost = np.asarray((h / exhaust) * s.sum(axis=0)).ravel()
-    found = _clarabel(cost, rows, right, [clarabel().ZeroConeT(equalities), clarabel().NonnegativeConeT(intervals), *kinds])
+    found = _clarabel(
+        cost, rows, right, [clarabel().ZeroConeT(equalities), clarabel().NonnegativeConeT(intervals), *kinds]
+    )
     if found is None:
         return None
     return PointMassPath(

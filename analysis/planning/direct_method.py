@@ -1,4 +1,4 @@
-"""The point-mass problem by a direct method: nothing convex in it, from a crude guess, as a check of the convex form."""
+"""The point-mass problem by a direct method: nothing convex in it, from a crude guess: a check of the other."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ THROTTLE = 0.7  # of the guess
 def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float, float]:
     """Propellant fraction and duration (s) by multiple shooting in throttle and direction, on so many intervals.
 
-    States: place, velocity, propellant over the mass at the start; raises `NoOptimum`.
+    States: place, velocity, propellant over the mass at the start; raises `PlanError`.
     """
     length, speed = problem.length, problem.speed
     ca = casadi()

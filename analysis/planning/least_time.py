@@ -6,6 +6,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from .convex_form import PointMassPath, solve_fixed_time
+from .path import PlanError
 from .point_mass import PointMassProblem
 
 COARSE = 40  # intervals of the search's first look
@@ -14,12 +15,8 @@ FIRST, LAST = -12, 16  # times from 1/9 to 18 times the natural one
 ACCURACY = 1e-2  # s; the propellant is flat there
 
 
-class NoWay(Exception):
-    """No time of those that were tried is enough: the vehicle cannot do it."""
-
-
 def least_propellant(problem: PointMassProblem, intervals: int) -> PointMassPath:
-    """The best path over all durations; raises `NoWay`."""
+    """The best path over all durations; raises `PlanError`."""
     first, last = _bracket(problem)
 
     found: dict[float, PointMassPath] = {}
@@ -34,7 +31,7 @@ def least_propellant(problem: PointMassProblem, intervals: int) -> PointMassPath
 
     best = minimize_scalar(propellant, bounds=(first, last), method="bounded", options={"xatol": ACCURACY})
     if best.x not in found:
-        raise NoWay
+        raise PlanError(f"bound: no solution on {intervals} intervals near {best.x:.2f} s")
     return found[best.x]
 
 
@@ -49,4 +46,4 @@ def _bracket(problem: PointMassProblem) -> tuple[float, float]:
             best, least = index, value
         elif best is not None:
             return float(times[max(0, best - 1)]), float(time)
-    raise NoWay
+    raise PlanError(f"bound: the vehicle cannot do it in any time from {times[0]:.3g} to {times[-1]:.3g} s")

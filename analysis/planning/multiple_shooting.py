@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from .path import PlanError
 from .solvers import casadi
 
 TOLERANCE = 1e-9
@@ -42,12 +43,8 @@ class Shooting:
     controls: np.ndarray
 
 
-class NoOptimum(Exception):
-    """IPOPT ended without a solution; its message is its own word for it."""
-
-
 def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
-    """Solve a problem on as many intervals as the guess has; raises `NoOptimum`."""
+    """Solve a problem on as many intervals as the guess has; raises `PlanError`."""
     ca = casadi()
     intervals = guess.controls.shape[0]
     x, u, t = ca.SX.sym("x", problem.start.size), ca.SX.sym("u", problem.low.size), ca.SX.sym("t")
@@ -83,7 +80,9 @@ def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
         ubg=0.0,
     )
     if not solver.stats()["success"]:
-        raise NoOptimum(str(solver.stats()["return_status"]))
+        raise PlanError(f"direct method on {intervals} intervals: IPOPT ended with {solver.stats()['return_status']}")
     values = np.array(found["x"]).ravel()
     cut = 1 + guess.states.size
-    return Shooting(float(values[0]), values[1:cut].reshape(guess.states.shape), values[cut:].reshape(guess.controls.shape))
+    return Shooting(
+        float(values[0]), values[1:cut].reshape(guess.states.shape), values[cut:].reshape(guess.controls.shape)
+    )

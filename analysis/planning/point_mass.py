@@ -38,7 +38,7 @@ class CentralGravity:
 
     def gradient(self, position: np.ndarray) -> np.ndarray:
         """Its derivative by position (1/s2) as matrices, one for each row of ``position`` (m): mu/r^3 (3 u u' - 1)."""
-        arm = position + [0.0, self.radius]
+        arm = np.add(position, (0.0, self.radius))
         distance = np.linalg.norm(arm, axis=1)[:, np.newaxis, np.newaxis]
         up = arm[:, :, np.newaxis] / distance
         return self.parameter / distance**3 * (3.0 * up * up.transpose(0, 2, 1) - np.eye(2))

@@ -58,7 +58,7 @@ class Margins:
 
 @dataclass(frozen=True)
 class Transfer:
-    """From rest, vertical, to rest, vertical: ``distance`` along and ``descent`` down (m) in uniform ``gravity`` (m/s2)."""
+    """From hover to hover: ``distance`` along and ``descent`` down (m) in uniform ``gravity`` (m/s2)."""
 
     distance: float
     descent: float
