@@ -27,9 +27,12 @@ build: .venv/ready
 explore: build
 	PERILUNE_EXPLORE=1 $(BIN)/python -m pytest -n 2 $$(grep -rl 'from hypothesis' tests --include='test_*.py')
 
-# Gains that follow from the capsule's aerodynamic table, into the module that its regulators read.
+# Gains that follow from the capsule's aerodynamic table, into the module that its regulators read; and how large the
+# gain of the whole model would be, which no regulator reads.
 gains: .venv/ready
 	$(BIN)/python -m perilune.analysis.synthesis.entry_gains
+	@$(BIN)/python -c "import numpy; from perilune.analysis.synthesis.entry_whole_gain import whole_gain; \
+		print(f'whole model: |F| = {numpy.linalg.norm(whole_gain()):.4g}')"
 
 bench: build
 	$(BIN)/perilune benchmark

@@ -18,6 +18,7 @@ from perilune.analysis.synthesis.entry_gains import (
     sideslip_block,
     sideslip_moments,
 )
+from perilune.analysis.synthesis.entry_whole_gain import LOWER, UPPER, whole_gain, whole_model
 from perilune.fmus_src.mathlib import entry_gains as stored
 
 POLES = [-0.7 - 0.8j, -0.7 + 0.8j, -0.6, -0.35]
@@ -77,3 +78,12 @@ def test_the_robust_gain_is_in_the_set_of_every_pressure():
     for coefficients in found:
         assert coefficients[1] == pytest.approx(np.array([[0.9194, 0.2692], [0.1855, 0.3806]]), abs=6e-5)
     assert np.abs(found[0][0] - found[1][0]).max() > 0.1
+
+
+def test_the_whole_model_needs_a_gain_that_nobody_would_fly():
+    """|F| is 1.6e6 in another program; the poles are where they were put, the double one to the root of rounding."""
+    a, b, c = whole_model()
+    gain = whole_gain()
+    assert np.linalg.norm(gain) == pytest.approx(1.6e6, rel=0.02)
+    wanted = np.sort_complex([*np.diag(UPPER), *LOWER])
+    assert np.sort_complex(np.linalg.eigvals(a + b @ gain @ c)) == pytest.approx(wanted, abs=1e-6)
