@@ -93,6 +93,8 @@ def _check(planned: Vehicle, transfer: Transfer) -> None:
     if not planned.full > transfer.gravity:
         problem = f"{planned.full:.4g} m/s2 do not carry the mass against {transfer.gravity:g} m/s2"
         raise InputError("--maximum-thrust", full, problem, "give more thrust, or less mass")
+    if not planned.least > 0.0:
+        raise InputError("--minimum-thrust", least, "the programme's engine never stops", "give the least that it has")
     if not planned.least < transfer.gravity:
         problem = f"{planned.least:.4g} m/s2 carry the mass, against {transfer.gravity:g} m/s2: it does not sink"
         raise InputError("--minimum-thrust", least, problem, "give less thrust, or more mass")

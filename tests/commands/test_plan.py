@@ -170,8 +170,9 @@ def test_without_a_solver(capsys, arguments, words):
 
 @pytest.mark.usefixtures("no_solvers")
 def test_the_programme_needs_no_solver(tmp_path, capsys):
-    assert made(capsys, "hover-transfer", "--curves")["true_optimum"] is None
-    assert main(["plan", "hover-transfer", "--report", str(tmp_path / "plan.html")]) == 0
+    page = tmp_path / "new" / "plan.html"
+    assert made(capsys, "hover-transfer", "--report", str(page))["true_optimum"] is None
+    assert "Not asked for: true optimum, point-mass bound." in page.read_text()
 
 
 def test_landing(capsys):
@@ -202,9 +203,7 @@ def test_a_systems_bound_is_stored(tmp_path, capsys):
     assert stored.propellant == found["bound"]["propellant_kg"]
     assert stored.duration == found["bound"]["duration_s"]
     assert found["vehicle"]["mass"] == 940.0
-    lighter = made(capsys, *arguments, "--set", "plant.initial_mass=930")
-    assert lighter["vehicle"]["mass"] == 930.0
-    assert made(capsys, *arguments, "--mass", "930")["bound"] == lighter["bound"]
+    assert made(capsys, *arguments, "--set", "plant.initial_mass=930")["vehicle"]["mass"] == 930.0
     assert main(["validate", str(place)]) == 0
 
 
