@@ -21,8 +21,6 @@ from ..errors import InputError, suggestion
 from ..reports.batch.batch_report import write_batch_report
 from .options import add_faults, add_json, add_system, faults, json_number, pairs, system_options, write_json
 
-HELP = "fly a campaign: many trials, variants compared on the same draws"
-
 
 def add(parser: argparse.ArgumentParser) -> None:
     add_system(parser)

@@ -8,8 +8,6 @@ from ..benchmark.measure import run_benchmark
 from ..benchmark.table import benchmark_text
 from .options import add_json, write_json
 
-HELP = "time a communication step against other importers"
-
 
 def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--steps", type=int, default=2500, metavar="N", help="communication steps; default 2500")

@@ -10,8 +10,6 @@ from ..compare.side_by_side import compare
 from ..reports.compare.page import write_comparison_page
 from .options import add_json, write_json
 
-HELP = "compare the variants of one or several stored batches on the same trials"
-
 
 def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("result", nargs="+", type=Path, metavar="RESULT", help="a folder that batch --output wrote")

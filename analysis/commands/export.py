@@ -18,8 +18,6 @@ from ..system.documents import parse_xml
 from ..system.options import FLAVOURS
 from .options import add_json, write_json
 
-HELP = "build an FMU, or a self-contained .ssp of a system, for a chosen platform"
-
 
 def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("name", metavar="SYSTEM|FMU", help="a system of ssp_systems (or its folder), or a block's name")

@@ -13,8 +13,6 @@ from ..laws.law import named_law, read_law
 from ..laws.parameter_set import parameter_set
 from .options import add_json, write_json
 
-HELP = "print a network operator's law as a formula, or write it as parameter set or drawing"
-
 
 def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("law", metavar="LAW", help="a law of laws/ by name, or the path of its .json file")

@@ -17,8 +17,6 @@ from ..system.archive import SystemArchive, open_system, system_names
 from ..system.description import read_description
 from .options import add_json, write_json
 
-HELP = "list systems, with parameter sets, campaigns and loops, laws and FMUs"
-
 
 def add(parser: argparse.ArgumentParser) -> None:
     add_json(parser)

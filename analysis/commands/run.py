@@ -14,7 +14,6 @@ from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
 from .options import add_faults, add_json, add_system, faults, json_number, system_options, write_json
 
-HELP = "fly a system once"
 OUTPUT_SUFFIXES = (".csv", ".parquet")
 
 

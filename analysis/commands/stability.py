@@ -18,8 +18,6 @@ from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
 from .options import add_json, add_system, system_options, write_json
 
-HELP = "report on the stability of a system's loops"
-
 
 def add(parser: argparse.ArgumentParser) -> None:
     add_system(parser)

@@ -9,7 +9,6 @@ from ..synthesis.synthesis import run_synthesis
 from ..synthesis.synthesis_file import read_synthesis
 from .options import add_json, write_json
 
-HELP = "search for a control law, every candidate flown in its system"
 METHODS = ("network-operator",)
 
 

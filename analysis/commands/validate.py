@@ -23,8 +23,6 @@ from ..system.parameter_sets import read_parameter_file
 from ..system.prepared import prepare_system
 from .options import add_json, write_json
 
-HELP = "check systems, FMUs, parameter sets and campaigns"
-
 
 def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("path", nargs="+", metavar="PATH", help="a system, .ssp, .fmu, .ssv or campaign .toml")
