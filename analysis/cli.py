@@ -18,6 +18,7 @@ from .process_end import leave
 
 VERBS = {
     "list": "list systems, with parameter sets, campaigns and loops, laws and FMUs",
+    "describe": "say what a system, an FMU or a slot has: connectors, parameters with their values, what fits where",
     "validate": "check systems, FMUs, parameter sets and campaigns",
     "run": "fly a system once",
     "batch": "fly a campaign: many trials, variants compared on the same draws",

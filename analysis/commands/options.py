@@ -24,6 +24,10 @@ def add_json(parser: argparse.ArgumentParser) -> None:
 def add_system(parser: argparse.ArgumentParser) -> None:
     """The system and its options, as in docs/command_line.md."""
     parser.add_argument("system", metavar="SYSTEM", help="a name under ssp_systems, a folder or an .ssp file")
+    add_system_options(parser)
+
+
+def add_system_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("system options")
     group.add_argument(
         "--use", action="append", default=[], metavar="SLOT=FMU", help="put another FMU in a component's place"

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 
 from ..errors import InputError
-from ..system.assignments import Settings
 from ..system.faults import Fault, check_fault
 from ..system.parameter_sets import ParameterValue, parse_value
 from ..system.prepared import PreparedSystem
@@ -71,7 +71,7 @@ class Simulation:
             declared = network.fmus[component].variables[variable]
             start = parse_value(str(declared.start), declared.type, network.fmus[component].label, name)
             variables.setdefault((component, variable), start)
-        self.settings = Settings(variables, self.settings.nodes, self.settings.unmatched)
+        self.settings = replace(self.settings, variables=variables)
 
     def _key(self, name: str) -> tuple[str, str]:
         """(component, variable) of a parameter's name; raises InputError."""
