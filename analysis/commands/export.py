@@ -12,6 +12,7 @@ from ...fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerM
 from ...fmus_src.export.native_fmu import build_native_fmu
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
 from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
+from ..atomic import write_atomically
 from ..errors import InputError, suggestion
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.documents import parse_xml
@@ -87,5 +88,4 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
             packed = pack_system(archive.path, [folder], folder / "packed")
         except ValueError as error:
             raise InputError(archive.label, "export", str(error), "add the FMU or a block of its name") from error
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(packed.read_bytes())
+        write_atomically(path, packed.read_bytes())
