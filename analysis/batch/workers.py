@@ -39,7 +39,7 @@ def worker_count(workers: int | None) -> int:
 def tasks_of(plan: BatchPlan, workers: int, native: bool) -> list[Task]:
     """Trials in pieces large enough to send and small enough to share out, or to lose where a process is stopped."""
     trials = plan.campaign.trials
-    size = max(1, min(250 if native else 10, trials // (4 * workers)))
+    size = max(1, min(50 if native else 10, trials // (4 * workers)))
     pieces = [range(first, min(first + size, trials)) for first in range(0, trials, size)]
     return [(variant.name, piece) for piece in pieces for variant in plan.campaign.variants()]
 

@@ -54,9 +54,7 @@ class BatchPlan:
     def of_first(self, trials: int) -> BatchPlan:
         """A plan of the first ``trials`` trials, with the draws that they have in this one."""
         part = replace(self, campaign=replace(self.campaign, trials=trials))
-        part.__dict__["draws"] = self.draws.of_first(
-            trials
-        )  # where cached_property keeps it: drawn anew they may differ
+        part.__dict__["draws"] = self.draws.of_first(trials)  # in cached_property's place: drawn anew they may differ
         return part
 
     @cached_property

@@ -24,7 +24,7 @@ def read_requirements(texts: Sequence[str], known: Collection[str], families: tu
     for requirement in found:
         for name in sorted(requirement.names - set(known)):
             if not name.startswith(families or ("\0",)):
-                raise InputError("--require", name, "no such number in the result", suggestion(name, known))
+                raise InputError("--require", name, "no such number in what results", suggestion(name, known))
     return found
 
 
