@@ -7,12 +7,29 @@ import importlib
 import os
 import sys
 from collections.abc import Sequence
+from importlib.metadata import version
+from types import ModuleType
 from typing import Any, NoReturn
+
+import argcomplete
 
 from .errors import InputError
 from .process_end import leave
 
-VERBS = ("list", "validate", "run", "batch", "compare", "law", "synthesize", "plan", "stability", "benchmark", "export")
+VERBS = {
+    "list": "list systems, with parameter sets, campaigns and loops, laws and FMUs",
+    "describe": "say what a system, an FMU or a slot has: connectors, parameters with their values, what fits where",
+    "validate": "check systems, FMUs, parameter sets and campaigns",
+    "run": "fly a system once",
+    "batch": "fly a campaign: many trials, variants compared on the same draws",
+    "compare": "compare the variants of one or several stored batches on the same trials",
+    "law": "print a network operator's law as a formula, or write it as parameter set or drawing",
+    "synthesize": "search for a control law, every candidate flown in its system",
+    "plan": "plan a transfer between hovers, or bound what a landing takes",
+    "stability": "report on the stability of a system's loops",
+    "benchmark": "time a communication step against other importers",
+    "export": "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
+}
 
 
 class Parser(argparse.ArgumentParser):
@@ -27,14 +44,12 @@ class Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out one command; returns the exit status."""
-    parser = Parser(prog="perilune", description="Spacecraft guidance, navigation and control as FMI components.")
-    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
-    modules = {verb: importlib.import_module(f".commands.{verb}", __package__) for verb in VERBS}
-    for verb, module in modules.items():
-        module.add(verbs.add_parser(verb, help=module.HELP, description=module.HELP))
-    options = parser.parse_args(arguments)
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    parser = _parser(given)
+    argcomplete.autocomplete(parser)
+    options = parser.parse_args(given)
     try:
-        return modules[options.verb].run(options)
+        return _module(options.verb).run(options)
     except InputError as error:
         print(f"perilune: {error}", file=sys.stderr)
         return 2
@@ -48,6 +63,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)
         print(f"perilune: {reason}; give another path or mend this one", file=sys.stderr)
         return 2
+
+
+def _parser(given: Sequence[str]) -> Parser:
+    """All verbs by name; only the one that is given has its options read, since a verb's imports take a second."""
+    parser = Parser(prog="perilune", description="Spacecraft guidance, navigation and control as FMI components.")
+    parser.add_argument("--version", action="version", version=f"perilune {version('perilune')}")
+    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
+    completing = "_ARGCOMPLETE" in os.environ
+    for verb, words in VERBS.items():
+        own = verbs.add_parser(verb, help=words, description=words)
+        if completing or verb in given:
+            _module(verb).add(own)
+    return parser
+
+
+def _module(verb: str) -> ModuleType:
+    return importlib.import_module(f".commands.{verb}", __package__)
 
 
 def run() -> NoReturn:

@@ -8,6 +8,7 @@ and bools; vectors (`mathlib.vector_types`) for two to four Reals; lists for eve
 from __future__ import annotations
 
 import copy
+import inspect
 import operator
 import re
 from collections.abc import Callable
@@ -225,7 +226,8 @@ class Block:
     answers for t + h from inputs of t + h; a plant has none and is given inputs of t. A state
     ``start_time`` is set to the time of the start (s) before `initialize` runs.
 
-    ``class Name(Block, interface=True)`` declares connectors only and builds no FMU.
+    ``class Name(Block, interface=True)`` declares connectors only and builds no FMU; ``to_write`` names the methods
+    that its blocks write, without which a class is refused.
     ``python_only = True`` with ``requires`` lets a block use libraries; it then has no C form.
     """
 
@@ -235,6 +237,7 @@ class Block:
     python_only: ClassVar[bool] = False
     requires: ClassVar[tuple[str, ...]] = ()
     default_step: ClassVar[float] = 0.1
+    to_write: ClassVar[tuple[str, ...]] = ("step",)
 
     def __init_subclass__(cls, interface: bool = False, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -248,6 +251,20 @@ class Block:
         if not (cls.__doc__ or "").strip():
             raise DeclarationError(f"{cls.__name__}: write a docstring: purpose, assumptions, source")
         cls._check_dependencies()
+        if not interface:
+            cls._check_written()
+
+    @classmethod
+    def _check_written(cls) -> None:
+        for base in cls.__mro__:
+            own_step = cls.step is not getattr(base, "step", None)  # and what it calls is its own affair
+            for name in () if own_step else vars(base).get("to_write", ()):
+                if getattr(cls, name) is vars(base)[name]:
+                    arguments = ", ".join(inspect.signature(vars(base)[name]).parameters)
+                    raise DeclarationError(
+                        f"{cls.__name__}: has no {name}, which every {base.__name__} has; "
+                        f"write def {name}({arguments}) in it"
+                    )
 
     @classmethod
     def _check_dependencies(cls) -> None:
@@ -272,7 +289,6 @@ class Block:
 
     def step(self, t: float, h: float) -> None:
         """Make the outputs valid at t + h (s)."""
-        raise TypeError(f"{type(self).__name__} has no step(t, h); write one")
 
     @classmethod
     def direct_inputs(cls, output: Output) -> list[str]:

@@ -10,6 +10,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .fmus_src.face import HOME_OF
+
 if TYPE_CHECKING:
     from . import modal
     from .analysis.api import batch, simulate, stability
@@ -19,24 +21,64 @@ if TYPE_CHECKING:
     from .analysis.stability.bench.bench import StudyError
     from .analysis.stability.results.report import StabilityReport
     from .analysis.system.faults import Fault
-    from .fmus_src.block import Block, Input, Output, Parameter, State
+    from .fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
+    from .fmus_src.interfaces.allocation import Allocation
+    from .fmus_src.interfaces.attitude_observer import AttitudeObserver
+    from .fmus_src.interfaces.entry_control import EntryControl
+    from .fmus_src.interfaces.filtered_navigation import FilteredNavigation
+    from .fmus_src.interfaces.gyro_steering import GyroSteering
+    from .fmus_src.interfaces.inertial_navigation import InertialNavigation
+    from .fmus_src.interfaces.jet_allocation import JetAllocation
+    from .fmus_src.interfaces.navigation import Navigation
+    from .fmus_src.interfaces.orbital_control import OrbitalControl
+    from .fmus_src.interfaces.terminal_guidance import (
+        CLAMPED,
+        GOOD,
+        NO_SOLUTION,
+        NOT_CONVERGED,
+        TerminalGuidance,
+    )
+    from .fmus_src.mathlib.vectors import Vector, Vector2, Vector3, Vector4, cross, dot, norm, vector
 
 __all__ = [
+    "CLAMPED",
+    "GOOD",
+    "NOT_CONVERGED",
+    "NO_SOLUTION",
+    "Allocation",
+    "AttitudeObserver",
     "BatchResult",
     "Block",
+    "DeclarationError",
+    "EntryControl",
     "Fault",
+    "FilteredNavigation",
+    "GyroSteering",
+    "InertialNavigation",
     "Input",
     "InputError",
+    "JetAllocation",
+    "Navigation",
+    "OrbitalControl",
     "Output",
     "Parameter",
     "Result",
     "StabilityReport",
     "State",
     "StudyError",
+    "TerminalGuidance",
+    "Vector",
+    "Vector2",
+    "Vector3",
+    "Vector4",
     "batch",
+    "cross",
+    "dot",
     "modal",
+    "norm",
     "simulate",
     "stability",
+    "vector",
 ]
 
 _HOMES = {
@@ -47,7 +89,6 @@ _HOMES = {
     "analysis.stability.bench.bench": ("StudyError",),
     "analysis.stability.results.report": ("StabilityReport",),
     "analysis.system.faults": ("Fault",),
-    "fmus_src.block": ("Block", "Input", "Output", "Parameter", "State"),
 }
 
 if not (Path(__file__).parent / "analysis").is_dir():
@@ -63,6 +104,8 @@ def __getattr__(name: str) -> Any:
     for module, names in _HOMES.items():
         if name in names:
             return getattr(import_module(f".{module}", __name__), name)
+    if name in HOME_OF:
+        return getattr(import_module(f".fmus_src.{HOME_OF[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

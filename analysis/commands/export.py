@@ -12,13 +12,12 @@ from ...fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerM
 from ...fmus_src.export.native_fmu import build_native_fmu
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
 from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
+from ..atomic import write_atomically
 from ..errors import InputError, suggestion
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.documents import parse_xml
 from ..system.options import FLAVOURS
-from .options import add_json, write_json
-
-HELP = "build an FMU, or a self-contained .ssp of a system, for a chosen platform"
+from .common.options import add_json, write_json
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -89,5 +88,4 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
             packed = pack_system(archive.path, [folder], folder / "packed")
         except ValueError as error:
             raise InputError(archive.label, "export", str(error), "add the FMU or a block of its name") from error
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(packed.read_bytes())
+        write_atomically(path, packed.read_bytes())

@@ -15,9 +15,7 @@ from ...fmus_src.places import BUILD, LAWS
 from ..stability.ask.reading import read_declaration
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.description import read_description
-from .options import add_json, write_json
-
-HELP = "list systems, with parameter sets, campaigns and loops, laws and FMUs"
+from .common.options import add_json, write_json
 
 
 def add(parser: argparse.ArgumentParser) -> None:

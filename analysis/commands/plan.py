@@ -6,10 +6,9 @@ import argparse
 import sys
 
 from ..planning.path import PlanError
-from . import plan_hover_transfer, plan_landing_bound
+from .plans import hover_transfer, landing_bound
 
-HELP = "plan a transfer between hovers, or bound what a landing takes"
-PLANS = {"hover-transfer": plan_hover_transfer, "landing-bound": plan_landing_bound}
+PLANS = {"hover-transfer": hover_transfer, "landing-bound": landing_bound}
 
 
 def add(parser: argparse.ArgumentParser) -> None:

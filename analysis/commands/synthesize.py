@@ -7,9 +7,8 @@ from pathlib import Path
 
 from ..synthesis.synthesis import run_synthesis
 from ..synthesis.synthesis_file import read_synthesis
-from .options import add_json, write_json
+from .common.options import add_json, write_json
 
-HELP = "search for a control law, every candidate flown in its system"
 METHODS = ("network-operator",)
 
 

@@ -22,9 +22,7 @@ from ..system.fmu import load_fmu
 from ..system.options import SystemOptions
 from ..system.parameter_sets import read_parameter_file
 from ..system.prepared import prepare_system
-from .options import add_json, write_json
-
-HELP = "check systems, FMUs, parameter sets and campaigns"
+from .common.options import add_json, write_json
 
 
 def add(parser: argparse.ArgumentParser) -> None:

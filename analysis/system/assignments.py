@@ -25,9 +25,11 @@ SETTABLE = ("parameter", "input")
 
 @dataclass
 class Settings:
-    """Values by (component, variable), and of system connectors by node name."""
+    """Values by (component, variable), and of system connectors by node name; ``origins``: where each comes from."""
 
     variables: dict[tuple[str, str], ParameterValue] = field(default_factory=dict)
+    origins: dict[tuple[str, str], str] = field(default_factory=dict)
+    node_origins: dict[str, str] = field(default_factory=dict)
     nodes: dict[str, float] = field(default_factory=dict)
     unmatched: list[str] = field(default_factory=list)
 
@@ -117,6 +119,7 @@ def _apply(
                 raise InputError(assignment.file, assignment.where, "String signals are not supported yet", "remove it")
             _check_bounds(assignment, None, number)
             settings.nodes[target.name] = float(number)
+            settings.node_origins[target.name] = assignment.origin
             return
     elif target is not None:
         component, name = target
@@ -132,6 +135,7 @@ def _apply(
             value = _fit(assignment, variable.type, node)
             _check_bounds(assignment, variable, value)
             settings.variables[component, name] = value
+            settings.origins[component, name] = assignment.origin
             return
     if not allow_unmatched:
         candidates = known or [f"{component}." for component in network.fmus]
@@ -220,11 +224,14 @@ def _pass_parameters(network: Network, settings: Settings) -> None:
             chain.append(network.driver[chain[-1].source.name])
         given = [position for position, link in enumerate(chain) if link.source.name in settings.nodes]
         if given:  # the outermost value wins
-            value = settings.nodes[chain[given[-1]].source.name]
+            outermost = chain[given[-1]].source.name
+            value = settings.nodes[outermost]
             for link in reversed(chain[: given[-1] + 1]):
                 value = _passed(network, link, value)
             kind = {"Real": float, "Boolean": bool}.get(node.type_name or "", int)
-            settings.variables[node.component or "", node.variable] = kind(value)
+            target = node.component or "", node.variable
+            settings.variables[target] = kind(value)
+            settings.origins[target] = f"{outermost} of {settings.node_origins[outermost]}"
 
 
 def _passed(network: Network, link: Link, value: float) -> float:

@@ -35,6 +35,12 @@ class Assignment:
     def where(self) -> str:
         return f"{self.name} (line {self.line})" if self.line else self.name
 
+    @property
+    def origin(self) -> str:
+        """The file that gives the value, without its folders, and the line; or the option."""
+        name = self.file.rpartition("!")[2].rpartition("/")[2]
+        return f"{name} line {self.line}" if self.line else name
+
 
 def read_parameter_set(root: etree._Element, file: str) -> list[Assignment]:
     """The values of a ParameterSet element, valid already or not."""

@@ -55,7 +55,7 @@ def prepare_system(
 
     def load(name: str, component: Component) -> Fmu:
         if name in options.use:
-            data, label = _named_fmu(options.use[name], options.flavour)
+            data, label = find_fmu(options.use[name], options.flavour)
         else:
             data, label = archive.fmu(component.source, f"{name} (line {component.line})", _flavour(component, options))
         if label not in loaded:
@@ -78,19 +78,19 @@ def _flavour(component: Component, options: SystemOptions) -> str:
     return "native" if built_fmu(Path(component.source).stem, "native").is_file() else "python"
 
 
-def _named_fmu(name: str, flavour: str | None) -> tuple[bytes, str]:
-    """An FMU named by its block or by a path."""
+def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:
+    """An FMU named by its block or by a path: its content and its name in messages. Raises InputError."""
     if name.endswith(".fmu") or "/" in name:
         path = Path(name)
         if not path.is_file():
-            raise InputError("--use", name, "no such file", "give a block's name or the path of an .fmu")
+            raise InputError(option, name, "no such file", "give a block's name or the path of an .fmu")
         return path.read_bytes(), name
     for candidate in FLAVOURS if flavour is None else (flavour,):
         path = built_fmu(name, candidate)
         if path.is_file():
             return path.read_bytes(), str(path)
     built = {path.stem for path in BUILD.glob("fmus/*/*.fmu")}
-    raise InputError("--use", name, "no such FMU is built", f"{suggestion(name, built)}; build_fmus.py builds them")
+    raise InputError(option, name, "no such FMU is built", f"{suggestion(name, built)}; build_fmus.py builds them")
 
 
 def _assignments(archive: SystemArchive, options: SystemOptions) -> list[Assignment]:

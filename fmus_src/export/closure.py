@@ -7,6 +7,7 @@ process, since their packages have different names.
 from __future__ import annotations
 
 import ast
+import difflib
 import hashlib
 import inspect
 import re
@@ -16,9 +17,11 @@ from pathlib import Path
 
 from .. import __name__ as SOURCE_PACKAGE  # noqa: N812
 from ..block import Block
+from ..face import HOME_OF
 
+FACE_PACKAGE = SOURCE_PACKAGE.rpartition(".")[0]  # from which the names of `face` may be imported, too
 SOURCE_ROOT = Path(__file__).parents[1]
-RUNTIME_MODULES = ("export.pythonfmu_slave",)  # what the slave script itself imports
+RUNTIME_MODULES = ("export.pythonfmu_slave", "face")  # what the slave script itself and the package import
 
 
 class ClosureError(ValueError):
@@ -38,8 +41,9 @@ class Closure:
         return f"perilune_{self.digest[:16]}"
 
     def packed(self) -> dict[str, bytes]:
-        """The files with imports of the source package renamed, below the package's folder."""
-        pattern = re.compile(rf"^(\s*(?:from|import)\s+){re.escape(SOURCE_PACKAGE)}\b".encode(), re.MULTILINE)
+        """The files with imports of the source package, and of what it lies in, renamed, below the package's folder."""
+        names = f"{re.escape(SOURCE_PACKAGE)}|{re.escape(FACE_PACKAGE)}"
+        pattern = re.compile(rf"^(\s*(?:from|import)\s+)(?:{names})\b(?=\s|\.)".encode(), re.MULTILINE)
         replacement = rb"\g<1>" + self.package.encode()
         return {f"{self.package}/{name}": pattern.sub(replacement, text) for name, text in self.files.items()}
 
@@ -100,6 +104,15 @@ def _with_submodules(parts: list[str], names: list[ast.alias]) -> list[str]:
     return [".".join(module), *(".".join([*module, name]) for name in inner)]
 
 
+def _home(name: str, path: Path, line: int) -> str:
+    """The module of the source package that defines a name of its face."""
+    if name not in HOME_OF:
+        near = difflib.get_close_matches(name, HOME_OF, n=3)
+        remedy = f"did you mean {' or '.join(near)}?" if near else f"import from {SOURCE_PACKAGE}"
+        raise ClosureError(f"{path}:{line}: import of {FACE_PACKAGE}.{name}: not packed into the FMU; {remedy}")
+    return HOME_OF[name]
+
+
 def _imported(text: bytes, module: str, path: Path, allowed: set[str]) -> list[str]:
     """Modules of the source package that a file imports, as dotted names below it."""
     package = module.rsplit(".", 1)[0].split(".") if "." in module else []
@@ -110,12 +123,14 @@ def _imported(text: bytes, module: str, path: Path, allowed: set[str]) -> list[s
             found += _with_submodules([*base, *(node.module or "").split(".")], node.names)
         elif isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"{SOURCE_PACKAGE}."):
             found += _with_submodules((node.module or "").removeprefix(SOURCE_PACKAGE).split("."), node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module == FACE_PACKAGE:
+            found += [_home(alias.name, path, node.lineno) for alias in node.names]
         elif isinstance(node, ast.Import | ast.ImportFrom):
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else [node.module or ""]
             for name in names:
                 if name.split(".")[0] not in allowed:
                     raise ClosureError(
                         f"{path}:{node.lineno}: import of {name}: not packed into the FMU; "
-                        f"import from {SOURCE_PACKAGE}, or name the library in the block's requires"
+                        f"import from {FACE_PACKAGE}, or name the library in the block's requires"
                     )
     return found

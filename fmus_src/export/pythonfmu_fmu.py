@@ -11,6 +11,7 @@ from pythonfmu import FmuBuilder
 
 from ..block import Block
 from .archive import content_guid, read_zip, write_zip
+from .attributes import check_attributes
 from .closure import Closure, closure_of
 from .model_description import model_description
 
@@ -34,8 +35,9 @@ def build_python_fmu(block_class: type[Block], path: Path) -> Path:
     """Build the pythonfmu FMU of a block at ``path``; two builds are byte-identical.
 
     The FMU holds the block's import closure under a package name with its content's hash, and
-    needs Python and what the block ``requires`` where it runs. Raises `ClosureError`.
+    needs Python and what the block ``requires`` where it runs. Raises `ClosureError` and `UndeclaredError`.
     """
+    check_attributes(block_class)
     closure = closure_of(block_class)
     script_name = f"{block_class.fmu_name}_{closure.digest[:16]}"
     script = SCRIPT.format(

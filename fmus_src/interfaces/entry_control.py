@@ -18,6 +18,8 @@ class EntryControl(Block, interface=True):
     torque. Frame: body. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 3.2.
     """
 
+    to_write = ("regulate",)
+
     default_step = 0.2
 
     inertia = Parameter(

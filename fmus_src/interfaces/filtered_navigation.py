@@ -33,6 +33,8 @@ class FilteredNavigation(InertialNavigation, interface=True):
     Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.4 and 10.3; Groves 2013, chapter 14.
     """
 
+    to_write = ("predict", "weigh", "take_in")
+
     bias_sigma = Parameter(
         1e-3, unit="m/s2", minimum=0.0, description="inertial sensor: bias at the start, 1 sigma per axis"
     )

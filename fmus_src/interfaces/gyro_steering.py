@@ -23,6 +23,8 @@ class GyroSteering(Block, interface=True):
     Equations: docs/systems/robot_rendezvous.md.
     """
 
+    to_write = ("steer",)
+
     default_step = 0.125
 
     rotor_momentum = Parameter(30.0, unit="N.m.s", minimum=1e-3, description="angular momentum of one rotor")

@@ -29,6 +29,8 @@ class JetAllocation(Block, interface=True):
     Equations: docs/systems/robot_rendezvous.md.
     """
 
+    to_write = ("allocate",)
+
     default_step = 0.125
 
     jet_tilt = Parameter(35.25 * math.pi / 180.0, unit="rad", description="nozzles above the body's xy plane")

@@ -20,6 +20,8 @@ class OrbitalControl(OrbitalBody, interface=True):
     torque_command. Frames: orbital, body. Equations: docs/systems/orbital_attitude.md.
     """
 
+    to_write = ("regulate",)
+
     angle_poles = Parameter([0.10, 0.08, 0.10], unit="1/s", minimum=0.0, description="decay of roll, yaw, pitch")
     rate_poles = Parameter([0.15, 0.12, 0.15], unit="1/s", minimum=0.0, description="decay of how they should decay")
     arrival_time = Parameter(35.0, unit="s", minimum=0.0, description="when all angles are to arrive, after the start")

@@ -37,6 +37,8 @@ class TerminalGuidance(Block, interface=True):
     until something else ends it, and no command is a last burn.
     """
 
+    to_write = ("solve",)
+
     target_position = Parameter([0.0, 0.0, 2000.0], unit="m", frame="landing site", description="where to arrive")
     target_velocity = Parameter(
         [0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity to arrive with"

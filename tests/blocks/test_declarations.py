@@ -21,7 +21,7 @@ def test_elements_of_a_matrix_are_named_by_row_and_column_in_row_order():
 
 
 def test_elements_of_a_vector_and_a_scalar():
-    class Named(Block):
+    class Named(Block, interface=True):
         """A block."""
 
         vector = Input([0.0, 0.0], unit="1", description="a vector")
@@ -44,3 +44,26 @@ def test_mixed_types_unknown_units_and_missing_descriptions_are_refused():
     assert "start must be" in refusal(mixed=Parameter([0, 0.5], description="an int and a float"))
     assert "fmus_src/units.py" in refusal(speed=Parameter(0.0, unit="furlong/s", description="a speed"))
     assert "give a description" in refusal(speed=Parameter(0.0, unit="m/s"))
+
+
+def test_what_a_slot_leaves_to_its_blocks_has_to_be_written():
+    assert "has no step, which every Block has; write def step(self, t, h) in it" in refusal()
+
+    class Slot(Block, interface=True):
+        """A slot."""
+
+        to_write = ("decide",)
+
+        def decide(self) -> None:
+            """What to do."""
+
+        def step(self, t: float, h: float) -> None:
+            self.decide()
+
+    def nothing(self, *_):
+        pass
+
+    with pytest.raises((DeclarationError, RuntimeError)):
+        type("Undecided", (Slot,), {"__doc__": "A block."})
+    assert type("Decided", (Slot,), {"__doc__": "A block.", "decide": nothing}).fmu_name == "decided"
+    assert type("Other", (Slot,), {"__doc__": "A block that steps its own way.", "step": nothing}).fmu_name == "other"

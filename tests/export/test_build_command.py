@@ -9,7 +9,7 @@ from perilune.fmus_src.export.command import main
 from tests.support.builders import BLOCKS, component, document, fly, pack, system
 
 GUIDANCE = '''
-from perilune.fmus_src.interfaces.terminal_guidance import GOOD, TerminalGuidance
+from perilune import GOOD, TerminalGuidance
 
 
 class StraightUp(TerminalGuidance):
@@ -64,6 +64,28 @@ WRONG = {
         "    def step(self, t: float, h: float) -> None:\n        self.y = 1.0\n",
         "import of lxml: not packed",
     ),
+    "no step": (
+        HEAD + 'class A(Block):\n    """A."""\n    y = Output(0.0, description="y")\n',
+        "write def step(self, t, h)",
+    ),
+    "guidance without a law": (
+        'from perilune import TerminalGuidance\nclass A(TerminalGuidance):\n    """A."""\n',
+        "A: has no solve, which every TerminalGuidance has; write def solve(self) in it",
+    ),
+    "name that is not declared": (
+        HEAD + 'class A(Block):\n    """A."""\n    thrust = Output(0.0, description="y")\n    python_only = True\n'
+        "    def step(self, t: float, h: float) -> None:\n        self.thurst = 1.0\n",
+        "mine.py:7: self.thurst is not declared in A; did you mean thrust? Else declare it in the class",
+    ),
+    "name that perilune does not have": (
+        'from perilune import Block, Output, Inptu\nclass A(Block):\n    """A."""\n',
+        "cannot import name 'Inptu'",
+    ),
+    "name of perilune that is not packed": (
+        HEAD + 'from perilune import simulate\nclass A(Block):\n    """A."""\n    y = Output(0.0, description="y")\n'
+        "    def step(self, t: float, h: float) -> None:\n        self.y = 1.0\n",
+        "import of perilune.simulate: not packed into the FMU",
+    ),
     "raises": ("raise RuntimeError('100 %')\n", "importing it failed: RuntimeError: 100 %"),
 }
 
@@ -91,6 +113,7 @@ def test_a_file_that_is_not_there(tmp_path, capsys):
 
 def test_a_name_of_the_repository_is_not_overwritten(built):
     text = HEAD + 'class FormingFilter(Block):\n    """A."""\n    y = Output(0.0, description="y")\n'
+    text += "    def step(self, t: float, h: float) -> None:\n        self.y = t\n"
     status, _, message = built(text, "--flavour", "python")
     assert status == 2
     assert "forming_filter is an FMU of this repository; rename the class" in message

@@ -175,7 +175,6 @@ OTHER_FUNCTION = "use a function listed in subset_table.py, or write one in math
 # What a kernel may not say although each word of it is allowed.
 RULES: dict[str, Rule] = {
     "no source": Rule("{name}: its source cannot be read", "define it in a .py file"),
-    "no step": Rule("{name} has no step(self, t, h)", "write one; see docs/write_your_own.md"),
     "no initialize": Rule("{name}: initialize is not a method", "write def initialize(self) -> None"),
     "no variables": Rule("{name} declares no variables", "declare its inputs, parameters, states and outputs"),
     "python only": Rule("{name} says python_only", "it has no C form; build its Python flavour"),

@@ -127,16 +127,10 @@ def test_function_is_refused_with_its_remedy(name: str, tmp_path: Path) -> None:
 
 
 def test_every_rule_has_a_bad_kernel() -> None:
-    elsewhere = {"no initialize", "no step", "no variables", "python only"}  # the tests below
+    elsewhere = {"no initialize", "no variables", "python only"}  # the tests below
     assert set(bad_kernels.STEPS) | set(bad_kernels.FUNCTIONS) | elsewhere == set(RULES)
     unreachable = {"Await", "Nonlocal"}  # only inside an async function, or a nested one, which is refused itself
     assert set(bad_kernels.SYNTAX) | unreachable == {node.__name__ for node in REFUSED_SYNTAX}
-
-
-class WithoutStep(Block):
-    """A block that forgets its step."""
-
-    y = Output(0.0, description="y")
 
 
 class WithoutVariables(Block):
@@ -152,12 +146,8 @@ class PythonOnly(Block):
     python_only = True
     requires = ("filterpy",)
 
-
-def test_missing_step_is_refused() -> None:
-    (violation,) = check(WithoutStep)
-    assert "WithoutStep has no step" in violation.what
-    assert violation.remedy.startswith("write one")
-    assert violation.file == Path(__file__)
+    def step(self, t: float, h: float) -> None:
+        pass
 
 
 class InitializeIsNoMethod(Block):

@@ -7,13 +7,14 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
-from ..errors import InputError
-from ..planning.hover_study import HoverStudy, hover_study
-from ..planning.path import PlannedPath
-from ..planning.vehicle import Margins, Transfer, Vehicle
-from ..reports.plan.hover_page import write_hover_page
-from .options import add_json, write_json
-from .plan_vehicle import add_vehicle, burns_text, check_vehicle, enough, given, number, whole
+from ...errors import InputError
+from ...planning.hover_study import HoverStudy, hover_study
+from ...planning.path import PlannedPath
+from ...planning.vehicle import Margins, Transfer, Vehicle
+from ...reports.plan.hover_page import write_hover_page
+from ..common.options import add_json, check_json, write_json
+from ..common.targets import Results, check_file
+from .vehicle import add_vehicle, burns_text, check_vehicle, enough, given, number, whole
 
 HELP = "plan a transfer between two hovers: simplified programme, true optimum, point-mass bound"
 VEHICLE = Vehicle(600.0, 0.0, 300.0, 4707.192, 4707.192 / 15.0, math.radians(1.0))
@@ -51,6 +52,8 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    check_file("--report", options.report)
+    check_json(options)
     if options.intervals is not None and not (options.optimum or options.bound):
         problem = "nothing here has intervals"
         raise InputError("--intervals", str(options.intervals), problem, "ask for --optimum or --bound with it")
@@ -68,11 +71,13 @@ def run(options: argparse.Namespace) -> int:
         curves=options.curves or options.report is not None,
         intervals=options.intervals,
     )
-    if options.report is not None:
-        write_hover_page(study, options.report)
-    if not write_json(study.document(), options.json):
+    files = Results()
+    if not write_json(study.document(), options.json, files):
         print("\n".join(_lines(study)))
-    return enough(vehicle, study.programme.propellant_fraction * vehicle.mass, "the programme")
+    files.write(options.report, lambda path: write_hover_page(study, path))
+    if options.json != "-":
+        files.say()
+    return 2 if files.failed else enough(vehicle, study.programme.propellant_fraction * vehicle.mass, "the programme")
 
 
 def _margins(options: argparse.Namespace, vehicle: Vehicle) -> Margins | None:

@@ -10,9 +10,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError
-from ..system.faults import KINDS, Fault, parse_fault
-from ..system.options import ALGORITHMS, FLAVOURS, SystemOptions
+from ...atomic import write_atomically
+from ...errors import InputError
+from ...system.faults import KINDS, Fault, parse_fault
+from ...system.options import ALGORITHMS, FLAVOURS, SystemOptions
+from .targets import Results, check_file
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -29,6 +31,10 @@ def add_system(parser: argparse.ArgumentParser, needed: bool = True) -> None:
         nargs=None if needed else "?",
         help="a name under ssp_systems, a folder or an .ssp file",
     )
+    add_system_options(parser)
+
+
+def add_system_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("system options")
     group.add_argument(
         "--use", action="append", default=[], metavar="SLOT=FMU", help="put another FMU in a component's place"
@@ -115,7 +121,13 @@ def system_options(options: argparse.Namespace) -> SystemOptions:
     )
 
 
-def write_json(document: Any, target: str | None) -> bool:
+def check_json(options: argparse.Namespace) -> None:
+    """Refuse a file for JSON that cannot be written, before anything flies. Raises InputError."""
+    if options.json not in (None, "-"):
+        check_file("--json", Path(options.json))
+
+
+def write_json(document: Any, target: str | None, files: Results | None = None) -> bool:
     """Write a document as strict JSON; returns whether it went to standard output."""
     if target is None:
         return False
@@ -123,7 +135,5 @@ def write_json(document: Any, target: str | None) -> bool:
     if target == "-":
         sys.stdout.write(text)
         return True
-    path = Path(target)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
+    (files or Results()).write(Path(target), lambda path: write_atomically(path, text.encode()))
     return False

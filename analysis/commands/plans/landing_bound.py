@@ -7,17 +7,18 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
-from ..errors import InputError
-from ..planning.bounds import Landing
-from ..planning.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
-from ..planning.landing_study import LandingStudy, landing_study
-from ..planning.stored_bound import write_bound
-from ..planning.vehicle import Vehicle
-from ..reports.plan.landing_page import write_landing_page
-from ..system.options import SystemOptions
-from ..system.prepared import PreparedSystem, prepare_system
-from .options import add_json, add_system, system_options, write_json
-from .plan_vehicle import add_vehicle, burns_text, check_vehicle, enough, given, number, whole
+from ...errors import InputError
+from ...planning.bounds import Landing
+from ...planning.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
+from ...planning.landing_study import LandingStudy, landing_study
+from ...planning.stored_bound import PLACE, write_bound
+from ...planning.vehicle import Vehicle
+from ...reports.plan.landing_page import write_landing_page
+from ...system.options import SystemOptions
+from ...system.prepared import PreparedSystem, prepare_system
+from ..common.options import add_json, add_system, check_json, system_options, write_json
+from ..common.targets import Results, check_file
+from .vehicle import add_vehicle, burns_text, check_vehicle, enough, given, number, whole
 
 HELP = "bound the propellant of braking and landing in one: a point mass, attitude free"
 VEHICLE = Vehicle(940.13, 440.0, 319.0, 5099.0, 0.0, math.inf)
@@ -50,6 +51,8 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    check_file("--report", options.report)
+    check_json(options)
     if options.system is None and system_options(options) != SystemOptions():
         raise InputError("landing-bound", "system options", "there is no system that they are for", "name a system")
     prepared = None if options.system is None else prepare_system(options.system, system_options(options))
@@ -66,16 +69,16 @@ def run(options: argparse.Namespace) -> int:
         intervals=options.intervals,
         pieces=pieces_of(inputs, prepared.archive.label) if prepared and inputs and not (single or places) else None,
     )
-    if options.report is not None:
-        write_landing_page(study, options.report)
-    stored = None
-    if options.store and prepared is not None and inputs is not None:
-        stored = write_bound(study.stored(inputs), prepared.archive.path)
-    if not write_json(study.document(), options.json):
+    files = Results()
+    if not write_json(study.document(), options.json, files):
         print("\n".join(_lines(study)))
-        if stored is not None:
-            print(f"stored in {stored}")
-    return enough(study.vehicle, study.propellant, "the bound")
+    files.write(options.report, lambda path: write_landing_page(study, path))
+    if options.store and prepared is not None and inputs is not None:
+        content, folder = study.stored(inputs), prepared.archive.path
+        files.write(folder / PLACE, lambda _: write_bound(content, folder))
+    if options.json != "-":
+        files.say()
+    return 2 if files.failed else enough(study.vehicle, study.propellant, "the bound")
 
 
 def _inputs(prepared: PreparedSystem) -> Inputs:

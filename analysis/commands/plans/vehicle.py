@@ -7,8 +7,8 @@ import math
 import sys
 from collections.abc import Callable, Iterable
 
-from ..errors import InputError
-from ..planning.vehicle import Vehicle
+from ...errors import InputError
+from ...planning.vehicle import Vehicle
 
 UNITS = {
     "mass": "kg",

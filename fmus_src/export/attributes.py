@@ -1,0 +1,51 @@
+"""What a block keeps under names that it does not declare: found where it is written, before anything flies."""
+
+from __future__ import annotations
+
+import ast
+import difflib
+import inspect
+import textwrap
+from types import FunctionType
+
+from ..block import Block
+
+
+class UndeclaredError(ValueError):
+    """A block assigns or reads an attribute that nobody declares; file, line, name and remedy in the message."""
+
+
+def check_attributes(block_class: type[Block]) -> None:
+    """Refuse methods that use self.NAME where NAME is neither a variable nor an attribute of the class.
+
+    What is kept there would be lost at a reset, in a saved state and from trial to trial of a batch. Kernels are judged
+    for it as they are translated; this is for blocks in Python alone, and where nothing is translated. Raises
+    `UndeclaredError`.
+    """
+    for owner in block_class.__mro__:
+        if owner in (Block, object):
+            continue
+        for method in vars(owner).values():
+            if isinstance(method, FunctionType):
+                _check_method(block_class, method)
+
+
+def _check_method(block_class: type[Block], method: FunctionType) -> None:
+    try:
+        lines, first = inspect.getsourcelines(method)
+    except OSError:  # no source to read: a block made by a program
+        return
+    tree = ast.parse(textwrap.dedent("".join(lines)))
+    me = next(iter(inspect.signature(method).parameters), "")
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == me):
+            continue
+        if node.attr in block_class.variables or hasattr(block_class, node.attr):
+            continue
+        near = difflib.get_close_matches(node.attr, block_class.variables, n=3)
+        remedy = f"did you mean {' or '.join(near)}? Else declare" if near else "declare"
+        place = f"{method.__code__.co_filename}:{first + node.lineno - 1}"
+        raise UndeclaredError(
+            f"{place}: self.{node.attr} is not declared in {block_class.__name__}; "
+            f"{remedy} it in the class, {node.attr} = State(...), or keep it in a local variable"
+        )

@@ -1,0 +1,22 @@
+"""What one needs to write a block, by name and the module that defines it.
+
+`from perilune import TerminalGuidance` finds it here, and so does an FMU, whose packed files know no `perilune`.
+"""
+
+from __future__ import annotations
+
+HOMES = {
+    "block": ("Block", "DeclarationError", "Input", "Output", "Parameter", "State"),
+    "interfaces.allocation": ("Allocation",),
+    "interfaces.attitude_observer": ("AttitudeObserver",),
+    "interfaces.entry_control": ("EntryControl",),
+    "interfaces.filtered_navigation": ("FilteredNavigation",),
+    "interfaces.gyro_steering": ("GyroSteering",),
+    "interfaces.inertial_navigation": ("InertialNavigation",),
+    "interfaces.jet_allocation": ("JetAllocation",),
+    "interfaces.navigation": ("Navigation",),
+    "interfaces.orbital_control": ("OrbitalControl",),
+    "interfaces.terminal_guidance": ("CLAMPED", "GOOD", "NOT_CONVERGED", "NO_SOLUTION", "TerminalGuidance"),
+    "mathlib.vectors": ("Vector", "Vector2", "Vector3", "Vector4", "cross", "dot", "norm", "vector"),
+}
+HOME_OF = {name: home for home, names in HOMES.items() for name in names}
