@@ -199,7 +199,7 @@ def test_a_systems_bound_is_stored(tmp_path, capsys):
     assert main([*arguments, "--store", "--json", str(tmp_path / "bound.json")]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[2].startswith("  braking by itself ")
-    assert lines[-1] == f"written: {place / PLACE}"
+    assert lines[-1] == f"written: {tmp_path / 'bound.json'}, {place / PLACE}"
     stored = find_bound(prepare_system(place, SystemOptions()))
     found = json.loads((tmp_path / "bound.json").read_text())
     assert stored.propellant == found["bound"]["propellant_kg"]
