@@ -62,7 +62,7 @@ def test_every_stage_is_flown_as_designed(ideal):
 
 def test_the_coast_is_half_of_an_ellipse(ideal):
     """The deorbit takes off what leads from 100 to 15 km, and the pericentre comes 285 km before the site."""
-    begin, end = started(ideal, 2), started(ideal, 3)
+    begin, end = started(ideal, 2) + 20, started(ideal, 3)  # 2 s later the engine's thrust has died away
     place = vector(ideal, "plant.position", begin) - CENTRE
     speed = vector(ideal, "plant.velocity", begin)
     energy = speed @ speed / 2.0 - MU / np.linalg.norm(place)
@@ -74,7 +74,7 @@ def test_the_coast_is_half_of_an_ellipse(ideal):
     assert abs(ideal["plant.vertical_speed"][end]) < 1.0
     # the burn is short: half a revolution less the half of it
     half = math.pi * math.sqrt(axis**3 / MU)
-    assert ideal.time[end] - ideal.time[begin] == pytest.approx(half - 18.0, abs=2.0)
+    assert ideal.time[end] - ideal.time[begin] == pytest.approx(half - 20.0, abs=2.0)
 
 
 def test_the_transfer_is_flown_as_planned(ideal):
@@ -158,7 +158,7 @@ STATUSES = {
     },
     5: {"parameters": ["start_5.ssv"], "set": {"dry_mass": 478}},
     6: {"parameters": ["start_8.ssv"], "faults": [perilune.Fault("sequencer.probe_contact", "override", False)]},
-    7: {"parameters": ["start_8.ssv"], "set": {"dry_mass": 480}},
+    7: {"parameters": ["start_8.ssv"], "set": {"dry_mass": 481.2}},
     8: {"parameters": ["start_3.ssv"], "set": {"sequencer.braking_patience": 300}},
     9: {"parameters": ["start_3.ssv"], "set": {"sequencer.start_phase": 10}},
 }
