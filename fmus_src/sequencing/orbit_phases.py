@@ -37,7 +37,7 @@ class OrbitPhases(LandingSequence, interface=True):
     handover_time_to_go = Parameter(28.0, unit="s", minimum=0.0, description="left of the braking when hover 1 begins")
     braking_patience = Parameter(450.0, unit="s", minimum=0.0, description="longest braking")
     solution_patience = Parameter(20.0, unit="s", minimum=0.0, description="longest braking without a solution")
-    far_range = Parameter(3e3, unit="m", minimum=0.0, description="ground left from which on braking ends elsewhere")
+    far_range = Parameter(5e3, unit="m", minimum=0.0, description="ground left from which on braking ends elsewhere")
     slow_speed = Parameter(30.0, unit="m/s", minimum=0.0, description="at which braking elsewhere ends")
     ignition_time = State(NEVER, frozen=True, unit="s", description="of the deorbit; -1: not yet")
     planned_burn = State(0.0, frozen=True, unit="s", description="of the deorbit, as it was at ignition")

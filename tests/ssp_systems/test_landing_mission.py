@@ -196,10 +196,28 @@ def test_another_vehicle_lands_by_parameters_alone():
 
 @pytest.mark.slow
 def test_faults_are_survived_but_for_a_camera_that_dies_before_braking():
-    found = perilune.batch(SYSTEM, "faults", parameters=["noisy.ssv"]).trials["default"]
-    for case in range(8):
-        rate = found.success[found.draws["case"] == case].mean()
-        assert rate == 1.0 if case != 4 else rate < 1.0
+    batch = perilune.batch(SYSTEM, "faults", parameters=["noisy.ssv"])
+    found, case = batch.trials["default"], batch.plan.draws.columns["case"]
+    for number in range(8):
+        rate = found.success[case == number].mean()
+        assert rate == 1.0 if number != 4 else 0.3 < rate < 1.0, number
+    assert np.max(found.metrics["vertical_speed"]) < 3.0  # soft, wherever it is
+
+
+@pytest.mark.slow
+def test_without_the_gradient_of_gravity_the_gate_locks_the_camera_out():
+    """The covariance of an hour's coast is then too small for the first fixes to be believed."""
+    batch = perilune.batch(
+        SYSTEM,
+        "contacts",
+        parameters=["noisy.ssv"],
+        trials=60,
+        set={"navigation.gravity_gradient": False},
+        compare={"guidance": ["analytic_exact_guidance"]},
+    )
+    (found,) = batch.trials.values()
+    assert 0.7 < found.success.mean() < 0.97
+    assert np.max(found.metrics["distance"]) > 500.0
 
 
 @pytest.mark.slow
