@@ -210,10 +210,11 @@ class HoverGuidance(HoverPlan):
             self.reference_velocity = -speed * self.up
 
     def reference_thrust(self, begin: float, end: float) -> float:
-        """Mean of the plan's thrust over mass (m/s2) between two times (s); local gravity from its end on."""
+        """Mean of the plan's thrust over mass (m/s2) between two times (s); local gravity from its end on.
+
+        A descent is all end: feedback alone follows its reference, which makes it soft.
+        """
         gravity = self.gravity_at(self.position)
-        if self.sinking():
-            return gravity - (self.sink_speed(end) - self.sink_speed(begin)) / (end - begin)
         left = clip(self.duration - begin, 0.0, end - begin)
         impulse = gravity * (end - begin - left)
         if left > 0.0:
