@@ -9,7 +9,7 @@ from pathlib import Path
 from ..batch.tables import faults_line
 from ..errors import InputError
 from ..flight.simulation import Simulation
-from ..reports.run.reading import read_figures
+from ..reports.own.asked.reading import read_figures
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
 from .options import add_faults, add_json, add_system, faults, json_number, system_options, write_json

@@ -12,8 +12,9 @@ from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
 from perilune.analysis.flight.program import layout_of
 from perilune.analysis.flight.simulation import Simulation
-from perilune.analysis.reports.run.declared import Band, Error, Pulses, Undrawn
-from perilune.analysis.reports.run.reading import read_figures
+from perilune.analysis.reports.own.asked.histories import Band, Error, Pulses
+from perilune.analysis.reports.own.asked.reading import read_figures
+from perilune.analysis.reports.own.asked.values import Undrawn
 from perilune.analysis.system.options import SystemOptions
 from perilune.analysis.system.prepared import prepare_system
 from perilune.fmus_src.export.ssp_package import pack_system
@@ -105,7 +106,7 @@ def test_all_that_can_be_asked_for(folder, loaded):
 
 WRONG = {
     # the wrong element, which element the message names, words of it
-    "unknown element": ("<Bnad/>", "Bnad", "unknown element; use one of Band, Error, Pulses"),
+    "unknown element": ("<Bnad/>", "Bnad", "unknown element; use one of Band, Budget"),
     "unknown attribute": ('<Band signal="plant.angles" hi="1"/>', "Band", "unknown attribute hi"),
     "no signal": ('<Band low="1"/>', "Band", "no signal"),
     "no limit": ('<Band signal="plant.angles"/>', "Band", "neither low nor high"),
