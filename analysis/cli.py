@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 from .errors import InputError
 from .process_end import leave
 
-VERBS = ("list", "validate", "run", "batch", "compare", "law", "synthesize", "stability", "benchmark", "export")
+VERBS = ("list", "validate", "run", "batch", "compare", "law", "synthesize", "plan", "stability", "benchmark", "export")
 
 
 class Parser(argparse.ArgumentParser):

@@ -21,9 +21,14 @@ def add_json(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_system(parser: argparse.ArgumentParser) -> None:
-    """The system and its options, as in docs/command_line.md."""
-    parser.add_argument("system", metavar="SYSTEM", help="a name under ssp_systems, a folder or an .ssp file")
+def add_system(parser: argparse.ArgumentParser, needed: bool = True) -> None:
+    """The system and its options, as in docs/command_line.md; one that is not ``needed`` and not given is None."""
+    parser.add_argument(
+        "system",
+        metavar="SYSTEM",
+        nargs=None if needed else "?",
+        help="a name under ssp_systems, a folder or an .ssp file",
+    )
     group = parser.add_argument_group("system options")
     group.add_argument(
         "--use", action="append", default=[], metavar="SLOT=FMU", help="put another FMU in a component's place"

@@ -21,6 +21,15 @@ def altitude_of(position: Vector3, radius: float) -> float:
     return norm(from_centre(position, radius)) - radius
 
 
+def vertical_at(position: Vector3, radius: float) -> Vector3:
+    """The unit vector upwards at ``position`` (m); z at the Moon's centre itself."""
+    centred = from_centre(position, radius)
+    distance = norm(centred)
+    if distance > 0.0:
+        return centred / distance
+    return vector(0.0, 0.0, 1.0)
+
+
 def central_gravity(position: Vector3, radius: float, gravitational_parameter: float) -> Vector3:
     """Gravity (m/s2) of a central field at ``position`` (m); not at the centre itself."""
     centred = from_centre(position, radius)
