@@ -8,11 +8,10 @@ from collections.abc import Mapping
 from markupsafe import Markup
 
 from ...flight.results import Result
-from ..kit.page import exact
 from ..kit.quantities import shown_unit
-from .asked.stages import Budget, Item, StoredBound
+from .asked.stages import BoundValues, Budget, Item
 from .phase_spans import spans_of
-from .section import Section, Table
+from .section import Section, Table, evenly
 
 
 def spent_by_phase(budget: Budget, result: Result) -> dict[str, float]:
@@ -24,7 +23,7 @@ def spent_by_phase(budget: Budget, result: Result) -> dict[str, float]:
     return found
 
 
-def amount(item: Item, spent: Mapping[str, float], bound: StoredBound | None) -> float | None:
+def amount(item: Item, spent: Mapping[str, float], bound: BoundValues | None) -> float | None:
     """What an item comes to; None where a phase of it was not flown or the bound is missing."""
     values = {} if bound is None else bound.values
     if any(name not in spent for name in item.phases) or any(name not in values for name in (*item.plus, *item.minus)):
@@ -38,21 +37,21 @@ def budget_section(budget: Budget, result: Result) -> Section:
     spent = spent_by_phase(budget, result)
     unit = budget.of.spent.unit_name if budget.of.spent is not None else None
     amounts = [amount(item, spent, budget.bound) for item in budget.items]
-    rows: list[tuple[Markup | str, ...]] = [
-        (item.name, exact(value, unit, 5), _made_of(item)) for item, value in zip(budget.items, amounts, strict=True)
-    ]
     known = [value for value in amounts if value is not None]
     together = math.fsum(known) if len(known) == len(amounts) else None
     named = list(dict.fromkeys(name for item in budget.items for name in item.phases))
     used = math.fsum(spent[name] for name in named) if all(name in spent for name in named) else None
-    rows.append(("together", exact(together, unit, 5), ""))
-    rows.append(("used up in these phases", exact(used, unit, 5), ", ".join(named)))
+    names = [*(item.name for item in budget.items), "together", "used up in these phases"]
+    sources = [*map(_made_of, budget.items), "", ", ".join(named)]
+    shown = evenly([*amounts, together, used], unit)
     notes = [Markup("Not flown: {}.").format(name) for name in named if name not in spent]
     if budget.bound is not None and budget.bound.missing:
         notes.append(Markup("Without the bound: {}.").format(budget.bound.missing))
     return Section(
         title=budget.title,
-        table=Table(heads=("", shown_unit(unit), "from"), rows=rows, numbers=(1,)),
+        table=Table(
+            heads=("", shown_unit(unit), "from"), rows=list(zip(names, shown, sources, strict=True)), numbers=(1,)
+        ),
         notes=notes,
     )
 

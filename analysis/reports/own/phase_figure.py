@@ -14,7 +14,7 @@ from ..kit.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure, pl
 from ..kit.svg import inline_svg
 from .asked.stages import Phases
 from .phase_spans import Span, spans_of, statuses_of
-from .section import Section, Table, seconds, sentence
+from .section import Section, Table, evenly, seconds, sentence
 
 LANE = 0.27  # in
 LONG = 0.5  # share of the flight from which on a phase is cut in its middle, so that the others are seen
@@ -118,12 +118,14 @@ def _table(phases: Phases, spans: Sequence[Span]) -> Table:
     unit = None if phases.spent is None else phases.spent.unit_name
     if phases.spent is not None:
         heads.append(f"uses up, {shown_unit(unit)}" if shown_unit(unit) else "uses up")
-    rows: list[tuple[Markup | str, ...]] = []
-    for span in (*spans, _whole(spans)):
-        times = (exact(span.begin, digits=6), exact(span.end - span.begin, digits=6))
-        spent = () if span.spent is None else (exact(span.spent, unit, 5),)
-        rows.append((span.name, *times, *spent))
-    return Table(tuple(heads), rows, numbers=(1, 2, 3))
+    whole = [*spans, _whole(spans)]
+    columns = [
+        [span.name for span in whole],
+        [exact(span.begin, digits=6) for span in whole],
+        [exact(span.end - span.begin, digits=6) for span in whole],
+        *([evenly([span.spent for span in whole], unit)] if phases.spent is not None else []),
+    ]
+    return Table(tuple(heads), list(zip(*columns, strict=True)), numbers=(1, 2, 3))
 
 
 def _whole(spans: Sequence[Span]) -> Span:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,6 +13,7 @@ from matplotlib.axes import Axes
 from ...flight.results import Result
 from ..kit.page import exact
 from ..kit.panels import HALF_WIDTH, Panel, panel, swatch
+from ..kit.quantities import MINUS, in_shown_unit
 from ..kit.style import house_style, look, new_figure, plain_ticks
 from ..kit.svg import inline_svg
 from .asked.values import Rows
@@ -23,8 +25,8 @@ HEIGHT = 2.6  # in
 class Table:
     """Headings and rows of cells; the columns ``numbers`` are set to the right."""
 
-    heads: tuple[str, ...]
-    rows: list[tuple[Markup | str, ...]]
+    heads: Sequence[str]
+    rows: Sequence[Sequence[Markup | str]]
     numbers: tuple[int, ...]
 
 
@@ -97,6 +99,21 @@ def choice(rows: Rows) -> Markup:
 def nothing_chosen(title: str, rows: Rows) -> Section:
     """What there is of a figure whose rows were not flown."""
     return Section(title=title, notes=[Markup("Not drawn: in no row {}.").format(choice(rows))])
+
+
+def evenly(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Markup]:
+    """Numbers of a column, all with the decimals that the largest of them has with so many digits."""
+    sizes = [abs(in_shown_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
+    most = max(sizes, default=0.0)
+    places = max(0, digits - 1 - math.floor(math.log10(most))) if most > 0.0 else 0
+    return [
+        exact(value, unit)
+        if value is None or not math.isfinite(value)
+        else Markup('<data value="{}">{}</data>').format(
+            repr(value), f"{in_shown_unit(value, unit) + 0.0:.{places}f}".replace("-", MINUS)
+        )
+        for value in values
+    ]
 
 
 def seconds(time: float) -> Markup:

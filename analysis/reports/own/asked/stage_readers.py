@@ -7,12 +7,25 @@ from collections.abc import Sequence
 from lxml import etree
 
 from ....errors import suggestion
+from ....planning.stored_bound import MissingBound, find_bound
+from ....system.prepared import PreparedSystem
 from .declared import Figure
 from .history_readers import SECOND
 from .signal_reader import NUMBERS, LackingError, SignalReader
-from .stages import Budget, Item, Limit, Limits, Phase, Phases, StoredBound
-from .stored import read_bound
+from .stages import BoundValues, Budget, Item, Limit, Limits, Phase, Phases
 from .values import Signal, Undrawn
+
+BOUNDS = ("landing",)  # braking and landing in one, kg
+
+
+def bound_values(prepared: PreparedSystem) -> BoundValues | None:
+    """What is stored with a system for its values; None where its SSD declares no bound. Raises InputError."""
+    found = find_bound(prepared)
+    if found is None:
+        return None
+    if isinstance(found, MissingBound):
+        return BoundValues({}, found.reason)
+    return BoundValues(dict.fromkeys(BOUNDS, found.propellant))
 
 
 def read_phases(reader: SignalReader, element: etree._Element) -> Phases:
@@ -89,7 +102,7 @@ def _limit(reader: SignalReader, element: etree._Element) -> Limit:
 
 def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[Figure]) -> Budget:
     """A budget of the phases that are declared before it."""
-    found = reader.attributes(element, (), ("bound", "title"))
+    reader.attributes(element, (), ("title",))
     phases = [figure for figure in before if isinstance(figure, Phases)]
     if any(isinstance(figure, Undrawn) for figure in before) and not phases:
         raise LackingError("its phases are not drawn")
@@ -102,13 +115,13 @@ def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[
     parts = reader.parts(element, ("Item",))["Item"]
     if not parts:
         raise reader.refuse(element, "no Item", 'write <Item name="..." phases="..."/>')
-    bound = read_bound(reader, element, found["bound"]) if "bound" in found else None
+    bound = bound_values(reader.prepared)
     names = [phase.name for phase in phases[0].phases]
     items = tuple(_item(reader, part, names, bound) for part in parts)
     return Budget(title=reader.title(element, "Budget"), of=phases[0], items=items, bound=bound, notes=())
 
 
-def _item(reader: SignalReader, element: etree._Element, phases: Sequence[str], bound: StoredBound | None) -> Item:
+def _item(reader: SignalReader, element: etree._Element, phases: Sequence[str], bound: BoundValues | None) -> Item:
     found = reader.attributes(element, ("name",), ("phases", "plus", "minus"))
     named, plus, minus = (reader.words(element, name) for name in ("phases", "plus", "minus"))
     if not named and not plus and not minus:
@@ -118,7 +131,9 @@ def _item(reader: SignalReader, element: etree._Element, phases: Sequence[str], 
             raise reader.refuse(element, f"phases {name}: no such phase", suggestion(name, phases))
     for name in (*plus, *minus):
         if bound is None:
-            raise reader.refuse(element, f"{name}, but the Budget has no bound", 'write bound="..." there')
-        if not bound.missing and name not in bound.values:
-            raise reader.refuse(element, f"{name} is not in the bound", suggestion(name, bound.values))
+            raise reader.refuse(
+                element, f"{name}, but the SSD declares no bound", "add the annotation org.perilune.bound"
+            )
+        if name not in BOUNDS:
+            raise reader.refuse(element, f"{name}: no such bound", suggestion(name, BOUNDS))
     return Item(found["name"], named, plus, minus)

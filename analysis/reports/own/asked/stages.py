@@ -56,12 +56,8 @@ class Limits(Own):
 
 
 @dataclass(frozen=True)
-class StoredBound:
-    """Numbers by name that were computed before and lie with the system, in SI.
-
-    ``missing`` says in a sentence why there are none, or why they are not this system's, and how to make them; then
-    ``values`` is empty.
-    """
+class BoundValues:
+    """What no flight can beat, by name, in SI; where it is not there ``missing`` says why, and what to do."""
 
     values: Mapping[str, float]
     missing: str = ""
@@ -83,4 +79,4 @@ class Budget(Own):
 
     of: Phases
     items: tuple[Item, ...]
-    bound: StoredBound | None
+    bound: BoundValues | None
