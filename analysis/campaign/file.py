@@ -16,6 +16,7 @@ from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})  # of records and of the results' table
 REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that go with one reduction only
+SCATTER = ("x", "y", "circle", "title")
 
 
 def _check_name(table: Table, name: str, taken: Iterable[str]) -> None:
@@ -163,11 +164,14 @@ def _success(table: Table, metrics: tuple[Metric, ...]) -> Expression:
 
 
 def _scatters(table: Table, metrics: tuple[Metric, ...]) -> tuple[Scatter, ...]:
+    for name in table.content:
+        if not name.isidentifier():
+            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
     return tuple(_scatter(name, table.table(name), metrics) for name in table.content)
 
 
 def _scatter(name: str, table: Table, metrics: tuple[Metric, ...]) -> Scatter:
-    table.only(["x", "y", "circle", "title"])
+    table.only(SCATTER)
     units = {metric.name: metric.unit for metric in metrics}
     x, y = table.get("x", text), table.get("y", text)
     for key, metric in (("x", x), ("y", y)):

@@ -8,12 +8,13 @@ from lxml import etree
 
 from ....errors import suggestion
 from ....planning.stored_bound import MissingBound, find_bound
+from ....system.documents import tag
 from ....system.prepared import PreparedSystem
 from .declared import Figure
 from .history_readers import SECOND
 from .signal_reader import NUMBERS, LackingError, SignalReader
 from .stages import BoundValues, Budget, Item, Limit, Limits, Phase, Phases
-from .values import Signal, Undrawn
+from .values import Signal
 
 BOUNDS = ("landing",)  # braking and landing in one, kg
 
@@ -103,15 +104,14 @@ def _limit(reader: SignalReader, element: etree._Element) -> Limit:
 def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[Figure]) -> Budget:
     """A budget of the phases that are declared before it."""
     reader.attributes(element, (), ("title",))
-    phases = [figure for figure in before if isinstance(figure, Phases)]
-    if any(isinstance(figure, Undrawn) for figure in before) and not phases:
-        raise LackingError("its phases are not drawn")
-    if len(phases) != 1:
-        raise reader.refuse(element, f"{len(phases)} Phases before it", "write one, with what they use up as spent")
-    if phases[0].spent is None:
-        if phases[0].notes:
-            raise LackingError("what phases use up is left out")
+    declared = [item for item in element.itersiblings(preceding=True) if tag(item) == "Phases"]
+    if len(declared) != 1:
+        raise reader.refuse(element, f"{len(declared)} Phases before it", "write one, with what they use up as spent")
+    if "spent" not in declared[0].attrib:
         raise reader.refuse(element, "the Phases before it have no spent", 'give them spent="..."')
+    phases = [figure for figure in before if isinstance(figure, Phases) and figure.spent is not None]
+    if not phases:
+        raise LackingError("what phases use up is left out")
     parts = reader.parts(element, ("Item",))["Item"]
     if not parts:
         raise reader.refuse(element, "no Item", 'write <Item name="..." phases="..."/>')
