@@ -8,7 +8,7 @@ import math
 
 from .hover_motion import FULL, GRAVITY, LEAST, VEHICLE
 from .hover_path import aside, ending, further, stretched, vertical
-from .hover_shape import END, UNKNOWNS, WIDTH, copy
+from .hover_shape import END, UNKNOWNS, WIDTH, clear, copy
 from .hover_solution import NONE, VERTICAL, WITH_FIRST_BURN, WITHOUT_FIRST_BURN, propellant_fraction, solve
 
 STRAIGHT = 1.0  # m; nearer to the vertical the vertical programme is flown
@@ -70,12 +70,6 @@ def programme_of_duration(x: float, y: float, duration: float, vehicle: list, p:
         clear(p)
         return NONE
     return WITH_FIRST_BURN
-
-
-def clear(p: list) -> None:
-    """p = no programme."""
-    for i in range(UNKNOWNS):
-        p[i] = 0.0
 
 
 def possible(x: float, y: float, vehicle: list) -> bool:

@@ -23,6 +23,12 @@ UNKNOWNS = 5
 SHAPE = 12
 
 
+def clear(p: list) -> None:
+    """p = no programme."""
+    for i in range(UNKNOWNS):
+        p[i] = 0.0
+
+
 def copy(p: list, other: list) -> None:
     """other = p, programmes."""
     for i in range(UNKNOWNS):
