@@ -13,6 +13,7 @@ from ..campaign.file import SYNTHESIS, read_campaign
 from ..campaign.toml_table import read_toml
 from ..errors import InputError
 from ..laws.law import read_law
+from ..planning.stored_bound import MissingBound, find_bound
 from ..reports.own.asked.reading import read_figures
 from ..stability.ask.reading import read_declaration
 from ..synthesis.synthesis_file import read_synthesis
@@ -69,6 +70,8 @@ def _check(path: str) -> dict[str, Any]:
                 prepared = prepare_system(path, SystemOptions(variant=variant))
                 read_declaration(prepared.network.description)
                 read_figures(prepared)
+                bound = find_bound(prepared)
+                notes += [f"bound: {bound.reason}"] if isinstance(bound, MissingBound) else []
                 notes += prepared.network.notes
                 notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
     except InputError as error:

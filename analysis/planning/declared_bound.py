@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -27,7 +28,8 @@ SCALARS = (
     "moon_radius",
     "gravitational_parameter",
     "target_altitude",
-)  # the attributes, each the name of a parameter
+)  # the attributes: each a parameter, or a number
+NUMBER = re.compile(r"-?\d+(\.\d+)?([eE][+-]?\d+)?")
 START = "start"  # the parameter set that braking starts from
 ACROSS = 1e-3  # m/s; more, and the flight leaves the plane that the bound is made in
 
@@ -64,7 +66,9 @@ class _Reader(AnnotationReader):
         return found | {role: self.value(element, prepared, names[role]) for role in SCALARS}
 
     def value(self, element: etree._Element, prepared: PreparedSystem, name: str) -> float:
-        """A parameter as it is set, or as its FMU starts."""
+        """A parameter as it is set, or as its FMU starts; a number is itself."""
+        if NUMBER.fullmatch(name):
+            return float(name)
         component, variable = parted(name, prepared.network.fmus)
         if not component or variable not in prepared.network.fmus[component].variables:
             raise self.refuse(element, f"{name}: no such parameter", "name one as COMPONENT.VARIABLE")

@@ -10,8 +10,8 @@ from .path import PlanError
 from .point_mass import PointMassProblem
 
 COARSE = 40  # intervals of the search's first look
-GROWTH = 1.2  # from one time of it to the next
-FIRST, LAST = -12, 16  # times from 1/9 to 18 times the natural one
+GROWTH = 1.3  # from one time of it to the next
+FIRST, LAST = -8, 11  # times from 1/8 to 18 times the natural one
 ACCURACY = 1e-2  # s; the propellant is flat there
 
 

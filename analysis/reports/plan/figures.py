@@ -14,10 +14,11 @@ from ...planning.hover_study import Curve
 from ...planning.path import PlannedPath
 from ..kit.panels import HALF_WIDTH, Panel, far, panel
 from ..kit.quantities import number
-from ..kit.style import FAINT, INK, WIDTH, Look, house_style, new_figure, plain_ticks
+from ..kit.style import FAINT, INK, Look, house_style, new_figure, plain_ticks
 from ..kit.svg import inline_svg
 
-EVEN, WIDE = (6.2, HALF_WIDTH), (3.8, WIDTH)  # in, height and width of the figure of a path
+LOWEST, HIGHEST = 3.0, 6.5  # in, of a path to one scale
+LOW = 3.8  # in, of one to two
 ARROWS = 14  # along a path
 ARROW = 0.8  # in, at full throttle
 
@@ -73,10 +74,12 @@ def curve_panel(label: str, name: str, curve: Curve, quantity: str, points: Sequ
 def path_figure(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str], even: bool) -> Markup:
     """The paths; ``shown`` are places and thrust angles in what is drawn, a row each: along (m), up (m), angle (rad).
 
-    Arrows are thrust along the first one; both axes to one scale where ``even``.
+    Arrows are thrust along the first one. Where ``even``, both axes have one scale, and the figure is half a page wide.
     """
     with house_style():
-        figure = new_figure(*(EVEN if even else WIDE))
+        spans = [max(float(np.ptp(rows[axis])) for rows in shown) for axis in (0, 1)]
+        upright = min(max(LOWEST, HALF_WIDTH * spans[1] / max(spans[0], 1.0)), HIGHEST)
+        figure = new_figure(upright, HALF_WIDTH) if even else new_figure(LOW)
         axes = figure.subplots()
         scales = [far(np.concatenate([rows[axis] for rows in shown])) for axis in (0, 1)]
         for one, rows in zip(series, shown, strict=True):
@@ -91,7 +94,8 @@ def path_figure(series: Sequence[Series], shown: Sequence[np.ndarray], names: tu
         if even:
             axes.set_aspect("equal", adjustable="datalim")
         axes.set_title(f"axes to {'one scale' if even else 'different scales'}", loc="right", fontsize=7.5, color=FAINT)
-        return inline_svg(figure, "path", f"Path of {', '.join(one.name for one in series)}, with thrust as arrows")
+        words = f"Path of {', '.join(one.name for one in series)}, with thrust as arrows"
+        return inline_svg(figure, "path", words, fill=even)
 
 
 def _draw_arrows(axes: Axes, one: Series, rows: np.ndarray, scale: tuple[float, float]) -> None:
