@@ -12,7 +12,7 @@ from ..kit.quantities import labelled, shown_unit
 from ..kit.style import BLUE, house_style, look, new_figure, plain_ticks
 from ..kit.svg import inline_svg
 from .asked.histories import Path, Point
-from .asked.values import Signal
+from .asked.values import Arc, Signal
 from .section import Section, choice, chosen_rows, nothing_chosen, sentence, trimmed
 
 HEIGHT = 3.6  # in
@@ -26,7 +26,7 @@ def path_section(path: Path, result: Result, name: str) -> Section:
         return nothing_chosen(path.title, path.rows)
     rows = trimmed(chosen)
 
-    def line(signal: Signal) -> np.ndarray:
+    def line(signal: Signal | Arc) -> np.ndarray:
         return np.where(chosen, signal.shown(result)[0], np.nan)[rows]
 
     x, y = line(path.x), line(path.y)
@@ -60,7 +60,7 @@ def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     return first, second
 
 
-def _axis(signal: Signal, scale: float) -> str:
+def _axis(signal: Signal | Arc, scale: float) -> str:
     return labelled(signal.label, "km" if scale != 1.0 else shown_unit(signal.unit_name))
 
 
@@ -88,4 +88,6 @@ def _reading(path: Path) -> list[Markup]:
         words = Markup("{}; where {}").format(words, choice(path.rows))
     scale = Markup("both axes to one scale") if path.equal else Markup("axes to different scales")
     words = Markup("{}; {}").format(words, scale)
+    if isinstance(path.x, Arc):
+        words = Markup("{}; range: along the ground, from the origin to below {}").format(words, path.x.position.label)
     return [sentence(words), *(Markup("{}").format(note) for note in path.notes)]

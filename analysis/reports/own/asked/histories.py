@@ -8,7 +8,7 @@ import numpy as np
 
 from ....flight.results import Flight
 from ...kit.quantities import shown_factor
-from .values import Own, Rows, Signal
+from .values import Arc, Own, Rows, Signal
 
 
 @dataclass(frozen=True)
@@ -98,9 +98,9 @@ class Point:
 
 @dataclass(frozen=True)
 class Path(Own):
-    """A scalar over another; ``equal`` draws both to one scale. ``points`` are positions beside it."""
+    """A scalar over another one or an arc; ``equal`` draws both to one scale. ``points`` are positions beside it."""
 
-    x: Signal
+    x: Signal | Arc
     y: Signal
     equal: bool
     points: tuple[Point, ...]

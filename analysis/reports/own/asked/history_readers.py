@@ -9,9 +9,9 @@ from lxml import etree
 from ....system.units import BASE_UNITS, Unit
 from .histories import Band, Curve, Error, Path, Point, Pulses
 from .signal_reader import ROWS, SignalReader
-from .values import Signal
+from .values import Arc, Signal
 
-SECOND = Unit("s", tuple(int(name == "s") for name in BASE_UNITS))
+SECOND, METRE = (Unit(unit, tuple(int(name == unit) for name in BASE_UNITS)) for unit in ("s", "m"))
 INSIDE = "within the band"
 BAND = ("low", "high", "unit", "about", "less", "shade", "shade_below", "against", "name", "labels", "title")
 CURVE = ("low", "high", "unit", "together", "labels", "title", *ROWS)
@@ -107,15 +107,20 @@ def read_curve(reader: SignalReader, element: etree._Element) -> Curve:
 
 
 def read_path(reader: SignalReader, element: etree._Element) -> Path:
-    reader.attributes(element, ("x", "y"), ("equal", "title", *ROWS))
-    x, y = reader.scalar(element, "x"), reader.scalar(element, "y")
+    found = reader.attributes(element, ("y",), ("x", "arc", "radius", "equal", "title", *ROWS))
+    if ("x" in found) == ("arc" in found) or ("arc" in found) != ("radius" in found):
+        raise reader.refuse(element, "neither x nor arc with its radius, or more than that", "give x, or the other two")
+    x = reader.scalar(element, "x") if "x" in found else _arc(reader, element)
+    y = reader.scalar(element, "y")
     equal = reader.truth(element, "equal")
-    if equal and x.unit != y.unit:
+    if equal and x.unit_name != y.unit_name:
         raise reader.refuse(element, f"equal, but {x.label} and {y.label} differ in unit", "leave equal out")
     points = []
     for item in reader.parts(element, ("Point",))["Point"]:
-        found = reader.attributes(item, ("x", "y", "name"))
-        points.append(Point(reader.scalar(item, "x", like=x), reader.scalar(item, "y", like=y), found["name"]))
+        if isinstance(x, Arc):
+            raise reader.refuse(item, "a position beside an arc", "leave it out, or give the Path an x")
+        name = reader.attributes(item, ("x", "y", "name"))["name"]
+        points.append(Point(reader.scalar(item, "x", like=x), reader.scalar(item, "y", like=y), name))
     return Path(
         title=reader.title(element, f"{y.label} over {x.label}"),
         x=x,
@@ -125,3 +130,14 @@ def read_path(reader: SignalReader, element: etree._Element) -> Path:
         rows=reader.rows(element),
         notes=tuple(reader.notes),
     )
+
+
+def _arc(reader: SignalReader, element: etree._Element) -> Arc:
+    position = reader.signal(element, "arc", unit=METRE)
+    if len(position.names) != 3:
+        problem = f"arc {position.label} has {len(position.names)} elements"
+        raise reader.unfit(element, position.label, problem, "name a position")
+    radius = reader.parameter(element, "radius")
+    if not radius > 0.0:
+        raise reader.refuse(element, f"radius {element.get('radius')} is {radius:g}", "name that of the ground")
+    return Arc(position, radius)

@@ -45,6 +45,19 @@ class SignalReader(AnnotationReader):
             raise self.refuse(element, f"{attribute} {text!r} is neither true nor false", "write one of them")
         return TRUTHS[text]
 
+    def parameter(self, element: etree._Element, attribute: str) -> float:
+        """The value that a parameter has in this system, in its FMU's unit."""
+        name = element.get(attribute, "").strip()
+        component, variable = parted(name, self.network.fmus)
+        fmu = self.network.fmus.get(component)
+        if fmu is None or variable not in fmu.variables or fmu.variables[variable].causality != "parameter":
+            remedy = "name one as COMPONENT.VARIABLE"
+            raise self.unfit(element, name, f"{attribute} {name}: no such parameter", remedy)
+        value = self.prepared.settings.variables.get((component, variable), fmu.variables[variable].start)
+        if fmu.variables[variable].type not in NUMBERS:
+            raise self.unfit(element, name, f"{attribute} {name} is no number", "name another parameter")
+        return float(value)
+
     def integer(self, element: etree._Element, attribute: str) -> int:
         found = self.number(element, attribute)
         if found is None or not found.is_integer():

@@ -41,6 +41,30 @@ class Signal:
 
 
 @dataclass(frozen=True)
+class Arc:
+    """How far along the ground a ``position`` is from the origin of its frame.
+
+    The origin is on a sphere of ``radius`` (m) around (0, 0, -radius); the position has three elements in m.
+    """
+
+    position: Signal
+    radius: float
+
+    @property
+    def label(self) -> str:
+        return f"range of {self.position.label}"
+
+    @property
+    def unit_name(self) -> str:
+        return "m"
+
+    def shown(self, flight: Flight) -> np.ndarray:
+        """In m, one row as of a scalar; nan for what is not finite."""
+        x, y, z = self.position.shown(flight)
+        return (self.radius * np.arctan2(np.hypot(x, y), z + self.radius))[None]
+
+
+@dataclass(frozen=True)
 class Own:
     """What all figures have: ``title``; ``notes``: what they do without, since an FMU that was put in lacks it."""
 
