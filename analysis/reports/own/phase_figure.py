@@ -17,8 +17,8 @@ from .phase_spans import Span, spans_of, statuses_of
 from .section import Section, Table, evenly, seconds, sentence
 
 LANE = 0.27  # in
-LONG = 0.5  # share of the flight from which on a phase is cut in its middle, so that the others are seen
-KEPT = 0.06  # of the time of all other phases, what is left of a cut one at either end
+LONG = 0.5  # share of the flight in which nothing happens from which on it is cut, so that the rest is seen
+KEPT = 0.06  # of that rest, what is left of the cut time at either end
 NEAR_THE_EDGE = 0.88  # of a window, from where on a bar's duration stands on its left
 Window = tuple[float, float]
 
@@ -26,7 +26,7 @@ Window = tuple[float, float]
 def phase_section(phases: Phases, result: Result, name: str) -> Section:
     """The figure, table and statuses of the phases; ``name`` must differ between the figures of a page."""
     spans, statuses = spans_of(phases, result), statuses_of(phases, result)
-    windows = _windows(spans)
+    windows = _windows(spans, statuses or [])
     notes = [Markup("A bar for each phase with how long it takes, s.")]
     if len(windows) > 1:
         left_out = windows[1][0] - windows[0][1]
@@ -40,15 +40,17 @@ def phase_section(phases: Phases, result: Result, name: str) -> Section:
     )
 
 
-def _windows(spans: Sequence[Span]) -> list[Window]:
-    """The times that are drawn: all, or those before and after the middle of a phase that takes most of them."""
+def _windows(spans: Sequence[Span], statuses: Sequence[tuple[int, float]]) -> list[Window]:
+    """The times that are drawn: all, or those before and after a time when long nothing happens within a phase."""
     begin, end = spans[0].begin, spans[-1].end
-    longest = max(spans, key=lambda span: span.end - span.begin)
-    length = longest.end - longest.begin
+    events = sorted({begin, end, *(span.begin for span in spans), *(time for _, time in statuses)})
+    length, left, right = max(
+        (right - left, left, right) for left, right in zip(events, [*events[1:], end], strict=True)
+    )
     kept = KEPT * (end - begin - length)
-    if len(spans) == 1 or length <= LONG * (end - begin):
+    if not kept > 0.0 or length <= LONG * (end - begin):
         return [(begin, end)]
-    return [(begin, longest.begin + kept), (longest.end - kept, end)]
+    return [(begin, left + kept), (right - kept, end)]
 
 
 def _figure(

@@ -20,24 +20,13 @@ from perilune.analysis.system.prepared import prepare_system
 from perilune.fmus_src.export.ssp_package import pack_system
 from perilune.fmus_src.places import BUILD, SYSTEMS
 from tests.support.builders import component, connection, document, pack, system
+from tests.support.pages.declaring import with_report
 
 pytestmark = pytest.mark.usefixtures("fmus")
 NAME = "orbital_attitude"
 SSD = (SYSTEMS / NAME / "SystemStructure.ssd").read_text(encoding="utf-8")
 BAND = '<Band signal="plant.angles" low="-1" high="1" unit="deg"/>'
 DEGREE = math.pi / 180.0
-
-
-def with_report(ssd, inside):
-    """The description with the elements of Report in its annotation's place, on lines of their own."""
-    note = (
-        '<ssd:Annotations><ssc:Annotation type="org.perilune.report">\n'
-        f'<Report xmlns="https://perilune.org/report">\n{inside}\n</Report>\n'
-        "</ssc:Annotation></ssd:Annotations>"
-    )
-    end = "</ssd:SystemStructureDescription>"
-    begin = ssd.find("<ssd:Annotations>", ssd.find("</ssd:DefaultExperiment>"))
-    return (ssd[:begin] if begin > 0 else ssd.removesuffix("\n").removesuffix(end)) + f"{note}\n{end}\n"
 
 
 @pytest.fixture(scope="module")
