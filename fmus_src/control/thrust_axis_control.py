@@ -10,6 +10,11 @@ GOOD = 0
 LIMITED = 1
 
 
+def has_direction(length: float) -> bool:
+    """Whether a vector of this length has a direction; no number counts as one, so that it is not lost on the way."""
+    return length != 0.0 and length != math.inf
+
+
 class ThrustAxisControl(Block):
     """Angular acceleration that turns a thrust axis to a commanded direction, with a braking curve.
 
@@ -68,7 +73,10 @@ class ThrustAxisControl(Block):
         direction = self.thrust_direction + (time - self.command_time) * self.thrust_direction_rate
         length = norm(direction)
         self.direction_error = 0.0
-        if not length > 0.0 or not norm(self.attitude) > 0.0:
+        if not has_direction(length):
+            return vector(0.0, 0.0, 0.0)
+        length_of_attitude = norm(self.attitude)
+        if not has_direction(length_of_attitude):
             return vector(0.0, 0.0, 0.0)
         direction = direction / length
         axis, self.direction_error = rotation_between(self.attitude, direction)

@@ -7,7 +7,7 @@ from ..mathlib.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.hover_motion import EXHAUST, FULL, GRAVITY, LEAST, SWING, VEHICLE, motion, propellant, thrust_impulse
 from ..mathlib.hover_programme import programme
 from ..mathlib.hover_shape import END, SHAPE, UNKNOWNS, clear, pitch, shape
-from ..mathlib.hover_solution import NONE
+from ..mathlib.hover_solution import NONE, VERTICAL
 from ..mathlib.transfer_polynomial import TRANSFER, capture, derivative, expense, slow_duration, thrust_along, transfer
 from ..mathlib.vectors import Vector3, add_along, cross, dot, is_finite, norm, smallest_component, vector
 
@@ -80,7 +80,7 @@ class HoverPlan(Block, interface=True):
     programme = Output(
         [0.0] * UNKNOWNS, unit="s", direct=True, description="t2, t5, w, tp, t7 of the programme; 0 where none"
     )
-    origin = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="position at the plan's start")
+    origin = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where the plan starts")
     goal = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where the plan ends")
     up = State([0.0, 0.0, 1.0], unit="1", frame="landing site", description="vertical of the plan")
     along = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal towards the target")
@@ -157,8 +157,10 @@ class HoverPlan(Block, interface=True):
                 self.along = side / x
             else:
                 k, smallest = smallest_component(self.up)
-                across_up = add_along(-smallest * self.up, k, 1.0)
-                self.along = across_up / norm(across_up)
+                level = add_along(-smallest * self.up, k, 1.0)
+                self.along = level / norm(level)
+            if kind == VERTICAL:
+                self.origin = self.goal - y * self.up
             found = shape(self.programme, self.vehicle[SWING], self.times)
             if found:
                 self.plan_kind = kind

@@ -94,18 +94,21 @@ class AttitudeMoonLander(MoonLander):
             self.attitude, self.angular_rate, self.angular_acceleration, self.maximum_angular_acceleration, h
         )
 
+    def impulse(self, h: float, commanded: float) -> float:
+        """Impulse (N s) of h (s) under a command (N)."""
+        _, _, total = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
+        return total
+
     def thrusting_time(self, h: float, commanded: float) -> float:
         """How much of h (s) the propellant lasts under a command (N)."""
         allowed = (self.mass - self.dry_mass) * STANDARD_GRAVITY * self.specific_impulse
-        _, _, impulse = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
-        if not impulse > allowed:
+        if not self.impulse(h, commanded) > allowed:
             return h
         low = 0.0
         high = h
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            _, _, impulse = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, middle)
-            if impulse > allowed:
+            if self.impulse(middle, commanded) > allowed:
                 high = middle
             else:
                 low = middle
