@@ -93,6 +93,8 @@ def _check(planned: Vehicle, transfer: Transfer) -> None:
     if not planned.full > transfer.gravity:
         problem = f"{planned.full:.4g} m/s2 do not carry the mass against {transfer.gravity:g} m/s2"
         raise InputError("--maximum-thrust", full, problem, "give more thrust, or less mass")
+    if not planned.least > 0.0:
+        raise InputError("--minimum-thrust", least, "the programme's engine never stops", "give the least that it has")
     if not planned.least < transfer.gravity:
         problem = f"{planned.least:.4g} m/s2 carry the mass, against {transfer.gravity:g} m/s2: it does not sink"
         raise InputError("--minimum-thrust", least, problem, "give less thrust, or more mass")
@@ -105,7 +107,7 @@ def _lines(study: HoverStudy) -> list[str]:
     threshold = "" if programme.threshold is None else f" (k {programme.threshold:.4f})"
     low, high = (math.degrees(angle) for angle in programme.extremes)
     lines = [
-        f"programme {programme.kind}: t2 {t2:.4f}, t5 {t5:.4f}, w {w:.4f}{threshold}, tp {tp:.4f}, t7 {t7:.3f} s",
+        f"programme {programme.kind}: t2 {t2:.3f}, t5 {t5:.3f}, w {w:.3f}{threshold}, tp {tp:.3f}, t7 {t7:.3f} s",
         f"  propellant {fraction:.6f} of the mass, {fraction * mass:.3f} kg; {burns_text(programme.burns)}",
         f"  pitch {low:.1f} to {high:.1f} deg, {math.degrees(programme.turn_rate):.3f} deg/s",
         f"  {fraction / vertical:.4f} times straight down, {vertical:.6f} in {study.vertical.duration:.2f} s",

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..planning.bounds import Landing
-from ..planning.declared_bound import ANNOTATION, Inputs, landing_of, read_inputs
+from ..planning.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
 from ..planning.landing_study import LandingStudy, landing_study
 from ..planning.stored_bound import write_bound
 from ..planning.vehicle import Vehicle
@@ -64,6 +64,7 @@ def run(options: argparse.Namespace) -> int:
         replace(base[1], **places),
         direct=options.direct,
         intervals=options.intervals,
+        pieces=pieces_of(inputs, prepared.archive.label) if prepared and inputs and not (single or places) else None,
     )
     if options.report is not None:
         write_landing_page(study, options.report)
@@ -105,6 +106,7 @@ def _lines(study: LandingStudy) -> list[str]:
         f"({bound.throttle.size} intervals); {burns_text(bound.burns())}",
         f"  thrust is that of the convex form to {study.looseness:.1g} m/s2",
     ]
+    lines += [f"  {name} by itself {propellant:.3f} kg" for name, propellant in study.pieces.items()]
     if study.direct is not None:
         propellant = study.direct.propellant_fraction * study.vehicle.mass
         off = propellant - study.propellant

@@ -47,7 +47,7 @@ def landing_problem(vehicle: Vehicle, landing: Landing) -> PointMassProblem:
     """Braking and landing in the site's frame: along, from the site to where the flight comes from, and up."""
     angle = landing.range / landing.radius
     distance = landing.radius + landing.altitude
-    course = angle - landing.climb
+    course = angle + landing.climb
     return PointMassProblem(
         start_position=(distance * math.sin(angle), distance * math.cos(angle) - landing.radius),
         start_velocity=(-landing.speed * math.cos(course), landing.speed * math.sin(course)),

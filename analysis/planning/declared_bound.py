@@ -15,8 +15,9 @@ from ..errors import InputError
 from ..system.annotations import AnnotationReader
 from ..system.names import parted
 from ..system.prepared import PreparedSystem, prepare_system
-from .bounds import Landing
-from .vehicle import Vehicle
+from .bounds import Landing, landing_problem, transfer_problem
+from .point_mass import PointMassProblem
+from .vehicle import Transfer, Vehicle
 
 ANNOTATION = "org.perilune.bound"
 VECTORS = ("position", "velocity")
@@ -29,6 +30,9 @@ SCALARS = (
     "gravitational_parameter",
     "target_altitude",
 )  # the attributes: each a parameter, or a number
+STOP = ("altitude",)  # of a piece: from the same start to rest over the site, higher
+HOVER = ("mass", "minimum_thrust", "start_altitude", "end_altitude")  # of one from hover to hover
+ASIDE = "aside"  # the vector from site to site
 NUMBER = re.compile(r"-?\d+(\.\d+)?([eE][+-]?\d+)?")
 START = "start"  # the parameter set that braking starts from
 ACROSS = 1e-3  # m/s; more, and the flight leaves the plane that the bound is made in
@@ -52,7 +56,7 @@ class _Reader(AnnotationReader):
 
     def inputs(self, annotation: etree._Element) -> Inputs:
         element = self.content(annotation, "Bound")
-        self.parts(element, ())
+        pieces = self.parts(element, ("Stop", "Hover"))
         names = self.attributes(element, (*VECTORS, *SCALARS), (START,))
         prepared = self.prepared
         if START in names:
@@ -63,7 +67,19 @@ class _Reader(AnnotationReader):
         found: dict[str, float | tuple[float, ...]] = {}
         for role in VECTORS:
             found[role] = tuple(self.value(element, prepared, f"{names[role]}[{index}]") for index in (1, 2, 3))
-        return found | {role: self.value(element, prepared, names[role]) for role in SCALARS}
+        found |= {role: self.value(element, prepared, names[role]) for role in SCALARS}
+        for piece in (*pieces["Stop"], *pieces["Hover"]):
+            is_hover = piece in pieces["Hover"]
+            roles = self.attributes(piece, ("name", *((*HOVER, ASIDE) if is_hover else STOP)))
+            name = roles["name"]
+            if not name.isidentifier() or any(key.startswith(f"{name}.") for key in found):
+                raise self.refuse(piece, f"name {name!r} is taken or no word", "give each piece a word of its own")
+            for role in HOVER if is_hover else STOP:
+                found[f"{name}.{role}"] = self.value(piece, prepared, roles[role])
+            if is_hover:
+                moved = (self.value(piece, prepared, f"{roles[ASIDE]}[{index}]") for index in (1, 2))
+                found[f"{name}.{ASIDE}"] = tuple(moved)
+        return found
 
     def value(self, element: etree._Element, prepared: PreparedSystem, name: str) -> float:
         """A parameter as it is set, or as its FMU starts; a number is itself."""
@@ -114,3 +130,24 @@ def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
         gravitational_parameter=values["gravitational_parameter"],
     )
     return vehicle, landing
+
+
+def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, float]]:
+    """The pieces that a landing is cut into, by name: what is bounded, and the mass (kg) that its propellant is of."""
+    values: dict[str, Any] = dict(inputs)
+    vehicle, landing = landing_of(inputs, file)
+    found = {}
+    for name in dict.fromkeys(key.partition(".")[0] for key in values if "." in key):
+        if f"{name}.altitude" in values:
+            stop = replace(landing, target_altitude=values[f"{name}.altitude"])
+            found[name] = landing_problem(vehicle, stop), vehicle.mass
+            continue
+        mass, least, start, end = (values[f"{name}.{role}"] for role in HOVER)
+        if not (start > end and mass > 0.0):
+            raise InputError(file, name, f"from {start:g} m down to {end:g} m with {mass:g} kg", "mend the annotation")
+        radii = np.array([start, end]) + landing.radius
+        gravity = float(np.mean(landing.gravitational_parameter / radii**2))
+        lander = replace(vehicle, mass=mass, minimum_thrust=least)
+        transfer = Transfer(math.hypot(*values[f"{name}.{ASIDE}"]), start - end, gravity)
+        found[name] = transfer_problem(lander, transfer), mass
+    return found

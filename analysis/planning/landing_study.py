@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -11,6 +12,7 @@ from .direct_method import direct_propellant
 from .hover_study import BOUND_INTERVALS, vehicle_document
 from .least_time import least_propellant
 from .path import PlannedPath
+from .point_mass import PointMassProblem
 from .stored_bound import StoredBound, digest
 from .vehicle import Vehicle
 
@@ -25,13 +27,17 @@ class Direct:
 
 @dataclass(frozen=True)
 class LandingStudy:
-    """``looseness`` (m/s2) is how far the convex form's thrust is from a real one; ``direct`` None: not asked for."""
+    """``looseness`` (m/s2) is how far the convex form's thrust is from a real one; ``direct`` None: not asked for.
+
+    ``pieces``: propellant (kg) of the parts that a system cuts its landing into, each bounded by itself.
+    """
 
     vehicle: Vehicle
     landing: Landing
     bound: PlannedPath
     looseness: float
     direct: Direct | None
+    pieces: Mapping[str, float]
 
     @property
     def propellant(self) -> float:
@@ -42,7 +48,13 @@ class LandingStudy:
         """What is kept of it for a system, with the inputs that it was made of."""
         burns = tuple(self.bound.burns())
         return StoredBound(
-            self.propellant, self.bound.duration, self.bound.throttle.size, burns, digest(inputs), inputs
+            propellant=self.propellant,
+            duration=self.bound.duration,
+            intervals=self.bound.throttle.size,
+            burns=burns,
+            pieces=self.pieces,
+            sha256=digest(inputs),
+            inputs=inputs,
         )
 
     def document(self) -> dict[str, Any]:
@@ -59,6 +71,7 @@ class LandingStudy:
                 "full_thrust_s": [list(burn) for burn in self.bound.burns()],
                 "looseness_m_s2": self.looseness,
             },
+            "pieces_kg": dict(self.pieces),
             "direct_method": None
             if direct is None
             else {
@@ -70,11 +83,22 @@ class LandingStudy:
 
 
 def landing_study(
-    vehicle: Vehicle, landing: Landing, *, direct: bool = False, intervals: int | None = None
+    vehicle: Vehicle,
+    landing: Landing,
+    *,
+    direct: bool = False,
+    intervals: int | None = None,
+    pieces: Mapping[str, tuple[PointMassProblem, float]] | None = None,
 ) -> LandingStudy:
-    """The bound, and with ``direct`` its check. Raises `PlanError`, and InputError for a missing solver."""
+    """The bound, and with ``direct`` its check; ``pieces`` as `pieces_of` has them.
+
+    Raises `PlanError`, and InputError for a missing solver.
+    """
     problem = landing_problem(vehicle, landing)
     count = intervals or BOUND_INTERVALS
     path = least_propellant(problem, count)
     check = Direct(*direct_propellant(problem, count)) if direct else None
-    return LandingStudy(vehicle, landing, path.planned(problem), path.looseness, check)
+    cut = {
+        name: least_propellant(part, count).propellant_fraction * mass for name, (part, mass) in (pieces or {}).items()
+    }
+    return LandingStudy(vehicle, landing, path.planned(problem), path.looseness, check, cut)

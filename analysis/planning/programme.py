@@ -17,8 +17,8 @@ KINDS = {
     hover_solution.WITH_FIRST_BURN: "with first burn",
 }
 STEP = 0.25  # s, of a path
-DURATIONS = (0.84, 1.22, 39)  # of the best: from, to, how many
-DISTANCES = (1.6, 33)  # of the one that is asked for: to, how many
+DURATIONS = (0.84, 1.22, 27)  # of the best: from, to, how many
+DISTANCES = (1.6, 25)  # of the one that is asked for: to, how many
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -18,19 +19,21 @@ from ..system.prepared import PreparedSystem
 from .declared_bound import Inputs, read_inputs
 
 PLACE = "extra/bound.json"  # in the folder, and so in the .ssp
-FIELDS = ("propellant", "duration", "intervals", "burns", "sha256", "inputs")
+FIELDS = ("propellant", "duration", "intervals", "burns", "pieces", "sha256", "inputs")
 
 
 @dataclass(frozen=True)
 class StoredBound:
     """``propellant`` (kg) and ``duration`` (s) of braking and landing in one, ``burns`` at full thrust (begin and end,
-    s), on so many ``intervals``; ``inputs``, SI, and their hash.
+    s), on so many ``intervals``; propellant (kg) of the ``pieces`` that the SSD cuts it into, by name; ``inputs``, SI,
+    and their hash.
     """
 
     propellant: float
     duration: float
     intervals: int
     burns: tuple[tuple[float, float], ...]
+    pieces: Mapping[str, float]
     sha256: str
     inputs: Inputs
 
@@ -60,7 +63,8 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
         return MissingBound(f"no {PLACE} in the system; {remedy} writes it")
     bound = read_bound(prepared.archive.read(PLACE, PLACE), f"{prepared.archive.label}/{PLACE}")
     if bound.sha256 != digest(inputs):
-        other = [name for name, value in inputs.items() if bound.inputs.get(name) != value]
+        names = dict.fromkeys([*inputs, *bound.inputs])
+        other = [name for name in names if bound.inputs.get(name) != inputs.get(name)]
         return MissingBound(f"{PLACE} was made for another {', '.join(other)}; {remedy} makes it anew")
     return bound
 
@@ -80,6 +84,7 @@ def read_bound(content: bytes, file: str) -> StoredBound:
             duration=_positive(document["duration"]),
             intervals=int(document["intervals"]),
             burns=tuple((float(begin), float(end)) for begin, end in document["burns"]),
+            pieces={str(name): _positive(value) for name, value in document["pieces"].items()},
             sha256=str(document["sha256"]),
             inputs={
                 str(name): tuple(map(float, value)) if isinstance(value, list) else float(value)

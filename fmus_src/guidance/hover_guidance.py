@@ -107,7 +107,7 @@ class HoverGuidance(HoverPlan):
     )
     cycle = State(0.1, unit="s", description="time to the next sample")
     tilt = State([0.0, 0.0, 0.0], unit="1", frame="landing site", description="lateral demand after its low-pass")
-    plan_start = State(0.0, unit="s", description="when the plan started")
+    plan_start = State(0.0, frozen=True, unit="s", description="when the plan started")
     in_charge = State(False, description="active at the last sample")
     flown_mode = State(0, description="mode of the last plan")
     flown_plan = State(0, description="number of the last plan")

@@ -80,15 +80,19 @@ class HoverPlan(Block, interface=True):
     programme = Output(
         [0.0] * UNKNOWNS, unit="s", direct=True, description="t2, t5, w, tp, t7 of the programme; 0 where none"
     )
-    origin = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where the plan starts")
-    goal = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where the plan ends")
-    up = State([0.0, 0.0, 1.0], unit="1", frame="landing site", description="vertical of the plan")
-    along = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal towards the target")
-    plan_gravity = State(0.0, unit="m/s2", description="gravity of the plan")
-    duration = State(0.0, unit="s", description="of the plan")
-    vehicle = State([0.0] * VEHICLE, description="of the programme, as mathlib.hover_motion has it")
-    times = State([0.0] * SHAPE, unit="s", description="the programme's shape, as mathlib.hover_shape has it")
-    coefficients = State([0.0] * TRANSFER, unit="m", description="of the polynomial, axis by axis")
+    origin = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan starts")
+    goal = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan ends")
+    up = State([0.0, 0.0, 1.0], frozen=True, unit="1", frame="landing site", description="vertical of the plan")
+    along = State(
+        [1.0, 0.0, 0.0], frozen=True, unit="1", frame="landing site", description="horizontal towards the target"
+    )
+    plan_gravity = State(0.0, frozen=True, unit="m/s2", description="gravity of the plan")
+    duration = State(0.0, frozen=True, unit="s", description="of the plan")
+    vehicle = State([0.0] * VEHICLE, frozen=True, description="of the programme, as mathlib.hover_motion has it")
+    times = State(
+        [0.0] * SHAPE, frozen=True, unit="s", description="the programme's shape, as mathlib.hover_shape has it"
+    )
+    coefficients = State([0.0] * TRANSFER, frozen=True, unit="m", description="of the polynomial, axis by axis")
 
     def gravity_at(self, position: Vector3) -> float:
         """Size of gravity (m/s2) at a position (m)."""

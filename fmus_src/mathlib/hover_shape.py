@@ -22,6 +22,8 @@ UNKNOWNS = 5
 # A shape: t1, t2, ..., t7; the first burn's begin and end, the last burn's begin; d = t3 - t2; t7 - t6.
 SHAPE = 12
 
+STEEPEST = 0.5 * math.pi  # rad; largest deviation, beyond which thrust would push down
+
 
 def clear(p: list) -> None:
     """p = no programme."""
@@ -36,10 +38,11 @@ def copy(p: list, other: list) -> None:
 
 
 def shape(p: list, acceleration: float, s: list) -> bool:
-    """s[12] = the shape of the programme p at an angular acceleration (rad/s2, > 0); whether there is room for it.
+    """s[12] = the shape of the programme p at an angular acceleration (rad/s2, > 0); whether there is one.
 
     t3 and t4 bound the stretch of constant rate, d after t2 and before t5, that joins both turns:
-    d^2 - (t5 - t2) d + t1^2 + (t7 - t6)^2 = 0. Without room s is not to be used.
+    d^2 - (t5 - t2) d + t1^2 + (t7 - t6)^2 = 0. There is none without room for that, where thrust would point down,
+    and where the burns overlap; s is not to be used then.
     """
     first = 0.5 * p[TURN]
     last = 0.5 * (p[END] - p[RETURN])
@@ -48,6 +51,8 @@ def shape(p: list, acceleration: float, s: list) -> bool:
     room = between * between - 4.0 * (first * first + last * last)
     turns = first >= 0.0 and last >= 0.0 and between > 0.0 and room >= 0.0 and acceleration > 0.0
     if not (turns and width >= 0.0 and p[LAST_BURN] >= 0.0 and math.isfinite(p[END]) and room < math.inf):
+        return False
+    if acceleration * first * first > STEEPEST or acceleration * last * last > STEEPEST:
         return False
     d = 2.0 * (first * first + last * last) / (between + math.sqrt(room))
     share = 2.0 * first * first - width * width  # 2 k t1^2

@@ -249,6 +249,17 @@ def test_no_programme_of_that_duration():
     assert planned(1600.0, duration=math.inf)[0] == NONE
 
 
+@pytest.mark.parametrize(("x", "y"), [(3172.0, -898.0), (5544.0, -951.0), (4600.0, -2350.0), (6650.0, -480.0)])
+def test_far_sides_never_thrust_downwards(x, y):
+    vehicle = [*MARGINS]
+    kind, p, _ = planned(x, y, vehicle)
+    if kind == WITH_FIRST_BURN:
+        angles = [flown(p, vehicle, until=t)[5] for t in np.linspace(0.1, 0.999, 25) * p[4]]
+        assert min(angles) >= -1e-9
+        assert max(angles) <= math.pi + 1e-9
+    assert kind in (WITH_FIRST_BURN, NONE)
+
+
 def test_longer_than_the_one_without_first_burn():
     kind, p, mu = planned(400.0, duration=70.0)
     assert kind == WITH_FIRST_BURN

@@ -12,7 +12,7 @@ import pytest
 
 from perilune.analysis.errors import InputError
 from perilune.analysis.planning.bounds import landing_problem
-from perilune.analysis.planning.declared_bound import landing_of, read_inputs
+from perilune.analysis.planning.declared_bound import landing_of, pieces_of, read_inputs
 from perilune.analysis.planning.stored_bound import (
     PLACE,
     MissingBound,
@@ -24,7 +24,7 @@ from perilune.analysis.planning.stored_bound import (
 )
 from perilune.analysis.system.options import SystemOptions
 from perilune.analysis.system.prepared import prepare_system
-from tests.support.declared_bounds import declared_system
+from tests.support.declared_bounds import PIECES, declared_system
 
 pytestmark = pytest.mark.usefixtures("fmus")
 RADIUS = 1737400.0
@@ -39,7 +39,8 @@ INPUTS = {
     "gravitational_parameter": 4.9028e12,
     "target_altitude": 4.0,
 }
-BOUND = StoredBound(400.5, 291.25, 240, ((0.0, 60.5), (110.0, 291.25)), digest(INPUTS), INPUTS)
+BURNS = ((0.0, 60.5), (110.0, 291.25))
+BOUND = StoredBound(400.5, 291.25, 240, BURNS, {"braking": 399.5}, digest(INPUTS), INPUTS)
 
 
 def prepared(place, **options):
@@ -51,6 +52,44 @@ def test_inputs_are_the_systems_values(tmp_path):
     assert read_inputs(prepared(place)) == INPUTS
     assert read_inputs(prepared(place, set={"plant.specific_impulse": 330})) == INPUTS | {"specific_impulse": 330.0}
     assert read_inputs(prepared("lunar_landing")) is None
+
+
+def test_pieces(tmp_path):
+    place = declared_system(tmp_path, PIECES)
+    found = read_inputs(prepared(place))
+    assert {name: value for name, value in found.items() if "." in name} == {
+        "braking.altitude": 2400.0,
+        "transfer.mass": 526.37,
+        "transfer.minimum_thrust": 510.0,
+        "transfer.start_altitude": 2400.0,
+        "transfer.end_altitude": 100.0,
+        "transfer.aside": (-1676.17262, 0.0),
+    }
+    pieces = pieces_of(found, "here")
+    vehicle, landing = landing_of(found, "here")
+    assert pieces["braking"] == (landing_problem(vehicle, replace(landing, target_altitude=2400.0)), 940.0)
+    problem, mass = pieces["transfer"]
+    assert mass == 526.37
+    assert problem.end_position == (1676.17262, -2300.0)
+    assert (problem.least, problem.most) == pytest.approx((510.0 / 526.37, 5099.0 / 526.37))
+    assert problem.gravity.value == pytest.approx(1.6219, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("pieces", "words"),
+    [
+        ('<Stop name="a" altitude="1"/><Stop name="a" altitude="2"/>', "name 'a' is taken or no word"),
+        ('<Stop name="a.b" altitude="1"/>', "name 'a.b' is taken or no word"),
+        ('<Stop name="a"/>', "no altitude"),
+        ('<Go name="a"/>', "unknown element"),
+        (PIECES.replace("start_altitude", "altitude"), "no start_altitude"),
+        (PIECES.replace("2400", "50"), "transfer: from 50 m down to 100 m with 526.37 kg"),
+    ],
+)
+def test_wrong_pieces(tmp_path, pieces, words):
+    place = declared_system(tmp_path, pieces)
+    with pytest.raises(InputError, match=words):
+        pieces_of(read_inputs(prepared(place)), "here")
 
 
 def test_braking_starts_from_its_own_set(tmp_path):
@@ -113,7 +152,10 @@ def test_stored_and_found(tmp_path):
     other = find_bound(prepared(place, set={"plant.specific_impulse": 330, "plant.initial_mass": 900}))
     assert isinstance(other, MissingBound)
     assert other.reason.startswith(f"{PLACE} was made for another mass, specific_impulse; perilune plan")
-    assert find_bound(prepared("lunar_landing")) is None
+    write_bound(
+        replace(BOUND, inputs=INPUTS | {"more.altitude": 1.0}, sha256=digest(INPUTS | {"more.altitude": 1.0})), place
+    )
+    assert find_bound(prepared(place)).reason.startswith(f"{PLACE} was made for another more.altitude; perilune plan")
 
 
 @pytest.mark.parametrize(
@@ -124,6 +166,7 @@ def test_stored_and_found(tmp_path):
         ({"propellant": "much"}, "not a bound"),
         ({"propellant": -1.0}, "-1.0 is not a positive number"),
         ({"burns": [[0.0]]}, "not a bound"),
+        ({"pieces": {"braking": 0.0}}, "0.0 is not a positive number"),
         ({"inputs": {"mass": 1.0}}, "sha256: not the hash of its inputs"),
         ({"more": 1}, "its keys are not"),
     ],

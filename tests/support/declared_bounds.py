@@ -16,9 +16,13 @@ ROLES = {
     "target_altitude": "4",
 }
 ANNOTATION = """<ssc:Annotation type="org.perilune.bound">
-      <Bound xmlns="https://perilune.org/bound" {}/>
+      <Bound xmlns="https://perilune.org/bound" {}>{}</Bound>
     </ssc:Annotation>
     <ssc:Annotation type="org.perilune.stability">"""
+PIECES = """
+<Stop name="braking" altitude="2400"/>
+<Hover name="transfer" mass="526.37" minimum_thrust="allocation.minimum_thrust" start_altitude="2400"
+       end_altitude="100" aside="plant.initial_velocity"/>"""
 START = """<?xml version="1.0" encoding="UTF-8"?>
 <ssv:ParameterSet version="1.0" name="higher" xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">
   <ssv:Parameters>
@@ -28,7 +32,7 @@ START = """<?xml version="1.0" encoding="UTF-8"?>
 """
 
 
-def declared_system(folder, **roles):
+def declared_system(folder, pieces="", **roles):
     """A copy of the lunar landing in a folder, whose SSD declares a bound; roles that are None are left out."""
     found = {name: value for name, value in (ROLES | roles).items() if value is not None}
     place = folder / "landing"
@@ -39,5 +43,5 @@ def declared_system(folder, **roles):
     text = ssd.read_text(encoding="utf-8")
     before = '<ssc:Annotation type="org.perilune.stability">'
     assert text.count(before) == 1
-    ssd.write_text(text.replace(before, ANNOTATION.format(words)), encoding="utf-8")
+    ssd.write_text(text.replace(before, ANNOTATION.format(words, pieces)), encoding="utf-8")
     return place
