@@ -159,7 +159,7 @@ def test_a_budget_beside_its_bound():
 
 
 def test_a_budget_without_bound_and_of_phases_that_were_not_flown():
-    bare = one(replace(BUDGET, bound=BoundValues({}, "it is not there; make it")), mission())
+    bare = one(replace(BUDGET, bound=BoundValues(("landing",), {}, "it is not there; make it")), mission())
     assert [row[1] for row in cells(bare)] == ["\N{EN DASH}", "\N{EN DASH}", "3.000", "\N{EN DASH}", "14.000"]
     assert notes(bare) == ["Without the bound: it is not there; make it."]
     short = one(BUDGET, mission(done=0.0 * TIME))

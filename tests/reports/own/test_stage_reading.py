@@ -8,6 +8,7 @@ import shutil
 
 import pytest
 
+from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
 from perilune.analysis.planning.stored_bound import MissingBound, StoredBound
 from perilune.analysis.reports.own.asked import stage_readers
@@ -112,24 +113,35 @@ def test_an_arc_takes_its_radius_from_a_parameter():
 
 
 BUDGET = (
-    '<Budget title="Spent"><Item name="a" phases="first, then this" plus="landing"/>'
+    '<Budget title="Spent"><Item name="a" phases="first, then this" plus="landing, transfer"/>'
     '<Item name="b" minus="landing"/></Budget>'
 )
-STORED = StoredBound(400.5, 290.0, 240, (), "", {})
+INPUTS = {"mass": 940.0, "braking.altitude": 2400.0, "transfer.mass": 526.0, "transfer.aside": (3.0, 4.0)}
+NAMES = ("landing", "braking", "transfer")
+STORED = StoredBound(400.5, 290.0, 240, (), {"braking": 399.0, "transfer": 21.0}, "", INPUTS)
+
+
+def keep(monkeypatch, bound):
+    """The system declares a bound of these inputs, and this is kept of it."""
+    monkeypatch.setattr(stage_readers, "read_inputs", lambda prepared: INPUTS)
+    monkeypatch.setattr(stage_readers, "find_bound", lambda prepared: bound)
 
 
 @pytest.mark.parametrize(
     ("bound", "values"),
-    [(STORED, BoundValues({"landing": 400.5})), (MissingBound("make it"), BoundValues({}, "make it"))],
+    [
+        (STORED, BoundValues(NAMES, {"landing": 400.5, "braking": 399.0, "transfer": 21.0})),
+        (MissingBound("make it"), BoundValues(NAMES, {}, "make it")),
+    ],
     ids=["stored", "missing"],
 )
 def test_a_budget_takes_the_bound_that_the_system_keeps(folder, loaded, monkeypatch, bound, values):
-    monkeypatch.setattr(stage_readers, "find_bound", lambda prepared: bound)
+    keep(monkeypatch, bound)
     phases, budget = read(folder, loaded, f"{PHASES}\n{BUDGET}")
     assert isinstance(budget, Budget)
     assert (budget.title, budget.of, budget.bound) == ("Spent", phases, values)
     first, second = budget.items
-    assert first == Item("a", ("first", "then this"), ("landing",), ())
+    assert first == Item("a", ("first", "then this"), ("landing", "transfer"), ())
     assert second == Item("b", (), (), ("landing",))
 
 
@@ -250,9 +262,9 @@ def test_a_budget_needs_what_phases_use_up_and_a_bound_that_there_is(folder, loa
     bare = PHASES.replace(' spent="plant.jet_seconds"', "")
     item = '<Budget><Item name="a" phases="last"/></Budget>'
     refused(folder, loaded, bare, item, "Budget", "the Phases before it have no spent")
-    monkeypatch.setattr(stage_readers, "find_bound", lambda prepared: STORED)
+    keep(monkeypatch, STORED)
     unknown = '<Budget><Item name="a" plus="landng"/></Budget>'
-    refused(folder, loaded, PHASES, unknown, "Item", "landng: no such bound; use one of landing")
+    refused(folder, loaded, PHASES, unknown, "Item", "landng: no such bound; use one of braking, landing, transfer")
 
 
 def test_what_an_fmu_that_is_put_in_lacks_is_said(tiny_folder, tmp_path):
@@ -276,3 +288,15 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said(tiny_folder, tmp_path):
     phases, budget = figures("body.y", {"body": "whole"})
     assert phases.notes == ("Left out: spent body.y: no such signal, with whole as body.",)
     assert budget == Undrawn("Budget", ("what phases use up is left out",))
+
+
+def test_ours_is_valid_and_its_bound_is_kept(capsys):
+    assert main(["validate", "landing_mission"]) == 0
+    assert (
+        capsys.readouterr().out == "landing_mission: good\n"
+    )  # no note: the bound that it keeps is that of its values
+    (budget,) = (figure for figure in read_figures(prepare_system("landing_mission")) if isinstance(figure, Budget))
+    assert set(budget.bound.names) == set(budget.bound.values) == {"landing", "braking", "transfer", "approach"}
+    other = prepare_system("landing_mission", SystemOptions(set={"sequencer.redesignation_1[1]": 0.0}))
+    (budget,) = (figure for figure in read_figures(other) if isinstance(figure, Budget))
+    assert "was made for another transfer.aside" in budget.bound.missing

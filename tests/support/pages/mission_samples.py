@@ -45,7 +45,7 @@ BUDGET = Budget(
         Item("capture and descent over it", ("capture", "descent"), (), ("landing",)),
         Item("hover", ("hover",), (), ()),
     ),
-    bound=BoundValues({"landing": 9.5}),
+    bound=BoundValues(("landing",), {"landing": 9.5}),
 )
 LIMITS = Limits(
     title="Contact",

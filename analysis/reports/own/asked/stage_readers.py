@@ -7,26 +7,26 @@ from collections.abc import Sequence
 from lxml import etree
 
 from ....errors import suggestion
+from ....planning.declared_bound import read_inputs
 from ....planning.stored_bound import MissingBound, find_bound
 from ....system.documents import tag
 from ....system.prepared import PreparedSystem
 from .declared import Figure
 from .history_readers import SECOND
 from .signal_reader import NUMBERS, LackingError, SignalReader
-from .stages import BoundValues, Budget, Item, Limit, Limits, Phase, Phases
+from .stages import LANDING, BoundValues, Budget, Item, Limit, Limits, Phase, Phases
 from .values import Signal
-
-BOUNDS = ("landing",)  # braking and landing in one, kg
 
 
 def bound_values(prepared: PreparedSystem) -> BoundValues | None:
     """What is stored with a system for its values; None where its SSD declares no bound. Raises InputError."""
-    found = find_bound(prepared)
-    if found is None:
+    inputs, found = read_inputs(prepared), find_bound(prepared)
+    if inputs is None or found is None:
         return None
+    names = tuple(dict.fromkeys([LANDING, *(name.partition(".")[0] for name in inputs if "." in name)]))
     if isinstance(found, MissingBound):
-        return BoundValues({}, found.reason)
-    return BoundValues(dict.fromkeys(BOUNDS, found.propellant))
+        return BoundValues(names, {}, found.reason)
+    return BoundValues(names, {LANDING: found.propellant, **found.pieces})
 
 
 def read_phases(reader: SignalReader, element: etree._Element) -> Phases:
@@ -134,6 +134,6 @@ def _item(reader: SignalReader, element: etree._Element, phases: Sequence[str], 
             raise reader.refuse(
                 element, f"{name}, but the SSD declares no bound", "add the annotation org.perilune.bound"
             )
-        if name not in BOUNDS:
-            raise reader.refuse(element, f"{name}: no such bound", suggestion(name, BOUNDS))
+        if name not in bound.names:
+            raise reader.refuse(element, f"{name}: no such bound", suggestion(name, bound.names))
     return Item(found["name"], named, plus, minus)

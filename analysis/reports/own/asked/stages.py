@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 from .values import Own, Signal
 
+LANDING = "landing"
+
 
 @dataclass(frozen=True)
 class Phase:
@@ -57,8 +59,11 @@ class Limits(Own):
 
 @dataclass(frozen=True)
 class BoundValues:
-    """What no flight can beat, by name, in SI; where it is not there ``missing`` says why, and what to do."""
+    """What no flight can beat: propellant (kg) of braking and landing in one, `LANDING`, and of pieces of it, by
+    ``names``; where the ``values`` are not there ``missing`` says why, and what to do.
+    """
 
+    names: tuple[str, ...]
     values: Mapping[str, float]
     missing: str = ""
 
