@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import shlex
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import PurePosixPath
 
 import numpy as np
@@ -25,27 +26,37 @@ class Replay:
 
     variant: str
     trial: int
-    reasons: list[Markup] = field(default_factory=list)
-    command: str = ""
+    reasons: list[Markup]
+    command: str
 
 
-def replays(result: BatchResult) -> list[Replay]:
-    """The first failures of each variant, and where each of its metrics is largest, each trial once."""
+def failures_to_replay(result: BatchResult) -> list[Replay]:
+    """The first failures of each variant."""
+    return _replays(result, _failures)
+
+
+def extremes_to_replay(result: BatchResult) -> list[Replay]:
+    """Where a metric of a variant is largest, each trial once."""
+    return _replays(result, _extremes)
+
+
+def _replays(result: BatchResult, choose: Callable[[BatchResult, str], list[tuple[int, Markup]]]) -> list[Replay]:
     found: list[Replay] = []
     for variant in result.plan.campaign.variants():
-        own: dict[int, Replay] = {}
-        for trial, reason in (*_failures(result, variant.name), *_extremes(result, variant.name)):
-            if trial not in own:
-                own[trial] = Replay(variant.name, trial, [], replay_command(result.plan, variant, trial))
-            own[trial].reasons.append(reason)
-        found += own.values()
+        own: dict[int, list[Markup]] = {}
+        for trial, reason in choose(result, variant.name):
+            own.setdefault(trial, []).append(reason)
+        found += [
+            Replay(variant.name, trial, reasons, replay_command(result.plan, variant, trial))
+            for trial, reasons in own.items()
+        ]
     return found
 
 
 def _failures(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
     trials = result.trials[variant]
     rows = np.flatnonzero(~np.asarray(trials.success, dtype=bool))[:FAILURES]
-    return [(int(trials.trial[row]), Markup("failure: {}").format(trials.statuses[row])) for row in rows]
+    return [(int(trials.trial[row]), Markup("{}").format(trials.statuses[row])) for row in rows]
 
 
 def _extremes(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
@@ -57,7 +68,7 @@ def _extremes(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
         (rows,) = np.nonzero(values == values.max())
         if rows.size == 1:
             largest = exact(float(values[rows[0]]), metric.unit)
-            reason = Markup("largest {}: {} {}").format(metric.name, largest, shown_unit(metric.unit))
+            reason = Markup("{}: {} {}").format(metric.name, largest, shown_unit(metric.unit))
             found.append((int(trials.trial[rows[0]]), reason))
     return found
 
