@@ -127,9 +127,9 @@ class AttitudeMoonLander(MoonLander):
             self.delivered_thrust = 0.0
             pushed = self.advance(t + lasting, h - lasting, 0.0)
             gained = gained + pushed
-        if self.altitude <= 0.0:
-            self.go_back(h)
         self.touch()
+        if self.ground_contact:
+            self.go_back(h)
         self.touch_probe()
         return gained
 

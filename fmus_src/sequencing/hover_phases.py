@@ -42,9 +42,11 @@ class HoverPhases(LandingSequence, interface=True):
     cut_altitude = Parameter(
         0.5, unit="m", minimum=0.0, description="estimated altitude at which thrust ends without the probe"
     )
-    plan_end = State(NEVER, unit="s", description="when the plan of hover 1 was over; -1: not yet")
+    plan_end = State(NEVER, frozen=True, unit="s", description="when the plan of hover 1 was over; -1: not yet")
     plan_judged = State(False, description="the transfer's propellant has been looked at")
-    first_site = State([0.0, 0.0, 0.0], unit="m", frame="landing site", description="site before the transfer")
+    first_site = State(
+        [0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="site before the transfer"
+    )
 
     def begin_first_hover(self) -> None:
         """Capture the hover over the site."""

@@ -43,7 +43,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
 
     settling_time = Parameter(2.0, unit="s", minimum=0.0, description="from the engine's end to free flight")
     under_way = State(False, description="a step has been taken")
-    last_thrust = State(0.0, unit="s", description="the engine is off from then on")
+    last_thrust = State(0.0, frozen=True, unit="s", description="the engine is off from then on")
 
     def initialize(self) -> None:
         self.last_thrust = self.start_time

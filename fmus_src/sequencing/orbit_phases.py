@@ -39,8 +39,8 @@ class OrbitPhases(LandingSequence, interface=True):
     solution_patience = Parameter(20.0, unit="s", minimum=0.0, description="longest braking without a solution")
     far_range = Parameter(3e3, unit="m", minimum=0.0, description="ground left from which on braking ends elsewhere")
     slow_speed = Parameter(30.0, unit="m/s", minimum=0.0, description="at which braking elsewhere ends")
-    ignition_time = State(NEVER, unit="s", description="of the deorbit; -1: not yet")
-    planned_burn = State(0.0, unit="s", description="of the deorbit, as it was at ignition")
+    ignition_time = State(NEVER, frozen=True, unit="s", description="of the deorbit; -1: not yet")
+    planned_burn = State(0.0, frozen=True, unit="s", description="of the deorbit, as it was at ignition")
     holding = State(False, description="the deorbit's burn is held")
     unsolved_since = State(
         NEVER, unit="s", description="the braking guidance has had no solution from then on; -1: it has"
