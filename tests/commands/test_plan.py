@@ -195,19 +195,18 @@ def test_landing_in_words(capsys):
 @pytest.mark.usefixtures("fmus")
 def test_a_systems_bound_is_stored(tmp_path, capsys):
     place = declared_system(tmp_path, PIECES)
-    arguments = ["landing-bound", str(place), "--intervals", "40"]
-    assert main(["plan", *arguments, "--store"]) == 0
+    arguments = ["plan", "landing-bound", str(place), "--intervals", "20"]
+    assert main([*arguments, "--store", "--json", str(tmp_path / "bound.json")]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[2].startswith("  braking by itself ")
     assert lines[-1] == f"stored in {place / PLACE}"
     stored = find_bound(prepare_system(place, SystemOptions()))
-    found = made(capsys, *arguments)
+    found = json.loads((tmp_path / "bound.json").read_text())
     assert stored.propellant == found["bound"]["propellant_kg"]
     assert stored.pieces == found["pieces_kg"]
     assert stored.pieces["braking"] < stored.propellant
     assert stored.duration == found["bound"]["duration_s"]
     assert found["vehicle"]["mass"] == 940.0
-    assert made(capsys, *arguments, "--set", "plant.initial_mass=930")["vehicle"]["mass"] == 930.0
     assert main(["validate", str(place)]) == 0
 
 
