@@ -9,7 +9,7 @@ from pathlib import Path
 from ..batch.tables import faults_line
 from ..flight.interruptible import fly
 from ..flight.simulation import Simulation
-from ..reports.run.reading import read_figures
+from ..reports.own.asked.reading import read_figures
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
 from .common.options import (

@@ -14,7 +14,7 @@ from ..campaign.toml_table import read_toml
 from ..errors import InputError
 from ..laws.law import read_law
 from ..planning.stored_bound import MissingBound, find_bound
-from ..reports.run.reading import read_figures
+from ..reports.own.asked.reading import read_figures
 from ..stability.ask.reading import read_declaration
 from ..synthesis.synthesis_file import read_synthesis
 from ..system.archive import DEFAULT_VARIANT, open_system

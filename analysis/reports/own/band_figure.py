@@ -12,7 +12,8 @@ from ..kit.page import exact
 from ..kit.panels import HALF_WIDTH, Panel, panel
 from ..kit.quantities import shown_factor, shown_unit
 from ..kit.style import FAINT, GREEN, INK, look
-from .declared import Band, Signal
+from .asked.histories import Band
+from .asked.values import Signal
 from .section import HEIGHT, Section, history_panel, legend_of, seconds, sentence
 
 CLOSE = 3.0  # widths of the band that the close-up shows

@@ -8,9 +8,16 @@ import numpy as np
 from markupsafe import Markup
 
 from ...flight.results import Result
+from .asked.declared import Figure
+from .asked.histories import Band, Curve, Error, Path, Pulses
+from .asked.stages import Budget, Limits, Phases
 from .band_figure import band_section, inside, since
-from .declared import Band, Error, Figure, Pulses
+from .budget_table import budget_section
+from .curve_figure import curve_section
 from .error_figure import error_section
+from .limit_table import limit_section
+from .path_figure import path_section
+from .phase_figure import phase_section
 from .pulse_figure import pulse_section
 from .section import Section, sentence
 
@@ -21,12 +28,23 @@ def own_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
 
 
 def _section(figure: Figure, result: Result, name: str) -> Section:
-    if isinstance(figure, Band):
-        return band_section(figure, result, name)
-    if isinstance(figure, Pulses):
-        return pulse_section(figure, result, name)
-    if isinstance(figure, Error):
-        return error_section(figure, result, name)
+    match figure:
+        case Band():
+            return band_section(figure, result, name)
+        case Pulses():
+            return pulse_section(figure, result, name)
+        case Error():
+            return error_section(figure, result, name)
+        case Curve():
+            return curve_section(figure, result, name)
+        case Path():
+            return path_section(figure, result, name)
+        case Phases():
+            return phase_section(figure, result, name)
+        case Limits():
+            return limit_section(figure, result)
+        case Budget():
+            return budget_section(figure, result)
     return Section(title=figure.title, notes=[Markup("Not drawn: {}.").format(note) for note in figure.notes])
 
 

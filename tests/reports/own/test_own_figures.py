@@ -12,9 +12,10 @@ import pytest
 from lxml import etree, html
 
 import perilune
-from perilune.analysis.reports.run.declared import Pulses, Signal, Undrawn
-from perilune.analysis.reports.run.own_figures import joint_findings, own_sections
-from perilune.analysis.reports.run.reading import read_figures
+from perilune.analysis.reports.own.asked.histories import Pulses
+from perilune.analysis.reports.own.asked.reading import read_figures
+from perilune.analysis.reports.own.asked.values import Signal, Undrawn
+from perilune.analysis.reports.own.own_figures import joint_findings, own_sections
 from perilune.analysis.reports.run.run_report import write_run_report
 from perilune.analysis.system.prepared import prepare_system
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of

@@ -1,4 +1,4 @@
-"""What figures of its own a system asks for: plain values, as reading.py finds them in the SSD."""
+"""Figures of signals over time, or one over another."""
 
 from __future__ import annotations
 
@@ -6,46 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...flight.results import Flight
-from ...system.units import Unit
-from ..kit.quantities import shown_factor
-
-
-@dataclass(frozen=True)
-class Signal:
-    """A Real or Integer scalar, or a vector of them, as a figure takes it.
-
-    ``label`` is its name, ``names`` those of its elements in the record. A recorded value x of element k stands for
-    ``factor`` * x + ``offsets[k]`` in ``unit``, None where there is none.
-    """
-
-    label: str
-    names: tuple[str, ...]
-    unit: Unit | None
-    factor: float
-    offsets: tuple[float, ...]
-
-    def values(self, flight: Flight) -> np.ndarray:
-        """Values in ``unit``, elements by rows of time; nan and infinite ones as they are."""
-        recorded = np.stack([flight[name] for name in self.names])
-        return self.factor * recorded + np.array(self.offsets)[:, None]
-
-    def shown(self, flight: Flight) -> np.ndarray:
-        """Values as they are drawn: angles in deg, nan for what is not finite."""
-        values = self.values(flight)
-        return np.where(np.isfinite(values), values, np.nan) * shown_factor(self.unit_name)
-
-    @property
-    def unit_name(self) -> str | None:
-        return self.unit.name if self.unit is not None else None
-
-
-@dataclass(frozen=True)
-class Own:
-    """What all figures have: ``title``; ``notes``: what they do without, since an FMU that was put in lacks it."""
-
-    title: str
-    notes: tuple[str, ...]
+from ....flight.results import Flight
+from ...kit.quantities import shown_factor
+from .values import Arc, Own, Rows, Signal
 
 
 @dataclass(frozen=True)
@@ -106,11 +69,39 @@ class Error(Own):
     sigma: Signal | None
     after: float | None
     labels: tuple[str, ...]
+    rows: Rows | None = None
 
 
 @dataclass(frozen=True)
-class Undrawn(Own):
-    """A figure that is asked for and cannot be had, since an FMU that was put in lacks what it is made of."""
+class Curve(Own):
+    """Scalars of one unit over time, each in a panel of its own or all ``together``, by their ``labels``.
+
+    ``low`` and ``high`` in their unit are drawn as lines, None for none.
+    """
+
+    signals: tuple[Signal, ...]
+    labels: tuple[str, ...]
+    low: float | None
+    high: float | None
+    together: bool
+    rows: Rows | None
 
 
-Figure = Band | Pulses | Error | Undrawn
+@dataclass(frozen=True)
+class Point:
+    """A position that two scalars name, in the units of the path."""
+
+    x: Signal
+    y: Signal
+    name: str
+
+
+@dataclass(frozen=True)
+class Path(Own):
+    """A scalar over another one or an arc; ``equal`` draws both to one scale. ``points`` are positions beside it."""
+
+    x: Signal | Arc
+    y: Signal
+    equal: bool
+    points: tuple[Point, ...]
+    rows: Rows | None

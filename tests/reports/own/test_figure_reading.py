@@ -12,31 +12,21 @@ from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
 from perilune.analysis.flight.program import layout_of
 from perilune.analysis.flight.simulation import Simulation
-from perilune.analysis.reports.run.declared import Band, Error, Pulses, Undrawn
-from perilune.analysis.reports.run.reading import read_figures
+from perilune.analysis.reports.own.asked.histories import Band, Error, Pulses
+from perilune.analysis.reports.own.asked.reading import read_figures
+from perilune.analysis.reports.own.asked.values import Undrawn
 from perilune.analysis.system.options import SystemOptions
 from perilune.analysis.system.prepared import prepare_system
 from perilune.fmus_src.export.ssp_package import pack_system
 from perilune.fmus_src.places import BUILD, SYSTEMS
 from tests.support.builders import component, connection, document, pack, system
+from tests.support.pages.declaring import with_report
 
 pytestmark = pytest.mark.usefixtures("fmus")
 NAME = "orbital_attitude"
 SSD = (SYSTEMS / NAME / "SystemStructure.ssd").read_text(encoding="utf-8")
 BAND = '<Band signal="plant.angles" low="-1" high="1" unit="deg"/>'
 DEGREE = math.pi / 180.0
-
-
-def with_report(ssd, inside):
-    """The description with the elements of Report in its annotation's place, on lines of their own."""
-    note = (
-        '<ssd:Annotations><ssc:Annotation type="org.perilune.report">\n'
-        f'<Report xmlns="https://perilune.org/report">\n{inside}\n</Report>\n'
-        "</ssc:Annotation></ssd:Annotations>"
-    )
-    end = "</ssd:SystemStructureDescription>"
-    begin = ssd.find("<ssd:Annotations>", ssd.find("</ssd:DefaultExperiment>"))
-    return (ssd[:begin] if begin > 0 else ssd.removesuffix("\n").removesuffix(end)) + f"{note}\n{end}\n"
 
 
 @pytest.fixture(scope="module")
@@ -105,7 +95,7 @@ def test_all_that_can_be_asked_for(folder, loaded):
 
 WRONG = {
     # the wrong element, which element the message names, words of it
-    "unknown element": ("<Bnad/>", "Bnad", "unknown element; use one of Band, Error, Pulses"),
+    "unknown element": ("<Bnad/>", "Bnad", "unknown element; use one of Band, Budget"),
     "unknown attribute": ('<Band signal="plant.angles" hi="1"/>', "Band", "unknown attribute hi"),
     "no signal": ('<Band low="1"/>', "Band", "no signal"),
     "no limit": ('<Band signal="plant.angles"/>', "Band", "neither low nor high"),

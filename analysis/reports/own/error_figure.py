@@ -11,8 +11,18 @@ from ...flight.results import Result
 from ..kit.panels import Panel
 from ..kit.quantities import number, shown_unit
 from ..kit.style import BLUE, FAINT, ORANGE
-from .declared import Error
-from .section import Section, capital, history_panel, seconds, sentence
+from .asked.histories import Error
+from .section import (
+    Section,
+    capital,
+    choice,
+    chosen_rows,
+    history_panel,
+    nothing_chosen,
+    seconds,
+    sentence,
+    trimmed,
+)
 
 SIGMAS = (3.0, 1.0)
 MOST_ROWS = 500  # of the shades, which nothing simplifies
@@ -22,14 +32,19 @@ FAR = 4.0  # times the extent of the last quarter from which on the whole flight
 
 def error_section(error: Error, result: Result, name: str) -> Section:
     """The figures and findings of an error; ``name`` must differ between the figures of a page."""
-    values = error.estimate.shown(result) - error.truth.shown(result)
-    stated = np.zeros_like(values) if error.sigma is None else error.sigma.shown(result)
+    chosen = chosen_rows(error.rows, result)
+    if error.rows is not None and not chosen.any():
+        return nothing_chosen(error.title, error.rows)
+    rows = trimmed(chosen)
+    time = result.time[rows]
+    values = np.where(chosen, error.estimate.shown(result) - error.truth.shown(result), np.nan)[:, rows]
+    stated = np.zeros_like(values) if error.sigma is None else error.sigma.shown(result)[:, rows]
     sigma = np.where(stated > 0.0, stated, np.nan)
     panels: list[Panel] = []
     findings: list[Markup] = []
     for index, label in enumerate(error.labels):
-        panels += _panels(error, label, result.time, values[index], sigma[index], f"{name}-{index}")
-        findings += _findings(error, label, result.time, values[index], sigma[index])
+        panels += _panels(error, label, time, values[index], sigma[index], f"{name}-{index}")
+        findings += _findings(error, label, time, values[index], sigma[index])
     return Section(
         title=error.title,
         panels=panels,
@@ -97,9 +112,11 @@ def _percent(share: float) -> Markup:
 
 def _reading(error: Error, sigma: np.ndarray) -> list[Markup]:
     words = Markup("line: {} less {}").format(error.estimate.label, error.truth.label)
-    if error.sigma is None:
-        return [sentence(words)]
-    if not np.any(np.isfinite(sigma)):
-        return [sentence(Markup("{}; {} states no deviation, it is 0 throughout").format(words, error.sigma.label))]
-    gaps = ", where it is not 0" if not np.all(np.isfinite(sigma)) else ""
-    return [sentence(Markup("{}; shaded: one and three of {} either way{}").format(words, error.sigma.label, gaps))]
+    if error.sigma is not None and not np.any(np.isfinite(sigma)):
+        words = Markup("{}; {} states no deviation, it is 0 throughout").format(words, error.sigma.label)
+    elif error.sigma is not None:
+        gaps = ", where it is not 0" if not np.all(np.isfinite(sigma)) else ""
+        words = Markup("{}; shaded: one and three of {} either way{}").format(words, error.sigma.label, gaps)
+    if error.rows is not None:
+        words = Markup("{}; where {}").format(words, choice(error.rows))
+    return [sentence(words)]

@@ -13,7 +13,7 @@ from ..kit.page import exact
 from ..kit.quantities import labelled, number
 from ..kit.style import BLUE, FAINT, VERMILION, house_style, new_figure, plain_ticks
 from ..kit.svg import inline_svg
-from .declared import Pulses
+from .asked.histories import Pulses
 from .section import Section, sentence
 
 LANE = 0.85  # in
