@@ -22,7 +22,10 @@ from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, element
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = samples.size(1000)
-LONG = ("attitude_moon_lander", "spherical_moon_lander")  # which divides a step into hundreds where its drawn time constants are short
+LONG = (
+    "attitude_moon_lander",
+    "spherical_moon_lander",
+)  # which divides a step into hundreds where its drawn time constants are short
 TYPES = ("Real", "Integer", "Boolean")
 
 
