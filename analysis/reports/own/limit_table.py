@@ -45,6 +45,14 @@ def limit_section(limits: Limits, result: Result) -> Section:
     )
 
 
+def limit_lines(limits: Limits, result: Result) -> list[str]:
+    """The same for a terminal: a line for each limit, angles in deg."""
+    return [
+        " ".join(Markup("{}: {} {}, {}: {}").format(name, value, unit, most, verdict).striptags().split())
+        for name, value, most, unit, verdict in (_row(limit, result) for limit in limits.limits)
+    ]
+
+
 def _row(limit: Limit, result: Result) -> tuple[Markup | str, ...]:
     unit = limit.signal.unit_name
     return (
