@@ -69,8 +69,8 @@ def draw_operation(random: Random, row: int, column: int) -> int:
     return random.choice(UNARY_OPERATIONS) if row < column and random.random() < 0.2 else 0
 
 
-# Blocks that put out levels, targets or constants: their rows repeat by nature.
-LEVELS = ("bank_programme", "no_control", "standard_control", "jet_health")
+# Blocks that put out levels, targets, constants or what is kept once and for all: their rows repeat by nature.
+LEVELS = ("bank_programme", "no_control", "standard_control", "jet_health", "landing_sequencer", "touchdown_monitor")
 
 
 def only_switches(block: type[Block]) -> bool:
