@@ -10,9 +10,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ...fmus_src.places import FLAVOURS
 from ..errors import InputError
 from ..system.faults import KINDS, Fault, parse_fault
-from ..system.options import ALGORITHMS, FLAVOURS, SystemOptions
+from ..system.options import ALGORITHMS, SystemOptions
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
