@@ -51,7 +51,12 @@ lint: .venv/ready
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
+# The first thing that any target does: with another Python than pyproject.toml's it says so and makes nothing.
 .venv/ready: pyproject.toml setup.py
+	@$(PYTHON) -c "import re, sys; \
+		low, high = map(int, re.findall(r'3\.(\d+)', re.search('requires-python.*', open('pyproject.toml').read()).group())); \
+		sys.exit(0 if (3, low) <= sys.version_info < (3, high) else 'Perilune needs Python 3.%d to 3.%d, and $(PYTHON) is %s; ' \
+		'give another one: make PYTHON=python3.%d' % (low, high - 1, sys.version.split()[0], high - 1))"
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77'
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-build-isolation --editable '.[dev]'
