@@ -11,6 +11,7 @@ from .batch.results import BatchResult
 from .batch.runner import run_batch
 from .campaign.plan import read_plan
 from .errors import InputError, suggestion
+from .flight.interruptible import fly
 from .flight.results import Result
 from .flight.simulation import Simulation
 from .stability.ask.request import read_request
@@ -41,7 +42,7 @@ def simulate(
     """
     prepared = prepare_system(system, _options(use, parameters, set, options))
     with Simulation(prepared, faults=faults) as simulation:
-        return simulation.fly()
+        return fly(simulation)
 
 
 def batch(
@@ -74,7 +75,11 @@ def batch(
         compare=compare,
         faults=faults,
     )
-    return run_batch(plan, workers=workers, output=Path(output) if output is not None else None)
+    folder = Path(output) if output is not None else None
+    result = run_batch(plan, workers=workers, output=folder)
+    if folder is not None:
+        result.write(folder)
+    return result
 
 
 def stability(

@@ -2,19 +2,35 @@
 
 from __future__ import annotations
 
+import errno
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
-def write_atomically(path: Path, content: bytes) -> None:
-    """Write a file; whoever looks at ``path``, now or after a crash, finds the old content or the new one."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """A place to write ``path`` to, which takes its place when all is written; its folder is made.
+
+    Whoever looks at ``path``, now or after a crash, finds the old content or the new one. Raises OSError naming
+    ``path`` where it cannot be written, a full disk for instance, with nothing left of it.
+    """
     partial = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        with partial.open("wb") as file:
-            file.write(content)
-            file.flush()
+        path.parent.mkdir(parents=True, exist_ok=True)
+        yield partial
+        with partial.open("rb") as file:
             os.fsync(file.fileno())
         partial.replace(path)
+    except OSError as error:  # libraries raise it without the file's name, or with that of the partial one
+        code = error.errno or errno.EIO
+        raise OSError(code, os.strerror(code), str(path)) from error
     finally:
         partial.unlink(missing_ok=True)
+
+
+def write_atomically(path: Path, content: bytes) -> None:
+    """Write a file, whole or not at all; see `whole_file`."""
+    with whole_file(path) as partial:
+        partial.write_bytes(content)

@@ -37,6 +37,7 @@ class Flyer:
         self.plan = plan
         self.variants = {variant.name: variant for variant in plan.campaign.variants()}
         self._ready: dict[str, tuple[Simulation, VariantNames]] = {}
+        self.halted = False
 
     def simulation(self, variant: str) -> tuple[Simulation, VariantNames]:
         """The simulation of a variant, made at its first use."""
@@ -50,9 +51,23 @@ class Flyer:
                 self._ready[variant] = Simulation(prepared, varied=names.varied, wanted=wanted, faults=faults), names
         return self._ready[variant]
 
-    def fly(self, variant: str, trials: range) -> Trials:
-        """Fly some trials of one variant, in order."""
-        found = [self.fly_one(variant, trial) for trial in trials]
+    def interrupt(self) -> None:
+        """End what flies in another thread at its next communication point."""
+        self.halted = True
+        for simulation, _ in list(self._ready.values()):
+            simulation.interrupt()
+
+    def fly(self, variant: str, trials: range) -> Trials | None:
+        """Fly some trials of one variant, in order; those up to an `interrupt`, and none where it comes first."""
+        found = []
+        for trial in trials:
+            flown = self.fly_one(variant, trial)
+            if self.halted:
+                break
+            found.append(flown)
+        trials = trials[: len(found)]
+        if not found:
+            return None
         numbers = list(zip(trials, found, strict=True))
         return Trials(
             statuses=[row.status for row in found],

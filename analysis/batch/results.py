@@ -12,6 +12,7 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
+from ..atomic import whole_file, write_atomically
 from ..campaign.plan import BatchPlan
 from .summary import summarise
 from .tables import faults_line, summary_text
@@ -50,6 +51,11 @@ class BatchResult:
         table = pyarrow.table(arrays)
         return table.replace_schema_metadata({"perilune": json.dumps(self.provenance)})
 
+    @property
+    def interrupted(self) -> bool:
+        """Whether it was broken off: then it is a whole batch of the first trials."""
+        return "planned_trials" in self.provenance
+
     def document(self) -> dict[str, Any]:
         """The machine-readable result: provenance and the summary of each variant."""
         return {**self.provenance, "variants": self.summary}
@@ -66,14 +72,12 @@ class BatchResult:
         Every trace carries the batch's digest: a folder can hold traces of an earlier batch too.
         """
         batch = batch_digest(self.provenance)
-        folder.mkdir(parents=True, exist_ok=True)
         write_parquet(self.table(), folder / "trials.parquet")
         text = json.dumps(self.document(), indent=1, allow_nan=False)
-        (folder / "summary.json").write_text(text + "\n", encoding="utf-8")
+        write_atomically(folder / "summary.json", f"{text}\n".encode())
         for variant, found in self.trials.items():
             for trial, traces in found.traces.items():
                 path = trace_path(folder, variant, trial)
-                path.parent.mkdir(parents=True, exist_ok=True)
                 metadata = {"perilune": json.dumps({"batch": batch, "variant": variant, "trial": trial})}
                 write_parquet(pyarrow.table(traces).replace_schema_metadata(metadata), path)
 
@@ -85,7 +89,8 @@ def trace_path(folder: Path, variant: str, trial: int) -> Path:
 
 def write_parquet(table: pyarrow.Table, path: Path) -> None:
     """A table with a checksum on every page, so that a damaged file is found out when it is read."""
-    pyarrow.parquet.write_table(table, path, write_page_checksum=True)
+    with whole_file(path) as partial:
+        pyarrow.parquet.write_table(table, partial, write_page_checksum=True)
 
 
 def batch_digest(provenance: dict[str, Any]) -> str:

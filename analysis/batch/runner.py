@@ -19,30 +19,49 @@ from .workers import fly_all, tasks_of, worker_count
 def run_batch(plan: BatchPlan, *, workers: int | None = None, output: Path | None = None) -> BatchResult:
     """Fly every trial of every variant of a plan. Raises InputError before anything flies.
 
-    ``workers`` is the number of parallel flights (default: one per processor). With ``output``
-    the table of draws is written there first, the results at the end.
+    ``workers`` is the number of parallel flights (default: one per processor). With ``output`` the table of draws is
+    written there first; the results are the caller's to write. Ctrl-C leaves a result of the first trials, as many as
+    every variant has flown; without any it is raised again.
     """
     count = worker_count(workers)
     systems = check_plan(plan)
     native = all(prepared.is_native for prepared in systems.values())
     if output is not None:
         write_draws(plan, output)
-    tasks = tasks_of(plan, count)
+    tasks = tasks_of(plan, count, native)
     trials: dict[str, list[Trials]] = {variant.name: [] for variant in plan.campaign.variants()}
-    total = plan.campaign.trials * len(trials)
-    with tqdm(total=total, unit="trial", disable=None, leave=False) as progress:
-        for variant, found in fly_all(plan, tasks, min(count, len(tasks)), native):
-            trials[variant].append(found)
-            progress.update(len(found.trial))
-    result = make_result(plan, {name: joined(parts) for name, parts in trials.items()}, provenance(plan, systems))
-    if output is not None:
-        result.write(output)
-    return result
+    planned = plan.campaign.trials
+    total = planned * len(trials)
+    try:
+        with tqdm(total=total, unit="trial", disable=None, leave=False) as progress:
+            for variant, found in fly_all(plan, tasks, min(count, len(tasks)), native):
+                trials[variant].append(found)
+                progress.update(len(found.trial))
+    except KeyboardInterrupt:
+        first = min(_first_flown(parts) for parts in trials.values())
+        if not first:
+            raise
+        plan = plan.of_first(first)
+        trials = {
+            name: [part.below(first) for part in parts if part.trial[0] < first] for name, parts in trials.items()
+        }
+        if output is not None:
+            write_draws(plan, output)
+    facts = provenance(plan, systems) | ({"planned_trials": planned} if plan.campaign.trials < planned else {})
+    return make_result(plan, {name: joined(parts) for name, parts in trials.items()}, facts)
+
+
+def _first_flown(parts: list[Trials]) -> int:
+    """How many trials from the first on are there without a gap."""
+    flown = 0
+    for part in sorted(parts, key=lambda part: int(part.trial[0])):
+        if int(part.trial[0]) == flown:
+            flown += len(part.trial)
+    return flown
 
 
 def write_draws(plan: BatchPlan, folder: Path) -> None:
     """Write the table of draws to ``folder``/draws.parquet, a row per trial."""
-    folder.mkdir(parents=True, exist_ok=True)
     columns = {"trial": list(range(plan.campaign.trials)), **plan.draws.columns}
     write_parquet(pyarrow.table(columns), folder / "draws.parquet")
 

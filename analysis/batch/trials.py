@@ -24,6 +24,20 @@ class Trials(TrialColumns):
     final: dict[str, np.ndarray]
     traces: dict[int, dict[str, np.ndarray]]
 
+    def below(self, end: int) -> Trials:
+        """Those with numbers below ``end``; trials are in order of number."""
+        count = int(np.searchsorted(self.trial, end))
+        return Trials(
+            statuses=self.statuses[:count],
+            success=self.success[:count],
+            metrics={name: values[:count] for name, values in self.metrics.items()},
+            trial=self.trial[:count],
+            end_time=self.end_time[:count],
+            messages={trial: text for trial, text in self.messages.items() if trial < end},
+            final={name: values[:count] for name, values in self.final.items()},
+            traces={trial: traces for trial, traces in self.traces.items() if trial < end},
+        )
+
 
 def joined(parts: Iterable[Trials]) -> Trials:
     """Parts of one variant, in any order, as one in order of trial."""

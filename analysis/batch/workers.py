@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import atexit
 import gc
-import os
+import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
-from typing import TypeVar
+from concurrent.futures import wait as wait_for
+from functools import partial
+from typing import Any, TypeVar
 
-from loky import ProcessPoolExecutor
+from loky import ProcessPoolExecutor, cpu_count
 
 from ..campaign.plan import BatchPlan
 from ..errors import InputError
+from ..flight.interruptible import PATIENCE, wait
 from ..process_end import leave
 from .flyer import Flyer
 from .trials import Trials
@@ -26,16 +29,16 @@ _flyers: list[Flyer] = []  # of this process's threads
 
 def worker_count(workers: int | None) -> int:
     """The number of parallel flights: as asked for, or one per processor. Raises InputError."""
-    count = workers if workers is not None else len(os.sched_getaffinity(0))
+    count = workers if workers is not None else cpu_count()
     if count < 1:
         raise InputError("--workers", str(count), "not a positive number", "give 1 or more")
     return count
 
 
-def tasks_of(plan: BatchPlan, workers: int) -> list[Task]:
-    """Trials in pieces large enough to send and small enough to share out, variants in turn."""
+def tasks_of(plan: BatchPlan, workers: int, native: bool) -> list[Task]:
+    """Trials in pieces large enough to send and small enough to share out, or to lose where a process is stopped."""
     trials = plan.campaign.trials
-    size = max(1, min(250, trials // (4 * workers)))
+    size = max(1, min(50 if native else 10, trials // (4 * workers)))
     pieces = [range(first, min(first + size, trials)) for first in range(0, trials, size)]
     return [(variant.name, piece) for piece in pieces for variant in plan.campaign.variants()]
 
@@ -65,7 +68,9 @@ class FlyerPool:
         if self._executor is None:
             assert self._flyer is not None
             for place, task in enumerate(tasks):
-                yield place, function(self._flyer, *task)
+                yield place, wait(partial(function, self._flyer, *task), self._flyer.interrupt)
+                if self._flyer.halted:
+                    raise KeyboardInterrupt
             return
         futures: dict[Future, int] = {
             self._executor.submit(_call, function, task): place for place, task in enumerate(tasks)
@@ -73,9 +78,28 @@ class FlyerPool:
         try:
             for future in as_completed(futures):
                 yield futures.pop(future), future.result()
+        except KeyboardInterrupt:
+            yield from self._interrupted(futures)
+            raise
         finally:
             for future in futures:
                 future.cancel()
+
+    def _interrupted(self, futures: dict[Future, int]) -> Iterator[tuple[int, Any]]:
+        """What is done when Ctrl-C comes, and what threads have flown of the rest; processes are stopped."""
+        for future in futures:
+            future.cancel()
+        for flyer in _flyers:
+            if flyer.plan is self.plan:
+                flyer.interrupt()
+        if isinstance(self._executor, ProcessPoolExecutor):
+            done = [future for future in futures if future.done() and not future.cancelled()]
+            self._executor.shutdown(wait=False, kill_workers=True)
+        else:
+            done = [future for future in wait_for(list(futures), timeout=PATIENCE).done if not future.cancelled()]
+        for future in done:
+            if future.exception() is None:
+                yield futures[future], future.result()
 
     def __enter__(self) -> FlyerPool:
         return self
@@ -92,7 +116,8 @@ def fly_all(plan: BatchPlan, tasks: list[Task], workers: int, native: bool) -> I
     """Fly every task, yielding results as they come, in any order."""
     with FlyerPool(plan, workers, native) as pool:
         for place, found in pool.work(Flyer.fly, tasks):
-            yield tasks[place][0], found
+            if found is not None:
+                yield tasks[place][0], found
 
 
 def _start(plan: BatchPlan) -> None:
@@ -108,6 +133,7 @@ def _close_threads(plan: BatchPlan) -> None:
 
 
 def _start_process(plan: BatchPlan) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
     atexit.register(_leave)
     _start(plan)
 

@@ -51,6 +51,12 @@ class BatchPlan:
             problem = f"the draws of {self.campaign.trials} trials do not fit into memory"
             raise InputError(self.campaign.file, "trials", problem, "give fewer") from error
 
+    def of_first(self, trials: int) -> BatchPlan:
+        """A plan of the first ``trials`` trials, with the draws that they have in this one."""
+        part = replace(self, campaign=replace(self.campaign, trials=trials))
+        part.__dict__["draws"] = self.draws.of_first(trials)  # in cached_property's place: drawn anew they may differ
+        return part
+
     @cached_property
     def groups(self) -> list[Group]:
         """The groups of trials that results are summed up by; none without [group]. Raises InputError."""

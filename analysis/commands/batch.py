@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,9 +16,21 @@ from ..batch.summary import TrialColumns, requirement_values, summarise
 from ..batch.tables import faults_line
 from ..campaign.expressions import Expression
 from ..campaign.plan import BatchPlan, check_plan, read_plan
-from ..errors import InputError, suggestion
+from ..errors import InputError
 from ..reports.batch.batch_report import write_batch_report
-from .options import add_faults, add_json, add_system, faults, json_number, pairs, system_options, write_json
+from .options import (
+    add_faults,
+    add_json,
+    add_system,
+    check_json,
+    faults,
+    json_number,
+    pairs,
+    system_options,
+    write_json,
+)
+from .requirements import add_requirements, check_requirements, read_requirements
+from .targets import Results, check_file, check_folder
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -35,13 +46,8 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--output", type=Path, metavar="DIR", help="write trials.parquet, draws.parquet, summary.json")
     parser.add_argument("--replay", type=int, metavar="K", help="fly trial K only, with all signals to --output DIR")
     parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
-    parser.add_argument(
-        "--require",
-        action="append",
-        default=[],
-        metavar="EXPRESSION",
-        help="exit 1 unless true of the summary's numbers",
-    )
+    parser.add_argument("--overwrite", action="store_true", help="put the results in place of those in --output DIR")
+    add_requirements(parser, "the summary's numbers")
     add_json(parser)
 
 
@@ -50,7 +56,9 @@ def run(options: argparse.Namespace) -> int:
     if options.compare is not None:
         found = pairs(options.compare, "--compare", "SLOT=A,B,C")
         compare = {slot: [name.strip() for name in names.split(",")] for slot, names in found.items()}
-    requirements = [Expression(text, ("--require", text)) for text in options.require]
+    check_folder("--output", options.output, overwrite=options.overwrite or options.replay is not None)
+    check_file("--report", options.report)
+    check_json(options)
     plan = read_plan(
         options.system,
         options.campaign,
@@ -65,12 +73,15 @@ def run(options: argparse.Namespace) -> int:
             if getattr(options, name):
                 raise InputError("--replay", f"--{name}", "does not go with a replay", "leave one of them out")
         return _replay(plan, options)
-    _check_requirements(plan, requirements)
+    requirements = _requirements(plan, options.require)
     result = run_batch(plan, workers=options.workers, output=options.output)
-    if options.report is not None:
-        write_batch_report(result, options.report, result.provenance["system"])
-    if not write_json(result.document(), options.json):
+    files = Results()
+    if not write_json(result.document(), options.json, files):
         print(result.text())
+    files.write(options.output, result.write)
+    files.write(options.report, lambda path: write_batch_report(result, path, result.provenance["system"]))
+    if options.json != "-":
+        files.say()
     for variant, trials in result.trials.items():
         for trial, message in list(trials.messages.items())[:1]:
             print(
@@ -79,29 +90,22 @@ def run(options: argparse.Namespace) -> int:
     values = requirement_values(result.summary)
     # a status that no trial had is not in the summary: it counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
-    failed = [requirement.text for requirement in requirements if not _met(requirement, values)]
-    for text in failed:
-        print(f"perilune: --require: {text}: not met", file=sys.stderr)
-    return 1 if failed else 0
+    met = check_requirements(requirements, values)
+    if result.interrupted:
+        flown, planned = result.plan.campaign.trials, plan.campaign.trials
+        print(f"perilune: interrupted: the first {flown} of {planned} trials were flown", file=sys.stderr)
+    return 2 if files.failed else 0 if met and not result.interrupted else 1
 
 
-def _met(requirement: Expression, values: Mapping[str, float]) -> bool:
-    """Whether a requirement holds; one on a number that could not be had does not."""
-    return all(np.isfinite(values[name]) for name in requirement.names) and bool(requirement.evaluate(values))
-
-
-def _check_requirements(plan: BatchPlan, requirements: list[Expression]) -> None:
-    """Refuse requirements on numbers that the summary will not have, before anything flies."""
+def _requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
+    """Requirements; those on numbers that the summary will not have are refused before anything flies."""
     nothing = np.full(1, np.nan)
     blank = TrialColumns([""], np.zeros(1, dtype=bool), {metric.name: nothing for metric in plan.campaign.metrics})
     variants = [variant.name for variant in plan.campaign.variants()]
     groups = [replace(group, trials=np.zeros(1, dtype=int)) for group in plan.groups]
     known = requirement_values(summarise(dict.fromkeys(variants, blank), plan.campaign.metrics, groups))
     statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
-    for requirement in requirements:
-        for name in sorted(requirement.names - set(known)):
-            if not name.startswith(statuses):
-                raise InputError("--require", name, "no such number in the summary", suggestion(name, known))
+    return read_requirements(texts, known, statuses)
 
 
 def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from ..compare.side_by_side import compare
 from ..reports.compare.page import write_comparison_page
-from .options import add_json, write_json
+from .options import add_json, check_json, write_json
+from .targets import Results, check_file
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -19,11 +20,15 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    check_file("--report", options.report)
+    check_json(options)
     comparison = compare(options.result, options.reference)
-    if options.report is not None:
-        words = ["perilune", "compare", *map(str, options.result)]
-        words += ["--reference", options.reference] if options.reference is not None else []
-        write_comparison_page(comparison, options.report, shlex.join(words))
-    if not write_json(comparison.document(), options.json):
+    files = Results()
+    if not write_json(comparison.document(), options.json, files):
         print(comparison.text())
-    return 0
+    words = ["perilune", "compare", *map(str, options.result)]
+    words += ["--reference", options.reference] if options.reference is not None else []
+    files.write(options.report, lambda path: write_comparison_page(comparison, path, shlex.join(words)))
+    if options.json != "-":
+        files.say()
+    return 2 if files.failed else 0

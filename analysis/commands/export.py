@@ -18,10 +18,12 @@ from ...fmus_src.export.own_blocks import build_own_blocks, own_blocks
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
 from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
 from ...fmus_src.places import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu
+from ..atomic import write_atomically
 from ..errors import InputError, suggestion
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.documents import parse_xml
-from .options import add_json, write_json
+from .options import add_json, check_json, write_json
+from .targets import check_file
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -46,6 +48,8 @@ def add(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     if options.platform and options.flavour == "python":
         raise InputError("--platform", options.platform[0], "Python FMUs have no platform to choose", "leave it out")
+    check_file("--output", options.output)
+    check_json(options)
     try:
         document = _export(options)
     except CompilerMissing as error:
@@ -132,8 +136,7 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
                     remedy = f"build your own with perilune export FILE.py --flavour {flavour}, or add the FMU"
                     raise InputError(f"{archive.label}/{entry}", element, problem, remedy)
         packed = pack_system(archive.path, [folder], folder / "packed")
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(packed.read_bytes())
+        write_atomically(path, packed.read_bytes())
 
 
 def _export_file(options: argparse.Namespace) -> dict[str, Any]:
@@ -155,8 +158,7 @@ def _export_file(options: argparse.Namespace) -> dict[str, Any]:
         built = build_own_blocks(file, Path(name), flavours[:1], platforms, portable=_zig_is_here())
         if not built:
             raise InputError(file, blocks[0].__name__, "needs Python and has no native form", "give --flavour python")
-        output.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(built[0], output)
+        write_atomically(output, built[0].read_bytes())
     return {"paths": [str(output)]} | _made(flavours[:1], platforms)
 
 

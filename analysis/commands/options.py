@@ -11,9 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from ...fmus_src.places import FLAVOURS
+from ..atomic import write_atomically
 from ..errors import InputError
 from ..system.faults import KINDS, Fault, parse_fault
 from ..system.options import ALGORITHMS, SystemOptions
+from .targets import Results, check_file
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -115,7 +117,13 @@ def system_options(options: argparse.Namespace) -> SystemOptions:
     )
 
 
-def write_json(document: Any, target: str | None) -> bool:
+def check_json(options: argparse.Namespace) -> None:
+    """Refuse a file for JSON that cannot be written, before anything flies. Raises InputError."""
+    if options.json not in (None, "-"):
+        check_file("--json", Path(options.json))
+
+
+def write_json(document: Any, target: str | None, files: Results | None = None) -> bool:
     """Write a document as strict JSON; returns whether it went to standard output."""
     if target is None:
         return False
@@ -123,7 +131,5 @@ def write_json(document: Any, target: str | None) -> bool:
     if target == "-":
         sys.stdout.write(text)
         return True
-    path = Path(target)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
+    (files or Results()).write(Path(target), lambda path: write_atomically(path, text.encode()))
     return False

@@ -7,14 +7,20 @@ import sys
 from pathlib import Path
 
 from ..batch.tables import faults_line
-from ..errors import InputError
+from ..flight.interruptible import fly
 from ..flight.simulation import Simulation
 from ..reports.run.reading import read_figures
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
-from .options import add_faults, add_json, add_system, faults, json_number, system_options, write_json
+from .options import add_faults, add_json, add_system, check_json, faults, json_number, system_options, write_json
+from .requirements import add_requirements, check_requirements, read_requirements
+from .targets import Results, check_file
 
 OUTPUT_SUFFIXES = (".csv", ".parquet")
+REMEDIES = {
+    "nonfinite": "see what drives it with --output F.csv",
+    "interrupted": "what was flown until then is in the files",
+}
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -22,29 +28,34 @@ def add(parser: argparse.ArgumentParser) -> None:
     add_faults(parser)
     parser.add_argument("--output", type=Path, metavar="F", help="write all signals to F.csv or F.parquet")
     parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
+    add_requirements(parser, "the last values of signals and of time")
     add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:
-    if options.output is not None and options.output.suffix not in OUTPUT_SUFFIXES:
-        raise InputError("--output", str(options.output), "neither .csv nor .parquet", "end the name with one of them")
+    check_file("--output", options.output, OUTPUT_SUFFIXES)
+    check_file("--report", options.report)
+    check_json(options)
     prepared = prepare_system(options.system, system_options(options))
     figures = read_figures(prepared) if options.report is not None else []
     injected = faults(options)
     with Simulation(prepared, faults=injected) as simulation:
-        result = simulation.fly()
-    if options.output is not None:
-        result.write(options.output)
-    if options.report is not None:
-        write_run_report(result, options.report, prepared.archive.name, figures)
+        requirements = read_requirements(options.require, [*simulation.signal_names, "time"])
+        result = fly(simulation)
     final = {name: json_number(value) for name, value in result.final().items()}
-    if not write_json(result.summary() | {"final": final}, options.json):
+    files = Results()
+    if not write_json(result.summary() | {"final": final}, options.json, files):
         end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
         print(f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows")
         if injected:
             print(faults_line(injected))
+    files.write(options.output, result.write)
+    files.write(options.report, lambda path: write_run_report(result, path, prepared.archive.name, figures))
+    if options.json != "-":
+        files.say()
     if not result.complete:
-        remedy = "see what drives it with --output F.csv" if result.status == "nonfinite" else "see the FMU's message"
+        remedy = REMEDIES.get(result.status, "see the FMU's message")
         print(f"perilune: {prepared.network.file}: {' '.join(result.message.split())}; {remedy}", file=sys.stderr)
-        return 1
-    return 0
+    last = {"time": result.time[-1:].tolist(), **{name: [value] for name, value in result.final().items()}}
+    met = check_requirements(requirements, {name: float(value[0]) for name, value in last.items() if value})
+    return 2 if files.failed else 0 if met and result.complete else 1

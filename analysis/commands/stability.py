@@ -16,7 +16,8 @@ from ..stability.results.loop import JointReport, LoopReport
 from ..stability.results.requirement import Requirement, Verdict
 from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
-from .options import add_json, add_system, system_options, write_json
+from .options import add_json, add_system, check_json, system_options, write_json
+from .targets import Results, check_file
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -41,6 +42,8 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    check_file("--report", options.report)
+    check_json(options)
     request = read_request(
         options.system,
         system_options(options),
@@ -56,22 +59,23 @@ def run(options: argparse.Namespace) -> int:
     except StudyError as error:
         print(f"perilune: {request.label}: {error}", file=sys.stderr)
         return 1
-    if options.report is not None:
-        write_stability_page(report, options.report)
-    if not write_json(document(report), options.json):
+    files = Results()
+    files.write(options.report, lambda path: write_stability_page(report, path))
+    if not write_json(document(report), options.json, files):
         for loop in report.loops:
             print("\n".join(_lines(loop)))
         for sweep in report.sweeps:
             for crossing in sweep.crossings:
                 print(_crossing_line(sweep, crossing))
         print(f"{report.system}: {report.verdict}, {report.seconds:.1f} s")
+        files.say()
     failures = [item for item in report.judged() if item.requirement.verdict is Verdict.FAIL]
     for subject, requirement in failures:
         if not requirement.unstable or isinstance(subject, JointReport):  # else that it is unstable has a line already
             print(f"perilune: {_failure_line(subject, requirement)}", file=sys.stderr)
     for lost in report.unstudied:
         print(f"perilune: {lost.what} {lost.name} at {lost.point}: not studied: {lost.reason}", file=sys.stderr)
-    return 1 if failures or report.unstudied else 0
+    return 2 if files.failed else 1 if failures or report.unstudied else 0
 
 
 def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:

@@ -43,7 +43,7 @@ FUNCTION_NAMES = (
 )
 
 # How a run ends: Buffers.outcome[0].
-STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED = range(5)
+STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED = range(6)
 OVERRIDE, BIAS, FREEZE, EXCITE = range(4)
 FMI_WARNING = 1
 
@@ -105,6 +105,7 @@ class Buffers(NamedTuple):
     whole: np.ndarray  # int32 [s]
     frozen: np.ndarray  # float64 [f], NaN until a freeze begins
     outcome: np.ndarray  # int64 [5]: code, component or slot, function, fmi2Status, communication point
+    halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
 
 
 def _fly(program, buffers, settings, span, recording, excitation):  # type: ignore[no-untyped-def]
@@ -124,6 +125,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     parameters, whole_parameters = settings.real, settings.whole
     start, step, stop, first_point, steps = span.start, span.step, span.stop, span.first, span.last
     recorded, stride, record, times = recording.slots, recording.stride, recording.rows, recording.times
+    halt = buffers.halt
     outcome[:] = 0
     rows = 0
     n = first_point  # -1: the initialisation
@@ -223,7 +225,8 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                 return rows
         n += 1
         finished = program.finished_slot >= 0 and values[program.finished_slot] != 0.0
-        last = finished or n == steps
+        halted = halt[0] != 0
+        last = finished or n == steps or halted
         if last or to_record == 0:
             to_record = stride
             times[rows] = after
@@ -232,7 +235,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
             rows += 1
         to_record -= 1
         if last:
-            outcome[0] = FINISHED if finished else STOP_TIME
+            outcome[0] = FINISHED if finished else STOP_TIME if n == steps else INTERRUPTED
             return rows
         first_instruction = np.uint64(program.initial_end)
         last_instruction = np.uint64(instructions.shape[0])

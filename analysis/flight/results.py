@@ -12,6 +12,8 @@ import pyarrow
 import pyarrow.csv
 import pyarrow.parquet
 
+from ..atomic import whole_file, write_atomically
+
 COMPLETE = ("finished", "stop_time")
 
 
@@ -20,8 +22,8 @@ class Flight:
     """One flight in memory. Row n of every signal is its value at ``time[n]`` (s).
 
     ``status`` is ``finished`` (the system's own end), ``stop_time``, ``nonfinite`` (a component
-    gave NaN or infinity) or ``failed`` (an FMU reported an error); ``message`` explains the last
-    two. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
+    gave NaN or infinity), ``failed`` (an FMU reported an error) or ``interrupted`` (by Ctrl-C); ``message`` explains
+    the last three. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
     """
 
     time: np.ndarray
@@ -75,13 +77,14 @@ class Result(Flight):
 
     def write(self, path: Path) -> None:
         """Write .parquet, or .csv with units and provenance in a .json file beside it."""
-        path.parent.mkdir(parents=True, exist_ok=True)
         if path.suffix == ".parquet":
-            pyarrow.parquet.write_table(self.table(), path)
+            with whole_file(path) as partial:
+                pyarrow.parquet.write_table(self.table(), partial)
         else:
             plain = not any(mark in name for name in self.signals for mark in ',"')
             options = pyarrow.csv.WriteOptions(quoting_header="none" if plain else "needed")
-            pyarrow.csv.write_csv(self.table(), path, options)
+            with whole_file(path) as partial:
+                pyarrow.csv.write_csv(self.table(), partial, options)
             units = {"time": "s"} | {name: unit for name, unit in self.units.items() if unit}
             text = json.dumps(self.summary() | {"units": units}, indent=1)
-            path.with_name(f"{path.name}.json").write_text(text + "\n", encoding="utf-8")
+            write_atomically(path.with_name(f"{path.name}.json"), f"{text}\n".encode())

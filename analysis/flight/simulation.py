@@ -25,6 +25,7 @@ STATUS = {
     loop.NONFINITE: "nonfinite",
     loop.FAILED: "failed",
     loop.UNMAPPED: "failed",
+    loop.INTERRUPTED: "interrupted",
 }
 FMI_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
 FMI_FATAL = 4
@@ -113,6 +114,7 @@ class Simulation:
             whole=np.zeros(len(self.layout.slots), dtype=np.int32),
             frozen=np.zeros(len(self._declared) + len(self._excitations)),
             outcome=np.zeros(5, dtype=np.int64),
+            halt=np.zeros(1, dtype=np.int64),
         )
         self._record = np.empty((0, 0))
         self._fresh = True
@@ -128,6 +130,10 @@ class Simulation:
             units={name: self.layout.units[name] for name in self.signal_names},
             provenance=self.provenance(),
         )
+
+    def interrupt(self) -> None:
+        """End the flight that is under way in another thread at its next communication point, and all later ones."""
+        self.buffers.halt[0] = 1
 
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
         """The flight alone, for batches; see `fly`."""
@@ -230,6 +236,8 @@ class Simulation:
             name = list(self.layout.slots)[subject]
             value = self.buffers.values[subject]
             return STATUS[code], f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
+        if code == loop.INTERRUPTED:
+            return STATUS[code], f"interrupted at t = {time:g} s"
         if code == loop.FAILED:
             component = list(self.instances)[subject]
             log = " | ".join(self.instances[component].messages) or "no message in its log"

@@ -49,7 +49,7 @@ def test_any_number_of_workers_in_either_flavour(reference, flavour, workers):
 
 def test_any_order_of_tasks(reference):
     plan = read_plan(SYSTEM, "noisy", SystemOptions(flavour="native"), trials=TRIALS, compare=COMPARE)
-    tasks = [(variant, range(trial, trial + 1)) for variant, piece in tasks_of(plan, 2) for trial in piece]
+    tasks = [(variant, range(trial, trial + 1)) for variant, piece in tasks_of(plan, 2, True) for trial in piece]
     random.Random(3).shuffle(tasks)
     found = {variant: [] for variant in COMPARE["guidance"]}
     flyer = Flyer(plan)

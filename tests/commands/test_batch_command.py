@@ -218,7 +218,7 @@ def test_a_replay_says_null_for_what_never_settles(grouped, capsys):
         ('analytic_guidance.groups["2"].trials > 0', 0, ""),
         ('analytic_guidance.groups["2"].statuses.failed == 0', 0, ""),
         ("analytic_guidance.metrics_all.never.p95 > 0", 1, "not met"),
-        ('analytic_guidance.groups["4"].trials > 0', 2, "no such number in the summary"),
+        ('analytic_guidance.groups["4"].trials > 0', 2, "no such number in what results"),
         ("analytic_guidance.groups[2].trials > 0", 2, 'analytic_guidance.groups["2"].trials'),
     ],
 )

@@ -60,7 +60,7 @@ def test_run(folder, tmp_path, capsys):
     assert main(command) == 0
     said = [BIAS, "whole.b=override:true@0.5", "ramp.count=freeze@0.25..1"]
     assert capsys.readouterr().out.splitlines() == [
-        "s: stop_time at t = 1 s, 5 rows", f"with faults: {'; '.join(said)}",
+        "s: stop_time at t = 1 s, 5 rows", f"with faults: {'; '.join(said)}", f"written: {output}, {page}",
     ]  # fmt: skip
     table = pyarrow.parquet.read_table(output)
     assert table["gain.u"].to_pylist() == [1.0, 2.0, 2.5, 2.5, 3.0]
@@ -124,7 +124,7 @@ def test_batch_and_its_replay(folder, batch, tmp_path, capsys):
     command = [*batch, str(folder / "held.toml"), "--fault", BIAS]
     assert main([*command, "--output", str(tmp_path / "out"), "--report", str(tmp_path / "page.html")]) == 0
     said = f"with faults: held: ramp.y=freeze@t0 when t0 > 0.5; {BIAS}"
-    assert capsys.readouterr().out.splitlines()[-1] == said
+    assert capsys.readouterr().out.splitlines()[-2:] == [said, f"written: {tmp_path / 'out'}, {tmp_path / 'page.html'}"]
     assert f"W{said[1:]}." in text_of((tmp_path / "page.html").read_text())
     rows = pyarrow.parquet.read_table(tmp_path / "out" / "trials.parquet").to_pylist()
     expected = perilune.batch(folder / "s.ssp", str(folder / "held.toml"), faults=[perilune.Fault("gain.u", "bias",
@@ -161,11 +161,11 @@ def test_comparisons_say_which_faults_flew(folder, batch, tmp_path, capsys):
     capsys.readouterr()
     page = tmp_path / "page.html"
     assert main(["compare", *(str(tmp_path / name) for name in runs), "--report", str(page)]) == 0
-    assert capsys.readouterr().out.splitlines()[-3:] == [f"{name}: {words}" for name, words in says.items()]
+    assert capsys.readouterr().out.splitlines()[-4:-1] == [f"{name}: {words}" for name, words in says.items()]
     for name, words in says.items():
         assert f"{name}: {words}." in text_of(page.read_text())
     assert main(["compare", str(tmp_path / "biased"), "--report", str(page)]) == 0
-    assert capsys.readouterr().out.splitlines()[-1] == says["biased"]
+    assert capsys.readouterr().out.splitlines()[-2] == says["biased"]
     assert f"W{says['biased'][1:]}." in text_of(page.read_text())
     assert main(["compare", str(tmp_path / "bare"), "--report", str(page)]) == 0
     told = capsys.readouterr().out + text_of(page.read_text())

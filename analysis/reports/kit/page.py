@@ -8,6 +8,7 @@ from typing import Any
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from ...atomic import write_atomically
 from .quantities import in_shown_unit, number, shown_unit
 
 FOLDER = Path(__file__).parent
@@ -47,5 +48,4 @@ def render_page(template: Path, **content: Any) -> str:
 
 def write_page(path: Path, template: Path, **content: Any) -> None:
     """Write a page, and the folder it lies in."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(render_page(template, **content), encoding="utf-8", newline="\n")
+    write_atomically(path, render_page(template, **content).encode())
