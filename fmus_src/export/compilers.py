@@ -104,9 +104,10 @@ def shared_library(
     ``sources`` holds all files by name. The result depends on sources, flags and compiler only,
     not on time or place. Raises `CompilerMissing` and `CompilationFailed`.
     """
+    commands = compilers_for(platform, portable)
     extension = PLATFORMS[platform].extension
     libraries = []
-    for command in compilers_for(platform, portable):
+    for command in commands:
         digest = hashlib.sha256("\0".join([_identity(tuple(command)), *FLAGS, main]).encode())
         for name in sorted(sources):
             digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
