@@ -30,9 +30,8 @@ def found(text):
         elif isinstance(node, ast.ImportFrom) and not node.level:
             named = {alias.name for alias in node.names} & NAMES.get(str(node.module), set())
             yield from ((name, node.lineno) for name in named | ({node.module} & MODULES))
-        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            if node.attr in NAMES.get(node.value.id, ()):
-                yield f"{node.value.id}.{node.attr}", node.lineno
+        elif isinstance(node, ast.Attribute) and node.attr in NAMES.get(getattr(node.value, "id", ""), ()):
+            yield ast.unparse(node), node.lineno
 
 
 def test_no_call_that_only_unix_has():
