@@ -8,6 +8,11 @@ from pathlib import Path
 from setuptools import setup
 from setuptools.command.build_py import build_py
 
+# As build_fmus.py, which a source distribution does not hold.
+BUILD_FMUS = "from perilune.fmus_src.export.command import main; raise SystemExit(main())"
+    "from perilune.fmus_src.export.command import main; raise SystemExit(main())"  # as build_fmus.py, in an sdist too
+)
+
 
 class BuildWithFmus(build_py):
     """Packs what `build_fmus.py` builds, so that an installed package flies without a checkout or a compiler.
@@ -26,7 +31,7 @@ class BuildWithFmus(build_py):
         options = ["--output", output, "--flavour", "native", "--portable"]
         for platform in ("linux64", "win64", "darwin64"):
             options += ["--platform", platform]
-        subprocess.run([sys.executable, Path(__file__).with_name("build_fmus.py"), *options], check=True)
+        subprocess.run([sys.executable, "-c", BUILD_FMUS, *options], cwd=Path(__file__).parent, check=True)
         shutil.rmtree(output / "ssp")  # holds the FMUs a second time
 
 

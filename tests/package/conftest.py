@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
 
 import pytest
 
-from tests.support.installed import Installed, build_wheel, install, remove
+from tests.support.installed import Installed, build_wheel, install, installed_in
+from tests.support.locks import one_process_at_a_time
 
 
 @pytest.fixture(scope="session")
-def installed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Installed]:
-    folder = tmp_path_factory.mktemp("installed")
-    found = install(build_wheel(folder / "wheel"), folder)
-    yield found
-    remove(found)
+def installed(tmp_path_factory: pytest.TempPathFactory) -> Installed:
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "installed"
+    with one_process_at_a_time(folder.with_name("installed.lock")):
+        if not folder.is_dir():
+            install(build_wheel(folder / "wheel"), folder)
+    return installed_in(folder)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -45,31 +43,28 @@ def build_wheel(folder: Path) -> Path:
     return wheel
 
 
-def install(wheel: Path, folder: Path) -> Installed:
-    """A virtual environment with the wheel and, by links, what it depends on; site-packages are read-only.
+def install(wheel: Path, folder: Path) -> None:
+    """Make a virtual environment with the wheel and, by links, what it depends on; site-packages are read-only.
 
-    (Not for the superuser, who may write everywhere: compare `files` before and after.)
+    (Not for the superuser, who may write everywhere: compare `Installed.files` before and after.)
     """
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder / "venv"], check=True)
-    python = folder / "venv" / "bin" / "python"
-    pip = [sys.executable, "-m", "pip", "--python", python, "install", "--quiet", "--no-deps", "--no-index", wheel]
-    subprocess.run(pip, check=True, capture_output=True)
-    (site,) = (folder / "venv" / "lib").glob("python*/site-packages")
+    found = installed_in(folder)
+    pip = [sys.executable, "-m", "pip", "--python", found.python, "install", "--quiet", "--no-deps", "--no-index"]
+    subprocess.run([*pip, wheel], check=True, capture_output=True)
     shared = folder / "shared"
     shared.mkdir()
     for entry in Path(numpy.__file__).parents[1].iterdir():
         if not entry.name.startswith(HIDDEN) and entry.suffix != ".pth":
             (shared / entry.name).symlink_to(entry)
-    (site / "shared.pth").write_text(f"{shared}\n", encoding="utf-8")
-    home = folder / "home"
-    home.mkdir()
-    for path in [site, *(entry for entry in site.rglob("*") if entry.is_dir())]:
-        os.chmod(path, 0o555)
-    return Installed(wheel, python, site, home)
+    (found.site / "shared.pth").write_text(f"{shared}\n", encoding="utf-8")
+    found.home.mkdir()
+    for path in [found.site, *(entry for entry in found.site.rglob("*") if entry.is_dir())]:
+        path.chmod(0o555)
 
 
-def remove(installed: Installed) -> None:
-    """Take the environment away, which pytest could not: its folders are read-only."""
-    for path in [installed.site, *(entry for entry in installed.site.rglob("*") if entry.is_dir())]:
-        os.chmod(path, 0o755)
-    shutil.rmtree(installed.python.parents[1])
+def installed_in(folder: Path) -> Installed:
+    """What `install` made in a folder."""
+    (site,) = (folder / "venv" / "lib").glob("python*/site-packages")
+    (wheel,) = (folder / "wheel").glob("*.whl")
+    return Installed(wheel, folder / "venv" / "bin" / "python", site, folder / "home")
