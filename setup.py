@@ -10,8 +10,6 @@ from setuptools.command.build_py import build_py
 
 # As build_fmus.py, which a source distribution does not hold.
 BUILD_FMUS = "from perilune.fmus_src.export.command import main; raise SystemExit(main())"
-    "from perilune.fmus_src.export.command import main; raise SystemExit(main())"  # as build_fmus.py, in an sdist too
-)
 
 
 class BuildWithFmus(build_py):

@@ -15,6 +15,6 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Installed:
     base = tmp_path_factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "installed"
     with one_process_at_a_time(folder.with_name("installed.lock")):
-        if not folder.is_dir():
+        if not (folder / "home").is_dir():  # the last that is made
             install(build_wheel(folder / "wheel"), folder)
     return installed_in(folder)

@@ -58,9 +58,9 @@ def install(wheel: Path, folder: Path) -> None:
         if not entry.name.startswith(HIDDEN) and entry.suffix != ".pth":
             (shared / entry.name).symlink_to(entry)
     (found.site / "shared.pth").write_text(f"{shared}\n", encoding="utf-8")
-    found.home.mkdir()
     for path in [found.site, *(entry for entry in found.site.rglob("*") if entry.is_dir())]:
         path.chmod(0o555)
+    found.home.mkdir()
 
 
 def installed_in(folder: Path) -> Installed:
