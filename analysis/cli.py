@@ -25,6 +25,7 @@ VERBS = {
     "compare": "compare the variants of one or several stored batches on the same trials",
     "law": "print a network operator's law as a formula, or write it as parameter set or drawing",
     "synthesize": "search for a control law, every candidate flown in its system",
+    "plan": "plan a transfer between hovers, or bound what a landing takes",
     "stability": "report on the stability of a system's loops",
     "benchmark": "time a communication step against other importers",
     "export": "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
@@ -32,6 +33,7 @@ VERBS = {
 
 # What exit status 1 means besides an interruption, of which all verbs make it; 0 is done, 2 wrong input.
 FAILURES = {
+    "plan": "no plan was found",
     "run": "the flight failed, or a requirement is not met",
     "batch": "a requirement is not met",
     "synthesize": "no law was found with every trial a success",

@@ -16,7 +16,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from .mathlib.vector_types import VECTORS, vector
-from .units import UNITS
+from .units import unit_definition
 
 Value = float | int | bool | list
 TYPE_NAMES = {float: "Real", int: "Integer", bool: "Boolean"}
@@ -35,7 +35,7 @@ class Variable:
     """One declared variable: start value, unit, description, bounds.
 
     ``start`` fixes type and size: a float, int or bool, or a list of equal ones. ``unit`` is a
-    key of `fmus_src.units.UNITS`; ``minimum``, ``maximum`` and ``nominal`` hold per element;
+    name that `fmus_src.units` understands; ``minimum``, ``maximum`` and ``nominal`` hold per element;
     ``frame`` names the frame that a vector's components refer to. ``columns`` makes the list a
     matrix in row order, whose elements are named by row and column.
 
@@ -83,8 +83,9 @@ class Variable:
             raise DeclarationError(f"{where}: start must be one float, int or bool, or a list of one of these")
         if self.columns is not None and (not self.is_array or self.columns < 1 or self.size % self.columns):
             raise DeclarationError(f"{where}: {self.size} elements do not make rows of {self.columns}")
-        if self.unit is not None and self.unit not in UNITS:
-            raise DeclarationError(f"{where}: unit {self.unit!r} is not in fmus_src/units.py; add it there")
+        if self.unit is not None and unit_definition(self.unit) is None:
+            remedy = "write it of m, kg, s, rad, N, deg and the like, as N.m/rad or 1/s2"
+            raise DeclarationError(f"{where}: unit {self.unit!r} is not understood; {remedy}")
         if not self.description:
             raise DeclarationError(f"{where}: give a description")
 

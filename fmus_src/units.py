@@ -1,30 +1,106 @@
-"""The units that blocks may declare, with their SI base-unit exponents (FMI 2.0 BaseUnit).
+"""Units by their names, as FMI 2.0 defines one: exponents of base units, a factor and an offset.
 
-Blocks work in SI and radians throughout, so every factor is one.
+A name is symbols with whole exponents, joined by "." and "/", each "/" for the one symbol behind it: m/s2, N.m/rad,
+kg.m2, 1/s. Blocks of this repository work in SI and radians throughout, so all their factors are one.
+Source of factors: the International System of Units (BIPM 2019); the international foot, pound and knot.
 """
 
 from __future__ import annotations
 
-UNITS: dict[str, dict[str, int]] = {
-    "1": {},
-    "rad": {"rad": 1},
-    "rad/s": {"rad": 1, "s": -1},
-    "rad/s2": {"rad": 1, "s": -2},
-    "1/s": {"s": -1},
-    "s": {"s": 1},
-    "Pa": {"kg": 1, "m": -1, "s": -2},
-    "m": {"m": 1},
-    "m/s": {"m": 1, "s": -1},
-    "m/s2": {"m": 1, "s": -2},
-    "m2": {"m": 2},
-    "m2/s2": {"m": 2, "s": -2},
-    "m2/s3": {"m": 2, "s": -3},
-    "m3/s2": {"m": 3, "s": -2},
-    "kg": {"kg": 1},
-    "kg/s": {"kg": 1, "s": -1},
-    "kg.m2": {"kg": 1, "m": 2},
-    "N": {"kg": 1, "m": 1, "s": -2},
-    "N.m": {"kg": 1, "m": 2, "s": -2},
-    "N.m.s": {"kg": 1, "m": 2, "s": -1},
-    "N.s": {"kg": 1, "m": 1, "s": -1},
+import math
+import re
+from dataclasses import dataclass
+from functools import cache
+
+BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+POUND = 0.45359237  # kg
+FOOT = 0.3048  # m
+GRAVITY = 9.80665  # m/s2, standard
+
+
+@dataclass(frozen=True)
+class UnitDefinition:
+    """value in base units = factor * value + offset."""
+
+    exponents: dict[str, int]
+    factor: float = 1.0
+    offset: float = 0.0
+
+
+SYMBOLS = {
+    "1": UnitDefinition({}),
+    **{name: UnitDefinition({name: 1}) for name in BASE_UNITS},
+    "N": UnitDefinition({"kg": 1, "m": 1, "s": -2}),
+    "Pa": UnitDefinition({"kg": 1, "m": -1, "s": -2}),
+    "J": UnitDefinition({"kg": 1, "m": 2, "s": -2}),
+    "W": UnitDefinition({"kg": 1, "m": 2, "s": -3}),
+    "Hz": UnitDefinition({"s": -1}),
+    "C": UnitDefinition({"A": 1, "s": 1}),
+    "V": UnitDefinition({"kg": 1, "m": 2, "s": -3, "A": -1}),
+    "Ohm": UnitDefinition({"kg": 1, "m": 2, "s": -3, "A": -2}),
+    "F": UnitDefinition({"kg": -1, "m": -2, "s": 4, "A": 2}),
+    "Wb": UnitDefinition({"kg": 1, "m": 2, "s": -2, "A": -1}),
+    "T": UnitDefinition({"kg": 1, "s": -2, "A": -1}),
+    "H": UnitDefinition({"kg": 1, "m": 2, "s": -2, "A": -2}),
+    "g": UnitDefinition({"kg": 1}, 1e-3),
+    "t": UnitDefinition({"kg": 1}, 1e3),
+    "lb": UnitDefinition({"kg": 1}, POUND),
+    "km": UnitDefinition({"m": 1}, 1e3),
+    "cm": UnitDefinition({"m": 1}, 1e-2),
+    "mm": UnitDefinition({"m": 1}, 1e-3),
+    "um": UnitDefinition({"m": 1}, 1e-6),
+    "ft": UnitDefinition({"m": 1}, FOOT),
+    "in": UnitDefinition({"m": 1}, FOOT / 12.0),
+    "nmi": UnitDefinition({"m": 1}, 1852.0),
+    "kn": UnitDefinition({"m": 1, "s": -1}, 1852.0 / 3600.0),
+    "ms": UnitDefinition({"s": 1}, 1e-3),
+    "us": UnitDefinition({"s": 1}, 1e-6),
+    "min": UnitDefinition({"s": 1}, 60.0),
+    "h": UnitDefinition({"s": 1}, 3600.0),
+    "d": UnitDefinition({"s": 1}, 86400.0),
+    "deg": UnitDefinition({"rad": 1}, math.pi / 180.0),
+    "arcmin": UnitDefinition({"rad": 1}, math.pi / 10800.0),
+    "arcsec": UnitDefinition({"rad": 1}, math.pi / 648000.0),
+    "rev": UnitDefinition({"rad": 1}, 2.0 * math.pi),
+    "mrad": UnitDefinition({"rad": 1}, 1e-3),
+    "kN": UnitDefinition({"kg": 1, "m": 1, "s": -2}, 1e3),
+    "mN": UnitDefinition({"kg": 1, "m": 1, "s": -2}, 1e-3),
+    "lbf": UnitDefinition({"kg": 1, "m": 1, "s": -2}, POUND * GRAVITY),
+    "kPa": UnitDefinition({"kg": 1, "m": -1, "s": -2}, 1e3),
+    "MPa": UnitDefinition({"kg": 1, "m": -1, "s": -2}, 1e6),
+    "bar": UnitDefinition({"kg": 1, "m": -1, "s": -2}, 1e5),
+    "kJ": UnitDefinition({"kg": 1, "m": 2, "s": -2}, 1e3),
+    "kW": UnitDefinition({"kg": 1, "m": 2, "s": -3}, 1e3),
+    "mW": UnitDefinition({"kg": 1, "m": 2, "s": -3}, 1e-3),
+    "mV": UnitDefinition({"kg": 1, "m": 2, "s": -3, "A": -1}, 1e-3),
+    "mA": UnitDefinition({"A": 1}, 1e-3),
+    "nT": UnitDefinition({"kg": 1, "s": -2, "A": -1}, 1e-9),
+    "degC": UnitDefinition({"K": 1}, 1.0, 273.15),
+    "degF": UnitDefinition({"K": 1}, 5.0 / 9.0, 273.15 - 32.0 * 5.0 / 9.0),
+    "percent": UnitDefinition({}, 0.01),
 }
+PART = re.compile(r"([./]?)([A-Za-z]+|1)(-?\d+)?")
+
+
+@cache
+def unit_definition(name: str) -> UnitDefinition | None:
+    """What a unit's name means; None where it is no product of SYMBOLS. One with an offset stands alone."""
+    if name in SYMBOLS:
+        return SYMBOLS[name]
+    exponents: dict[str, int] = {}
+    factor, place = 1.0, 0
+    while place < len(name):
+        part = PART.match(name, place)
+        if part is None or (part.group(1) == "") != (place == 0):
+            return None
+        symbol = SYMBOLS.get(part.group(2))
+        if symbol is None or symbol.offset:
+            return None
+        power = int(part.group(3) or "1") * (-1 if part.group(1) == "/" else 1)
+        factor *= symbol.factor**power
+        for base, exponent in symbol.exponents.items():
+            exponents[base] = exponents.get(base, 0) + power * exponent
+        place = part.end()
+    if not name:
+        return None
+    return UnitDefinition({base: exponents[base] for base in BASE_UNITS if exponents.get(base)}, factor)

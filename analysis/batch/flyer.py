@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from ..flight.instance import LOADING
 from ..flight.results import Flight, Result
 from ..flight.simulation import Simulation
 from ..system.parameter_sets import ParameterValue
+from .status_texts import trial_status
 from .trials import Trials
 
 
@@ -139,16 +139,3 @@ class Flyer:
 def _last(values: np.ndarray) -> float:
     """The last of a signal's values; NaN where the flight has none."""
     return float(values[-1]) if values.size else float("nan")
-
-
-def trial_status(result: Flight, statuses: list[str]) -> str:
-    """How a trial ended, with the worst status of every component that reported other than 0.
-
-    For instance ``finished`` or ``finished (guidance.status 2)``.
-    """
-    worst: list[Any] = []
-    for name in statuses:
-        values = result.signals[name]
-        if values.size and np.max(values) != 0:
-            worst.append(f"{name} {int(np.max(values))}")
-    return f"{result.status} ({', '.join(worst)})" if worst else result.status

@@ -57,6 +57,20 @@ class Record:
 
 
 @dataclass(frozen=True)
+class Scatter:
+    """A figure that the page of a batch is to have: the metric ``y`` of every trial over ``x``.
+
+    ``circle`` is the radius around the origin that is drawn, in the unit of both; None for none.
+    """
+
+    name: str
+    x: str
+    y: str
+    circle: float | None = None
+    title: str = ""
+
+
+@dataclass(frozen=True)
 class Variant:
     """One way to build the system: which FMU flies in each compared slot."""
 
@@ -70,8 +84,8 @@ class Campaign:
 
     ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are
     expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
-    [compare], ``group`` is the drawn or derived value by which [group] sums trials up, ``faults`` are [fault].
-    ``file`` is what errors name.
+    [compare], ``group`` is the drawn or derived value by which [group] sums trials up, ``faults`` are [fault],
+    ``scatters`` [scatter]. ``file`` is what errors name.
     """
 
     file: str
@@ -89,6 +103,7 @@ class Campaign:
     description: str = ""
     group: str | None = None
     faults: tuple[CampaignFault, ...] = ()
+    scatters: tuple[Scatter, ...] = ()
 
     def __post_init__(self) -> None:
         if self.trials < 1:

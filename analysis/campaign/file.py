@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, suggestion
-from .campaign import REDUCTIONS, TRACES, Campaign, Metric, Record, Setting
+from .campaign import REDUCTIONS, TRACES, Campaign, Metric, Record, Scatter, Setting
 from .distributions import Draw, read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
@@ -16,6 +16,7 @@ from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})  # of records and of the results' table
 REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that go with one reduction only
+SCATTER = ("x", "y", "circle", "title")
 
 
 def _check_name(table: Table, name: str, taken: Iterable[str]) -> None:
@@ -162,13 +163,35 @@ def _success(table: Table, metrics: tuple[Metric, ...]) -> Expression:
     return success
 
 
+def _scatters(table: Table, metrics: tuple[Metric, ...]) -> tuple[Scatter, ...]:
+    for name in table.content:
+        if not name.isidentifier():
+            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
+    return tuple(_scatter(name, table.table(name), metrics) for name in table.content)
+
+
+def _scatter(name: str, table: Table, metrics: tuple[Metric, ...]) -> Scatter:
+    table.only(SCATTER)
+    units = {metric.name: metric.unit for metric in metrics}
+    x, y = table.get("x", text), table.get("y", text)
+    for key, metric in (("x", x), ("y", y)):
+        if metric not in units:
+            raise table.error(key, f"{metric!r} is not a metric", suggestion(metric, units))
+    circle = table.get("circle", number, None)
+    if circle is not None and circle <= 0.0:
+        raise table.error("circle", f"{circle:g} is not a radius", "give a positive number")
+    if circle is not None and units[x] != units[y]:
+        raise table.error("circle", f"{x} is in {units[x]}, {y} in {units[y]}", "drop it, or give both one unit")
+    return Scatter(name, x, y, circle, table.get("title", text, ""))
+
+
 def parse_campaign(table: Table) -> Campaign:
     """The campaign in a table that was read from a file or made in memory. Raises InputError."""
     if SYNTHESIS in table.content:
         remedy = "search with perilune synthesize, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
     keys = ["system", "description", "trials", "seed", "parameters"]
-    table.only([*keys, "set", "compare", "draw", "derive", "fault", "group", "metric", "record", "success"])
+    table.only([*keys, "set", "compare", "draw", "derive", "fault", "group", "metric", "record", "success", "scatter"])
     draws = _draws(table.table("draw"))
     derived = _derived(table.table("derive"), draws)
     drawn = [name for draw in draws for name in draw.names] + list(derived)
@@ -189,6 +212,7 @@ def parse_campaign(table: Table) -> Campaign:
         description=" ".join(table.get("description", text, "").split()),
         group=_group(table.table("group"), drawn) if "group" in table.content else None,
         faults=_faults(table.table("fault"), drawn),
+        scatters=_scatters(table.table("scatter"), metrics),
     )
 
 

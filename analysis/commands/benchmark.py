@@ -6,7 +6,7 @@ import argparse
 
 from ..benchmark.measure import run_benchmark
 from ..benchmark.table import benchmark_text
-from .options import add_json, write_json
+from .common.options import add_json, write_json
 
 
 def add(parser: argparse.ArgumentParser) -> None:

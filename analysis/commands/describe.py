@@ -16,8 +16,8 @@ from ..errors import InputError, suggestion
 from ..system.archive import system_names
 from ..system.fmu import load_fmu
 from ..system.prepared import find_fmu, prepare_system
-from .options import add_json, add_system_options, system_options, write_json
-from .text_table import text_table
+from .common.options import add_json, add_system_options, system_options, write_json
+from .common.text_table import text_table
 
 WIDE = 100  # characters of a list of values, beyond which it is cut
 

@@ -11,7 +11,7 @@ from ..laws.formula import formula, formula_text
 from ..laws.graph import law_svg
 from ..laws.law import named_law, read_law
 from ..laws.parameter_set import parameter_set
-from .options import add_json, write_json
+from .common.options import add_json, write_json
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -16,7 +16,7 @@ from ...fmus_src.places import LAWS, SEARCHES
 from ..stability.ask.reading import read_declaration
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.description import read_description
-from .options import add_json, write_json
+from .common.options import add_json, write_json
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -9,12 +9,23 @@ from pathlib import Path
 from ..batch.tables import faults_line
 from ..flight.interruptible import fly
 from ..flight.simulation import Simulation
-from ..reports.run.reading import read_figures
+from ..reports.own.asked.reading import read_figures
+from ..reports.own.asked.stages import Limits
+from ..reports.own.limit_table import limit_lines
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
-from .options import add_faults, add_json, add_system, check_json, faults, json_number, system_options, write_json
-from .requirements import add_requirements, check_requirements, read_requirements
-from .targets import Results, check_file
+from .common.options import (
+    add_faults,
+    add_json,
+    add_system,
+    check_json,
+    faults,
+    json_number,
+    system_options,
+    write_json,
+)
+from .common.requirements import add_requirements, check_requirements, read_requirements
+from .common.targets import Results, check_file
 
 OUTPUT_SUFFIXES = (".csv", ".parquet")
 REMEDIES = {
@@ -37,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
     check_file("--report", options.report)
     check_json(options)
     prepared = prepare_system(options.system, system_options(options))
-    figures = read_figures(prepared) if options.report is not None else []
+    figures = read_figures(prepared)
     injected = faults(options)
     with Simulation(prepared, faults=injected) as simulation:
         requirements = read_requirements(options.require, [*simulation.signal_names, "time"])
@@ -47,6 +58,9 @@ def run(options: argparse.Namespace) -> int:
     if not write_json(result.summary() | {"final": final}, options.json, files):
         end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
         print(f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows")
+        for limits in figures if result.time.size else ():
+            if isinstance(limits, Limits):
+                print("\n".join(limit_lines(limits, result)))
         if injected:
             print(faults_line(injected))
     files.write(options.output, result.write)

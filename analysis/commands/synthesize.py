@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..synthesis.synthesis import run_synthesis
 from ..synthesis.synthesis_file import named_search, read_synthesis
-from .options import add_json, write_json
+from .common.options import add_json, write_json
 
 METHODS = ("network-operator",)
 

@@ -13,7 +13,8 @@ from ..campaign.file import SYNTHESIS, read_campaign
 from ..campaign.toml_table import read_toml
 from ..errors import InputError
 from ..laws.law import read_law
-from ..reports.run.reading import read_figures
+from ..planning.stored_bound import MissingBound, find_bound
+from ..reports.own.asked.reading import read_figures
 from ..stability.ask.reading import read_declaration
 from ..synthesis.synthesis_file import read_synthesis
 from ..system.archive import DEFAULT_VARIANT, open_system
@@ -21,7 +22,7 @@ from ..system.fmu import load_fmu
 from ..system.options import SystemOptions
 from ..system.parameter_sets import read_parameter_file
 from ..system.prepared import prepare_system
-from .options import add_json, write_json
+from .common.options import add_json, write_json
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -67,6 +68,8 @@ def _check(path: str) -> dict[str, Any]:
                 prepared = prepare_system(path, SystemOptions(variant=variant))
                 read_declaration(prepared.network.description)
                 read_figures(prepared)
+                bound = find_bound(prepared)
+                notes += [f"bound: {bound.reason}"] if isinstance(bound, MissingBound) else []
                 notes += prepared.network.notes
                 notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
     except InputError as error:

@@ -13,11 +13,13 @@ import pyarrow.csv
 import pyarrow.parquet
 
 from ..atomic import whole_file, write_atomically
+from ..errors import suggestion
+from ..system.names import elements, vectors
 
 COMPLETE = ("finished", "stop_time")
 
 
-@dataclass
+@dataclass(repr=False)
 class Flight:
     """One flight in memory. Row n of every signal is its value at ``time[n]`` (s).
 
@@ -33,8 +35,20 @@ class Flight:
     message: str
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A signal by name, ``component.variable``."""
-        return self.signals[name]
+        """A signal by name, ``component.variable``: [n], or [n, k] for a vector of k elements by its own name.
+
+        Raises KeyError with the nearest names.
+        """
+        if name in self.signals:
+            return self.signals[name]
+        parts = elements(name, self.signals)
+        if not parts:
+            raise KeyError(f"no signal {name}; {suggestion(name, [*self.signals, *vectors(self.signals)])}")
+        return np.stack([self.signals[part] for part in parts], axis=1)
+
+    def __repr__(self) -> str:
+        end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
+        return f"{type(self).__name__}({self.status}{end}, {self.time.size} rows, {len(self.signals)} signals)"
 
     @property
     def complete(self) -> bool:
@@ -48,7 +62,7 @@ class Flight:
         return {name: convert.get(self.types[name], float)(values[-1]) for name, values in self.signals.items()}
 
 
-@dataclass
+@dataclass(repr=False)
 class Result(Flight):
     """A flight with units by signal, and with parameter values, hashes and versions as provenance."""
 
@@ -75,8 +89,13 @@ class Result(Flight):
             self.provenance
         )
 
-    def write(self, path: Path) -> None:
+    def to_pandas(self) -> Any:
+        """The flight as a pandas.DataFrame, a column for each signal, with time (s) as its index; needs pandas."""
+        return self.table().to_pandas().set_index("time")
+
+    def write(self, path: str | Path) -> None:
         """Write .parquet, or .csv with units and provenance in a .json file beside it."""
+        path = Path(path)
         if path.suffix == ".parquet":
             with whole_file(path) as partial:
                 pyarrow.parquet.write_table(self.table(), partial)

@@ -15,6 +15,11 @@ def parted(name: str, components: Iterable[str]) -> tuple[str, str]:
     return owner, name.removeprefix(f"{owner}.") if owner else name
 
 
+def vectors(names: Iterable[str]) -> list[str]:
+    """The names of vectors among those of elements: ``plant.position`` for ``plant.position[1]``."""
+    return list(dict.fromkeys(name.removesuffix("[1]") for name in names if name.endswith("[1]")))
+
+
 def elements(name: str, known: Container[str]) -> list[str]:
     """The known names that one stands for: its own, or name[1], name[2] ... of a vector; none where it is unknown."""
     if name in known:

@@ -159,16 +159,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
         )
     own = fmu.units.get(fmu.unit_of(variable) or "")
     declared = _unit(network, connector.unit, fmu, where)
-    if (
-        own
-        and declared
-        and (own.exponents, own.factor, own.offset)
-        != (
-            declared.exponents,
-            declared.factor,
-            declared.offset,
-        )
-    ):
+    if own and declared and not own.is_same(declared):
         raise InputError(
             network.file,
             where,

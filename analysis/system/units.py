@@ -7,23 +7,30 @@ from typing import Any
 
 from lxml import etree
 
+from ...fmus_src.units import BASE_UNITS
 from .documents import child, children
-
-BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 
 
 @dataclass(frozen=True)
 class Unit:
-    """value in base units = factor * value + offset."""
+    """value in base units = factor * value + offset. One that nobody defines has no ``exponents``: it is its name."""
 
     name: str
-    exponents: tuple[int, ...]
+    exponents: tuple[int, ...] | None
     factor: float = 1.0
     offset: float = 0.0
 
     def fits(self, other: Unit) -> bool:
         """Whether values can be converted; rad counts as dimensionless where the other has none (FMI 2.0)."""
+        if self.exponents is None or other.exponents is None:
+            return self.name == other.name
         return self.exponents[:-1] == other.exponents[:-1]
+
+    def is_same(self, other: Unit) -> bool:
+        """Whether both mean one unit, by what they are made of; by their names where nobody says that of one."""
+        if self.exponents is None or other.exponents is None:
+            return self.name == other.name
+        return (self.exponents, self.factor, self.offset) == (other.exponents, other.factor, other.offset)
 
     def conversion_to(self, other: Unit) -> tuple[float, float]:
         """Factor and offset that turn a value in this unit into one in the other."""
@@ -33,11 +40,13 @@ class Unit:
 
 
 def units_of_fmu(description: Any) -> dict[str, Unit]:
-    """Units that an FMU defines with base units, by name (fmpy ModelDescription)."""
-    found = {}
+    """Units that an FMU defines, by name (fmpy ModelDescription)."""
+    found: dict[str, Unit] = {}
     for definition in description.unitDefinitions:
         base = definition.baseUnit
-        if base is not None:
+        if base is None:
+            found[definition.name] = Unit(definition.name, None)
+        else:
             exponents = tuple(int(getattr(base, name, 0) or 0) for name in BASE_UNITS)
             found[definition.name] = Unit(definition.name, exponents, float(base.factor), float(base.offset))
     return found

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from lxml import etree
 
 from ..block import Block, Output, Parameter, State, Variable
-from ..units import UNITS
+from ..units import unit_definition
 
 STATE_ANNOTATION = "org.perilune.state"
 LOG_CATEGORIES = {
@@ -82,7 +82,14 @@ def _unit_definitions(root: etree._Element, variables: list[Variable]) -> None:
         definitions = etree.SubElement(root, "UnitDefinitions")
         for name in used:
             unit = etree.SubElement(definitions, "Unit", name=name)
-            etree.SubElement(unit, "BaseUnit", {base: str(power) for base, power in UNITS[name].items()})
+            meaning = unit_definition(name)
+            assert meaning is not None  # the declaration refuses what has none
+            numbers = {base: str(power) for base, power in meaning.exponents.items()}
+            if meaning.factor != 1.0:
+                numbers["factor"] = repr(meaning.factor)
+            if meaning.offset:
+                numbers["offset"] = repr(meaning.offset)
+            etree.SubElement(unit, "BaseUnit", numbers)
 
 
 def _scalar_variable(

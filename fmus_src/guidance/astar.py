@@ -18,6 +18,9 @@ class AstarGuidance(AstarProgramme):
 
     last_root = State(0.0, unit="s", description="where Newton's method starts; 0: from 2 R/V")
 
+    def forget(self) -> None:
+        self.last_root = 0.0
+
     def root(self, dr: Vector3, v: Vector3, dv: Vector3, start: float) -> float:
         """The root reached from ``start`` (s), or 0 without convergence."""
         g = self.gravity

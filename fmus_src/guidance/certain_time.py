@@ -31,6 +31,10 @@ class CertainTime(TerminalGuidance, interface=True):
     braking = State(False, description="the flight takes its time from |A| T = 2 |B|")
     least_effort = State(False, description="the last command took the time of least effort")
 
+    def forget(self) -> None:
+        self.braking = False
+        self.least_effort = False
+
     def time_left(self, dr: Vector3, dv: Vector3) -> float:
         """Time-to-go (s) from what is to gain, and with it least_effort; 0 where there is none."""
         if self.plan_frozen():

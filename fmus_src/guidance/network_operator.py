@@ -6,7 +6,7 @@ from ..block import Parameter, State
 from ..interfaces.network_operator_law import NetworkOperatorLaw
 from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, UNLIMITED, TerminalGuidance
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, from_centre
-from ..mathlib.vectors import Vector3, dot, norm
+from ..mathlib.vectors import Vector3, dot, norm, vector
 
 LEAST_HORIZONTAL_SPEED = 0.5  # m/s; below it the horizontal direction is held
 
@@ -42,9 +42,9 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
     altitude = State(0.0, unit="m", description="altitude")
     forward = State([1.0, 0.0, 0.0], unit="1", frame="landing site", description="horizontal direction of flight")
 
-    def initialize(self) -> None:
+    def begin(self, time: float) -> None:
         self.final_altitude = altitude_of(self.target_position, self.moon_radius)
-        self.command_time = self.start_time
+        self.command_time = time
         self.decode_law()
         self.solve()
 
@@ -82,7 +82,10 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
             if self.thrust_acceleration > 0.0:
                 self.time_to_go = -math.expm1(-excess / exhaust_speed) * exhaust_speed / self.thrust_acceleration
 
-    def step(self, t: float, h: float) -> None:
+    def forget(self) -> None:
+        self.forward = vector(1.0, 0.0, 0.0)
+
+    def go_on(self, t: float, h: float) -> None:
         if not self.finished:
             self.solve()
             if self.status == GOOD:

@@ -5,7 +5,7 @@ import math
 from ..block import Output, Parameter, State
 from ..mathlib.gravity import from_centre
 from ..mathlib.inertial import sensor_addition
-from ..mathlib.vectors import norm, vector
+from ..mathlib.vectors import Vector3, norm, vector
 from .inertial_navigation import InertialNavigation
 
 GOOD = 0
@@ -29,6 +29,9 @@ class FilteredNavigation(InertialNavigation, interface=True):
     innovation_gate of its own sigmas is rejected. The filter cannot tell a wrong sensor from
     a wrong estimate: a sensor whose samples are rejected rejection_limit times in a row is reported by
     the status and, with reacquire, believed again after the covariance has grown to fit it.
+    In free flight the inertial sensor's errors are not taken off and add nothing to the covariance. With
+    gravity_gradient velocity errors also grow by the difference of gravity that a position error makes, which
+    counts where nothing is measured for a good part of an orbit.
     Frame: landing site. Equations: docs/systems/lunar_navigation.md.
     Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.4 and 10.3; Groves 2013, chapter 14.
     """
@@ -66,6 +69,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
     position_sigma = Parameter(
         2.0, unit="m", minimum=0.0, description="error of a measured position per axis, constant part"
     )
+    gravity_gradient = Parameter(False, description="the covariance grows by the gradient of gravity, too")
     innovation_gate = Parameter(
         5.0, unit="1", minimum=0.0, description="reject scalars beyond so many sigmas of the innovation; 0: none"
     )
@@ -125,7 +129,16 @@ class FilteredNavigation(InertialNavigation, interface=True):
 
     def compensate(self) -> None:
         """Take the estimated errors of the inertial sensor off the specific force."""
-        self.force = self.force - sensor_addition(self.sensor_errors, self.force)
+        if not self.free_flight:
+            self.force = self.force - sensor_addition(self.sensor_errors, self.force)
+
+    def local_gradient(self) -> tuple[Vector3, float]:
+        """Unit vector away from the Moon's centre; size of the gradient of gravity (1/s2), 0 where it is left out."""
+        up = from_centre(self.estimated_position, self.moon_radius)
+        distance = norm(up)
+        if self.gravity_gradient and distance > 0.0:
+            return up / distance, self.gravitational_parameter / (distance * distance * distance)
+        return up, 0.0
 
     def altitude(self, row: list) -> float:
         """Estimated altitude (m); row[0:3] = its derivative by position."""

@@ -15,6 +15,7 @@ class InertialNavigation(Navigation, interface=True):
     the next increment makes up for the difference. The first knowledge is the truth with errors of
     first_position_sigma and first_velocity_sigma; two blocks with equal seed and stream begin
     with equal errors. New samples are told by their counts; samples that are there at the start count.
+    In free flight the specific force is known to be 0, and inertial samples are passed over.
     Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
     """
 
@@ -47,7 +48,9 @@ class InertialNavigation(Navigation, interface=True):
         """Set force (m/s2) to the mean specific force that was measured over the last h (s), or is extrapolated."""
         self.since_sample = self.since_sample + h
         self.force_before = self.force
-        if self.inertial_count != self.inertial_taken:
+        if self.free_flight:
+            self.pass_over()
+        elif self.inertial_count != self.inertial_taken:
             self.force = (self.velocity_increment - self.assumed_increment) / h
             self.last_force = self.velocity_increment / self.since_sample
             self.assumed_increment = vector(0.0, 0.0, 0.0)
@@ -57,6 +60,16 @@ class InertialNavigation(Navigation, interface=True):
         else:
             self.force = self.last_force
             self.assumed_increment = self.assumed_increment + h * self.last_force
+
+    def pass_over(self) -> None:
+        """No specific force; a new inertial sample is not used."""
+        self.force = vector(0.0, 0.0, 0.0)
+        self.last_force = self.force
+        self.assumed_increment = self.force
+        self.since_sample = 0.0
+        if self.inertial_count != self.inertial_taken:
+            self.inertial_taken = self.inertial_count
+            self.sample_count = self.sample_count + 1
 
     def move(self, h: float) -> None:
         """Move the estimate by h (s) with the mean specific force."""

@@ -42,6 +42,9 @@ class Navigation(Block, interface=True):
     velocity_count = Input(0, description="velocity samples taken")
     measured_position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="measured position")
     position_count = Input(0, description="position samples taken")
+    free_flight = Input(
+        False, description="no thrust: the specific force is 0 and the inertial sensor's errors do not count"
+    )
     estimated_position = Output([0.0, 0.0, 0.0], unit="m", frame="landing site", direct=True, description="position")
     estimated_velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="landing site", direct=True, description="velocity")
     position_estimate_sigma = Output(

@@ -32,6 +32,10 @@ class TerminalGuidance(Block, interface=True):
     cycle before less the cycle, counted down while a command is held; at the start, and until a
     first command is found, `solve` is repeated until T agrees with itself.
 
+    While `active` is false there is no command and nothing is remembered: the next sample at which it is
+    true is a start. A guidance that writes `begin` and `go_on` itself has both for nothing else than
+    an active one; `forget` is for the states of its own.
+
     With frozen_time_to_go a law takes that time (`planned_time`) in place of its own in every cycle:
     a feedback law that does not change on the way, for linear stability. The flight then goes on
     until something else ends it, and no command is a last burn.
@@ -76,6 +80,7 @@ class TerminalGuidance(Block, interface=True):
     position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated position")
     velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated velocity")
     mass = Input(1.0, unit="kg", description="estimated mass")
+    active = Input(True, description="false: no command; the first sample at which it is true is the start")
     thrust_acceleration = Output(0.0, unit="m/s2", direct=True, description="commanded thrust over mass")
     thrust_direction = Output(
         [0.0, 0.0, 1.0],
@@ -99,6 +104,7 @@ class TerminalGuidance(Block, interface=True):
     )
     finished = Output(False, direct=True, description="the flight is over")
     cycle = State(0.0, unit="s", description="time to the next sample; 0 until the first step")
+    under_way = State(False, description="active at the last sample")
     started = State(False, description="a command with time left has been given")
     start_time = State(0.0, unit="s", description="start of the flight")
     expected_time = State(
@@ -144,7 +150,13 @@ class TerminalGuidance(Block, interface=True):
                     self.solve()
 
     def initialize(self) -> None:
-        self.command_time = self.start_time
+        if self.active:
+            self.under_way = True
+            self.begin(self.start_time)
+
+    def begin(self, time: float) -> None:
+        """The first command, at ``time`` (s)."""
+        self.command_time = time
         self.cycle = self.sample_period
         self.expected_time = self.planned_time(0.0)
         self.aim()
@@ -163,6 +175,33 @@ class TerminalGuidance(Block, interface=True):
             self.status = NO_SOLUTION
 
     def step(self, t: float, h: float) -> None:
+        if not self.active:
+            if self.under_way:
+                self.rest()
+        elif not self.under_way:
+            self.under_way = True
+            self.begin(t + h)
+        else:
+            self.go_on(t, h)
+
+    def rest(self) -> None:
+        """No command, and nothing remembered."""
+        self.under_way = False
+        self.started = False
+        self.finished = False
+        self.expected_time = 0.0
+        self.thrust_acceleration = 0.0
+        self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
+        self.burn_duration = UNLIMITED
+        self.time_to_go = 0.0
+        self.status = GOOD
+        self.forget()
+
+    def forget(self) -> None:
+        """Put the states of a law of its own back to their starts."""
+
+    def go_on(self, t: float, h: float) -> None:
+        """The command of the sample at t + h (s)."""
         if not self.finished:
             self.cycle = self.sample_period
             if self.cycle <= 0.0:

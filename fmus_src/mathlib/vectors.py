@@ -9,6 +9,7 @@ __all__ = [
     "Vector2",
     "Vector3",
     "Vector4",
+    "across",
     "add_along",
     "all_below",
     "clip",
@@ -16,6 +17,7 @@ __all__ = [
     "dot",
     "is_finite",
     "norm",
+    "shortened",
     "smallest_component",
     "vector",
 ]
@@ -34,6 +36,19 @@ def norm(a: Vector3) -> float:
 def cross(a: Vector3, b: Vector3) -> Vector3:
     """The vector product a x b."""
     return vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+
+
+def across(a: Vector3, direction: Vector3) -> Vector3:
+    """The part of a perpendicular to a unit vector."""
+    return a - dot(a, direction) * direction
+
+
+def shortened(a: Vector3, longest: float) -> Vector3:
+    """The vector, no longer than ``longest``."""
+    length = norm(a)
+    if length > longest:
+        return longest / length * a
+    return a
 
 
 def is_finite(a: Vector3) -> bool:

@@ -15,7 +15,8 @@ class KalmanNavigation(FilteredNavigation):
     def predict(self, h: float) -> None:
         walk = self.velocity_random_walk * self.velocity_random_walk
         drift = self.bias_random_walk * self.bias_random_walk
-        predict_errors(self.covariance, self.force, walk, drift, h)
+        up, gradient = self.local_gradient()
+        predict_errors(self.covariance, self.force, not self.free_flight, walk, drift, up, gradient, h)
 
     def weigh(self, row: list, ph: list, variance: float) -> float:
         return innovation_variance(self.covariance, row, ph, variance, 15)

@@ -33,6 +33,14 @@ class KalmanNavigationFilterpy(FilteredNavigation):
         made.F[3:6, 6:15] = -h * addition
         noise = np.vstack([0.5 * h * np.eye(3), np.eye(3), np.zeros((9, 3))])
         made.Q = self.velocity_random_walk**2 * h * noise @ noise.T
+        if self.free_flight:
+            made.F[0:6, 6:15] = 0.0
+            made.Q[:] = 0.0
+        up, size = self.local_gradient()
+        upward = np.array([up.x, up.y, up.z])
+        gradient = size * (3.0 * np.outer(upward, upward) - np.eye(3))
+        made.F[0:3, 0:6] += 0.5 * h * h * np.hstack([gradient, 0.5 * h * gradient])
+        made.F[3:6, 0:6] += h * np.hstack([gradient, 0.5 * h * gradient])
         made.Q[6:9, 6:9] = self.bias_random_walk**2 * h * np.eye(3)
         made.predict()
         self.covariance = made.P.ravel()

@@ -18,7 +18,8 @@ class NoisyNavigation(Navigation):
     first estimate is the truth with errors of first_position_sigma and first_velocity_sigma. A
     sigma of 0 switches its sensor off; with both off the estimate is the truth. The slot's inputs
     for sensor blocks and its central gravity are not used: the sensors are inside, the Moon is flat. The
-    specific force itself is measured without error. Frame: landing site.
+    specific force itself is measured without error; in free flight it is 0, and process noise, which stands for
+    what is not modelled, goes on. Frame: landing site.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2 (discretised white acceleration noise).
     """
 
@@ -74,6 +75,8 @@ class NoisyNavigation(Navigation):
             q[7 * (i + 3)] = self.process_noise * h
         predict(self.estimate, self.covariance, f, q, 6)
         force = self.specific_force
+        if self.free_flight:
+            force = vector(0.0, 0.0, 0.0)
         acceleration = vector(force.x, force.y, force.z - self.gravity)
         for i in range(3):
             self.estimate[i] = self.estimate[i] + 0.5 * acceleration[i] * h * h

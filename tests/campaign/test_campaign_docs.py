@@ -11,7 +11,7 @@ from perilune.analysis.campaign.distributions import DISTRIBUTIONS
 from perilune.analysis.campaign.draws import draw_table
 from perilune.analysis.campaign.expressions import FUNCTIONS
 from perilune.analysis.campaign.faults import KEYS
-from perilune.analysis.campaign.file import REDUCTION_OF
+from perilune.analysis.campaign.file import REDUCTION_OF, SCATTER
 from perilune.analysis.system.faults import KINDS
 
 TEXT = (Path(__file__).parents[2] / "docs" / "campaigns.md").read_text(encoding="utf-8")
@@ -32,7 +32,7 @@ def test_the_example_is_a_campaign(parse):
 def test_every_word_is_documented():
     words = set(re.findall(r"[a-z_0-9]+", " ".join(re.findall(r"`([^`\n]+)`", TEXT))))
     keys = {key for arguments, _ in DISTRIBUTIONS.values() for key in arguments}
-    assert {*DISTRIBUTIONS, *keys, *REDUCTIONS, *REDUCTION_OF, *TRACES, *FUNCTIONS, *KINDS, *KEYS} <= words
+    assert {*DISTRIBUTIONS, *keys, *REDUCTIONS, *REDUCTION_OF, *TRACES, *FUNCTIONS, *KINDS, *KEYS, *SCATTER} <= words
 
 
 def test_the_faults_of_the_example_fly(fmus, tmp_path):

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from perilune.analysis.campaign.campaign import Scatter
 from perilune.analysis.campaign.file import read_campaign
 from perilune.analysis.errors import InputError
 
@@ -83,6 +84,14 @@ def test_everything_is_read(parse):
     assert read.success.names == {"miss"}
 
 
+def test_scatters_are_of_metrics(parse):
+    first = '[scatter.where]\nx = "miss"\ny = "miss"\ncircle = "2 * 5"\ntitle = "Where"\n'
+    second = '[scatter.plain]\nx = "settled"\ny = "at_gate"\n'
+    where, plain = parse(FULL + first + second).scatters
+    assert where == Scatter("where", "miss", "miss", 10.0, "Where")
+    assert plain == Scatter("plain", "settled", "at_gate")
+
+
 def test_variants_are_all_combinations(parse, campaign):
     variants = parse(FULL).variants()
     assert [variant.name for variant in variants] == ["g1__n1", "g1__n2", "g2__n1", "g2__n2"]
@@ -99,6 +108,10 @@ def test_replaced_trials_and_seed_are_checked_too(campaign):
 
 DRAW = '[draw.x]\ndistribution = "{}"\n'
 UNIFORM = DRAW.format("uniform") + "low = 0\nhigh = 1\n"
+UNITS = {"m": "1", "n": "kg"}
+PAIR = "".join(
+    f'[metric.{name}]\nexpression = "a.b"\nreduction = "min"\nunit = "{unit}"\n' for name, unit in UNITS.items()
+)
 METRIC = '[metric.m]\nexpression = "a.b"\nreduction = "{}"\n'
 
 
@@ -174,6 +187,15 @@ METRIC = '[metric.m]\nexpression = "a.b"\nreduction = "{}"\n'
         ('[record]\nsignals = ["a"]\n', "record.every: missing"),
         ('[record]\nevery = 0\nsignals = ["a"]\n', "record.every: 0 row(s)"),
         ("[record]\nfinals = 1\n", "record.finals: unknown key"),
+        (PAIR + '[scatter."a b"]\n', "scatter.a b: 'a b' is not a plain name"),
+        (PAIR + '[scatter.s]\nx = "m"\n', "scatter.s.y: missing"),
+        (PAIR + '[scatter.s]\nx = "m"\ny = "o"\n', "scatter.s.y: 'o' is not a metric; use one of m, n"),
+        (
+            PAIR + '[scatter.s]\nx = "m"\ny = "n"\nz = 1\n',
+            "scatter.s.z: unknown key; allowed here: x, y",
+        ),
+        (PAIR + '[scatter.s]\nx = "m"\ny = "m"\ncircle = 0\n', "scatter.s.circle: 0 is not a radius"),
+        (PAIR + '[scatter.s]\nx = "m"\ny = "n"\ncircle = 1\n', "scatter.s.circle: m is in 1, n in kg"),
     ],
 )
 def test_what_is_wrong_is_named_with_its_place(campaign, text, says):

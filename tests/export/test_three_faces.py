@@ -22,7 +22,8 @@ from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, element
 
 BLOCKS = [block for block in catalogue().values() if not block.python_only]
 STEPS = samples.size(1000)
-LONG = ("spherical_moon_lander",)  # which divides a step into hundreds where its drawn time constants are short
+# Two divide a step into hundreds where their drawn time constants are short, the third plans at most steps.
+LONG = ("attitude_moon_lander", "spherical_moon_lander", "hover_guidance")
 TYPES = ("Real", "Integer", "Boolean")
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import pyarrow.parquet
 import pytest
 
+from perilune.analysis.flight.results import Flight
 from tests.support.builders import component, connection, document, fly, pack, system
 
 RAMP = component("ramp", "ramp", "output y Real m; output flag Boolean; output count Integer")
@@ -107,3 +108,18 @@ def test_a_flight_without_rows_can_be_written(tiny_folder, tmp_path):
     found = json.loads(pyarrow.parquet.read_schema(tmp_path / "a.parquet").metadata[b"perilune"])
     assert (found["status"], found["rows"], found["end_time"]) == ("failed", 0, None)
     assert "division" in found["message"]
+
+
+def test_a_vector_by_its_own_name_and_a_wrong_one():
+    flight = Flight(
+        time=np.arange(2.0),
+        signals={"a.r[1]": np.array([1.0, 2.0]), "a.r[2]": np.array([3.0, 4.0]), "a.speed": np.zeros(2)},
+        types=dict.fromkeys(("a.r[1]", "a.r[2]", "a.speed"), "Real"),
+        status="finished",
+        message="",
+    )
+    assert flight["a.r"].tolist() == [[1.0, 3.0], [2.0, 4.0]]
+    assert flight["a.r[2]"].tolist() == [3.0, 4.0]
+    assert repr(flight) == "Flight(finished at t = 1 s, 2 rows, 3 signals)"
+    with pytest.raises(KeyError, match=r"no signal a\.sped; use one of a\.r, a\.r\[1\], a\.r\[2\], a\.speed"):
+        flight["a.sped"]

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from perilune.fmus_src.mathlib.gravity import altitude_of, central_gravity
+from perilune.fmus_src.mathlib.gravity import altitude_of, central_gravity, vertical_at
 from perilune.fmus_src.mathlib.vectors import vector
 
 RADIUS = 1.7374e6
@@ -50,3 +50,14 @@ def test_gravity_is_the_gradient_of_the_potential(position):
         for axis in np.eye(3)
     ]
     assert found == pytest.approx(np.array(slope), abs=4e-8 * np.linalg.norm(found))
+
+
+@given(positions)
+def test_the_vertical_is_against_gravity(position):
+    assume(np.linalg.norm(np.add(position, [0.0, 0.0, RADIUS])) > 1.0)
+    down = gravity_at(position)
+    assert np.array(vertical_at(vector(*position), RADIUS)) == pytest.approx(-down / np.linalg.norm(down), abs=1e-14)
+
+
+def test_at_the_centre_the_vertical_is_z():
+    assert vertical_at(vector(0.0, 0.0, -RADIUS), RADIUS) == vector(0.0, 0.0, 1.0)

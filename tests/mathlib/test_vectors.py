@@ -19,6 +19,7 @@ from perilune.fmus_src.mathlib.vectors import (
     Vector2,
     Vector3,
     Vector4,
+    across,
     add_along,
     all_below,
     clip,
@@ -26,6 +27,7 @@ from perilune.fmus_src.mathlib.vectors import (
     dot,
     is_finite,
     norm,
+    shortened,
     smallest_component,
     vector,
 )
@@ -180,3 +182,20 @@ def test_amounts_are_added_along_one_axis():
 def test_clip_is_the_nearest_value_between_the_bounds(value, low, width):
     high = low + width
     assert clip(value, low, high) == sorted([low, value, high])[1]
+
+
+@given(vectors, vectors.filter(lambda v: norm(v) > 1.0))
+def test_the_part_across_a_direction_is_perpendicular_and_the_rest_parallel(a, along):
+    direction = along / norm(along)
+    part = across(a, direction)
+    assert abs(dot(part, direction)) <= 8.0 * ROUNDING * norm(a)
+    assert norm(cross(a - part, direction)) <= 8.0 * ROUNDING * norm(a)
+
+
+@given(vectors, st.floats(0.0, 2e6))
+def test_a_shortened_vector_keeps_its_direction(a, longest):
+    found = shortened(a, longest)
+    assert norm(found) == pytest.approx(min(norm(a), longest), rel=1e-12)
+    assert norm(cross(found, a)) <= 8.0 * ROUNDING * norm(a) * norm(found)
+    if norm(a) <= longest:
+        assert found == a

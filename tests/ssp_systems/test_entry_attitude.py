@@ -156,9 +156,36 @@ def test_a_gust_and_a_change_of_density():
 
 
 @pytest.mark.slow
+def test_disturbed_air_over_the_cases():
+    """Another program: a gust takes attack to 2.3 and sideslip to 1.5 deg, else 1.0 and 0.9; density does nothing."""
+    flown = perilune.batch(SYSTEM, "disturbed_air")
+    found, air = flown.trials["default"], flown.plan.draws.columns["air"]
+    attack, sideslip = found.metrics["gust_attack"], found.metrics["gust_sideslip"]
+    assert [attack[air == 1].max(), sideslip[air == 1].max()] == pytest.approx([2.3, 1.5], abs=0.15)
+    for calm in (0, 2):
+        assert [attack[air == calm].max(), sideslip[air == calm].max()] == pytest.approx([1.0, 0.9], abs=0.1)
+    assert found.success.all()
+
+
+@pytest.mark.slow
+def test_dead_jets():
+    """Another program: any can be missed without a reversal (bank 2.3 deg); with one at 100 s those about x cannot."""
+    calm = perilune.batch(SYSTEM, "jet_failures", parameters=["no_reversal.ssv"]).trials["default"]
+    assert calm.success.all()
+    assert calm.metrics["upper_bank"].max() == pytest.approx(2.3, abs=0.1)
+    flown = perilune.batch(SYSTEM, "jet_failures", set={"programme.reversal_times[1]": 100.0})
+    rolled, jet = flown.trials["default"], flown.plan.draws.columns["jet"]
+    assert rolled.metrics["largest_rate"][jet == 1].max() > 40.0  # it cannot stop, deg/s
+    assert rolled.metrics["largest_rate"][jet == 2].max() < 4.0  # it does not turn
+    assert rolled.metrics["reversal_sideslip"][(jet == 3) | (jet == 4)].max() == pytest.approx(5.5, abs=0.2)
+    assert rolled.metrics["reversal_sideslip"][jet >= 5].max() < 1.4
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("campaign", "robust", "standard"),
-    [("thousand", 0.997, 0.2), ("thousand_tripled_noise", 0.99, 0.2), ("thousand_doubled", 0.9, 0.1)],
+    # standard with tripled noise has no figure elsewhere; it holds 216, since noise makes its relays switch sooner
+    [("thousand", 0.997, 0.2), ("thousand_tripled_noise", 0.99, 0.25), ("thousand_doubled", 0.9, 0.1)],
 )
 def test_a_thousand_cases(campaign, robust, standard):
     found = fly(campaign, ["robust_control", "standard_control"])

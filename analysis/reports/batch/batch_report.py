@@ -11,7 +11,10 @@ from ..kit.page import write_page
 from .distributions import distributions_figure, sort_metrics
 from .failures import failures_figure, telling_scores
 from .rates import rates_figure
+from .replays import extremes_to_replay, failures_to_replay
 from .rows import HEADINGS, group_rows, variant_rows
+from .scatters import scatter_figures
+from .seen_statuses import seen_statuses
 
 
 def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
@@ -33,7 +36,11 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         distributions=distributions_figure(result, drawn) if drawn else None,
         still=still,
         empty=empty,
+        scatters=scatter_figures(result),
         failures=failures_figure(result),
+        failed=failures_to_replay(result),
+        extremes=extremes_to_replay(result),
+        seen=seen_statuses(result),
         scores={variant: found for variant, found in scores.items() if found},
         drawn_names=[name for draw in campaign.draws for name in draw.names],
         draws=draw_rows(campaign),

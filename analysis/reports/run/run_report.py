@@ -11,8 +11,8 @@ import numpy as np
 from ...flight.results import Result
 from ..kit.page import write_page
 from ..kit.signals import SignalGroup, distinct, signal_groups
-from .declared import Figure
-from .own_figures import joint_findings, own_sections
+from ..own.asked.declared import Figure
+from ..own.own_figures import joint_findings, own_sections
 from .time_histories import time_histories
 from .trajectory import trajectory_figure
 
@@ -28,7 +28,7 @@ KEY_VECTORS = ("position", "velocity")
 def write_run_report(result: Result, path: Path, title: str, figures: Sequence[Figure] = ()) -> None:
     """Write one self-contained HTML page about a run; the same result gives the same bytes.
 
-    ``figures`` are those that the system asks for, see reading.py.
+    ``figures`` are those that the system asks for, see own/asked/reading.py.
     """
     trajectory = trajectory_figure(result)
     write_page(

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from perilune.analysis.reports.run.declared import Band, Error, Pulses, Signal
+from perilune.analysis.reports.own.asked.histories import Band, Error, Pulses
+from perilune.analysis.reports.own.asked.values import Signal
 from perilune.analysis.system.units import Unit
 from tests.support.pages.samples import run_result
 

@@ -1,6 +1,7 @@
 """Results made by hand, without flying: what the reports are given."""
 
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 
@@ -99,6 +100,8 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
     """A batch from (success, miss, tilt) of every trial by variant."""
     trials = len(next(iter(outcomes.values())))
     campaign = parse_campaign(Table(tomllib.loads(HEAD.format(trials=trials) + text), "test.toml"))
+    if list(outcomes) != ["default"]:
+        campaign = replace(campaign, compare={"guidance": tuple(outcomes)})
     names = [metric.name for metric in campaign.metrics]
     found = {
         variant: Trials(

@@ -1,0 +1,72 @@
+"""Where a command's results go: looked at before anything flies, written each for itself at the end."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Collection
+from pathlib import Path
+
+from ...errors import InputError
+
+RESULTS = ("trials.parquet", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json")
+
+
+def check_file(option: str, path: Path | None, suffixes: Collection[str] = ()) -> None:
+    """Refuse a file that cannot be written, before anything flies. Raises InputError."""
+    if path is None:
+        return
+    if suffixes and path.suffix not in suffixes:
+        raise InputError(option, str(path), f"neither {' nor '.join(suffixes)}", "end the name with one of them")
+    if path.is_dir():
+        raise InputError(option, str(path), "is a folder", "give the name of a file in it")
+    _check_folder(option, path.parent)
+    if path.exists() and not os.access(path, os.W_OK):
+        raise InputError(option, str(path), "cannot be written", "give another file, or change its permissions")
+
+
+def check_folder(option: str, path: Path | None, *, overwrite: bool) -> None:
+    """Refuse a folder that cannot be written, or that holds results unless ``overwrite``. Raises InputError."""
+    if path is None:
+        return
+    _check_folder(option, path)
+    held = [name for name in RESULTS if (path / name).exists()]
+    if held and not overwrite:
+        raise InputError(
+            option, str(path), f"holds results already ({', '.join(held)})", "give another, or --overwrite"
+        )
+
+
+def _check_folder(option: str, folder: Path) -> None:
+    """A folder that is there and can be written to, or that can be made."""
+    nearest = next(place for place in (folder, *folder.absolute().parents) if place.exists())
+    if not nearest.is_dir():
+        raise InputError(option, str(folder), f"{nearest} is a file", "give another folder")
+    if not os.access(nearest, os.W_OK | os.X_OK):
+        raise InputError(option, str(folder), f"{nearest} cannot be written to", "give another folder")
+
+
+class Results:
+    """What a command writes: one that cannot be written keeps no other from it."""
+
+    def __init__(self) -> None:
+        self.written: list[Path] = []
+        self.failed = False
+
+    def write(self, path: Path | None, write: Callable[[Path], object]) -> None:
+        """Write one file or folder, if it is asked for."""
+        if path is None:
+            return
+        try:
+            write(path)
+        except OSError as error:
+            self.failed = True
+            name = error.filename or path
+            print(f"perilune: {name}: {error.strerror or error}; give another path or make room", file=sys.stderr)
+        else:
+            self.written.append(path)
+
+    def say(self) -> None:
+        """Where the files are, on the terminal."""
+        if self.written:
+            print(f"written: {', '.join(map(str, self.written))}")

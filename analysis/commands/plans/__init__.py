@@ -1,0 +1,1 @@
+"""The plans of `perilune plan`, one a file."""

@@ -1,0 +1,119 @@
+"""perilune plan landing-bound: what braking and landing in one takes at least."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from dataclasses import replace
+from pathlib import Path
+
+from ...errors import InputError
+from ...planning.bounds import Landing
+from ...planning.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
+from ...planning.landing_study import LandingStudy, landing_study
+from ...planning.stored_bound import PLACE, write_bound
+from ...planning.vehicle import Vehicle
+from ...reports.plan.landing_page import write_landing_page
+from ...system.options import SystemOptions
+from ...system.prepared import PreparedSystem, prepare_system
+from ..common.options import add_json, add_system, check_json, system_options, write_json
+from ..common.targets import Results, check_file
+from .vehicle import add_vehicle, burns_text, check_vehicle, enough, given, number, whole
+
+HELP = "bound the propellant of braking and landing in one: a point mass, attitude free"
+VEHICLE = Vehicle(940.13, 440.0, 319.0, 5099.0, 0.0, math.inf)
+LANDING = Landing(285e3, 14995.3, 1692.342, 0.0, 4.0, 1.7374e6, 4.9028e12)
+PLACES = {
+    "range": "m along the ground from the site to the start",
+    "altitude": "m, of the start",
+    "speed": "m/s at the start",
+    "climb": "deg, of the velocity at the start above the horizontal",
+    "target_altitude": "m above the site, at rest",
+    "radius": "m, of the Moon",
+    "gravitational_parameter": "m3/s2, of the Moon",
+}
+SIGNED = ("climb", "target_altitude")
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    add_system(parser, needed=False)
+    add_vehicle(parser, VEHICLE)
+    group = parser.add_argument_group("landing")
+    for name, words in PLACES.items():
+        reader = number(-89.0, 89.0) if name == "climb" else number(0.0, above=name not in SIGNED)
+        group.add_argument(f"--{name.replace('_', '-')}", type=reader, metavar="X",
+                           help=f"{words}; default: {getattr(LANDING, name):g}")  # fmt: skip
+    parser.add_argument("--direct", action="store_true", help="check it by a direct method")
+    parser.add_argument("--intervals", type=whole, metavar="N", help="of both; default: 240")
+    parser.add_argument("--store", action="store_true", help="keep it in the system's folder, for the pages of flights")
+    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
+    add_json(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    check_file("--report", options.report)
+    check_json(options)
+    if options.system is None and system_options(options) != SystemOptions():
+        raise InputError("landing-bound", "system options", "there is no system that they are for", "name a system")
+    prepared = None if options.system is None else prepare_system(options.system, system_options(options))
+    inputs = None if prepared is None else _inputs(prepared)
+    single, places = given(options), given(options, PLACES)
+    _check_store(options, prepared, [*single, *places])
+    base = (VEHICLE, LANDING) if prepared is None or inputs is None else landing_of(inputs, prepared.archive.label)
+    if "climb" in places:
+        places["climb"] = math.radians(places["climb"])
+    study = landing_study(
+        check_vehicle(replace(base[0], **single)),
+        replace(base[1], **places),
+        direct=options.direct,
+        intervals=options.intervals,
+        pieces=pieces_of(inputs, prepared.archive.label) if prepared and inputs and not (single or places) else None,
+    )
+    files = Results()
+    if not write_json(study.document(), options.json, files):
+        print("\n".join(_lines(study)))
+    files.write(options.report, lambda path: write_landing_page(study, path))
+    if options.store and prepared is not None and inputs is not None:
+        content, folder = study.stored(inputs), prepared.archive.path
+        files.write(folder / PLACE, lambda _: write_bound(content, folder))
+    if options.json != "-":
+        files.say()
+    return 2 if files.failed else enough(study.vehicle, study.propellant, "the bound")
+
+
+def _inputs(prepared: PreparedSystem) -> Inputs:
+    found = read_inputs(prepared)
+    if found is None:
+        problem = f"no annotation {ANNOTATION}: it does not say what its landing's bound is made of"
+        raise InputError(prepared.network.file, "Annotations", problem, "add one, see docs/planning.md")
+    return found
+
+
+def _check_store(options: argparse.Namespace, prepared: PreparedSystem | None, single: list[str]) -> None:
+    """A stored bound is that of the system as its files say, in a folder that can hold it."""
+    if not options.store:
+        return
+    if prepared is None:
+        raise InputError("--store", "", "no system to store it with", "name a system")
+    if not prepared.archive.path.is_dir():
+        raise InputError("--store", str(prepared.archive.path), "not a folder", "unpack the .ssp and name its folder")
+    if single:
+        option = f"--{single[0].replace('_', '-')}"
+        raise InputError("--store", option, "a stored bound is that of the system's own values", "leave one out")
+
+
+def _lines(study: LandingStudy) -> list[str]:
+    bound = study.bound
+    lines = [
+        f"bound {study.propellant:.3f} kg of {study.vehicle.mass:g} kg in {bound.duration:.2f} s "
+        f"({bound.throttle.size} intervals); {burns_text(bound.burns())}",
+        f"  thrust is that of the convex form to {study.looseness:.1g} m/s2",
+    ]
+    lines += [f"  {name} by itself {propellant:.3f} kg" for name, propellant in study.pieces.items()]
+    if study.direct is not None:
+        propellant = study.direct.propellant_fraction * study.vehicle.mass
+        off = propellant - study.propellant
+        lines.append(
+            f"direct method {propellant:.3f} kg in {study.direct.duration:.2f} s, {off:+.1e} kg from the bound"
+        )
+    return lines

@@ -1,0 +1,180 @@
+"""The point-mass problem at a fixed time as a sequence of convex ones: second-order cones, solved by Clarabel.
+
+Size of thrust acceleration s >= |u| in place of s = |u|, logarithm of the mass ratio z in place of the mass (Acikmese
+and Ploen 2007, "Convex programming approach to powered descent guidance for Mars landing"); thrust limits and gravity
+are expanded about the last solution until nothing changes.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+
+from .path import OFF, PlannedPath
+from .point_mass import PointMassProblem
+from .solvers import clarabel
+
+SOLVES = 12  # three to six are needed
+CHANGE = 1e-7  # of the propellant fraction between two solves
+TOLERANCE = 1e-10
+
+
+@dataclass(frozen=True)
+class PointMassPath:
+    """A solution over ``time`` (s), N + 1 points: ``position`` (m) and ``velocity`` (m/s), a row each, and
+    ``log_mass``, ln of mass over the mass at the start; over each of the N intervals the ``thrust_acceleration`` (m/s2)
+    is constant, and ``size`` is what it was held to in the convex form.
+    """
+
+    time: np.ndarray
+    position: np.ndarray
+    velocity: np.ndarray
+    log_mass: np.ndarray
+    thrust_acceleration: np.ndarray
+    size: np.ndarray
+
+    @property
+    def propellant_fraction(self) -> float:
+        """Propellant over the mass at the start."""
+        return -math.expm1(self.log_mass[-1])
+
+    @property
+    def looseness(self) -> float:
+        """Largest s - |u| (m/s2): near 0, and the convex form has the solutions of the problem itself."""
+        return float(np.max(self.size - np.linalg.norm(self.thrust_acceleration, axis=1)))
+
+    def planned(self, problem: PointMassProblem) -> PlannedPath:
+        """How it goes, for pages and tables."""
+        force = self.thrust_acceleration
+        throttle = self.size / problem.most * np.exp((self.log_mass[1:] + self.log_mass[:-1]) / 2.0)
+        pitch = np.where(throttle > OFF, np.arctan2(force[:, 1], force[:, 0]), np.nan)
+        return PlannedPath(self.time, self.position, self.velocity, -np.expm1(self.log_mass), throttle, pitch)
+
+
+def solve_fixed_time(
+    problem: PointMassProblem, duration: float, intervals: int, near: PointMassPath | None = None
+) -> PointMassPath | None:
+    """The least propellant in ``duration`` (s) with so many intervals; None where there is no way in that time.
+
+    ``near``, a solution with as many intervals for another time, is expanded about first, in place of straight lines.
+    """
+    if near is None:
+        share = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
+        ends = np.array([problem.start_position, problem.end_position])
+        position = (1.0 - share) * ends[0] + share * ends[1]
+        log_mass = -share[:, 0] * problem.most * duration / (2.0 * problem.exhaust_speed)
+    else:
+        position, log_mass = near.position, near.log_mass
+    last = math.inf
+    for _ in range(SOLVES):
+        path = _solve(problem, duration, position, log_mass)
+        if path is None or abs(path.propellant_fraction - last) <= CHANGE:
+            return path
+        last, position, log_mass = path.propellant_fraction, path.position, path.log_mass
+    return None
+
+
+class _Layout:
+    """Where the unknowns lie: r, v (N + 1 rows), z (N + 1), u (N rows), s (N), in scaled units."""
+
+    def __init__(self, intervals: int, axes: int) -> None:
+        points = intervals + 1
+        sizes = {"r": points * axes, "v": points * axes, "z": points, "u": intervals * axes, "s": intervals}
+        self.total = sum(sizes.values())
+        self.blocks: dict[str, sparse.csr_array] = {}
+        identity = sparse.eye_array(self.total, format="csr")
+        start = 0
+        for name, size in sizes.items():
+            self.blocks[name] = identity[start : start + size]
+            start += size
+
+
+def _solve(
+    problem: PointMassProblem, duration: float, about: np.ndarray, log_about: np.ndarray
+) -> PointMassPath | None:
+    """One convex problem, expanded about a path; scaled by length, speed and what follows from them."""
+    intervals, axes = about.shape[0] - 1, about.shape[1]
+    unit = problem.speed**2 / problem.length
+    h = duration / intervals * problem.speed / problem.length
+    exhaust = problem.exhaust_speed / problem.speed
+    layout = _Layout(intervals, axes)
+    r, v, z, u, s = (layout.blocks[name] for name in "rvzus")
+    here = sparse.eye_array(intervals, intervals + 1, format="csr")
+    there = sparse.eye_array(intervals, intervals + 1, k=1, format="csr")
+    before, after = (sparse.kron(matrix, sparse.eye_array(axes), format="csr") for matrix in (here, there))
+
+    gradient = problem.gravity.gradient(about) * (problem.length / unit)
+    field = sparse.block_diag(list(gradient), format="csr")
+    pull = np.stack(problem.gravity.at(about[:, 0], about[:, 1]), axis=1)
+    constant = pull.ravel() / unit - field @ (about.ravel() / problem.length)
+    mean = sparse.csr_array(before / 3.0 + after / 6.0)
+    half = sparse.csr_array((before + after) / 2.0)
+    equal: list[tuple[Any, Any]] = [
+        ((after - before) @ r - h * before @ v - h**2 / 2.0 * u - h**2 * mean @ field @ r, h**2 * mean @ constant),
+        ((after - before) @ v - h * u - h * half @ field @ r, h * half @ constant),
+        ((there - here) @ z + (h / exhaust) * s, np.zeros(intervals)),
+        (z[:1], np.zeros(1)),
+        (r[:axes], np.array(problem.start_position) / problem.length),
+        (r[-axes:], np.array(problem.end_position) / problem.length),
+        (v[:axes], np.array(problem.start_velocity) / problem.speed),
+        (v[-axes:], np.array(problem.end_velocity) / problem.speed),
+    ]
+
+    middle = (here + there) @ log_about / 2.0
+    ratio = np.exp(-middle)  # of the mass at the start to that in the middle of an interval
+    away = sparse.csr_array((here + there) / 2.0) @ z  # y = away z - middle
+    most = problem.most / unit * ratio
+    below = [(s + sparse.diags_array(most) @ away, most * (1.0 + middle))]
+    cones: list[tuple[Any, Any]] = [(_interleaved([s, *(u[axis::axes] for axis in range(axes))]), None)]
+    kinds = [clarabel().SecondOrderConeT(1 + axes)] * intervals
+    if problem.least > 0.0:
+        # q = s/(a1 e) - 1 + y >= y^2/2, as the cone |(y, q - 1/2)| <= q + 1/2
+        q = sparse.diags_array(unit / (problem.least * ratio)) @ s + away
+        offset = 1.0 + middle
+        cones.append((_interleaved([q, q, away]), -np.stack([offset - 0.5, offset + 0.5, middle], axis=1).ravel()))
+        kinds += [clarabel().SecondOrderConeT(3)] * intervals
+
+    rows = [matrix for matrix, _ in equal + below] + [-matrix for matrix, _ in cones]
+    right = [value for _, value in equal + below]
+    right += [np.zeros(matrix.shape[0]) if value is None else value for matrix, value in cones]
+    equalities = sum(matrix.shape[0] for matrix, _ in equal)
+    cost = np.asarray((h / exhaust) * s.sum(axis=0)).ravel()
+    found = _clarabel(
+        cost, rows, right, [clarabel().ZeroConeT(equalities), clarabel().NonnegativeConeT(intervals), *kinds]
+    )
+    if found is None:
+        return None
+    return PointMassPath(
+        np.linspace(0.0, duration, intervals + 1),
+        (r @ found).reshape(-1, axes) * problem.length,
+        (v @ found).reshape(-1, axes) * problem.speed,
+        z @ found,
+        (u @ found).reshape(-1, axes) * unit,
+        (s @ found) * unit,
+    )
+
+
+def _interleaved(parts: list[Any]) -> sparse.csr_array:
+    """First rows of all parts, then second rows, and so on: one cone after another."""
+    count = parts[0].shape[0]
+    order = np.arange(count * len(parts)).reshape(len(parts), count).T.ravel()
+    return sparse.csr_array(sparse.vstack(parts, format="csr")[order])
+
+
+def _clarabel(cost: np.ndarray, rows: list[Any], right: list[np.ndarray], cones: list[Any]) -> np.ndarray | None:
+    """The minimiser of cost . x with right - rows x in the cones; None where there is none."""
+    settings = clarabel().DefaultSettings()
+    settings.verbose = False
+    settings.tol_feas = settings.tol_gap_abs = settings.tol_gap_rel = TOLERANCE
+    matrix = sparse.csc_matrix(sparse.vstack(rows, format="csc"))
+    nothing = sparse.csc_matrix((cost.size, cost.size))
+    solver = clarabel().DefaultSolver(nothing, cost, matrix, np.concatenate(right), cones, settings)
+    solution = solver.solve()
+    status = str(solution.status)
+    if status not in ("Solved", "AlmostSolved"):
+        return None
+    return np.array(solution.x)

@@ -1,0 +1,49 @@
+"""The time in which least propellant is needed: the point-mass problem over its duration."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from .convex_form import PointMassPath, solve_fixed_time
+from .path import PlanError
+from .point_mass import PointMassProblem
+
+COARSE = 40  # intervals of the search's first look
+GROWTH = 1.3  # from one time of it to the next
+FIRST, LAST = -8, 11  # times from 1/8 to 18 times the natural one
+ACCURACY = 1e-2  # s; the propellant is flat there
+
+
+def least_propellant(problem: PointMassProblem, intervals: int) -> PointMassPath:
+    """The best path over all durations; raises `PlanError`."""
+    first, last = _bracket(problem)
+
+    found: dict[float, PointMassPath] = {}
+
+    def propellant(duration: float) -> float:
+        nearest = min(found, key=lambda other: abs(other - duration), default=None)
+        path = solve_fixed_time(problem, duration, intervals, None if nearest is None else found[nearest])
+        if path is None:
+            return 1.0
+        found[duration] = path
+        return path.propellant_fraction
+
+    best = minimize_scalar(propellant, bounds=(first, last), method="bounded", options={"xatol": ACCURACY})
+    if best.x not in found:
+        raise PlanError(f"bound: no solution on {intervals} intervals near {best.x:.2f} s")
+    return found[best.x]
+
+
+def _bracket(problem: PointMassProblem) -> tuple[float, float]:
+    """Durations (s) on both sides of the best, from coarse solutions at growing ones until it rises."""
+    times = problem.natural_time * GROWTH ** np.arange(FIRST, LAST + 1)
+    best, least = None, 1.0
+    for index, time in enumerate(times):
+        path = solve_fixed_time(problem, float(time), COARSE)
+        value = 1.0 if path is None else path.propellant_fraction
+        if value < least:
+            best, least = index, value
+        elif best is not None:
+            return float(times[max(0, best - 1)]), float(time)
+    raise PlanError(f"bound: the vehicle cannot do it in any time from {times[0]:.3g} to {times[-1]:.3g} s")

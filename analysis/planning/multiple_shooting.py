@@ -1,0 +1,88 @@
+"""Direct multiple shooting of a free-time problem: controls constant over equal intervals, one Runge-Kutta step each.
+
+The states at the ends of all intervals are unknowns, too, and IPOPT (Waechter and Biegler 2006) solves the sparse
+nonlinear programme that remains; CasADi (Andersson et al. 2019) writes it and its derivatives down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .path import PlanError
+from .solvers import casadi
+
+TOLERANCE = 1e-9
+ITERATIONS = 1000
+
+
+@dataclass(frozen=True)
+class ShootingProblem:
+    """Least last state, from ``start`` to ``end`` (nan: free) in free time. All states and controls are scaled.
+
+    ``rate`` gives the derivative of the states (a CasADi vector) by time in s from states and controls;
+    ``low`` and ``high`` bound the controls.
+    """
+
+    rate: Callable[[Any, Any], Any]
+    start: np.ndarray
+    end: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+
+@dataclass(frozen=True)
+class Shooting:
+    """States at the N + 1 ends of intervals and controls over the N intervals, a row each; ``duration`` in s."""
+
+    duration: float
+    states: np.ndarray
+    controls: np.ndarray
+
+
+def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
+    """Solve a problem on as many intervals as the guess has; raises `PlanError`."""
+    ca = casadi()
+    intervals = guess.controls.shape[0]
+    x, u, t = ca.SX.sym("x", problem.start.size), ca.SX.sym("u", problem.low.size), ca.SX.sym("t")
+    h = t / intervals
+    k1 = problem.rate(x, u)
+    k2 = problem.rate(x + h / 2.0 * k1, u)
+    k3 = problem.rate(x + h / 2.0 * k2, u)
+    k4 = problem.rate(x + h * k3, u)
+    step = ca.Function("step", [x, u, t], [x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)])
+
+    states = ca.MX.sym("X", problem.start.size, intervals + 1)
+    controls = ca.MX.sym("U", problem.low.size, intervals)
+    time = ca.MX.sym("T")
+    ends = step.map(intervals)(states[:, :-1], controls, ca.repmat(time, 1, intervals))
+    unknowns = ca.vertcat(time, ca.vec(states), ca.vec(controls))
+    defects = ca.vec(states[:, 1:] - ends)
+    options = {
+        "print_time": False,
+        "ipopt": {"tol": TOLERANCE, "max_iter": ITERATIONS, "print_level": 0, "sb": "yes"},
+    }
+    solver = ca.nlpsol("plan", "ipopt", {"x": unknowns, "f": states[-1, -1], "g": defects}, options)
+
+    lowest = np.full((intervals + 1, problem.start.size), -np.inf)
+    highest = -lowest
+    lowest[0] = highest[0] = problem.start
+    fixed = ~np.isnan(problem.end)
+    lowest[-1, fixed] = highest[-1, fixed] = problem.end[fixed]
+    found = solver(
+        x0=np.concatenate([[guess.duration], guess.states.ravel(), guess.controls.ravel()]),
+        lbx=np.concatenate([[0.2 * guess.duration], lowest.ravel(), np.tile(problem.low, intervals)]),
+        ubx=np.concatenate([[5.0 * guess.duration], highest.ravel(), np.tile(problem.high, intervals)]),
+        lbg=0.0,
+        ubg=0.0,
+    )
+    if not solver.stats()["success"]:
+        raise PlanError(f"direct method on {intervals} intervals: IPOPT ended with {solver.stats()['return_status']}")
+    values = np.array(found["x"]).ravel()
+    cut = 1 + guess.states.size
+    return Shooting(
+        float(values[0]), values[1:cut].reshape(guess.states.shape), values[cut:].reshape(guess.controls.shape)
+    )

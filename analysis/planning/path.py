@@ -1,0 +1,64 @@
+"""How a plan goes, whatever made it: what pages and tables show of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+OFF = 0.02  # of the way from least to full throttle: where an interval counts as part of a burn
+ALL = 1.0 - 1e-6  # from where on it counts as all of it
+
+
+class PlanError(Exception):
+    """There is no plan of the kind that is asked for; the message says which and why."""
+
+
+@dataclass(frozen=True)
+class PlannedPath:
+    """A plan at N + 1 times (s) and over the N intervals between them.
+
+    ``position`` (m) and ``velocity`` (m/s), a row each, along and up; ``propellant`` over the mass at the start. Over
+    each interval ``throttle``, the share of the engine's largest thrust, and ``pitch`` (rad), the angle of thrust from
+    the first axis in its middle, nan where there is no thrust.
+    """
+
+    time: np.ndarray
+    position: np.ndarray
+    velocity: np.ndarray
+    propellant: np.ndarray
+    throttle: np.ndarray
+    pitch: np.ndarray
+
+    @property
+    def duration(self) -> float:
+        """In s."""
+        return float(self.time[-1])
+
+    @property
+    def propellant_fraction(self) -> float:
+        """Propellant over the mass at the start."""
+        return float(self.propellant[-1])
+
+    @property
+    def middle(self) -> np.ndarray:
+        """The middles of the intervals, s."""
+        return (self.time[1:] + self.time[:-1]) / 2.0
+
+    def burns(self) -> list[tuple[float, float]]:
+        """Begin and end (s) of every stretch above least throttle; an interval that is partly one is divided so."""
+        low, high = float(self.throttle.min()), float(self.throttle.max())
+        if not high > low:
+            return [(float(self.time[0]), self.duration)]
+        share = (self.throttle - low) / (high - low)
+        share[share > ALL] = 1.0
+        burning = np.concatenate([[False], share > OFF, [False]])
+        edges = np.flatnonzero(burning[1:] != burning[:-1]).reshape(-1, 2)
+        step = np.diff(self.time)
+        found = []
+        for first, after in edges:
+            idle = (1.0 - share[[first, after - 1]]) * step[[first, after - 1]]
+            if after - first == 1:  # where in its interval such a burn lies nobody knows
+                idle /= 2.0
+            found.append((float(self.time[first] + idle[0]), float(self.time[after] - idle[1])))
+        return found

@@ -1,0 +1,71 @@
+"""What a bound is asked of: a point mass that points its thrust at will, flying in a plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class UniformGravity:
+    """``value`` (m/s2) downwards everywhere."""
+
+    value: float
+
+    def at(self, x: Any, y: Any) -> tuple[Any, Any]:
+        """Gravity (m/s2) along and up at places (m): numbers, arrays or CasADi's symbols."""
+        return 0.0 * x, 0.0 * y - self.value
+
+    def gradient(self, position: np.ndarray) -> np.ndarray:
+        """Its derivative by position (1/s2) as matrices, one for each row of ``position`` (m)."""
+        return np.zeros((position.shape[0], 2, 2))
+
+
+@dataclass(frozen=True)
+class CentralGravity:
+    """Of a Moon whose centre lies ``radius`` (m) below the origin; ``parameter`` is its gravitational one (m3/s2)."""
+
+    parameter: float
+    radius: float
+
+    def at(self, x: Any, y: Any) -> tuple[Any, Any]:
+        """Gravity (m/s2) along and up at places (m): numbers, arrays or CasADi's symbols."""
+        up = y + self.radius
+        pull = self.parameter / (x**2 + up**2) ** 1.5
+        return -pull * x, -pull * up
+
+    def gradient(self, position: np.ndarray) -> np.ndarray:
+        """Its derivative by position (1/s2) as matrices, one for each row of ``position`` (m): mu/r^3 (3 u u' - 1)."""
+        arm = np.add(position, (0.0, self.radius))
+        distance = np.linalg.norm(arm, axis=1)[:, np.newaxis, np.newaxis]
+        up = arm[:, :, np.newaxis] / distance
+        return self.parameter / distance**3 * (3.0 * up * up.transpose(0, 2, 1) - np.eye(2))
+
+
+@dataclass(frozen=True)
+class PointMassProblem:
+    """From one state to another on least propellant, attitude free. Positions (m) and velocities (m/s) along and up.
+
+    ``exhaust_speed`` in m/s; ``least`` and ``most`` are the engine's thrust limits over the mass at the start, m/s2.
+    ``length`` (m) and ``speed`` (m/s) are the scales in which it is solved.
+    """
+
+    start_position: tuple[float, float]
+    start_velocity: tuple[float, float]
+    end_position: tuple[float, float]
+    end_velocity: tuple[float, float]
+    gravity: UniformGravity | CentralGravity
+    exhaust_speed: float
+    least: float
+    most: float
+    length: float
+    speed: float
+
+    @property
+    def natural_time(self) -> float:
+        """A time (s) of the order of the one that costs least: at mean speed, or at full thrust from rest."""
+        way = float(np.hypot(*np.subtract(self.end_position, self.start_position)))
+        speeds = float(np.hypot(*self.start_velocity) + np.hypot(*self.end_velocity))
+        return min(2.0 * way / speeds if speeds > 0.0 else np.inf, 2.0 * (2.0 * way / self.most) ** 0.5)

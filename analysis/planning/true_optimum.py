@@ -1,0 +1,72 @@
+"""The hover transfer without the simplified programme's form: throttle and angular acceleration free in their limits.
+
+Direct multiple shooting, started from the simplified programme. The tangent law is a singular arc of second order in
+the angular acceleration, which is therefore bang-bang at the ends of the arcs, in a way that follows the grid.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from .multiple_shooting import Shooting, ShootingProblem, shoot
+from .path import PlannedPath
+from .programme import Programme
+from .solvers import casadi
+
+RATE = 0.1  # rad/s, the scale of the pitch's rate; pitch itself is not scaled
+SHARE = 0.05  # the scale of the propellant over the mass at the start
+
+
+def find_true_optimum(programme: Programme, intervals: int, engine: float) -> PlannedPath:
+    """The optimum with the programme's vehicle, on so many equal intervals; raises `PlanError`.
+
+    ``engine`` is the thrust (N) that counts as full throttle. Source of the problem: Huang 2017.
+    """
+    vehicle, transfer, ca = programme.vehicle, programme.transfer, casadi()
+    length = max(transfer.distance, transfer.descent) / 2.0
+    speed = 0.4 * math.sqrt(2.0 * vehicle.full * length)
+    scale = np.array([length, speed, length, speed, 1.0, RATE, SHARE])  # x, x', y, y', pitch, its rate, propellant
+
+    def rate(x: Any, u: Any) -> Any:
+        push = vehicle.full * u[0] / (1.0 - SHARE * x[6])
+        return ca.vertcat(
+            speed / length * x[1],
+            push * ca.cos(x[4]) / speed,
+            speed / length * x[3],
+            (push * ca.sin(x[4]) - transfer.gravity) / speed,
+            RATE * x[5],
+            vehicle.angular_acceleration / RATE * u[1],
+            vehicle.full / vehicle.exhaust_speed / SHARE * u[0],
+        )
+
+    upright = 0.5 * math.pi
+    problem = ShootingProblem(
+        rate,
+        start=np.array([0.0, 0.0, 0.0, 0.0, upright, 0.0, 0.0]) / scale,
+        end=np.array([transfer.distance, 0.0, -transfer.descent, 0.0, upright, 0.0, np.nan]) / scale,
+        low=np.array([vehicle.least / vehicle.full, -1.0]),
+        high=np.array([1.0, 1.0]),
+    )
+    found = shoot(problem, _guess(programme, intervals, scale))
+    states = found.states * scale
+    return PlannedPath(
+        time=np.linspace(0.0, found.duration, intervals + 1),
+        position=states[:, [0, 2]],
+        velocity=states[:, [1, 3]],
+        propellant=states[:, 6],
+        throttle=found.controls[:, 0] * vehicle.maximum_thrust / engine,
+        pitch=(states[1:, 4] + states[:-1, 4]) / 2.0,
+    )
+
+
+def _guess(programme: Programme, intervals: int, scale: np.ndarray) -> Shooting:
+    """The programme at equal times."""
+    time = np.linspace(0.0, programme.duration, intervals + 1)
+    motion, rest = programme.states(time)
+    throttle = programme.thrust((time[1:] + time[:-1]) / 2.0) / programme.vehicle.maximum_thrust
+    turn = np.diff(rest[:, 1]) / np.diff(time) / programme.vehicle.angular_acceleration
+    controls = np.stack([throttle, np.clip(turn, -1.0, 1.0)], axis=1)
+    return Shooting(programme.duration, np.concatenate([motion, rest], axis=1) / scale, controls)

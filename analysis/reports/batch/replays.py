@@ -1,0 +1,105 @@
+"""Trials that are worth flying again, and the command that does."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+
+import numpy as np
+from markupsafe import Markup
+
+from ...batch.results import BatchResult
+from ...campaign.campaign import Variant
+from ...campaign.plan import BatchPlan
+from ...system.options import SystemOptions
+from ..kit.page import exact
+from ..kit.quantities import shown_unit
+
+FAILURES = 3  # of a variant, the first ones
+
+
+@dataclass(frozen=True)
+class Replay:
+    """A trial of a variant, why it is worth a look, and the command line that flies it again."""
+
+    variant: str
+    trial: int
+    reasons: list[Markup]
+    command: str
+
+
+def failures_to_replay(result: BatchResult) -> list[Replay]:
+    """The first failures of each variant."""
+    return _replays(result, _failures)
+
+
+def extremes_to_replay(result: BatchResult) -> list[Replay]:
+    """Where a metric of a variant is largest, each trial once."""
+    return _replays(result, _extremes)
+
+
+def _replays(result: BatchResult, choose: Callable[[BatchResult, str], list[tuple[int, Markup]]]) -> list[Replay]:
+    found: list[Replay] = []
+    for variant in result.plan.campaign.variants():
+        own: dict[int, list[Markup]] = {}
+        for trial, reason in choose(result, variant.name):
+            own.setdefault(trial, []).append(reason)
+        found += [
+            Replay(variant.name, trial, reasons, replay_command(result.plan, variant, trial))
+            for trial, reasons in own.items()
+        ]
+    return found
+
+
+def _failures(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
+    trials = result.trials[variant]
+    rows = np.flatnonzero(~np.asarray(trials.success, dtype=bool))[:FAILURES]
+    return [(int(trials.trial[row]), Markup("{}").format(trials.statuses[row])) for row in rows]
+
+
+def _extremes(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
+    """Where a metric is largest, unless several trials share that value."""
+    trials = result.trials[variant]
+    found = []
+    for metric in result.plan.campaign.metrics:
+        values = np.where(np.isnan(trials.metrics[metric.name]), -np.inf, trials.metrics[metric.name])
+        (rows,) = np.nonzero(values == values.max())
+        if rows.size == 1:
+            largest = exact(float(values[rows[0]]), metric.unit)
+            reason = Markup("{}: {} {}").format(metric.name, largest, shown_unit(metric.unit))
+            found.append((int(trials.trial[rows[0]]), reason))
+    return found
+
+
+def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
+    """The command line that flies one trial of one variant again, with the options of the batch."""
+    campaign, options = plan.campaign, plan.options
+    inside = campaign.file.partition("!")[2]  # of a system's own campaign
+    words = ["perilune", "batch", plan.system, "--campaign", PurePosixPath(inside).stem if inside else campaign.file]
+    words += ["--trials", str(campaign.trials), "--seed", str(campaign.seed)]
+    words += [word for name, fmu in variant.use.items() for word in ("--compare", f"{name}={fmu}")]
+    words += [word for option, text in _options(options) for word in (option, text)]
+    words += [word for fault in plan.faults for word in ("--fault", str(fault))]
+    words += ["--allow-unmatched"] if options.allow_unmatched else []
+    return shlex.join([*words, "--replay", str(trial)])
+
+
+def _options(options: SystemOptions) -> list[tuple[str, str]]:
+    """What the user asked of the system, as options with their values; nothing that is so anyway."""
+    found = [("--use", f"{slot}={fmu}") for slot, fmu in options.use.items()]
+    found += [("--parameters", name) for name in options.parameters]
+    found += [
+        ("--set", f"{name}={str(value).lower() if isinstance(value, bool) else value}")
+        for name, value in options.set.items()
+    ]
+    found += [("--no-feedthrough", component) for component in options.no_feedthrough]
+    single = {
+        "--step": None if options.step is None else repr(options.step),
+        "--stop-time": None if options.stop_time is None else repr(options.stop_time),
+        "--variant": options.variant,
+        "--flavour": options.flavour,
+        "--algorithm": options.algorithm if options.algorithm != SystemOptions.algorithm else None,
+    }
+    return found + [(option, value) for option, value in single.items() if value is not None]

@@ -1,0 +1,1 @@
+"""The figures that a system asks for of its run, drawn."""

@@ -1,0 +1,1 @@
+"""What figures a system asks for: its annotation, read into plain values."""

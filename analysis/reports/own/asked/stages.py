@@ -1,0 +1,87 @@
+"""Figures of a flight that goes through phases: when each was, what it used up, and what is so at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from .values import Own, Signal
+
+LANDING = "landing"
+
+
+@dataclass(frozen=True)
+class Phase:
+    """What the sequencer's ``value`` is called.
+
+    Where several have one value they follow each other, and each but the last ends at the first row in which its
+    ``until`` is not 0.
+    """
+
+    value: int
+    name: str
+    until: Signal | None
+
+
+@dataclass(frozen=True)
+class Phases(Own):
+    """The phases that an Integer ``signal`` tells.
+
+    What a phase uses up is by how much ``spent`` falls over it. ``status`` is an Integer whose first rises are marked;
+    or the elements of ``status_times`` (s) are the times at which statuses 1, 2 ... were there first, below 0 for
+    never. ``meanings`` say a status in words.
+    """
+
+    signal: Signal
+    phases: tuple[Phase, ...]
+    spent: Signal | None
+    status: Signal | None
+    status_times: Signal | None
+    meanings: Mapping[int, str]
+
+
+@dataclass(frozen=True)
+class Limit:
+    """What a scalar may be at the end of the run: from ``least`` to ``most`` in its unit, None for no limit."""
+
+    signal: Signal
+    name: str
+    least: float | None
+    most: float | None
+
+
+@dataclass(frozen=True)
+class Limits(Own):
+    """Limits that hold at the end of the run."""
+
+    limits: tuple[Limit, ...]
+
+
+@dataclass(frozen=True)
+class BoundValues:
+    """What no flight can beat: propellant (kg) of braking and landing in one, `LANDING`, and of pieces of it, by
+    ``names``; where the ``values`` are not there ``missing`` says why, and what to do.
+    """
+
+    names: tuple[str, ...]
+    values: Mapping[str, float]
+    missing: str = ""
+
+
+@dataclass(frozen=True)
+class Item:
+    """A row of a budget: what ``phases`` used up, and numbers of the bound that are added and taken off."""
+
+    name: str
+    phases: tuple[str, ...]
+    plus: tuple[str, ...]
+    minus: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Budget(Own):
+    """What was used up, item by item, in ``unit``; ``of`` are the phases that the items name."""
+
+    of: Phases
+    items: tuple[Item, ...]
+    bound: BoundValues | None

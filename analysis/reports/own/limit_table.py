@@ -1,0 +1,71 @@
+"""What was at the end of the run against its limits."""
+
+from __future__ import annotations
+
+from markupsafe import Markup
+
+from ...flight.results import Result
+from ..kit.page import exact
+from ..kit.quantities import shown_unit
+from .asked.stages import Limit, Limits
+from .section import Section, Table, sentence
+
+VERDICTS = {
+    True: Markup('<span class="verdict pass">kept</span>'),
+    False: Markup('<span class="verdict fail">not kept</span>'),
+}
+
+
+def is_kept(limit: Limit, result: Result) -> bool:
+    """Whether the last row keeps a limit, the limit itself included; what is not finite does not."""
+    value = _last(limit, result)
+    above = limit.least is None or value >= limit.least
+    below = limit.most is None or value <= limit.most
+    return above and below and abs(value) < float("inf")
+
+
+def _last(limit: Limit, result: Result) -> float:
+    return float(limit.signal.values(result)[0, -1])
+
+
+def limit_section(limits: Limits, result: Result) -> Section:
+    """The table of limits, and how many of them are kept."""
+    broken = [limit.name for limit in limits.limits if not is_kept(limit, result)]
+    count = len(limits.limits)
+    words = Markup("not kept: {}").format(", ".join(broken)) if broken else Markup("all {} kept").format(count)
+    return Section(
+        title=limits.title,
+        table=Table(
+            heads=("", "at the end", "limit", "unit", ""),
+            rows=[_row(limit, result) for limit in limits.limits],
+            numbers=(1, 2),
+        ),
+        findings=[sentence(words)],
+        notes=[Markup("{}").format(note) for note in limits.notes],
+    )
+
+
+def limit_lines(limits: Limits, result: Result) -> list[str]:
+    """The same for a terminal: a line for each limit, angles in deg."""
+    return [
+        " ".join(Markup("{}: {} {}, {}: {}").format(name, value, unit, most, verdict).striptags().split())
+        for name, value, most, unit, verdict in (_row(limit, result) for limit in limits.limits)
+    ]
+
+
+def _row(limit: Limit, result: Result) -> tuple[Markup | str, ...]:
+    unit = limit.signal.unit_name
+    return (
+        limit.name,
+        exact(_last(limit, result), unit),
+        _limit(limit, unit),
+        shown_unit(unit),
+        VERDICTS[is_kept(limit, result)],
+    )
+
+
+def _limit(limit: Limit, unit: str | None) -> Markup:
+    if limit.least is None or limit.most is None:
+        word, value = ("at most", limit.most) if limit.least is None else ("at least", limit.least)
+        return Markup("{} {}").format(word, exact(value, unit))
+    return Markup("{} to {}").format(exact(limit.least, unit), exact(limit.most, unit))

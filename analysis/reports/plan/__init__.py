@@ -1,0 +1,1 @@
+"""The pages of plans: a hover transfer, the bound of a landing."""

@@ -1,0 +1,50 @@
+"""The page of a hover transfer: what is planned, what it takes, what it is held against, how it goes."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ...planning.hover_study import HoverStudy
+from ..kit.page import write_page
+from ..kit.panels import swatch
+from ..kit.style import look
+from .figures import Point, Series, curve_panel, path_figure, time_panels
+
+NAMES = ("simplified programme", "true optimum", "point-mass bound")
+
+
+def write_hover_page(study: HoverStudy, path: Path) -> None:
+    """Write one self-contained HTML page; the same study gives the same bytes. It needs the study's curves."""
+    assert study.durations is not None
+    assert study.distances is not None
+    plans = zip(NAMES, (study.path, study.optimum, study.bound), strict=True)
+    series = [Series(name, plan, look(index)) for index, (name, plan) in enumerate(plans) if plan is not None]
+    own = Point(NAMES[0], study.programme.duration, study.programme.propellant_fraction, look(0))
+    compared = [Point(one.name, one.path.duration, one.path.propellant_fraction, one.look) for one in series[1:]]
+    here = Point(NAMES[0], study.transfer.distance, own.propellant, look(0))
+    shown = [np.stack([*one.path.position.T, _at_ends(one.path.pitch)]) for one in series]
+    write_page(
+        path,
+        Path(__file__).with_name("hover_transfer.html"),
+        title="Hover transfer",
+        study=study,
+        programme=study.programme,
+        degrees=math.degrees,
+        times=list(zip(("t2", "t5", "w", "tp", "t7"), study.programme.times, strict=True)),
+        rows=[(swatch(one.look), one.name, one.path) for one in series],
+        missing=[name for name, plan in zip(NAMES[1:], (study.optimum, study.bound), strict=True) if plan is None],
+        track=path_figure(series, shown, ("along", "up"), even=True),
+        over_time=time_panels(series, "Pitch from the horizontal, deg"),
+        curves=[
+            curve_panel("Propellant over t7", "durations", study.durations, "t7, s", [own, *compared]),
+            curve_panel("Least propellant over distance", "distances", study.distances, "distance, m", [here]),
+        ],
+    )
+
+
+def _at_ends(values: np.ndarray) -> np.ndarray:
+    """A row of intervals with one value more, so that it stands beside rows of their ends."""
+    return np.append(values, values[-1])

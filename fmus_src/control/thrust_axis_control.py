@@ -1,0 +1,97 @@
+"""Turns a thrust axis to a moving direction."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.rotation import rotation_between
+from ..mathlib.vectors import Vector3, across, cross, norm, shortened, vector
+
+GOOD = 0
+LIMITED = 1
+
+
+def has_direction(length: float) -> bool:
+    """Whether a vector of this length has a direction; no number counts as one, so that it is not lost on the way."""
+    return length != 0.0 and length != math.inf
+
+
+class ThrustAxisControl(Block):
+    """Angular acceleration that turns a thrust axis to a commanded direction, with a braking curve.
+
+    With the commanded direction d and its derivative d' carried on to now, the angle e and the axis n from the
+    measured attitude to d, and the measured angular rate w:
+
+        angular_acceleration = feed + rate_gain (d x d' + n s - w), shortened to maximum_angular_acceleration
+        s = min(angle_gain e, sqrt(2 braking_acceleration e), maximum_rate)
+
+    The square root is the speed from which braking_acceleration stops in e: a linear law of that speed goes to the
+    limit of acceleration and stays there, from side to side. A direction without length, as there is before guidance
+    has given one, only brings the rate to feed's. Frame: landing site. ``maximum_angular_acceleration`` 0: no limit.
+    """
+
+    rate_gain = Parameter(1.5, unit="1/s", minimum=0.0, description="acceleration over error of the rate")
+    angle_gain = Parameter(0.8, unit="1/s", minimum=0.0, description="rate over error of the angle")
+    braking_acceleration = Parameter(
+        0.004363323129985824, unit="rad/s2", minimum=0.0, description="with which large angles end; 0.25 deg/s2"
+    )
+    maximum_rate = Parameter(0.17453292519943295, unit="rad/s", minimum=0.0, description="largest turn asked for")
+    maximum_angular_acceleration = Parameter(
+        0.017453292519943295, unit="rad/s2", minimum=0.0, description="largest acceleration; 0: no limit"
+    )
+    thrust_direction = Input(
+        [0.0, 0.0, 1.0], unit="1", frame="landing site", description="commanded direction at command_time"
+    )
+    thrust_direction_rate = Input([0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="its derivative")
+    command_time = Input(0.0, unit="s", description="time that the direction counts from")
+    angular_acceleration_feed = Input(
+        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", description="that the command itself needs"
+    )
+    attitude = Input([0.0, 0.0, 1.0], unit="1", frame="landing site", description="measured unit vector of thrust")
+    angular_rate = Input([0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="measured angular rate")
+    angular_acceleration = Output(
+        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", direct=True, description="commanded angular acceleration"
+    )
+    direction_error = Output(0.0, unit="rad", direct=True, description="angle from measured attitude to the command")
+    status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 shortened to the limit")
+    start_time = State(0.0, unit="s", description="start of the flight")
+
+    def initialize(self) -> None:
+        self.control(self.start_time)
+
+    def closing_rate(self, angle: float) -> float:
+        """The rate (rad/s) at which an angle (rad) is to be closed."""
+        rate = self.angle_gain * angle
+        braking = math.sqrt(2.0 * self.braking_acceleration * angle)
+        if braking < rate:
+            rate = braking
+        if self.maximum_rate < rate:
+            rate = self.maximum_rate
+        return rate
+
+    def wanted_rate(self, time: float) -> Vector3:
+        """The angular rate (rad/s) that follows the command and closes the error at ``time`` (s)."""
+        direction = self.thrust_direction + (time - self.command_time) * self.thrust_direction_rate
+        length = norm(direction)
+        self.direction_error = 0.0
+        if not has_direction(length):
+            return vector(0.0, 0.0, 0.0)
+        length_of_attitude = norm(self.attitude)
+        if not has_direction(length_of_attitude):
+            return vector(0.0, 0.0, 0.0)
+        direction = direction / length
+        axis, self.direction_error = rotation_between(self.attitude, direction)
+        following = cross(direction, across(self.thrust_direction_rate, direction) / length)
+        return following + self.closing_rate(self.direction_error) * axis
+
+    def control(self, time: float) -> None:
+        """Set the command for ``time`` (s)."""
+        wanted = self.wanted_rate(time)
+        demanded = self.angular_acceleration_feed + self.rate_gain * (wanted - self.angular_rate)
+        self.angular_acceleration = demanded
+        self.status = GOOD
+        if self.maximum_angular_acceleration > 0.0 and norm(demanded) > self.maximum_angular_acceleration:
+            self.angular_acceleration = shortened(demanded, self.maximum_angular_acceleration)
+            self.status = LIMITED
+
+    def step(self, t: float, h: float) -> None:
+        self.control(t + h)

@@ -1,0 +1,274 @@
+"""Guidance from hover to hover: plans, and the law that tracks them."""
+
+import math
+
+from ..block import Input, Output, Parameter, State
+from ..mathlib.gravity import STANDARD_GRAVITY
+from ..mathlib.lagged_thrust import lagged_thrust
+from ..mathlib.vectors import Vector3, across, clip, dot, norm, shortened, vector
+from .hover_plan import GOOD, HOLDING, POLYNOMIAL, HoverPlan
+
+# Modes
+IDLE = 0
+HOLD = 1
+PROGRAMME = 2
+SLOW = 3
+CAPTURE = 4
+DESCEND = 5
+
+UNLIMITED = 1e9  # s; longer than any flight
+ROUNDING = 1e-9  # s, allowed for in times of communication points
+USUAL_CYCLE = 0.1  # s, of the first command, before the communication step is known
+LEAST_THRUST = 0.02  # m/s2; less is not commanded, for the direction's sake
+LEAST_LEVER = 1.0  # m/s2; thrust over mass that a lateral demand is at least referred to
+BEFORE_LAST_BURN = 1.0  # s, by which the gains of the last burn are earlier
+HIGH_THRUST = 0.3  # of the largest, above which measured thrust is trusted
+HIGH_GAIN = 0.1
+LOW_GAIN = 0.02
+LARGEST_FACTOR_ERROR = 0.5  # beyond, the engine is not under this command
+
+
+class HoverGuidance(HoverPlan):
+    """Modes: 0 idle, 1 hold at target_position, 2 programme, 3 slow transfer, 4 capture from flight, 5 descend.
+
+    A plan starts when active rises, and when plan_number or mode changes; its target is that of then. After its plan
+    every mode holds where the plan ends; mode 5 sinks from target_position with descent_acceleration up to
+    descent_speed. With the plan's reference r, v, thrust over mass A, direction d and d', each cycle:
+
+        f = w^2 e + 2 damping w ev        e = r - position, shortened to largest_error, ev = v - velocity
+        q = (f - (f.d) d)/max(A + f.d, 1 m/s2), shortened to tan largest_tilt, then through a first-order low-pass
+        thrust_acceleration = max(A + f.d, 0.02 m/s2) |d + q|/thrust_factor        thrust_direction = (d + q)/|d + q|
+
+    A is the plan's mean over a cycle that begins engine_lag later. The frequency w is coasting_frequency in a
+    programme, braking_frequency from 1 s before its last burn on, holding_frequency in holds and polynomials.
+    thrust_factor follows measured over commanded thrust. thrust_direction_rate is that of the plan: with the rate of q
+    besides, the loop goes into limit cycles. Frame: landing site. Equations: docs/systems/hover_transfer.md.
+    Source: Huang 2017 for the programme; the rest is ours.
+    """
+
+    engine_lag = Parameter(0.1, unit="s", minimum=0.0, description="time constant of thrust")
+    coasting_frequency = Parameter(0.06, unit="rad/s", minimum=0.0, description="of the loop, in a programme")
+    braking_frequency = Parameter(0.15, unit="rad/s", minimum=0.0, description="of the loop, in its last burn")
+    holding_frequency = Parameter(0.12, unit="rad/s", minimum=0.0, description="of the loop, elsewhere")
+    damping = Parameter(0.9, unit="1", minimum=0.0, description="of the loop")
+    tilt_filter = Parameter(0.7, unit="s", minimum=0.0, description="time constant of the lateral demand; 0: none")
+    largest_error = Parameter(40.0, unit="m", minimum=0.0, description="of position, that is acted on")
+    largest_tilt = Parameter(
+        0.20943951023931953, unit="rad", minimum=0.0, maximum=1.5, description="off the plan's direction; 12 deg"
+    )
+    estimate_thrust = Parameter(True, description="false: thrust_factor stays 1")
+    descent_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="with which a descent begins")
+    descent_speed = Parameter(1.0, unit="m/s", minimum=1e-3, description="of a descent")
+    sample_period = Parameter(0.1, unit="s", minimum=0.0, description="guidance cycle; 0: every communication point")
+    active = Input(True, description="false: no command; where it becomes true, a plan starts")
+    mode = Input(
+        2,
+        minimum=0,
+        maximum=5,
+        description="0 idle, 1 hold, 2 programme, 3 slow transfer, 4 capture, 5 descend; a change starts a plan",
+    )
+    plan_number = Input(0, description="a change starts a plan")
+    thrust_acceleration = Output(0.0, unit="m/s2", direct=True, description="commanded thrust over mass")
+    thrust_direction = Output(
+        [0.0, 0.0, 1.0],
+        unit="1",
+        frame="landing site",
+        direct=True,
+        description="commanded unit vector at command_time",
+    )
+    thrust_direction_rate = Output(
+        [0.0, 0.0, 0.0],
+        unit="1/s",
+        frame="landing site",
+        direct=True,
+        description="its derivative, perpendicular to it",
+    )
+    command_time = Output(0.0, unit="s", direct=True, description="when the command was computed")
+    burn_duration = Output(UNLIMITED, unit="s", direct=True, description="how long to thrust from command_time on")
+    time_to_go = Output(0.0, unit="s", direct=True, description="time left to the end of the plan")
+    finished = Output(False, direct=True, description="the plan is over")
+    angular_acceleration_feed = Output(
+        [0.0, 0.0, 0.0],
+        unit="rad/s2",
+        frame="landing site",
+        direct=True,
+        description="of the plan's direction, mean over the next cycle",
+    )
+    plan_time = Output(0.0, unit="s", direct=True, description="since the plan's start")
+    thrust_factor = Output(1.0, unit="1", direct=True, description="estimated thrust over commanded thrust")
+    reference_position = Output(
+        [0.0, 0.0, 0.0], unit="m", frame="landing site", direct=True, description="of the plan, now"
+    )
+    reference_velocity = Output(
+        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", direct=True, description="of the plan, now"
+    )
+    saturated = Output(
+        False, direct=True, description="the demand is outside the engine's limits, or an error is shortened"
+    )
+    cycle = State(0.1, unit="s", description="time to the next sample")
+    tilt = State([0.0, 0.0, 0.0], unit="1", frame="landing site", description="lateral demand after its low-pass")
+    plan_start = State(0.0, frozen=True, unit="s", description="when the plan started")
+    in_charge = State(False, description="active at the last sample")
+    flown_mode = State(0, description="mode of the last plan")
+    flown_plan = State(0, description="number of the last plan")
+    engine_thrust = State(0.0, unit="N", description="thrust now, if the engine does as commanded")
+    commanded_thrust = State(0.0, unit="N", description="command within the engine's limits; 0: none")
+    start_time = State(0.0, unit="s", description="start of the flight")
+
+    def initialize(self) -> None:
+        self.cycle = USUAL_CYCLE
+        if self.sample_period > 0.0:
+            self.cycle = self.sample_period
+        self.guide(self.start_time)
+
+    def step(self, t: float, h: float) -> None:
+        self.cycle = h
+        if self.sample_period > 0.0:
+            self.cycle = self.sample_period
+        self.guide(t + h)
+
+    def guide(self, time: float) -> None:
+        """Sample at ``time`` (s)."""
+        if not self.active or self.mode == IDLE:
+            self.rest(time)
+        else:
+            if self.in_charge:
+                self.weigh_thrust()
+            else:
+                self.tilt = vector(0.0, 0.0, 0.0)
+                self.engine_thrust = self.mass * norm(self.velocity_increment) / (self.cycle * self.thrust_factor)
+            if not self.in_charge or self.mode != self.flown_mode or self.plan_number != self.flown_plan:
+                self.begin_plan(time)
+            self.in_charge = True
+            self.follow(time)
+        self.command_time = time
+
+    def rest(self, time: float) -> None:
+        """No command."""
+        if self.in_charge:
+            self.drop_plan()
+        self.in_charge = False
+        self.thrust_acceleration = 0.0
+        self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
+        self.angular_acceleration_feed = vector(0.0, 0.0, 0.0)
+        self.commanded_thrust = 0.0
+        self.time_to_go = 0.0
+        self.plan_time = 0.0
+        self.finished = False
+        self.saturated = False
+
+    def begin_plan(self, time: float) -> None:
+        """Make the plan of the mode."""
+        self.plan_start = time
+        self.flown_mode = self.mode
+        self.flown_plan = self.plan_number
+        self.drop_plan()
+        possible = self.can_plan()
+        if possible:
+            if self.mode == PROGRAMME:
+                self.plan_programme()
+            elif self.mode == SLOW:
+                self.plan_transfer(self.slow_speed, self.slow_acceleration)
+            elif self.mode == CAPTURE:
+                self.plan_capture(self.cycle)
+
+    def weigh_thrust(self) -> None:
+        """Compare the thrust of the last cycle with its command."""
+        ends, _, impulse = lagged_thrust(self.engine_thrust, self.commanded_thrust, self.engine_lag, self.cycle)
+        self.engine_thrust = ends.z
+        mean = impulse / self.cycle
+        if self.estimate_thrust and mean > 0.0:
+            exhaust = STANDARD_GRAVITY * self.specific_impulse
+            mass = self.mass + 0.5 * impulse / exhaust
+            measured = mass * norm(self.velocity_increment) / impulse
+            gain = LOW_GAIN
+            if mean > HIGH_THRUST * self.maximum_thrust:
+                gain = HIGH_GAIN
+            if abs(measured - 1.0) < LARGEST_FACTOR_ERROR:
+                self.thrust_factor = self.thrust_factor + gain * (measured - self.thrust_factor)
+
+    def sinking(self) -> bool:
+        """Whether the reference sinks."""
+        return self.mode == DESCEND and self.status == GOOD
+
+    def sink_speed(self, t: float) -> float:
+        """Speed (m/s) of the descent at the time t (s) after its start."""
+        speed = self.descent_acceleration * t
+        if speed > self.descent_speed:
+            return self.descent_speed
+        return speed
+
+    def reference(self, t: float) -> None:
+        """Set reference_position and reference_velocity at the time t (s) after the plan's start."""
+        self.reference_position, self.reference_velocity = self.planned_motion(t)
+        if self.sinking():
+            speed = self.sink_speed(t)
+            sunk = speed * t - 0.5 * speed * speed / self.descent_acceleration
+            if speed < self.descent_speed:
+                sunk = 0.5 * speed * t
+            self.reference_position = self.goal - sunk * self.up
+            self.reference_velocity = -speed * self.up
+
+    def reference_thrust(self, begin: float, end: float) -> float:
+        """Mean of the plan's thrust over mass (m/s2) between two times (s); local gravity from its end on.
+
+        A descent is all end: feedback alone follows its reference, which makes it soft.
+        """
+        gravity = self.gravity_at(self.position)
+        left = clip(self.duration - begin, 0.0, end - begin)
+        impulse = gravity * (end - begin - left)
+        if left > 0.0:
+            impulse = impulse + self.planned_impulse(begin, begin + left)
+        return impulse / (end - begin)
+
+    def frequency(self, t: float) -> float:
+        """Of the loop (rad/s) at the time t (s) after the plan's start."""
+        if self.plan_kind == HOLDING or self.plan_kind == POLYNOMIAL or t >= self.duration:
+            return self.holding_frequency
+        if t >= self.duration - self.programme[3] - BEFORE_LAST_BURN:
+            return self.braking_frequency
+        return self.coasting_frequency
+
+    def follow(self, time: float) -> None:
+        """The command at ``time`` (s)."""
+        t = time - self.plan_start
+        if self.duration - t < ROUNDING and t < self.duration:
+            t = self.duration
+        self.plan_time = t
+        self.time_to_go = clip(self.duration - t, 0.0, self.duration)
+        self.finished = t >= self.duration and not self.sinking()
+        self.reference(t)
+        direction, rate = self.planned_direction(t)
+        # beyond the end the plan's rate is 0
+        self.angular_acceleration_feed = (self.planned_rate(t + self.cycle) - self.planned_rate(t)) / self.cycle
+        ahead = self.reference_thrust(t + self.engine_lag, t + self.engine_lag + self.cycle)
+        self.command(direction, rate, ahead, self.frequency(t))
+
+    def command(self, direction: Vector3, rate: Vector3, planned: float, frequency: float) -> None:
+        """The law, from direction, its derivative (1/s) and thrust over mass (m/s2) of the plan."""
+        error = self.reference_position - self.position
+        near = shortened(error, self.largest_error)
+        push = frequency * (frequency * near + 2.0 * self.damping * (self.reference_velocity - self.velocity))
+        wanted = planned + dot(push, direction)
+        lever = wanted
+        if lever < LEAST_LEVER:
+            lever = LEAST_LEVER
+        lateral = across(push, direction) / lever
+        reach = math.tan(self.largest_tilt)
+        self.saturated = norm(error) > self.largest_error or norm(lateral) > reach
+        lateral = shortened(lateral, reach)
+        share = 1.0
+        if self.tilt_filter > 0.0:
+            share = -math.expm1(-self.cycle / self.tilt_filter)
+        self.tilt = self.tilt + share * (lateral - self.tilt)
+        if wanted < LEAST_THRUST:
+            wanted = LEAST_THRUST
+        leaning = direction + self.tilt
+        length = norm(leaning)
+        self.thrust_direction = leaning / length
+        self.thrust_direction_rate = across(rate, self.thrust_direction) / length
+        self.thrust_acceleration = wanted * length / self.thrust_factor
+        demand = self.mass * self.thrust_acceleration
+        self.commanded_thrust = clip(demand, self.minimum_thrust, self.maximum_thrust)
+        if demand != self.commanded_thrust:
+            self.saturated = True

@@ -1,0 +1,266 @@
+"""Plans from hover to hover: how they are made, and what they ask for at any time."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.gravity import STANDARD_GRAVITY, from_centre, vertical_at
+from ..mathlib.hover_motion import EXHAUST, FULL, GRAVITY, LEAST, SWING, VEHICLE, motion, propellant, thrust_impulse
+from ..mathlib.hover_programme import programme
+from ..mathlib.hover_shape import END, SHAPE, UNKNOWNS, clear, pitch, shape
+from ..mathlib.hover_solution import NONE, VERTICAL
+from ..mathlib.transfer_polynomial import TRANSFER, capture, derivative, expense, slow_duration, thrust_along, transfer
+from ..mathlib.vectors import Vector3, add_along, cross, dot, is_finite, norm, smallest_component, vector
+
+HOLDING = 0  # kinds of plans besides those of mathlib.hover_solution
+POLYNOMIAL = 4
+
+GOOD = 0
+NO_PROGRAMME = 1
+BEYOND_LIMITS = 2
+NO_PLAN = 3
+
+# What a transfer keeps to that stands in for a programme.
+STANDBY_SPEED = 60.0  # m/s
+STANDBY_ACCELERATION = 0.5  # m/s2
+
+
+class HoverPlan(Block, interface=True):
+    """A plan to a hover, vertical and at rest, and the thrust that it asks for.
+
+    Kinds: 0 none, 1 vertical programme, 2 programme without first burn, 3 with first burn, 4 polynomial of degree 7.
+    Programmes lie in the plane through start and target with the target's vertical; gravity is constant over a plan,
+    the mean of start and target. Plans keep margins of the engine and of the angular acceleration, for control to
+    work with. Frame: landing site. Equations: docs/systems/hover_transfer.md. Source: Huang 2017; in space, ours.
+    """
+
+    specific_impulse = Parameter(300.0, unit="s", minimum=1e-3, description="of the engine")
+    maximum_thrust = Parameter(4707.192, unit="N", minimum=1e-3, description="of the engine")
+    minimum_thrust = Parameter(313.8128, unit="N", minimum=0.0, description="of the engine while it burns")
+    planned_maximum = Parameter(
+        0.9, unit="1", minimum=1e-3, maximum=1.0, description="largest thrust of plans over maximum_thrust"
+    )
+    planned_minimum = Parameter(
+        0.1, unit="1", minimum=1e-3, maximum=1.0, description="least thrust of plans over maximum_thrust"
+    )
+    planned_angular_acceleration = Parameter(
+        0.012217304763960306, unit="rad/s2", minimum=1e-5, maximum=1.0, description="of plans; 0.70 deg/s2"
+    )
+    slow_speed = Parameter(4.0, unit="m/s", minimum=1e-3, description="largest of a slow transfer")
+    slow_acceleration = Parameter(0.3, unit="m/s2", minimum=1e-3, description="largest of a slow transfer")
+    uniform_gravity = Parameter(0.0, unit="m/s2", minimum=0.0, description="gravity along -z; 0: central field")
+    gravitational_parameter = Parameter(4.9028e12, unit="m3/s2", minimum=0.0, description="of the Moon")
+    moon_radius = Parameter(1.7374e6, unit="m", minimum=1.0, description="from the Moon's centre to the site")
+    target_position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where to hover")
+    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="estimated position")
+    velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="estimated velocity")
+    mass = Input(1.0, unit="kg", description="estimated mass")
+    attitude = Input([0.0, 0.0, 1.0], unit="1", frame="landing site", description="measured unit vector of thrust")
+    angular_rate = Input([0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="measured angular rate")
+    velocity_increment = Input(
+        [0.0, 0.0, 0.0],
+        unit="m/s",
+        frame="landing site",
+        description="measured integral of specific force over the last cycle",
+    )
+    status = Output(
+        0,
+        minimum=0,
+        maximum=3,
+        direct=True,
+        description="0 good, 1 no programme, polynomial flown, 2 capture breaks a limit, 3 no plan possible: holds",
+    )
+    plan_kind = Output(
+        0,
+        minimum=0,
+        maximum=4,
+        direct=True,
+        description="0 none, 1 vertical, 2 without first burn, 3 with first burn, 4 polynomial",
+    )
+    predicted_propellant = Output(0.0, unit="kg", direct=True, description="that the plan takes")
+    programme = Output(
+        [0.0] * UNKNOWNS, unit="s", direct=True, description="t2, t5, w, tp, t7 of the programme; 0 where none"
+    )
+    origin = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan starts")
+    goal = State([0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="where the plan ends")
+    up = State([0.0, 0.0, 1.0], frozen=True, unit="1", frame="landing site", description="vertical of the plan")
+    along = State(
+        [1.0, 0.0, 0.0], frozen=True, unit="1", frame="landing site", description="horizontal towards the target"
+    )
+    plan_gravity = State(0.0, frozen=True, unit="m/s2", description="gravity of the plan")
+    duration = State(0.0, frozen=True, unit="s", description="of the plan")
+    vehicle = State([0.0] * VEHICLE, frozen=True, description="of the programme, as mathlib.hover_motion has it")
+    times = State(
+        [0.0] * SHAPE, frozen=True, unit="s", description="the programme's shape, as mathlib.hover_shape has it"
+    )
+    coefficients = State([0.0] * TRANSFER, frozen=True, unit="m", description="of the polynomial, axis by axis")
+
+    def gravity_at(self, position: Vector3) -> float:
+        """Size of gravity (m/s2) at a position (m)."""
+        if self.uniform_gravity > 0.0:
+            return self.uniform_gravity
+        centred = from_centre(position, self.moon_radius)
+        square = dot(centred, centred)
+        if not square > 0.0:
+            return 0.0
+        return self.gravitational_parameter / square
+
+    def vertical(self, position: Vector3) -> Vector3:
+        """The vertical upwards at a position (m)."""
+        if self.uniform_gravity > 0.0:
+            return vector(0.0, 0.0, 1.0)
+        return vertical_at(position, self.moon_radius)
+
+    def drop_plan(self) -> None:
+        """No plan: hold at the target from here on."""
+        self.status = GOOD
+        self.plan_kind = HOLDING
+        self.duration = 0.0
+        self.predicted_propellant = 0.0
+        clear(self.programme)
+        self.origin = self.position
+        self.goal = self.target_position
+        self.up = self.vertical(self.goal)
+        self.plan_gravity = 0.5 * (self.gravity_at(self.origin) + self.gravity_at(self.goal))
+
+    def can_plan(self) -> bool:
+        """Whether all is finite and the engine can lift the vehicle; else it is to hold where it is, status 3."""
+        fine = is_finite(self.position) and is_finite(self.velocity) and is_finite(self.target_position)
+        fine = fine and math.isfinite(self.mass) and self.mass > 0.0
+        fine = fine and self.maximum_thrust > self.mass * self.plan_gravity
+        if not fine:
+            self.give_up()
+        return fine
+
+    def give_up(self) -> None:
+        """No plan is possible: hold where it is."""
+        self.drop_plan()
+        self.status = NO_PLAN
+        if is_finite(self.position):
+            self.goal = self.position
+
+    def plan_programme(self) -> None:
+        """The programme on least propellant; a quick polynomial where there is none."""
+        exhaust = STANDARD_GRAVITY * self.specific_impulse
+        full = self.maximum_thrust / self.mass
+        self.vehicle[FULL] = self.planned_maximum * full
+        self.vehicle[LEAST] = self.planned_minimum * full
+        self.vehicle[EXHAUST] = exhaust
+        self.vehicle[GRAVITY] = self.plan_gravity
+        self.vehicle[SWING] = self.planned_angular_acceleration
+        way = self.goal - self.origin
+        y = dot(way, self.up)
+        side = way - y * self.up
+        x = norm(side)
+        kind = programme(x, y, self.vehicle, self.programme)
+        if kind == NONE:
+            self.plan_transfer(STANDBY_SPEED, STANDBY_ACCELERATION)
+            if self.status == GOOD:
+                self.status = NO_PROGRAMME
+        else:
+            if x > 0.0:
+                self.along = side / x
+            else:
+                k, smallest = smallest_component(self.up)
+                level = add_along(-smallest * self.up, k, 1.0)
+                self.along = level / norm(level)
+            if kind == VERTICAL:
+                self.origin = self.goal - y * self.up
+            found = shape(self.programme, self.vehicle[SWING], self.times)
+            if found:
+                self.plan_kind = kind
+                self.duration = self.programme[END]
+                self.predicted_propellant = self.mass * propellant(self.times, self.vehicle, self.duration)
+
+    def plan_transfer(self, speed: float, acceleration: float) -> None:
+        """A polynomial from rest to rest within a speed (m/s) and an acceleration (m/s2)."""
+        way = self.goal - self.origin
+        height = dot(way, self.up)
+        longer = norm(way - height * self.up)
+        if abs(height) > longer:
+            longer = abs(height)
+        duration = slow_duration(longer, speed, acceleration)
+        rest = vector(0.0, 0.0, 0.0)
+        transfer(self.origin, rest, rest, rest, self.goal, duration, self.coefficients)
+        limits = [0.0] * 4
+        self.fill_limits(limits)
+        spent, _ = expense(self.coefficients, duration, self.lift(), self.mass, limits, math.inf)
+        self.take_polynomial(duration, spent)
+
+    def plan_capture(self, cycle: float) -> None:
+        """A polynomial from flight, with the thrust measured over the last cycle (s)."""
+        exhaust = STANDARD_GRAVITY * self.specific_impulse
+        force = norm(self.velocity_increment) / cycle
+        pull = force * self.attitude - self.lift()
+        jerk = force * cross(self.angular_rate, self.attitude) + force * force / exhaust * self.attitude
+        limits = [0.0] * 4
+        self.fill_limits(limits)
+        duration, spent, excess = capture(
+            self.origin, self.velocity, pull, jerk, self.goal, self.lift(), self.mass, limits, self.coefficients
+        )
+        self.take_polynomial(duration, spent)
+        if self.status == GOOD and excess > 0.0:
+            self.status = BEYOND_LIMITS
+
+    def fill_limits(self, limits: list) -> None:
+        """limits = those of plans, as mathlib.transfer_polynomial has them."""
+        limits[0] = self.planned_maximum * self.maximum_thrust
+        limits[1] = self.planned_minimum * self.maximum_thrust
+        limits[2] = self.planned_angular_acceleration
+        limits[3] = STANDARD_GRAVITY * self.specific_impulse
+
+    def take_polynomial(self, duration: float, spent: float) -> None:
+        """Fly the polynomial, which takes a duration (s) and spends so much (m/s); status 3 if these are not finite."""
+        if duration > 0.0 and math.isfinite(duration) and math.isfinite(spent):
+            self.plan_kind = POLYNOMIAL
+            self.duration = duration
+            exhaust = STANDARD_GRAVITY * self.specific_impulse
+            self.predicted_propellant = -self.mass * math.expm1(-spent / exhaust)
+        else:
+            self.give_up()
+
+    def lift(self) -> Vector3:
+        """Thrust over mass (m/s2) that holds the plan's gravity."""
+        return self.plan_gravity * self.up
+
+    def planned_motion(self, t: float) -> tuple[Vector3, Vector3]:
+        """Position (m) and velocity (m/s) of the plan at the time t (s) after its start."""
+        rest = vector(0.0, 0.0, 0.0)
+        if t >= self.duration:
+            return self.goal, rest
+        if self.plan_kind == POLYNOMIAL:
+            place = derivative(self.coefficients, 0, t, self.duration)
+            return place, derivative(self.coefficients, 1, t, self.duration)
+        state = [0.0] * 4
+        moved = motion(self.times, self.vehicle, t, state)
+        if not moved:
+            return self.goal, rest
+        place = self.origin + state[0] * self.along + state[2] * self.up
+        return place, state[1] * self.along + state[3] * self.up
+
+    def planned_direction(self, t: float) -> tuple[Vector3, Vector3]:
+        """Thrust direction of the plan at the time t (s) after its start, and its derivative (1/s)."""
+        rest = vector(0.0, 0.0, 0.0)
+        if t >= self.duration:
+            return self.up, rest
+        if self.plan_kind == POLYNOMIAL:
+            _, direction, rate, _ = thrust_along(self.coefficients, t, self.duration, self.lift())
+            return direction, rate
+        angle, speed = pitch(self.times, self.vehicle[SWING], t)
+        sine = math.sin(angle)
+        cosine = math.cos(angle)
+        direction = cosine * self.up - sine * self.along
+        return direction, -speed * (sine * self.up + cosine * self.along)
+
+    def planned_rate(self, t: float) -> Vector3:
+        """Angular rate (rad/s) of the thrust axis of the plan at the time t (s) after its start."""
+        direction, rate = self.planned_direction(t)
+        return cross(direction, rate)
+
+    def planned_impulse(self, begin: float, end: float) -> float:
+        """Integral (m/s) of the plan's thrust over mass between two times (s) after its start, within its duration."""
+        if self.plan_kind != POLYNOMIAL:
+            return thrust_impulse(self.times, self.vehicle, begin, end)
+        first, _, _, _ = thrust_along(self.coefficients, begin, self.duration, self.lift())
+        middle, _, _, _ = thrust_along(self.coefficients, 0.5 * (begin + end), self.duration, self.lift())
+        last, _, _, _ = thrust_along(self.coefficients, end, self.duration, self.lift())
+        return (end - begin) * (first + 4.0 * middle + last) / 6.0

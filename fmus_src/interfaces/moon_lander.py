@@ -1,0 +1,168 @@
+"""What landers over the Moon with one engine along their thrust axis have in common."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity
+from ..mathlib.lagged_thrust import lagged_thrust
+from ..mathlib.vectors import Vector3, norm, vector
+
+
+class MoonLander(Block, interface=True):
+    """Point mass with one engine along its thrust axis, in the central field of a Moon that does not rotate.
+
+    A plant writes `turn`, which turns its attitude, and says what else a step does: `move` takes the whole of it,
+    `height` and `gravity` may stand for another field.
+
+    The commanded thrust is thrust until command_time + burn_duration and 0 from there, inside a step if need be.
+    Thrust follows with a first-order lag from 0 at the start; mass' = -thrust/(standard gravity * specific_impulse)
+    and ends thrust where there is no mass left. Thrust and mass are exact between switchings. Motion:
+    Runge-Kutta-Nystrom of fourth order (Hairer, Norsett and Wanner 1993, section II.14); thrust is scaled so that each
+    step obeys the rocket equation. Where ground_contact is set, everything stops and is kept.
+    Frame: landing site (x north, y west, z up), the Moon's centre at (0, 0, -moon_radius).
+    """
+
+    initial_position = Parameter(
+        [266731.0, 0.0, -2233.0], unit="m", frame="landing site", description="position at the start"
+    )
+    initial_velocity = Parameter(
+        [-1676.0, 0.0, 208.0], unit="m/s", frame="landing site", description="velocity at the start"
+    )
+    initial_mass = Parameter(940.0, unit="kg", minimum=1e-3, description="mass at the start")
+    specific_impulse = Parameter(319.0, unit="s", minimum=1e-3, description="of the engine")
+    moon_radius = Parameter(1.7374e6, unit="m", minimum=1.0, description="of the sphere that the site lies on")
+    gravitational_parameter = Parameter(4.9028e12, unit="m3/s2", minimum=0.0, description="of the Moon")
+    thrust_lag = Parameter(0.1, unit="s", minimum=0.0, description="time constant of thrust; 0: none")
+    internal_step = Parameter(0.1, unit="s", minimum=1e-4, description="longest integration step")
+    thrust = Input(0.0, unit="N", description="commanded thrust; below 0 counts as 0")
+    command_time = Input(0.0, unit="s", description="time that direction and duration count from")
+    burn_duration = Input(0.0, unit="s", description="how long to thrust from command_time on")
+    position = Output([0.0, 0.0, 0.0], unit="m", frame="landing site", description="position")
+    velocity = Output([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity")
+    speed = Output(0.0, unit="m/s", description="length of velocity")
+    mass = Output(940.0, unit="kg", description="mass")
+    altitude = Output(0.0, unit="m", description="above the sphere of moon_radius")
+    specific_force = Output(
+        [0.0, 0.0, 0.0], unit="m/s2", frame="landing site", description="mean of thrust over mass in the last step"
+    )
+    sensed_velocity = Output(
+        [0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="integral of specific force from the start"
+    )
+    delivered_thrust = Output(0.0, unit="N", description="thrust of the engine")
+    attitude = Output([0.0, 0.0, 1.0], unit="1", frame="landing site", description="unit vector of thrust, as flown")
+    coast_time = Output(0.0, unit="s", description="time since the commanded burn ended; 0 while it goes on")
+    ground_contact = Output(False, description="the ground was reached")
+    longest_step = State(0.1, unit="s", description="internal_step or the part of it that is taken")
+
+    def place(self) -> None:
+        """Put mass and motion at the start."""
+        self.mass = self.initial_mass
+        self.position = self.initial_position
+        self.velocity = self.initial_velocity
+        self.altitude = self.height(self.position)
+        self.speed = norm(self.velocity)
+        self.ground_contact = self.altitude <= 0.0
+
+    def divide(self, response: float) -> None:
+        """Set longest_step: equal parts of internal_step no longer than lag and response (s; 0: none), 100 at most."""
+        shortest = self.internal_step
+        if response > 0.0 and response < shortest:
+            shortest = response
+        if self.thrust_lag > 0.0 and self.thrust_lag < shortest:
+            shortest = self.thrust_lag
+        parts = 100.0
+        if shortest > 0.01 * self.internal_step:
+            parts = float(math.ceil(self.internal_step / shortest - 1e-9))
+        self.longest_step = self.internal_step / parts
+
+    def height(self, position: Vector3) -> float:
+        """Altitude (m) at a position (m)."""
+        return altitude_of(position, self.moon_radius)
+
+    def gravity(self, position: Vector3) -> Vector3:
+        """Gravity (m/s2) at a position (m)."""
+        return central_gravity(position, self.moon_radius, self.gravitational_parameter)
+
+    def turn(self, t: float, h: float) -> None:
+        """Advance the attitude by h (s)."""
+
+    def burn(self, h: float, commanded: float) -> tuple[Vector3, float]:
+        """Thrust over mass (m/s2) at start, middle and end of a step, and the speed gained; spends the mass."""
+        exhaust = STANDARD_GRAVITY * self.specific_impulse
+        thrust, middle_impulse, impulse = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
+        used = impulse / exhaust
+        if used >= self.mass:
+            self.delivered_thrust = 0.0
+            return vector(0.0, 0.0, 0.0), 0.0
+        first = thrust[0] / self.mass
+        middle = thrust[1] / (self.mass - middle_impulse / exhaust)
+        self.delivered_thrust = thrust[2]
+        self.mass = self.mass - used
+        return vector(first, middle, thrust[2] / self.mass), exhaust * math.log1p(used / self.mass)
+
+    def advance(self, t: float, h: float, commanded: float) -> Vector3:
+        """Move by h (s) under one command (N); returns the velocity that thrust gives (m/s)."""
+        force, gain = self.burn(h, commanded)
+        simpson = h * (force[0] + 4.0 * force[1] + force[2]) / 6.0
+        if simpson > 0.0:
+            force = force * gain / simpson
+        first = force[0] * self.attitude
+        self.turn(t, 0.5 * h)
+        middle = force[1] * self.attitude
+        self.turn(t + 0.5 * h, 0.5 * h)
+        g1 = self.gravity(self.position)
+        g2 = self.gravity(self.position + 0.5 * h * (self.velocity + 0.25 * h * (g1 + first)))
+        g4 = self.gravity(self.position + h * (self.velocity + 0.5 * h * (g2 + middle)))
+        fall = g1 + 2.0 * g2
+        push = first + 2.0 * middle
+        gained = h * (push + 2.0 * middle + force[2] * self.attitude) / 6.0
+        self.position = self.position + h * (self.velocity + h * (fall + push) / 6.0)
+        self.velocity = self.velocity + gained + h * (fall + 2.0 * g2 + g4) / 6.0
+        self.altitude = self.height(self.position)
+        return gained
+
+    def touch(self) -> None:
+        """Stop where the ground is reached."""
+        if self.altitude <= 0.0:
+            self.ground_contact = True
+            self.delivered_thrust = 0.0
+
+    def move(self, t: float, h: float, commanded: float) -> Vector3:
+        """Do what a step of h (s) under one command (N) does; returns the velocity that thrust gives (m/s)."""
+        gained = self.advance(t, h, commanded)
+        self.touch()
+        return gained
+
+    def moving(self) -> bool:
+        """Whether the motion goes on."""
+        return not self.ground_contact
+
+    def burn_ended(self) -> None:
+        """What happens where a burn ends inside a step."""
+
+    def fly(self, t: float, h: float, commanded: float) -> None:
+        """Move from t to t + h (s) under a commanded thrust (N), and set what follows from the motion."""
+        gained = vector(0.0, 0.0, 0.0)
+        pieces = int(h / self.longest_step - 1e-9) + 1
+        piece = h / pieces
+        for k in range(pieces):
+            start = t + k * piece
+            burning = self.command_time + self.burn_duration - start
+            if self.moving():
+                if burning >= piece:
+                    pushed = self.move(start, piece, commanded)
+                elif burning <= 0.0:
+                    pushed = self.move(start, piece, 0.0)
+                else:
+                    pushed = self.move(start, burning, commanded)
+                    self.burn_ended()
+                    if self.moving():
+                        gained = gained + pushed
+                        pushed = self.move(start + burning, piece - burning, 0.0)
+                gained = gained + pushed
+        self.speed = norm(self.velocity)
+        self.coast_time = 0.0
+        if t + h > self.command_time + self.burn_duration:
+            self.coast_time = t + h - (self.command_time + self.burn_duration)
+        self.sensed_velocity = self.sensed_velocity + gained
+        self.specific_force = gained / h

@@ -1,0 +1,60 @@
+"""From a circular orbit towards a landing site: where one is on it, and how long to brake. Kernel functions.
+
+Frame: landing site, z up, not rotating; the Moon's centre is ``radius`` (m) below the origin.
+"""
+
+import math
+
+from .gravity import from_centre, vertical_at
+from .vectors import Vector3, across, dot, norm, vector
+
+
+def central_angle(position: Vector3, radius: float) -> float:
+    """Angle (rad, 0 to 2 pi) at the Moon's centre from the site's vertical towards +x, in the plane of x and z."""
+    angle = math.atan2(position.x, position.z + radius)
+    if angle < 0.0:
+        angle = angle + 2.0 * math.pi
+    return angle
+
+
+def ground_range(position: Vector3, radius: float) -> float:
+    """Way (m) on the sphere of ``radius`` from below ``position`` to the origin."""
+    centred = from_centre(position, radius)
+    return radius * math.atan2(math.sqrt(centred.x * centred.x + centred.y * centred.y), centred.z)
+
+
+def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> tuple[Vector3, Vector3]:
+    """The unit vector against the horizontal velocity and its rate (1/s) as it turns with the vertical.
+
+    Both are 0 where there is no horizontal velocity.
+    """
+    up = vertical_at(position, radius)
+    horizontal = across(velocity, up)
+    speed = norm(horizontal)
+    distance = norm(from_centre(position, radius))
+    if not speed > 0.0 or not distance > 0.0:
+        return vector(0.0, 0.0, 0.0), vector(0.0, 0.0, 0.0)
+    return -horizontal / speed, speed / distance * up
+
+
+def apocentre_speed(apocentre: float, pericentre: float, mu: float) -> float:
+    """Speed (m/s) at the apocentre of an ellipse, both given as distances (m) from the centre.
+
+    Source: vis-viva, such as Battin 1999, section 3.4.
+    """
+    return math.sqrt(2.0 * mu * pericentre / (apocentre * (apocentre + pericentre)))
+
+
+def deorbit_burn(
+    position: Vector3, velocity: Vector3, pericentre: float, radius: float, mu: float, acceleration: float
+) -> float:
+    """How long (s) to brake with ``acceleration`` (m/s2) until here is the apocentre of an ellipse down to pericentre.
+
+    ``pericentre`` is a distance (m) from the centre. Below 0 where the horizontal speed is already too small; the
+    vertical speed is not looked at. ``position`` must not be the centre.
+    """
+    up = vertical_at(position, radius)
+    sinking = dot(velocity, up)
+    speed = norm(velocity - sinking * up)
+    distance = norm(from_centre(position, radius))
+    return (speed - apocentre_speed(distance, pericentre, mu)) / acceleration

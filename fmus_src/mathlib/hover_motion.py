@@ -1,0 +1,105 @@
+"""Motion under the simplified hover-to-hover programme, by quadrature. Kernel functions.
+
+Controls depend on time alone, so velocity and position are integrals: x' = A cos th, y' = A sin th - g,
+A = FULL or LEAST over the mass that is left. In the plane of the transfer: x towards the target, y up; from rest.
+
+A vehicle is a list of five with the indices FULL and LEAST, the plan's largest and least thrust over the mass at the
+start (m/s2); EXHAUST, exhaust speed (m/s); GRAVITY (m/s2), uniform; SWING, the angular acceleration (rad/s2).
+Source: Huang 2017; Gauss-Legendre quadrature: Abramowitz and Stegun 1964, table 25.4.
+"""
+
+import math
+
+from .hover_shape import burnt, full_thrust, pitch_piece
+
+FULL = 0
+LEAST = 1
+EXHAUST = 2
+GRAVITY = 3
+SWING = 4
+VEHICLE = 5
+
+LONGEST = 30.0  # s; longest interval of eight nodes, which leave below 1e-9 of the motion
+
+
+def propellant(s: list, vehicle: list, t: float) -> float:
+    """Propellant spent until t (s, up to the end of the shape s) over the mass at the start."""
+    return (vehicle[LEAST] * t + (vehicle[FULL] - vehicle[LEAST]) * burnt(s, t)) / vehicle[EXHAUST]
+
+
+def thrust_impulse(s: list, vehicle: list, begin: float, end: float) -> float:
+    """Integral (m/s) of thrust over mass from one time to another (s), by the rocket equation; 0 where it has none."""
+    before = 1.0 - propellant(s, vehicle, begin)
+    after = 1.0 - propellant(s, vehicle, end)
+    if not (before > 0.0 and after > 0.0):
+        return 0.0
+    return vehicle[EXHAUST] * math.log(before / after)
+
+
+def motion(s: list, vehicle: list, until: float, state: list) -> bool:
+    """state[4] = x (m), x' (m/s), y and y' at the time ``until`` (s); whether any mass is left then."""
+    x = 0.0
+    vx = 0.0
+    y = 0.0
+    vy = 0.0
+    node = [0.0] * 8
+    weight = [0.0] * 8
+    nodes(node, weight)
+    begin = 0.0
+    mass = 1.0
+    for _ in range(9):
+        if begin < until:
+            end, thrust = interval(s, vehicle, begin, until)
+            start, value, rate, half = pitch_piece(s, vehicle[SWING], 0.5 * (begin + end))
+            span = end - begin
+            flow = thrust / vehicle[EXHAUST]
+            if not (mass - flow * span > 0.0 and span < 1e4):
+                return False
+            parts = int(span / LONGEST) + 1
+            span = span / float(parts)
+            scale = span * thrust
+            for _ in range(parts):
+                since_begin = begin - start
+                left = until - begin
+                for k in range(8):
+                    part = span * node[k]
+                    since = since_begin + part
+                    deviation = value + since * (rate + since * half)
+                    push = scale * weight[k] / (mass - flow * part)
+                    side = push * math.sin(deviation)
+                    lift = push * math.cos(deviation)
+                    vx = vx - side
+                    x = x - (left - part) * side
+                    vy = vy + lift
+                    y = y + (left - part) * lift
+                begin = begin + span
+                mass = mass - flow * span
+            begin = end
+    state[0] = x
+    state[1] = vx
+    state[2] = y - 0.5 * vehicle[GRAVITY] * until * until
+    state[3] = vy - vehicle[GRAVITY] * until
+    return True
+
+
+def interval(s: list, vehicle: list, begin: float, until: float) -> tuple[float, float]:
+    """From ``begin`` (s) on: until when (s) pitch is one parabola and thrust one value, and the thrust (m/s2)."""
+    end = until
+    thrust = vehicle[LEAST]
+    if full_thrust(s, begin):
+        thrust = vehicle[FULL]
+    for k in range(10):
+        if s[k] > begin and s[k] < end and k != 1 and k != 4:
+            end = s[k]
+    return end, thrust
+
+
+def nodes(node: list, weight: list) -> None:
+    """Places and weights of Gauss-Legendre quadrature of eight nodes over [0, 1]."""
+    place = [0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363]
+    share = [0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763]
+    for k in range(4):
+        node[k] = 0.5 - 0.5 * place[k]
+        node[7 - k] = 0.5 + 0.5 * place[k]
+        weight[k] = 0.5 * share[k]
+        weight[7 - k] = 0.5 * share[k]

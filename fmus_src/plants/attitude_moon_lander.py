@@ -1,0 +1,164 @@
+"""A lander over the Moon whose thrust axis is turned by commanded angular accelerations."""
+
+import math
+
+from ..block import Input, Output, Parameter
+from ..interfaces.moon_lander import MoonLander
+from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity, vertical_at
+from ..mathlib.lagged_thrust import lagged_thrust
+from ..mathlib.thrust_axis import turned_axis
+from ..mathlib.vectors import Vector3, across, clip, cross, dot, norm, vector
+
+HALVINGS = 60  # of a step, until the moment at which the tank is empty is exact
+
+
+class AttitudeMoonLander(MoonLander):
+    """Point mass with one engine along a thrust axis that has an angular rate; roll about it is not modelled.
+
+    The axis d turns with the rate w, which is perpendicular to it: d' = w x d, w' = the commanded angular acceleration
+    without its part along d, shortened to maximum_angular_acceleration, held over the communication step. Thrust is
+    thrust_factor times the command, with the lag and the end of a burn of `interfaces.moon_lander`, and none from
+    where mass has come down to dry_mass. Gravity is central, or uniform along -z where uniform_gravity is not 0; then
+    altitude is z and the vertical z too. Where altitude is 0 or less at the end of an internal step, the lander goes
+    back along its velocity to altitude 0, and that state is kept. An initial attitude without length is the
+    z axis. Frame: landing site.
+
+    Attitude: Runge-Kutta of fourth order, two steps in each internal one. The results depend on how communication
+    points cut a flight as those of spherical_moon_lander do.
+    """
+
+    initial_position = MoonLander.initial_position.with_start([0.0, 0.0, 2400.0])
+    initial_velocity = MoonLander.initial_velocity.with_start([0.0, 0.0, 0.0])
+    initial_mass = MoonLander.initial_mass.with_start(600.0)
+    specific_impulse = MoonLander.specific_impulse.with_start(300.0)
+    internal_step = MoonLander.internal_step.with_start(0.05)
+    initial_attitude = Parameter(
+        [0.0, 0.0, 1.0], unit="1", frame="landing site", description="thrust axis at the start, of any length"
+    )
+    initial_angular_rate = Parameter(
+        [0.0, 0.0, 0.0],
+        unit="rad/s",
+        frame="landing site",
+        description="angular rate at the start; its part along the thrust axis is dropped",
+    )
+    thrust_factor = Parameter(1.0, unit="1", minimum=0.0, description="thrust given over thrust commanded")
+    uniform_gravity = Parameter(0.0, unit="m/s2", minimum=0.0, description="gravity along -z; 0: central field")
+    dry_mass = Parameter(1.0, unit="kg", minimum=1e-3, description="mass without propellant")
+    probe_length = Parameter(1.5, unit="m", minimum=0.0, description="altitude at which the probe touches the ground")
+    maximum_angular_acceleration = Parameter(
+        0.017453292519943295, unit="rad/s2", minimum=0.0, description="largest of the attitude jets; 0: no limit"
+    )
+    angular_acceleration = Input(
+        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", description="commanded angular acceleration"
+    )
+    mass = MoonLander.mass.with_start(600.0)
+    angular_rate = Output(
+        [0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="of the thrust axis, perpendicular to it"
+    )
+    tilt = Output(0.0, unit="rad", description="angle of the thrust axis from the local vertical")
+    vertical_speed = Output(0.0, unit="m/s", description="velocity along the local vertical, upwards")
+    horizontal_speed = Output(0.0, unit="m/s", description="length of velocity across the local vertical")
+    probe_contact = Output(False, description="the probe has touched the ground")
+
+    def initialize(self) -> None:
+        self.place()
+        self.divide(0.0)
+        length = norm(self.initial_attitude)
+        if length > 0.0:
+            self.attitude = self.initial_attitude / length
+        self.angular_rate = across(self.initial_angular_rate, self.attitude)
+        self.touch_probe()
+        self.look()
+
+    def height(self, position: Vector3) -> float:
+        """Altitude (m) at a position (m)."""
+        if self.uniform_gravity > 0.0:
+            return position.z
+        return altitude_of(position, self.moon_radius)
+
+    def gravity(self, position: Vector3) -> Vector3:
+        """Gravity (m/s2) at a position (m)."""
+        if self.uniform_gravity > 0.0:
+            return vector(0.0, 0.0, -self.uniform_gravity)
+        return central_gravity(position, self.moon_radius, self.gravitational_parameter)
+
+    def vertical(self) -> Vector3:
+        """The local vertical, upwards."""
+        if self.uniform_gravity > 0.0:
+            return vector(0.0, 0.0, 1.0)
+        return vertical_at(self.position, self.moon_radius)
+
+    def turn(self, t: float, h: float) -> None:
+        """Advance attitude and angular rate by h (s)."""
+        self.attitude, self.angular_rate = turned_axis(
+            self.attitude, self.angular_rate, self.angular_acceleration, self.maximum_angular_acceleration, h
+        )
+
+    def impulse(self, h: float, commanded: float) -> float:
+        """Impulse (N s) of h (s) under a command (N)."""
+        _, _, total = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
+        return total
+
+    def thrusting_time(self, h: float, commanded: float) -> float:
+        """How much of h (s) the propellant lasts under a command (N)."""
+        allowed = (self.mass - self.dry_mass) * STANDARD_GRAVITY * self.specific_impulse
+        if not self.impulse(h, commanded) > allowed:
+            return h
+        low = 0.0
+        high = h
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            if self.impulse(middle, commanded) > allowed:
+                high = middle
+            else:
+                low = middle
+        return low
+
+    def move(self, t: float, h: float, commanded: float) -> Vector3:
+        """Move by h (s) under one command (N); returns the velocity that thrust gives (m/s)."""
+        lasting = 0.0
+        gained = vector(0.0, 0.0, 0.0)
+        if self.mass > self.dry_mass:
+            lasting = self.thrusting_time(h, commanded)
+            gained = self.advance(t, lasting, commanded)
+        if lasting < h:
+            if lasting > 0.0:
+                self.mass = self.dry_mass
+            self.delivered_thrust = 0.0
+            pushed = self.advance(t + lasting, h - lasting, 0.0)
+            gained = gained + pushed
+        self.touch()
+        if self.ground_contact:
+            self.go_back(h)
+        self.touch_probe()
+        return gained
+
+    def go_back(self, h: float) -> None:
+        """From below the ground to it, along the velocity, by no more than h (s)."""
+        below = self.position
+        back = 0.0
+        for _ in range(3):  # Newton's steps; the ground is all but flat over one of ours
+            sinking = -dot(self.velocity, self.vertical())
+            if sinking > 0.0:
+                back = clip(back - self.altitude / sinking, 0.0, h)
+                self.position = below - back * self.velocity
+                self.altitude = self.height(self.position)
+
+    def touch_probe(self) -> None:
+        """Remember that the probe has touched the ground."""
+        if self.altitude <= self.probe_length:
+            self.probe_contact = True
+
+    def look(self) -> None:
+        """Set tilt and the speeds along and across the local vertical."""
+        up = self.vertical()
+        self.tilt = math.atan2(norm(cross(self.attitude, up)), dot(self.attitude, up))
+        self.vertical_speed = dot(self.velocity, up)
+        self.horizontal_speed = norm(self.velocity - self.vertical_speed * up)
+
+    def step(self, t: float, h: float) -> None:
+        commanded = self.thrust_factor * self.thrust
+        if commanded < 0.0:
+            commanded = 0.0
+        self.fly(t, h, commanded)
+        self.look()

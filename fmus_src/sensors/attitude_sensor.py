@@ -1,0 +1,66 @@
+"""Thrust axis and its angular rate, as an attitude system measures them."""
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.rng import normals, seed_streams
+from ..mathlib.vectors import Vector3, cross, norm
+
+
+class AttitudeSensor(Block):
+    """The thrust axis turned by a small rotation, and its angular rate with white errors.
+
+    measured_attitude is the unit vector along d + e x d, where e has a constant part, drawn at the start with
+    constant_sigma per axis, and one of attitude_sigma per axis that is new in every sample; measured_angular_rate has
+    an error of rate_sigma per axis, new in every sample. The first sample is at the start. Which normal numbers a
+    flight uses depends on seed, stream and the sample's number only. Frame: landing site.
+    """
+
+    constant_sigma = Parameter(
+        8.726646259971648e-4, unit="rad", minimum=0.0, description="constant error, 1 sigma per axis; 0.05 deg"
+    )
+    attitude_sigma = Parameter(
+        2.617993877991494e-4, unit="rad", minimum=0.0, description="white error, 1 sigma per axis; 0.015 deg"
+    )
+    rate_sigma = Parameter(
+        3.490658503988659e-4, unit="rad/s", minimum=0.0, description="white error of the rate, 1 sigma per axis"
+    )
+    sample_period = Parameter(0.0, unit="s", minimum=0.0, description="between samples; 0: every communication point")
+    seed = Parameter(1, minimum=0, description="random numbers: seed")
+    stream = Parameter(0, minimum=0, description="random numbers: stream within the seed")
+    attitude = Input([0.0, 0.0, 1.0], unit="1", frame="landing site", description="true unit vector of thrust")
+    angular_rate = Input([0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="true angular rate")
+    measured_attitude = Output(
+        [0.0, 0.0, 1.0], unit="1", frame="landing site", direct=True, description="measured unit vector of thrust"
+    )
+    measured_angular_rate = Output(
+        [0.0, 0.0, 0.0], unit="rad/s", frame="landing site", direct=True, description="measured angular rate"
+    )
+    sample_count = Output(0, description="samples taken; tells a new one from a held one")
+    generator = State([0.0] * 6, frozen=True, description="random number generator")
+    misalignment = State(
+        [0.0] * 3, unit="rad", frame="landing site", description="rotation vector of the constant error"
+    )
+
+    def initialize(self) -> None:
+        seed_streams(self.generator, self.seed, self.stream)
+        constant = normals(self.generator)
+        self.misalignment = self.constant_sigma * constant
+        self.measure()
+
+    def turned(self, axis: Vector3, rotation: Vector3) -> Vector3:
+        """An axis after a small rotation (rad); as it is where it has no length."""
+        moved = axis + cross(rotation, axis)
+        length = norm(moved)
+        if length > 0.0:
+            return moved / length
+        return axis
+
+    def measure(self) -> None:
+        """Take a sample."""
+        numbers = normals(self.generator)
+        self.measured_attitude = self.turned(self.attitude, self.misalignment + self.attitude_sigma * numbers)
+        numbers = normals(self.generator)
+        self.measured_angular_rate = self.angular_rate + self.rate_sigma * numbers
+        self.sample_count = self.sample_count + 1
+
+    def step(self, t: float, h: float) -> None:
+        self.measure()

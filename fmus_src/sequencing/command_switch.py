@@ -1,0 +1,96 @@
+"""Passes on the command of the guidance that is in charge."""
+
+from ..block import Block, Input, Output
+from ..mathlib.vectors import vector
+from .landing_sequence import BRAKING_GUIDANCE, HOVER_GUIDANCE, OWN
+
+
+class CommandSwitch(Block):
+    """The command of one of three sources, without thrust unless the engine is on.
+
+    `source` 1 is the sequencer's own command, 2 the braking guidance's, 3 the hover guidance's, and only its
+    angular_acceleration_feed is passed on. Without a source there is no thrust, and a direction of length 0, at which
+    the attitude control only brings the rate to rest. Frame: landing site.
+    """
+
+    source = Input(0, description="0 none, 1 own, 2 braking, 3 hover")
+    engine_on = Input(False, description="thrust is given")
+    own_thrust_acceleration = Input(0.0, unit="m/s2", description="the sequencer's own command: thrust over mass")
+    own_thrust_direction = Input(
+        [0.0, 0.0, 0.0],
+        unit="1",
+        frame="landing site",
+        description="the sequencer's own command: unit vector at its time",
+    )
+    own_thrust_direction_rate = Input(
+        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="the sequencer's own command: the derivative"
+    )
+    own_command_time = Input(0.0, unit="s", description="the sequencer's own command: when it was computed")
+    own_burn_duration = Input(0.0, unit="s", description="the sequencer's own command: how long to thrust from then on")
+    braking_thrust_acceleration = Input(0.0, unit="m/s2", description="the braking guidance: thrust over mass")
+    braking_thrust_direction = Input(
+        [0.0, 0.0, 0.0], unit="1", frame="landing site", description="the braking guidance: unit vector at its time"
+    )
+    braking_thrust_direction_rate = Input(
+        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="the braking guidance: the derivative"
+    )
+    braking_command_time = Input(0.0, unit="s", description="the braking guidance: when it was computed")
+    braking_burn_duration = Input(0.0, unit="s", description="the braking guidance: how long to thrust from then on")
+    hover_thrust_acceleration = Input(0.0, unit="m/s2", description="the hover guidance: thrust over mass")
+    hover_thrust_direction = Input(
+        [0.0, 0.0, 0.0], unit="1", frame="landing site", description="the hover guidance: unit vector at its time"
+    )
+    hover_thrust_direction_rate = Input(
+        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", description="the hover guidance: the derivative"
+    )
+    hover_command_time = Input(0.0, unit="s", description="the hover guidance: when it was computed")
+    hover_burn_duration = Input(0.0, unit="s", description="the hover guidance: how long to thrust from then on")
+    hover_angular_acceleration_feed = Input(
+        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", description="the hover guidance: of its plan"
+    )
+    thrust_acceleration = Output(0.0, unit="m/s2", direct=True, description="thrust over mass")
+    thrust_direction = Output(
+        [0.0, 0.0, 0.0], unit="1", frame="landing site", direct=True, description="unit vector at command_time; 0: none"
+    )
+    thrust_direction_rate = Output(
+        [0.0, 0.0, 0.0], unit="1/s", frame="landing site", direct=True, description="its derivative"
+    )
+    command_time = Output(0.0, unit="s", direct=True, description="time that direction and duration count from")
+    burn_duration = Output(0.0, unit="s", direct=True, description="how long to thrust from command_time on")
+    angular_acceleration_feed = Output(
+        [0.0, 0.0, 0.0], unit="rad/s2", frame="landing site", direct=True, description="that the command itself needs"
+    )
+
+    def initialize(self) -> None:
+        self.pass_on()
+
+    def pass_on(self) -> None:
+        """Put the command in charge on the outputs."""
+        self.angular_acceleration_feed = vector(0.0, 0.0, 0.0)
+        if self.source == OWN:
+            self.thrust_acceleration = self.own_thrust_acceleration
+            self.thrust_direction = self.own_thrust_direction
+            self.thrust_direction_rate = self.own_thrust_direction_rate
+            self.command_time = self.own_command_time
+            self.burn_duration = self.own_burn_duration
+        elif self.source == BRAKING_GUIDANCE:
+            self.thrust_acceleration = self.braking_thrust_acceleration
+            self.thrust_direction = self.braking_thrust_direction
+            self.thrust_direction_rate = self.braking_thrust_direction_rate
+            self.command_time = self.braking_command_time
+            self.burn_duration = self.braking_burn_duration
+        elif self.source == HOVER_GUIDANCE:
+            self.thrust_acceleration = self.hover_thrust_acceleration
+            self.thrust_direction = self.hover_thrust_direction
+            self.thrust_direction_rate = self.hover_thrust_direction_rate
+            self.command_time = self.hover_command_time
+            self.burn_duration = self.hover_burn_duration
+            self.angular_acceleration_feed = self.hover_angular_acceleration_feed
+        else:
+            self.thrust_direction = vector(0.0, 0.0, 0.0)
+            self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
+        if not self.engine_on or self.source < OWN or self.source > HOVER_GUIDANCE:
+            self.thrust_acceleration = 0.0
+
+    def step(self, t: float, h: float) -> None:
+        self.pass_on()

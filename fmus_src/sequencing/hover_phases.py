@@ -1,0 +1,154 @@
+"""From the first hover to the ground: phases 4 to 9 of a landing."""
+
+from ..block import Parameter, State
+from ..mathlib.gravity import altitude_of, from_centre, vertical_at
+from ..mathlib.landing_site import above_site, redesignated, site_below, within_reach
+from ..mathlib.vectors import Vector2, across, clip, norm
+from .landing_sequence import (
+    CAPTURE,
+    CUT_OFF,
+    DROPPED,
+    HOLD,
+    NEVER,
+    OWN,
+    PROGRAMME,
+    ROUNDING,
+    SHORTENED,
+    SINK,
+    SITE_MOVED,
+    SLOW,
+    TIMEOUT,
+    LandingSequence,
+)
+
+
+class HoverPhases(LandingSequence, interface=True):
+    """Hovers, the ways between them, descent and contact: each says at every step whether it is over.
+
+    Hover targets stand on the local vertical of `site`: first the origin, or where braking has ended elsewhere, then
+    moved by the re-designations and put back on the sphere.
+    """
+
+    hover_time = Parameter(20.0, unit="s", minimum=0.0, description="of hover 1 and 2, in which a site is chosen")
+    hover_patience = Parameter(60.0, unit="s", minimum=0.0, description="longest hover 1 and 2")
+    settled_speed = Parameter(0.5, unit="m/s", minimum=0.0, description="with which a hover may end")
+    settled_distance = Parameter(10.0, unit="m", minimum=0.0, description="from its target with which it may end")
+    reach_over_drop = Parameter(1.3, unit="1", minimum=0.0, description="first re-designation at most, over the drop")
+    second_reach = Parameter(100.0, unit="m", minimum=0.0, description="second re-designation at most")
+    reserve = Parameter(25.0, unit="kg", minimum=0.0, description="propellant that the transfer is to leave")
+    lookahead = Parameter(8.0, unit="s", minimum=0.0, description="of velocity, to the hover after braking elsewhere")
+    lowest_hover = Parameter(300.0, unit="m", minimum=0.0, description="least altitude of that hover")
+    descent_wait = Parameter(3.0, unit="s", minimum=0.0, description="hover before the descent")
+    cut_altitude = Parameter(
+        0.5, unit="m", minimum=0.0, description="estimated altitude at which thrust ends without the probe"
+    )
+    plan_end = State(NEVER, frozen=True, unit="s", description="when the plan of hover 1 was over; -1: not yet")
+    plan_judged = State(False, description="the transfer's propellant has been looked at")
+    first_site = State(
+        [0.0, 0.0, 0.0], frozen=True, unit="m", frame="landing site", description="site before the transfer"
+    )
+
+    def begin_first_hover(self) -> None:
+        """Capture the hover over the site."""
+        self.target_position = above_site(self.site, self.preliminary_altitude, self.moon_radius)
+        self.hover(CAPTURE)
+
+    def move_site_ahead(self, time: float) -> None:
+        """The site below the place that lookahead of the velocity leads to."""
+        place = self.estimated_position + self.lookahead * self.estimated_velocity
+        self.site = site_below(place, self.moon_radius)
+        altitude = clip(altitude_of(place, self.moon_radius), self.lowest_hover, self.preliminary_altitude)
+        self.target_position = above_site(self.site, altitude, self.moon_radius)
+        self.note(SITE_MOVED, time)
+
+    def is_settled(self) -> bool:
+        """Whether the vehicle hovers at its target."""
+        close = norm(self.estimated_position - self.target_position) <= self.settled_distance
+        return close and norm(self.estimated_velocity) <= self.settled_speed
+
+    def choose(self, ahead: float, chosen_since: float) -> bool:
+        """Hover over a site that is being chosen from ``chosen_since`` (s) on; whether that is over."""
+        waited = ahead - chosen_since + ROUNDING
+        if waited >= self.hover_time and self.is_settled():
+            return True
+        if waited >= self.hover_patience:
+            self.note(TIMEOUT, ahead)
+            return True
+        return False
+
+    def first_hover(self, t: float, ahead: float) -> bool:
+        """Capture, then choose."""
+        if self.plan_end < 0.0 and self.hover_finished:
+            self.plan_end = t
+        if self.plan_end < 0.0:
+            return False
+        return self.choose(ahead, self.plan_end)
+
+    def move_site(self, move: Vector2, reach: float, time: float) -> None:
+        """Put the site where a re-designation of at most ``reach`` (m) wants it."""
+        reached, allowed = within_reach(move, reach)
+        if not reached:
+            self.note(SHORTENED, time)
+        self.site = redesignated(self.site, allowed, self.moon_radius)
+
+    def begin_transfer(self, time: float) -> None:
+        """Down to the second hover, over the site of the first re-designation."""
+        self.first_site = self.site
+        reach = self.reach_over_drop * (self.preliminary_altitude - self.final_altitude)
+        self.move_site(self.redesignation_1, reach, time)
+        self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
+        self.hover(PROGRAMME)
+
+    def transfer(self, ahead: float) -> bool:
+        """Until the plan is over; without a re-designation where it would need too much."""
+        if not self.plan_judged:
+            self.plan_judged = True
+            if self.mass - self.predicted_propellant - self.reserve < self.dry_mass:
+                self.note(DROPPED, ahead)
+                self.site = self.first_site
+                self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
+                self.hover(PROGRAMME)
+                return False
+        return self.hover_finished
+
+    def begin_second_hover(self) -> None:
+        """Hold where the transfer went."""
+        self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
+        self.hover(HOLD)
+
+    def begin_approach(self, time: float) -> None:
+        """Slowly down to the last hover, over the site of the second re-designation."""
+        self.move_site(self.redesignation_2, self.second_reach, time)
+        self.target_position = above_site(self.site, self.cutoff_altitude, self.moon_radius)
+        self.hover(SLOW)
+
+    def begin_descent(self) -> None:
+        """Hold over the site."""
+        self.target_position = above_site(self.site, self.cutoff_altitude, self.moon_radius)
+        self.hover(HOLD)
+
+    def descend(self, ahead: float) -> bool:
+        """Sink after a while, until the probe touches the ground."""
+        if self.probe_contact:
+            return True
+        if self.ground_contact or altitude_of(self.estimated_position, self.moon_radius) <= self.cut_altitude:
+            self.note(CUT_OFF, ahead)
+            return True
+        if self.hover_mode == HOLD and self.since_start(ahead) >= self.descent_wait - ROUNDING:
+            self.hover(SINK)
+        return False
+
+    def begin_contact(self) -> None:
+        """No thrust."""
+        self.take_over(OWN, False)
+
+    def face_up(self, time: float) -> None:
+        """Own command: the local vertical, without thrust."""
+        up = vertical_at(self.estimated_position, self.moon_radius)
+        self.thrust_direction = up
+        self.thrust_direction_rate = across(self.estimated_velocity, up) / norm(
+            from_centre(self.estimated_position, self.moon_radius)
+        )
+        self.thrust_acceleration = 0.0
+        self.command_time = time
+        self.burn_duration = 0.0

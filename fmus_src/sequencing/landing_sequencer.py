@@ -1,0 +1,165 @@
+"""Leads a landing from orbit to contact: which guidance commands, to where, until when."""
+
+import math
+
+from ..block import Parameter, State
+from .hover_phases import HoverPhases
+from .landing_sequence import (
+    APPROACH,
+    BRAKING,
+    COAST,
+    CONTACT,
+    CUT_OFF,
+    DEORBIT,
+    DESCENT,
+    HOVER_1,
+    HOVER_2,
+    HOVER_GUIDANCE,
+    HOVER_GUIDANCE_SAID,
+    OUT_OF_PROPELLANT,
+    REFUSED,
+    REFUSED_PHASE,
+    ROUNDING,
+    TRANSFER,
+)
+from .orbit_phases import ELSEWHERE, GOES_ON, OrbitPhases
+
+LEAST_MARGIN = 0.9  # of the least weight: what the least thrust must stay below
+
+
+class LandingSequencer(OrbitPhases, HoverPhases):
+    """Leads a landing through nine phases: deorbit, coast, braking, hover, transfer, hover, approach, descent, contact.
+
+    Any of them can be the first. A phase that does not come to its end in time is ended with a status, and the flight
+    goes on with the next. Ground contact before phase 8 ends the flight, as cut off without the probe. Refused at the
+    start, with status 9, phase 0 and finished: a start_phase that does not exist, minimum_thrust not below
+    maximum_thrust or not below 0.9 of the empty vehicle's weight, preliminary_altitude, final_altitude, cutoff_altitude
+    and probe_length not one below the other, any parameter that is not finite.
+    free_flight is true in phases 1 to 3 where the engine has been off for settling_time.
+
+    The hover guidance must answer at the communication point at which it is told, so its cycle is the step.
+    Stages and altitudes: Huang Yichun 2017. Rules and times are ours: docs/systems/landing_mission.md.
+    """
+
+    settling_time = Parameter(2.0, unit="s", minimum=0.0, description="from the engine's end to free flight")
+    under_way = State(False, description="a step has been taken")
+    last_thrust = State(0.0, frozen=True, unit="s", description="the engine is off from then on")
+
+    def initialize(self) -> None:
+        self.last_thrust = self.start_time
+        if self.is_refused():
+            self.phase = REFUSED_PHASE
+            self.note(REFUSED, self.start_time)
+            self.finished = True
+        else:
+            self.enter(self.start_phase, self.start_time)
+
+    def is_refused(self) -> bool:
+        """Whether the parameters make no landing."""
+        times = self.hold_time + self.deorbit_patience + self.pointing_patience + self.handover_time_to_go
+        times = times + self.braking_patience + self.solution_patience + self.hover_time + self.hover_patience
+        times = times + self.lookahead + self.descent_wait + self.settling_time
+        lengths = self.braking_range + self.pericentre_altitude + self.lowest_coast + self.far_range + self.moon_radius
+        lengths = lengths + self.settled_distance + self.second_reach + self.lowest_hover + self.cut_altitude
+        others = self.deorbit_throttle + self.pointing_tolerance + self.slow_speed + self.settled_speed
+        others = others + self.reach_over_drop + self.reserve + self.dry_mass + self.gravitational_parameter
+        moves = self.redesignation_1.x + self.redesignation_1.y + self.redesignation_2.x + self.redesignation_2.y
+        if not math.isfinite(times + lengths + others + moves):
+            return True
+        if not math.isfinite(self.minimum_thrust + self.maximum_thrust + self.preliminary_altitude + self.probe_length):
+            return True
+        if self.start_phase < DEORBIT or self.start_phase > CONTACT:
+            return True
+        weight = self.dry_mass * self.gravitational_parameter / (self.moon_radius * self.moon_radius)
+        if self.minimum_thrust >= self.maximum_thrust or self.minimum_thrust >= LEAST_MARGIN * weight:
+            return True
+        high = self.preliminary_altitude > self.final_altitude and self.final_altitude > self.cutoff_altitude
+        return not (high and self.cutoff_altitude > self.probe_length)
+
+    def enter(self, phase: int, time: float) -> None:
+        """Begin a phase, which holds from ``time`` (s)."""
+        self.open_phase(phase, time)
+        if phase <= COAST:
+            self.begin_deorbit()
+        elif phase == BRAKING:
+            self.begin_braking()
+        elif phase == HOVER_1:
+            self.begin_first_hover()
+        elif phase == TRANSFER:
+            self.begin_transfer(time)
+        elif phase == HOVER_2:
+            self.begin_second_hover()
+        elif phase == APPROACH:
+            self.begin_approach(time)
+        elif phase == DESCENT:
+            self.begin_descent()
+        else:
+            self.begin_contact()
+
+    def watch(self, ahead: float) -> None:
+        """What may be said in any phase."""
+        if self.source == HOVER_GUIDANCE and self.hover_status != 0:
+            self.note(HOVER_GUIDANCE_SAID, ahead)
+        if self.mass <= self.dry_mass:
+            self.note(OUT_OF_PROPELLANT, ahead)
+
+    def end_braking(self, how: int, ahead: float) -> None:
+        """Go on to hover 1, over the site or where braking has ended."""
+        self.enter(HOVER_1, ahead)
+        if how == ELSEWHERE:
+            self.move_site_ahead(ahead)
+
+    def go_on(self, t: float, ahead: float) -> None:
+        """Let the phase decide, and begin the next one where it is over."""
+        if self.phase == DEORBIT:
+            said = self.deorbit(t, ahead)
+            if said != GOES_ON:
+                self.enter(COAST, ahead)
+                self.face_back(t)
+        elif self.phase == COAST:
+            said = self.coast(t, ahead)
+            if said != GOES_ON:
+                self.enter(BRAKING, ahead)
+        elif self.phase == BRAKING:
+            said = self.brake(t, ahead)
+            if said != GOES_ON:
+                self.end_braking(said, ahead)
+        else:
+            self.go_on_below(t, ahead)
+
+    def go_on_below(self, t: float, ahead: float) -> None:
+        """The same from hover 1 on."""
+        over = False
+        if self.phase == HOVER_1:
+            over = self.first_hover(t, ahead)
+        elif self.phase == TRANSFER:
+            over = self.transfer(ahead)
+        elif self.phase == HOVER_2:
+            over = self.choose(ahead, self.phase_time[HOVER_2 - 1])
+        elif self.phase == APPROACH:
+            over = self.hover_finished
+        elif self.phase == DESCENT:
+            over = self.descend(ahead)
+        if over:
+            self.enter(self.phase + 1, ahead)
+
+    def step(self, t: float, h: float) -> None:
+        if not self.finished:
+            ahead = t + h
+            if not self.under_way:
+                self.under_way = True
+                self.phase_mass[self.phase - 1] = self.mass
+            self.watch(ahead)
+            if self.phase == CONTACT:
+                self.finished = self.ground_contact
+            elif self.ground_contact and self.phase < DESCENT:
+                self.note(CUT_OFF, ahead)
+                self.enter(CONTACT, ahead)
+            else:
+                self.go_on(t, ahead)
+            if self.phase == CONTACT:
+                self.face_up(t)
+            if self.engine_on:
+                self.last_thrust = ahead + h
+            off = ahead - self.last_thrust + ROUNDING >= self.settling_time
+            self.free_flight = self.phase <= BRAKING and not self.engine_on and off

@@ -1,0 +1,142 @@
+"""From the orbit to the end of main braking: phases 1 to 3 of a landing."""
+
+import math
+
+from ..block import Parameter, State
+from ..mathlib.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range
+from ..mathlib.gravity import altitude_of, from_centre
+from ..mathlib.vectors import dot, norm
+from .landing_sequence import BRAKING_FAILED, BRAKING_GUIDANCE, NEVER, OWN, ROUNDING, TIMEOUT, LandingSequence
+
+NOT_CONVERGED = 2  # status of the braking guidance from which on its command is an old one
+# What deorbit, coast and braking say of themselves
+GOES_ON = 0
+OVER = 1
+ELSEWHERE = 2
+
+
+class OrbitPhases(LandingSequence, interface=True):
+    """Deorbit, coast and braking: each says at every step whether it is over.
+
+    Deorbit brakes against the horizontal velocity, its middle where the ellipse's pericentre comes to lie braking_range
+    before the site; how long is computed anew in every step, and held from hold_time before the end, since a
+    remainder that is computed anew is never burnt. Braking ends handover_time_to_go before its target, or, where it is
+    then far from the site, when it is slow or at its end.
+    """
+
+    braking_range = Parameter(285e3, unit="m", minimum=0.0, description="ground range from the site at which to brake")
+    pericentre_altitude = Parameter(15e3, unit="m", minimum=0.0, description="that the deorbit aims at")
+    deorbit_throttle = Parameter(0.1, unit="1", minimum=1e-3, maximum=1.0, description="part of maximum_thrust")
+    hold_time = Parameter(1.0, unit="s", minimum=0.0, description="before its end the deorbit's burn is held")
+    deorbit_patience = Parameter(2.0, unit="1", minimum=1.0, description="longest burn over the planned one")
+    lowest_coast = Parameter(12e3, unit="m", description="altitude below which the coast is given up")
+    pointing_tolerance = Parameter(
+        2.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="ignite with the axis so close to its command"
+    )
+    pointing_patience = Parameter(30.0, unit="s", minimum=0.0, description="ignite after that in any case")
+    handover_time_to_go = Parameter(28.0, unit="s", minimum=0.0, description="left of the braking when hover 1 begins")
+    braking_patience = Parameter(450.0, unit="s", minimum=0.0, description="longest braking")
+    solution_patience = Parameter(20.0, unit="s", minimum=0.0, description="longest braking without a solution")
+    far_range = Parameter(5e3, unit="m", minimum=0.0, description="ground left from which on braking ends elsewhere")
+    slow_speed = Parameter(30.0, unit="m/s", minimum=0.0, description="at which braking elsewhere ends")
+    ignition_time = State(NEVER, frozen=True, unit="s", description="of the deorbit; -1: not yet")
+    planned_burn = State(0.0, frozen=True, unit="s", description="of the deorbit, as it was at ignition")
+    holding = State(False, description="the deorbit's burn is held")
+    unsolved_since = State(
+        NEVER, unit="s", description="the braking guidance has had no solution from then on; -1: it has"
+    )
+    elsewhere = State(False, description="braking goes on to an end far from the site")
+
+    def face_back(self, time: float) -> None:
+        """Own command: against the horizontal velocity, without thrust."""
+        self.thrust_direction, self.thrust_direction_rate = against_horizontal(
+            self.estimated_position, self.estimated_velocity, self.moon_radius
+        )
+        self.thrust_acceleration = 0.0
+        self.command_time = time
+        self.burn_duration = 0.0
+
+    def begin_deorbit(self) -> None:
+        """Own command; the first step gives its direction."""
+        self.take_over(OWN, False)
+
+    def deorbit(self, t: float, ahead: float) -> int:
+        """Wait, ignite, burn."""
+        if not self.holding:
+            self.face_back(t)
+            acceleration = self.deorbit_throttle * self.maximum_thrust / self.mass
+            burn = deorbit_burn(
+                self.estimated_position,
+                self.estimated_velocity,
+                self.moon_radius + self.pericentre_altitude,
+                self.moon_radius,
+                self.gravitational_parameter,
+                acceleration,
+            )
+            if self.ignition_time < 0.0 and self.is_time_to_burn(burn):
+                self.ignition_time = ahead
+                self.planned_burn = burn
+                self.engine_on = True
+                burn = burn + ahead - t
+            if self.engine_on:
+                self.thrust_acceleration = acceleration
+                self.burn_duration = burn
+                self.holding = burn <= self.hold_time
+        if self.engine_on and ahead >= self.command_time + self.burn_duration - ROUNDING:
+            return OVER
+        if self.engine_on and ahead - self.ignition_time >= self.deorbit_patience * self.planned_burn:
+            self.note(TIMEOUT, ahead)
+            return OVER
+        return GOES_ON
+
+    def is_time_to_burn(self, burn: float) -> bool:
+        """Whether a burn (s) from now has its middle braking_range and half a revolution before the site, or later."""
+        turned = norm(self.estimated_velocity) / norm(from_centre(self.estimated_position, self.moon_radius))
+        place = math.pi + self.braking_range / self.moon_radius + 0.5 * burn * turned
+        return central_angle(self.estimated_position, self.moon_radius) <= place
+
+    def coast(self, t: float, ahead: float) -> int:
+        """Until the site is near."""
+        self.face_back(t)
+        before_site = self.estimated_position.z > -self.moon_radius
+        if before_site and ground_range(self.estimated_position, self.moon_radius) <= self.braking_range:
+            return OVER
+        if altitude_of(self.estimated_position, self.moon_radius) < self.lowest_coast:
+            self.note(TIMEOUT, ahead)
+            return OVER
+        return GOES_ON
+
+    def begin_braking(self) -> None:
+        """The braking guidance's command, without thrust until the axis is on it."""
+        self.take_over(BRAKING_GUIDANCE, False)
+
+    def brake(self, t: float, ahead: float) -> int:
+        """Ignite, and look for the end."""
+        if not self.engine_on:
+            length = norm(self.attitude) * norm(self.braking_direction)
+            pointing = dot(self.attitude, self.braking_direction) >= math.cos(self.pointing_tolerance) * length
+            if pointing:
+                self.engine_on = True
+            elif self.since_start(ahead) >= self.pointing_patience - ROUNDING:
+                self.note(TIMEOUT, ahead)
+                self.engine_on = True
+        if self.braking_status < NOT_CONVERGED:
+            self.unsolved_since = NEVER
+        elif self.unsolved_since < 0.0:
+            self.unsolved_since = t
+        far = ground_range(self.estimated_position, self.moon_radius) > self.far_range
+        unsolved = self.unsolved_since >= 0.0 and ahead - self.unsolved_since >= self.solution_patience - ROUNDING
+        if unsolved or self.since_start(ahead) >= self.braking_patience - ROUNDING:
+            self.note(BRAKING_FAILED, ahead)
+            return ELSEWHERE if far else OVER
+        # without a solution from its start on, the guidance says that no time is left
+        counts = self.braking_status < NOT_CONVERGED or self.braking_time_to_go > 0.0
+        ending = self.braking_finished or (counts and self.braking_time_to_go <= self.handover_time_to_go)
+        if ending and far:
+            self.elsewhere = True
+        if self.elsewhere:
+            if self.braking_finished or norm(self.estimated_velocity) < self.slow_speed:
+                return ELSEWHERE
+        elif ending:
+            return OVER
+        return GOES_ON

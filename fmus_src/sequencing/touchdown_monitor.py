@@ -1,0 +1,56 @@
+"""What a landing was like at the moment of contact."""
+
+import math
+
+from ..block import Block, Input, Output, Parameter, State
+from ..mathlib.vectors import norm
+
+
+class TouchdownMonitor(Block):
+    """Speeds, tilt, angular rate and distance from the site at the first ground contact, and whether they are allowed.
+
+    All outputs keep their values from then on; before it, within_limits is false. Frame: landing site.
+    """
+
+    vertical_speed_limit = Parameter(3.0, unit="m/s", minimum=0.0, description="largest vertical speed")
+    horizontal_speed_limit = Parameter(1.0, unit="m/s", minimum=0.0, description="largest horizontal speed")
+    tilt_limit = Parameter(5.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="largest tilt")
+    rate_limit = Parameter(2.0 * math.pi / 180.0, unit="rad/s", minimum=0.0, description="largest angular rate")
+    distance_limit = Parameter(10.0, unit="m", minimum=0.0, description="largest distance from the site")
+    ground_contact = Input(False, description="the ground was reached")
+    vertical_speed = Input(0.0, unit="m/s", description="true velocity along the local vertical, upwards")
+    horizontal_speed = Input(0.0, unit="m/s", description="true velocity across it")
+    tilt = Input(0.0, unit="rad", description="true angle of the thrust axis from the local vertical")
+    angular_rate = Input([0.0, 0.0, 0.0], unit="rad/s", frame="landing site", description="true angular rate")
+    position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="true position")
+    site = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where to land")
+    contact = Output(False, direct=True, description="the ground was reached; what follows is kept")
+    contact_time = Output(-1.0, unit="s", direct=True, description="when; -1: not yet")
+    contact_vertical_speed = Output(0.0, unit="m/s", direct=True, description="vertical speed at contact, downwards")
+    contact_horizontal_speed = Output(0.0, unit="m/s", direct=True, description="horizontal speed at contact")
+    contact_tilt = Output(0.0, unit="rad", direct=True, description="tilt at contact")
+    contact_rate = Output(0.0, unit="rad/s", direct=True, description="angular rate at contact")
+    contact_distance = Output(0.0, unit="m", direct=True, description="distance from the site at contact")
+    within_limits = Output(False, direct=True, description="contact within all limits")
+    start_time = State(0.0, unit="s", description="start of the flight")
+
+    def initialize(self) -> None:
+        self.watch(self.start_time)
+
+    def watch(self, time: float) -> None:
+        """Note the contact at ``time`` (s) if it is the first."""
+        if self.ground_contact and not self.contact:
+            self.contact = True
+            self.contact_time = time
+            self.contact_vertical_speed = -self.vertical_speed
+            self.contact_horizontal_speed = self.horizontal_speed
+            self.contact_tilt = self.tilt
+            self.contact_rate = norm(self.angular_rate)
+            self.contact_distance = norm(self.position - self.site)
+            slow = self.contact_vertical_speed <= self.vertical_speed_limit
+            slow = slow and self.contact_horizontal_speed <= self.horizontal_speed_limit
+            upright = self.contact_tilt <= self.tilt_limit and self.contact_rate <= self.rate_limit
+            self.within_limits = slow and upright and self.contact_distance <= self.distance_limit
+
+    def step(self, t: float, h: float) -> None:
+        self.watch(t + h)

@@ -1,0 +1,46 @@
+"""The switch of commands, against its table written out: whose values, with or without thrust.
+
+Truth: the definition, over all sources and both states of the engine, with values that cannot be mistaken.
+"""
+
+import pytest
+
+from perilune.fmus_src.sequencing.command_switch import CommandSwitch
+
+COMMAND = {"thrust_acceleration": 1, "thrust_direction": 3, "thrust_direction_rate": 3, "command_time": 1}
+COMMAND |= {"burn_duration": 1}
+
+
+def values(source):
+    """A command of the source (0: nothing) by name, every value another one."""
+    found, count = {}, 10.0 * source
+    for name, size in COMMAND.items():
+        found[name] = [count + k for k in range(size)] if size > 1 else count
+        count += size
+    return found
+
+
+@pytest.mark.parametrize("engine_on", [True, False])
+@pytest.mark.parametrize("source", range(4))
+def test_the_command_in_charge_is_passed_on(source, engine_on):
+    given = {
+        f"{of}_{name}": value
+        for k, of in enumerate(("own", "braking", "hover"), 1)
+        for name, value in values(k).items()
+    }
+    switch = CommandSwitch(source=source, engine_on=engine_on, hover_angular_acceleration_feed=[7.0, 8.0, 9.0], **given)
+    switch.initialize()
+    for _ in range(2):
+        if source > 0:
+            for name, value in values(source).items():
+                expected = value if engine_on or name != "thrust_acceleration" else 0.0
+                assert getattr(switch, name) == expected, name
+        else:
+            assert switch.thrust_acceleration == 0.0
+            assert switch.thrust_direction == switch.thrust_direction_rate == (0.0, 0.0, 0.0)
+        assert switch.angular_acceleration_feed == ((7.0, 8.0, 9.0) if source == 3 else (0.0, 0.0, 0.0))
+        switch.step(0.0, 0.1)
+
+
+def test_every_output_is_direct():
+    assert all(variable.direct for variable in CommandSwitch.variables.values() if variable.causality == "output")

@@ -1,0 +1,124 @@
+"""The pages of plans: what stands on them, nothing fetched, the same bytes every time; in a browser, wide and narrow.
+
+Truth: the studies that they are made of; the widths that the browser lays out.
+"""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from matplotlib import image
+
+from perilune.analysis.planning.bounds import Landing
+from perilune.analysis.planning.hover_study import hover_study
+from perilune.analysis.planning.landing_study import landing_study
+from perilune.analysis.planning.vehicle import Margins, Transfer, Vehicle
+from perilune.analysis.reports.plan.hover_page import write_hover_page
+from perilune.analysis.reports.plan.landing_page import write_landing_page
+from tests.support.lengths import either
+from tests.support.pages.browser import start
+from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+
+ENGINE = 4707.192
+VEHICLE = Vehicle(600.0, 0.0, 300.0, ENGINE, ENGINE / 15.0, math.radians(1.0))
+MARGINS = Margins(0.90, 0.10, math.radians(0.70))
+LANDER = Vehicle(940.13, 440.0, 319.0, 5099.0, 0.0, math.inf)
+LANDING = Landing(285e3, 14995.3, 1692.342, 0.0, 4.0, 1.7374e6, 4.9028e12)
+COLOURS = {"hover": ((0, 114, 178), (213, 94, 0), (0, 158, 115)), "landing": ((0, 114, 178),)}
+MEASURE = """<script>
+onerror = message => document.body.dataset.error = message;
+addEventListener("load", () => {
+  const page = document.documentElement;
+  const inside = element => element.closest(".scroll") !== null || element.closest("figure") !== null;
+  const wide = [...document.querySelectorAll("body *")].filter(
+    element => !inside(element) && element.getBoundingClientRect().right > innerWidth + 1);
+  document.body.dataset.overflow = page.scrollWidth - page.clientWidth;
+  document.body.dataset.wide = wide.map(element => element.tagName + "." + element.className).join(" ");
+});
+</script></body>"""
+
+
+@pytest.fixture(scope="module")
+def hover():
+    transfer = Transfer(1600.0, 2300.0, 1.622)
+    return hover_study(VEHICLE, transfer, MARGINS, optimum=True, bound=True, curves=True, intervals=40)
+
+
+@pytest.fixture(scope="module")
+def landing():
+    return landing_study(LANDER, LANDING, direct=True, intervals=40)
+
+
+@pytest.fixture(scope="module")
+def pages(hover, landing, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("plans")
+    write_hover_page(hover, folder / "hover.html")
+    write_landing_page(landing, folder / "landing.html")
+    return {name: folder / f"{name}.html" for name in ("hover", "landing")}
+
+
+def test_transfer(hover, pages):
+    text = pages["hover"].read_text(encoding="utf-8")
+    assert_self_contained(text)
+    values = data_values(text)
+    for path in (hover.path, hover.optimum, hover.bound):
+        assert repr(path.propellant_fraction) in values
+        assert repr(path.duration) in values
+    for time in hover.programme.times:
+        assert repr(time) in values
+    words = text_of(text)
+    for name in ("simplified programme", "true optimum", "point-mass bound", "the plan's throttle 0.1 to 0.9"):
+        assert name in words
+    assert "its angular acceleration 0.7 deg/s²" in words
+    assert "Not asked for" not in words
+    assert len(parse(text).xpath("//*[local-name()='svg' and @class='figure']")) == 5
+
+
+def test_landing(landing, pages):
+    text = pages["landing"].read_text(encoding="utf-8")
+    assert_self_contained(text)
+    values = data_values(text)
+    assert repr(landing.propellant) in values
+    assert repr(landing.direct.propellant_fraction * LANDER.mass) in values
+    assert all(repr(time) in values for burn in landing.bound.burns() for time in burn)
+    assert len(parse(text).xpath("//*[local-name()='svg' and @class='figure']")) == 3
+
+
+def test_the_same_bytes_again(hover, landing, pages, tmp_path):
+    write_hover_page(hover, tmp_path / "hover.html")
+    write_landing_page(landing, tmp_path / "landing.html")
+    for name, path in pages.items():
+        assert (tmp_path / f"{name}.html").read_bytes() == path.read_bytes()
+
+
+def test_straight_down(tmp_path):
+    study = hover_study(VEHICLE, Transfer(0.0, 2300.0, 1.622), curves=True)
+    write_hover_page(study, tmp_path / "down.html")
+    text = (tmp_path / "down.html").read_text(encoding="utf-8")
+    assert_self_contained(text)
+    assert parse(text).xpath("//dt[.='programme']/../dd/text()") == ["vertical"]
+    assert "Not asked for: true optimum, point-mass bound." in text_of(text)
+
+
+@pytest.mark.parametrize("name", ["hover", "landing"])
+@pytest.mark.parametrize(("width", "height"), either([(1200, 3200), (400, 4200)], [(400, 4200)]))
+def test_page_renders(browser, pages, tmp_path, name, width, height):
+    start(browser, pages[name], tmp_path, f"--window-size={width},{height}", f"--screenshot={tmp_path / 'page.png'}")
+    pixels = image.imread(tmp_path / "page.png")[..., :3] * 255.0
+    assert pixels.shape[:2] == (height, width)
+    for colour in COLOURS[name]:
+        assert np.count_nonzero(np.all(np.abs(pixels - colour) < 3.0, axis=-1)) > 150
+    inked = np.any(pixels < 250.0, axis=-1)
+    assert not inked[:, -8:].any()
+    assert not inked[-40:].any()
+
+
+@pytest.mark.parametrize("name", ["hover", "landing"])
+def test_nothing_overflows(browser, pages, tmp_path, name):
+    measured = tmp_path / "measured.html"
+    measured.write_text(pages[name].read_text(encoding="utf-8").replace("</body>", MEASURE), encoding="utf-8")
+    dom = start(browser, measured, tmp_path, "--window-size=500,2000", "--dump-dom")
+    assert re.search(r"<body[^>]* data-overflow=\"0\"", dom)
+    assert re.search(r"<body[^>]* data-wide=\"\"", dom)
+    assert not re.search(r"<body[^>]* data-error", dom)

@@ -1,0 +1,227 @@
+"""The whole landing as a user flies it: from orbit to contact, entered at any phase, with what goes wrong.
+
+Truth: Kepler's ellipse (deorbit and coast), the rocket equation (propellant against the velocity that the engine gave),
+free fall (the contact), what a plan says beforehand (duration and propellant of the transfer), the chi-square
+distribution (the filter at the start of each phase), the limits of contact, and the stage table of the design, which
+stands here as a regression.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import stats
+
+import perilune
+from tests.support.lengths import LONG, either
+
+SYSTEM = "landing_mission"
+RADIUS, MU = 1.7374e6, 4.9028e12
+CENTRE = np.array([0.0, 0.0, -RADIUS])
+EXHAUST_SPEED = 9.80665 * 319.0  # m/s
+PUBLISHED_ALTITUDES = {1: 100e3, 3: 15e3, 5: 2400.0, 7: 100.0, 8: 4.0}  # Huang 2017, m
+# Of the design: seconds and kilograms of each phase without errors; the transfer's duration is that of the programme on
+# least propellant
+STAGES = {1: (78, 5.86), 2: (3393.8, 0.0), 3: (316.8, 379.80), 4: (62.3, 33.97), 5: (81.9, 25.95)}
+STAGES |= {6: (20.0, 5.19), 7: (52.5, 13.32), 8: (10.3, 2.45), 9: (1.0, 0.02)}
+LIMITS = {"vertical_speed": 3.0, "horizontal_speed": 1.0, "tilt": 5.0, "rate": 2.0, "distance": 10.0}
+pytestmark = pytest.mark.usefixtures("fmus")
+
+
+@pytest.fixture(scope="module")
+def ideal():
+    return perilune.simulate(SYSTEM, parameters=["ideal.ssv"])
+
+
+def started(flight, phase):
+    """Row at which a phase begins, or the last one."""
+    time = flight[f"sequencer.phase_time[{phase}]"][-1] if phase < 10 else -1.0
+    return np.flatnonzero(flight.time > time - 1e-6)[0] if time >= 0.0 else len(flight.time) - 1
+
+
+def vector(flight, name, row=slice(None)):
+    return np.array([flight[f"{name}[{i}]"][row] for i in (1, 2, 3)])
+
+
+def within_limits(flight):
+    assert flight.status == "finished"
+    assert flight["touchdown.within_limits"][-1]
+
+
+def test_every_stage_is_flown_as_designed(ideal):
+    within_limits(ideal)
+    assert ideal["sequencer.status"][-1] == 0
+    for phase, (duration, propellant) in STAGES.items():
+        begin, end = started(ideal, phase), started(ideal, phase + 1)
+        assert ideal.time[end] - ideal.time[begin] == pytest.approx(duration, abs=2.0), phase
+        spent = ideal["plant.mass"][begin] - ideal["plant.mass"][end]
+        assert spent == pytest.approx(propellant, rel=0.02, abs=0.1), phase
+        if phase in PUBLISHED_ALTITUDES:
+            assert ideal["plant.altitude"][begin] == pytest.approx(PUBLISHED_ALTITUDES[phase], rel=1e-3, abs=0.1)
+
+
+def test_the_coast_is_half_of_an_ellipse(ideal):
+    """The deorbit takes off what leads from 100 to 15 km, and the pericentre comes 285 km before the site."""
+    begin, end = started(ideal, 2) + 20, started(ideal, 3)  # 2 s later the engine's thrust has died away
+    place = vector(ideal, "plant.position", begin) - CENTRE
+    speed = vector(ideal, "plant.velocity", begin)
+    energy = speed @ speed / 2.0 - MU / np.linalg.norm(place)
+    momentum = np.linalg.norm(np.cross(place, speed))
+    axis = -MU / (2.0 * energy)
+    pericentre = axis * (1.0 - math.sqrt(1.0 - momentum**2 / (MU * axis)))
+    assert pericentre - RADIUS == pytest.approx(15e3, abs=30.0)
+    assert ideal["plant.altitude"][end] == pytest.approx(15e3, abs=30.0)
+    assert abs(ideal["plant.vertical_speed"][end]) < 1.0
+    # the burn is short: half a revolution less the half of it
+    half = math.pi * math.sqrt(axis**3 / MU)
+    assert ideal.time[end] - ideal.time[begin] == pytest.approx(half - 20.0, abs=2.0)
+
+
+def test_the_transfer_is_flown_as_planned(ideal):
+    begin, end = started(ideal, 5), started(ideal, 6)
+    planned = ideal["hover.programme[5]"][begin]
+    assert ideal["hover.plan_kind"][begin] == 3
+    assert ideal.time[end] - ideal.time[begin] == pytest.approx(planned, abs=0.3)
+    spent = ideal["plant.mass"][begin] - ideal["plant.mass"][end]
+    assert spent == pytest.approx(ideal["hover.predicted_propellant"][begin], rel=0.01)
+
+
+def test_propellant_obeys_the_rocket_equation(ideal):
+    gained = np.linalg.norm(np.diff(vector(ideal, "plant.sensed_velocity"), axis=1), axis=0).sum()
+    spent = EXHAUST_SPEED * np.log(ideal["plant.mass"][0] / ideal["plant.mass"][-1])
+    assert gained == pytest.approx(spent, rel=1e-4)  # a chord is shorter than its arc
+
+
+def test_from_the_probe_on_the_lander_falls(ideal):
+    begin = started(ideal, 9)
+    height, sinking = ideal["plant.altitude"][begin], -ideal["plant.vertical_speed"][begin]
+    # the engine's tail, a lag of 0.1 s from hovering thrust, takes off a tenth of a second of weight
+    fall = math.sqrt(sinking**2 + 2.0 * MU / RADIUS**2 * height)
+    assert ideal["touchdown.contact_vertical_speed"][-1] == pytest.approx(fall, abs=0.17)
+    site = [-1200.0 + 20.0, 600.0 - 10.0]
+    assert vector(ideal, "plant.position", -1)[:2] == pytest.approx(site, abs=0.05)
+    assert vector(ideal, "sequencer.site", -1)[:2] == pytest.approx(site, abs=0.01)
+
+
+def test_flight_is_free_only_while_the_engine_rests(ideal):
+    free = ideal["sequencer.free_flight"] > 0.5
+    assert not (free & (ideal["plant.delivered_thrust"] > 1e-3)).any()
+    assert free[started(ideal, 2) + 30 : started(ideal, 3)].all()
+    assert not free[started(ideal, 4) :].any()
+
+
+@pytest.mark.parametrize("guidance", ["analytic_exact_guidance", "astar_robust_guidance"])
+def test_noisy_flights_touch_down_within_all_limits(guidance):
+    trials = either(1000, 5)
+    batch = perilune.batch(
+        SYSTEM, "contacts", parameters=["noisy.ssv"], compare={"guidance": [guidance]}, trials=trials
+    )
+    found = batch.trials[guidance]
+    assert found.success.sum() >= 0.99 * trials
+    for name, limit in LIMITS.items():
+        assert np.max(found.metrics[name][found.success]) <= limit
+    assert np.median(found.metrics["distance"]) < 2.0
+    for phase in range(3, 9):
+        low, high = stats.chi2.interval(0.999, 6 * trials)
+        assert low < np.sum(found.metrics[f"nees_{phase}"]) < high, phase
+
+
+@pytest.mark.parametrize("phase", range(1, 10))
+def test_a_flight_may_begin_with_any_phase(phase):
+    first = [f"start_{phase}.ssv", "noisy.ssv"]
+    if LONG and phase > 3:
+        batch = perilune.batch(SYSTEM, "entries", parameters=first)
+        assert batch.trials["default"].success.all()
+    flight = perilune.simulate(SYSTEM, parameters=first)
+    within_limits(flight)
+    times = [flight[f"sequencer.phase_time[{k}]"][-1] for k in range(1, 10)]
+    assert [time >= 0.0 for time in times] == [k >= phase for k in range(1, 10)]
+    assert flight["touchdown.contact_distance"][-1] < 4.0
+
+
+STATUSES = {
+    1: {"parameters": ["start_5.ssv"], "set": {"sequencer.redesignation_1[1]": -3200}},
+    2: {"parameters": ["start_4.ssv"]},
+    3: {"parameters": ["start_6.ssv"], "set": {"sequencer.settled_speed": 0}},
+    4: {
+        "parameters": ["start_3.ssv"],
+        "use": {"guidance": "network_operator_guidance"},
+        "set": {
+            "plant.initial_position[1]": 12000,
+            "plant.initial_position[3]": 1500,
+            "plant.initial_velocity[1]": -29,
+            "plant.initial_velocity[3]": 0,
+            "plant.initial_attitude[1]": 0,
+            "plant.initial_attitude[3]": 1,
+            "plant.initial_mass": 528,
+        },
+    },
+    5: {"parameters": ["start_5.ssv"], "set": {"dry_mass": 478}},
+    6: {"parameters": ["start_8.ssv"], "faults": [perilune.Fault("sequencer.probe_contact", "override", False)]},
+    7: {"parameters": ["start_8.ssv"], "set": {"dry_mass": 481.2}},
+    8: {"parameters": ["start_3.ssv"], "set": {"sequencer.braking_patience": 300}},
+    9: {"parameters": ["start_3.ssv"], "set": {"sequencer.start_phase": 10}},
+}
+
+
+@pytest.mark.parametrize("status", STATUSES)
+def test_every_status_can_be_provoked(status):
+    asked = dict(STATUSES[status])
+    flight = perilune.simulate(SYSTEM, **{**asked, "parameters": [*asked["parameters"], "ideal.ssv"]})
+    assert flight.status == "finished"
+    assert flight["sequencer.status"][-1] == status
+    assert flight[f"sequencer.status_time[{status}]"][-1] >= 0.0
+    assert bool(flight["touchdown.within_limits"][-1]) == (status not in (7, 9))
+
+
+def test_what_makes_no_landing_ends_at_once():
+    flight = perilune.simulate(SYSTEM, set={"minimum_thrust": 700})
+    assert flight.time.size == 1
+    assert flight["sequencer.status"][-1] == 9
+
+
+def test_both_flavours_fly_the_same_to_the_bit():
+    first = ["noisy.ssv"] if LONG else ["start_6.ssv", "noisy.ssv"]
+    ours, theirs = (perilune.simulate(SYSTEM, parameters=first, flavour=each) for each in ("native", "python"))
+    assert ours.time.size == theirs.time.size
+    for name, values in ours.signals.items():
+        assert np.array_equal(values, theirs[name]), name
+
+
+@pytest.mark.slow
+def test_another_vehicle_lands_by_parameters_alone():
+    batch = perilune.batch(SYSTEM, "other_vehicle", parameters=["noisy.ssv"])
+    assert batch.trials["default"].success.all()
+
+
+@pytest.mark.slow
+def test_faults_are_survived_but_for_a_camera_that_dies_before_braking():
+    batch = perilune.batch(SYSTEM, "faults", parameters=["noisy.ssv"])
+    found, case = batch.trials["default"], batch.plan.draws.columns["case"]
+    for number in range(8):
+        rate = found.success[case == number].mean()
+        assert rate == 1.0 if number != 4 else 0.3 < rate < 1.0, number
+    assert np.max(found.metrics["vertical_speed"]) < 3.0  # soft, wherever it is
+
+
+@pytest.mark.slow
+def test_without_the_gradient_of_gravity_the_gate_locks_the_camera_out():
+    """The covariance of an hour's coast is then too small for the first fixes to be believed."""
+    batch = perilune.batch(
+        SYSTEM,
+        "contacts",
+        parameters=["noisy.ssv"],
+        trials=60,
+        set={"navigation.gravity_gradient": False},
+        compare={"guidance": ["analytic_exact_guidance"]},
+    )
+    (found,) = batch.trials.values()
+    assert 0.7 < found.success.mean() < 0.97
+    assert np.max(found.metrics["distance"]) > 500.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("campaign", ["reach", "thrust", "aside", "elsewhere"])
+def test_campaigns_of_harder_landings(campaign):
+    (found,) = perilune.batch(SYSTEM, campaign, parameters=["noisy.ssv"]).trials.values()
+    assert found.success.all()

@@ -1,0 +1,47 @@
+"""Systems that say what their landing's bound is made of: the lunar landing, with an annotation put in."""
+
+import shutil
+
+from perilune.fmus_src.places import SYSTEMS
+
+ROLES = {
+    "position": "plant.initial_position",
+    "velocity": "plant.initial_velocity",
+    "mass": "plant.initial_mass",
+    "dry_mass": "440",
+    "specific_impulse": "plant.specific_impulse",
+    "maximum_thrust": "allocation.maximum_thrust",
+    "moon_radius": "plant.moon_radius",
+    "gravitational_parameter": "plant.gravitational_parameter",
+    "target_altitude": "4",
+}
+ANNOTATION = """<ssc:Annotation type="org.perilune.bound">
+      <Bound xmlns="https://perilune.org/bound" {}>{}</Bound>
+    </ssc:Annotation>
+    <ssc:Annotation type="org.perilune.stability">"""
+PIECES = """
+<Stop name="braking" altitude="2400"/>
+<Hover name="transfer" mass="526.37" minimum_thrust="allocation.minimum_thrust" start_altitude="2400"
+       end_altitude="100" aside="plant.initial_velocity"/>"""
+START = """<?xml version="1.0" encoding="UTF-8"?>
+<ssv:ParameterSet version="1.0" name="higher" xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues">
+  <ssv:Parameters>
+    <ssv:Parameter name="plant.initial_mass"><ssv:Real value="930"/></ssv:Parameter>
+  </ssv:Parameters>
+</ssv:ParameterSet>
+"""
+
+
+def declared_system(folder, pieces="", **roles):
+    """A copy of the lunar landing in a folder, whose SSD declares a bound; roles that are None are left out."""
+    found = {name: value for name, value in (ROLES | roles).items() if value is not None}
+    place = folder / "landing"
+    shutil.copytree(SYSTEMS / "lunar_landing", place)
+    (place / "lighter.ssv").write_text(START)
+    ssd = place / "SystemStructure.ssd"
+    words = " ".join(f'{name}="{value}"' for name, value in found.items())
+    text = ssd.read_text(encoding="utf-8")
+    before = '<ssc:Annotation type="org.perilune.stability">'
+    assert text.count(before) == 1
+    ssd.write_text(text.replace(before, ANNOTATION.format(words, pieces)), encoding="utf-8")
+    return place

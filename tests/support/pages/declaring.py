@@ -1,0 +1,13 @@
+"""A system's description with figures of its own asked for."""
+
+
+def with_report(ssd, inside):
+    """The description with the elements of Report in its annotation's place, on lines of their own."""
+    note = (
+        '<ssd:Annotations><ssc:Annotation type="org.perilune.report">\n'
+        f'<Report xmlns="https://perilune.org/report">\n{inside}\n</Report>\n'
+        "</ssc:Annotation></ssd:Annotations>"
+    )
+    end = "</ssd:SystemStructureDescription>"
+    begin = ssd.find("<ssd:Annotations>", ssd.find("</ssd:DefaultExperiment>"))
+    return (ssd[:begin] if begin > 0 else ssd.removesuffix("\n").removesuffix(end)) + f"{note}\n{end}\n"

@@ -1,0 +1,98 @@
+"""A run made by hand that goes through phases, with answers that can be said, and the figures that it is asked for.
+
+Rows are half a second apart, 401 of them. Phase 1 to 20 s, 2 to 150 s, 4 to 180 s with `done` from 165 s on, then 5.
+"""
+
+import numpy as np
+
+from perilune.analysis.reports.own.asked.histories import Curve, Path, Point
+from perilune.analysis.reports.own.asked.stages import BoundValues, Budget, Item, Limit, Limits, Phase, Phases
+from perilune.analysis.reports.own.asked.values import Rows
+from perilune.analysis.system.units import Unit
+from tests.support.pages.own_samples import DEG, DEGREE, TIME, flown, scalar
+
+METRE = Unit("m", (0, 1, 0, 0, 0, 0, 0, 0))
+KILOGRAM = Unit("kg", (1, 0, 0, 0, 0, 0, 0, 0))
+PHASES = Phases(
+    title="Phases",
+    notes=(),
+    signal=scalar("ship.phase"),
+    phases=(
+        Phase(1, "burn", None),
+        Phase(2, "coast", None),
+        Phase(4, "capture", scalar("ship.done")),
+        Phase(4, "hover", None),
+        Phase(5, "descent", None),
+    ),
+    spent=scalar("ship.mass", KILOGRAM),
+    status=scalar("ship.status"),
+    status_times=None,
+    meanings={2: "the plan was late", 6: "no probe"},
+)
+SPANS = [  # name, begin, end (s), spent (kg)
+    ("burn", 0.0, 20.0, 10.0),
+    ("coast", 20.0, 150.0, 0.0),
+    ("capture", 150.0, 165.0, 3.0),
+    ("hover", 165.0, 180.0, 3.0),
+    ("descent", 180.0, 200.0, 8.0),
+]
+BUDGET = Budget(
+    title="Budget",
+    notes=(),
+    of=PHASES,
+    items=(
+        Item("bound", (), ("landing",), ()),
+        Item("capture and descent over it", ("capture", "descent"), (), ("landing",)),
+        Item("hover", ("hover",), (), ()),
+    ),
+    bound=BoundValues(("landing",), {"landing": 9.5}),
+)
+LIMITS = Limits(
+    title="Contact",
+    notes=(),
+    limits=(
+        Limit(scalar("ship.tilt", DEG, 1.0 / DEGREE), "tilt", None, 5.0),
+        Limit(scalar("ship.mass", KILOGRAM), "mass", 80.0, None),
+        Limit(scalar("ship.x", METRE), "east", -10.0, 10.0),
+    ),
+)
+WHERE = Rows(scalar("ship.phase"), 4.0, None)
+PATH = Path(
+    title="Plan view",
+    notes=(),
+    x=scalar("ship.x", METRE),
+    y=scalar("ship.y", METRE),
+    equal=True,
+    points=(Point(scalar("ship.site_x", METRE), scalar("ship.site_y", METRE), "site"),),
+    rows=WHERE,
+)
+CURVE = Curve(
+    title="Tilt",
+    notes=(),
+    signals=(scalar("ship.tilt", DEG, 1.0 / DEGREE), scalar("ship.lean", DEG, 1.0 / DEGREE)),
+    labels=("tilt", "lean"),
+    low=None,
+    high=5.0,
+    together=False,
+    rows=WHERE,
+)
+FIGURES = [PHASES, BUDGET, LIMITS, PATH, CURVE]
+
+
+def mission(**changed):
+    """The run; signals may be ``changed``."""
+    phase = np.select([TIME < 20.0, TIME < 150.0, TIME < 180.0], [1, 2, 4], 5)
+    mass = np.interp(TIME, [0.0, 20.0, 150.0, 180.0, 200.0], [100.0, 90.0, 90.0, 84.0, 76.0])
+    signals = {
+        "phase": phase,
+        "done": (TIME >= 165.0) & (TIME < 180.0),
+        "mass": mass,
+        "status": np.select([TIME < 30.0, TIME < 40.0, TIME < 190.0], [0, 2, 0], 6),
+        "x": np.interp(TIME, [150.0, 200.0], [500.0, 8.0]),
+        "y": np.interp(TIME, [150.0, 200.0], [300.0, 0.0]),
+        "site_x": np.where(TIME < 180.0, 100.0, 10.0),
+        "site_y": 0.0 * TIME,
+        "tilt": np.interp(TIME, [150.0, 200.0], [60.0, 7.5]) * DEGREE,
+        "lean": 2.0 * DEGREE + 0.0 * TIME,
+    }
+    return flown(**(signals | changed))
