@@ -1,4 +1,4 @@
-# make demo | test | quick | long | build | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | build | wheel | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 
@@ -22,6 +22,10 @@ long: build
 
 build: .venv/ready
 	$(BIN)/python build_fmus.py
+
+# What one installs elsewhere with pip: build/wheel/perilune-VERSION-py3-none-any.whl, native FMUs of all platforms inside.
+wheel: .venv/ready
+	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir build/wheel .
 
 # The property tests with examples drawn anew; what it finds goes into a test as an @example.
 explore: build
@@ -51,7 +55,12 @@ lint: .venv/ready
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
+# The first thing that any target does: with another Python than pyproject.toml's it says so and makes nothing.
 .venv/ready: pyproject.toml setup.py
+	@$(PYTHON) -c "import re, sys; \
+		low, high = map(int, re.findall(r'3\.(\d+)', re.search('requires-python.*', open('pyproject.toml').read()).group())); \
+		sys.exit(0 if (3, low) <= sys.version_info < (3, high) else 'Perilune needs Python 3.%d to 3.%d, and $(PYTHON) is %s; ' \
+		'give another one: make PYTHON=python3.%d' % (low, high - 1, sys.version.split()[0], high - 1))"
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77'
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-build-isolation --editable '.[dev]'
@@ -60,4 +69,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long build explore gains bench sanitize browser lint clean
+.PHONY: demo test quick long build wheel explore gains bench sanitize browser lint clean

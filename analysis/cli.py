@@ -31,6 +31,15 @@ VERBS = {
     "export": "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
 }
 
+# What exit status 1 means besides an interruption, of which all verbs make it; 0 is done, 2 wrong input.
+FAILURES = {
+    "plan": "no plan was found",
+    "run": "the flight failed, or a requirement is not met",
+    "batch": "a requirement is not met",
+    "synthesize": "no law was found with every trial a success",
+    "stability": "a requirement is not met, or a point could not be studied",
+}
+
 
 class Parser(argparse.ArgumentParser):
     """argparse with errors on one line and options in full."""
@@ -72,7 +81,9 @@ def _parser(given: Sequence[str]) -> Parser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
     completing = "_ARGCOMPLETE" in os.environ
     for verb, words in VERBS.items():
-        own = verbs.add_parser(verb, help=words, description=words)
+        failure = f"{FAILURES[verb]}, or interrupted" if verb in FAILURES else "interrupted"
+        epilog = f"Exit status: 0: done. 1: {failure}. 2: wrong input, or a result could not be written."
+        own = verbs.add_parser(verb, help=words, description=words, epilog=epilog)
         if completing or verb in given:
             _module(verb).add(own)
     return parser

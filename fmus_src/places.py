@@ -1,16 +1,31 @@
-"""Where systems, laws and built FMUs lie: beside the rooms in a checkout, inside the package where it is installed."""
+"""Where things lie: systems, laws, built FMUs beside the rooms in a checkout, inside the package where it is installed.
+
+What is built or compiled on the way goes to `CACHE`, what a user builds to the working folder: an installed package is
+never written to.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+from platformdirs import user_cache_path
+
 PACKAGE = Path(__file__).parents[1]  # perilune; in a checkout its rooms are links to the folders beside it
-ROOT = PACKAGE.parent if (PACKAGE.parent / "build_fmus.py").is_file() else PACKAGE
+IS_CHECKOUT = (PACKAGE.parent / "build_fmus.py").is_file()
+ROOT = PACKAGE.parent if IS_CHECKOUT else PACKAGE
 SYSTEMS = ROOT / "ssp_systems"
 LAWS = ROOT / "laws"
+SEARCHES = LAWS / "searches"
 BUILD = ROOT / "build"
+FLAVOURS = ("native", "python")  # of FMUs; in this order where none is asked for
+CACHE = BUILD / "cache" if IS_CHECKOUT else user_cache_path("perilune", appauthor=False)
 
 
 def built_fmu(name: str, flavour: str) -> Path:
     """The file that `build_fmus.py` writes for a block; it need not exist."""
     return BUILD / "fmus" / flavour / f"{name}.fmu"
+
+
+def own_fmu(name: str, flavour: str) -> Path:
+    """The file that `perilune export` writes for a block of one's own, in the working folder; it need not exist."""
+    return Path.cwd() / "build" / "fmus" / flavour / f"{name}.fmu"

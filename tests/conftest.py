@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import atexit
-import fcntl
 import os
 import sys
 import zipfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +18,7 @@ from perilune.fmus_src.export.closure import closure_of
 from perilune.fmus_src.export.command import main as build_fmus
 from perilune.fmus_src.places import BUILD, built_fmu
 from tests.support.lengths import LONG, either
+from tests.support.locks import one_process_at_a_time
 from tests.support.pages.browser import NO_BROWSER, find_browser
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
@@ -69,15 +67,6 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
             f"{len(missing)} tests of the HTML pages were left out: there is no chromium here. "
             "Install it (Debian: `make browser` as root) and run `make test` again."
         )
-
-
-@contextmanager
-def one_process_at_a_time(lock: Path) -> Iterator[None]:
-    """Workers of pytest-xdist take turns."""
-    lock.parent.mkdir(parents=True, exist_ok=True)
-    with lock.open("w") as file:
-        fcntl.flock(file, fcntl.LOCK_EX)
-        yield
 
 
 def _native_are_current(names: list[str]) -> bool:

@@ -26,29 +26,12 @@ def test_the_example_is_built_and_lands(tmp_path: Path) -> None:
     file = tmp_path / "linear_guidance.py"
     file.write_text(example, encoding="utf-8")
     assert len(example.splitlines()) <= 32
-    build = [
-        sys.executable,
-        str(ROOT / "build_fmus.py"),
-        "--blocks",
-        str(file),
-        "--output",
-        str(tmp_path),
-        "--platform",
-        platform,
-    ]
-    subprocess.run(build, check=True, capture_output=True)
+    perilune = [sys.executable, "-m", "perilune"]
+    build = [*perilune, "export", "linear_guidance.py", "--platform", platform]
+    subprocess.run(build, check=True, capture_output=True, cwd=tmp_path)
     for flavour in ("python", "native"):
-        fmu = tmp_path / "fmus" / flavour / "linear_guidance.fmu"
-        command = [
-            sys.executable,
-            "-c",
-            "from perilune.analysis.cli import run; run()",
-            "run",
-            "lunar_terminal_guidance",
-        ]
-        flown = subprocess.run(
-            [*command, "--use", f"guidance={fmu}", "--json", "-"], capture_output=True, text=True, cwd=ROOT, check=False
-        )
+        fly = [*perilune, "run", "lunar_terminal_guidance", "--use", "guidance=linear_guidance", "--flavour", flavour]
+        flown = subprocess.run([*fly, "--json", "-"], capture_output=True, text=True, cwd=tmp_path, check=False)
         assert flown.returncode == 0, flown.stderr
         final = json.loads(flown.stdout)["final"]
         assert math.dist([final[f"plant.position[{i}]"] for i in (1, 2, 3)], [0.0, 0.0, 2000.0]) < 1.0

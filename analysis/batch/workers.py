@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import atexit
 import gc
-import os
 import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
@@ -13,7 +12,7 @@ from concurrent.futures import wait as wait_for
 from functools import partial
 from typing import Any, TypeVar
 
-from loky import ProcessPoolExecutor
+from loky import ProcessPoolExecutor, cpu_count
 
 from ..campaign.plan import BatchPlan
 from ..errors import InputError
@@ -30,7 +29,7 @@ _flyers: list[Flyer] = []  # of this process's threads
 
 def worker_count(workers: int | None) -> int:
     """The number of parallel flights: as asked for, or one per processor. Raises InputError."""
-    count = workers if workers is not None else len(os.sched_getaffinity(0))
+    count = workers if workers is not None else cpu_count()
     if count < 1:
         raise InputError("--workers", str(count), "not a positive number", "give 1 or more")
     return count

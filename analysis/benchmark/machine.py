@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import os
 import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+
+from loky import cpu_count
 
 PACKAGES = ("perilune", "fmpy", "pythonfmu", "libcosimpy", "fmu-manipulation-toolbox", "numba", "numpy")
 
 
 def machine() -> dict[str, str | int]:
     """Processor, how many of them this process may use, operating system."""
-    return {"processor": _processor(), "processors": len(os.sched_getaffinity(0)), "system": platform.platform()}
+    return {"processor": _processor(), "processors": cpu_count(), "system": platform.platform()}
 
 
 def versions() -> dict[str, str]:

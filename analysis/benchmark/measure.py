@@ -10,8 +10,9 @@ from typing import Any
 
 from tqdm import tqdm
 
-from ...fmus_src.export.ssp_package import pack_system
-from ...fmus_src.places import BUILD, SYSTEMS
+from ...fmus_src.export.available import fmu_file
+from ...fmus_src.export.ssp_package import named_fmus, pack_system
+from ...fmus_src.places import SYSTEMS, built_fmu
 from ..errors import InputError, suggestion
 from ..system.archive import system_names
 from .agreement import strangers
@@ -78,11 +79,13 @@ def _pack(system: str, folder: Path, unavailable: dict[str, str]) -> dict[str, P
     archives: dict[str, Path] = {}
     for flavour in OURS:
         try:
-            archives[flavour] = pack_system(SYSTEMS / system, [BUILD / "fmus" / flavour], folder / flavour)
+            found = [fmu_file(Path(source).stem, flavour) for source in named_fmus(SYSTEMS / system)]
+            folders = [*dict.fromkeys(path.parent for path in found if path), built_fmu("x", flavour).parent]
+            archives[flavour] = pack_system(SYSTEMS / system, folders, folder / flavour)
         except ValueError as error:
             unavailable |= {each.name: str(error) for each in CONTESTANTS if each.flavour == flavour}
     if not archives:
-        raise InputError("benchmark", str(BUILD / "fmus"), f"not all FMUs of {system} are built", "run build_fmus.py")
+        raise InputError("benchmark", system, "not all of its FMUs are built", "run build_fmus.py")
     return archives
 
 

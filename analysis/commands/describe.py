@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ...fmus_src.catalogue import catalogue
-from ...fmus_src.places import BUILD
+from ...fmus_src.export.available import fmu_flavours
 from ..describe.fits import blocks_of_slot, slots
 from ..describe.system import describe_system
 from ..describe.variables import of_causality, variables_of
@@ -42,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _is_fmu(what: str) -> bool:
-    return what.endswith(".fmu") or what in catalogue() or any(BUILD.glob(f"fmus/*/{what}.fmu"))
+    return what.endswith(".fmu") or what in catalogue() or what in fmu_flavours()
 
 
 def _fmu(options: argparse.Namespace) -> int:

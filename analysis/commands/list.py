@@ -10,8 +10,9 @@ from fmpy import read_model_description
 
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
+from ...fmus_src.export.available import fmu_flavours
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
-from ...fmus_src.places import BUILD, LAWS
+from ...fmus_src.places import LAWS, SEARCHES
 from ..stability.ask.reading import read_declaration
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.description import read_description
@@ -26,6 +27,7 @@ def run(options: argparse.Namespace) -> int:
     document: dict[str, Any] = {
         "systems": {name: _system(open_system(name)) for name in system_names()},
         "laws": sorted(path.stem for path in LAWS.glob("*.json")),
+        "searches": sorted(path.stem for path in SEARCHES.glob("*.toml")),
         "fmus": _fmus(),
     }
     if write_json(document, options.json):
@@ -36,6 +38,7 @@ def run(options: argparse.Namespace) -> int:
         print(f"  campaigns       {', '.join(system['campaigns']) or 'none'}")
         print(f"  loops           {', '.join(system['loops']) or 'none'}")
     print(f"laws              {', '.join(document['laws'])}")
+    print(f"searches          {', '.join(document['searches'])}")
     print("FMUs")
     width = max((len(name) for name in document["fmus"]), default=0)
     for name, entry in document["fmus"].items():
@@ -58,14 +61,15 @@ def _interface(block: type[Block]) -> str | None:
 
 
 def _fmus() -> dict[str, dict[str, Any]]:
-    """FMUs of this repository and those built from elsewhere, by name."""
+    """FMUs of this repository and those built in the working folder, by name."""
     found: dict[str, dict[str, Any]] = {
         name: {"interface": _interface(block), "description": block.summary(), "built": []}
         for name, block in catalogue().items()
     }
-    for path in sorted(BUILD.glob("fmus/*/*.fmu")):
-        if path.stem not in found:
-            description = read_model_description(str(path), validate=False).description or ""
-            found[path.stem] = {"interface": None, "description": description, "built": []}
-        found[path.stem]["built"].append(path.parent.name)
+    for name, files in fmu_flavours().items():
+        if name not in found:
+            (first, *_) = files.values()
+            description = read_model_description(str(first), validate=False).description or ""
+            found[name] = {"interface": None, "description": description, "built": []}
+        found[name]["built"] += files
     return found

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 from ..synthesis.synthesis import run_synthesis
-from ..synthesis.synthesis_file import read_synthesis
+from ..synthesis.synthesis_file import named_search, read_synthesis
 from .common.options import add_json, write_json
 
 METHODS = ("network-operator",)
@@ -14,7 +15,9 @@ METHODS = ("network-operator",)
 
 def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("method", choices=METHODS, metavar="METHOD", help=f"one of: {', '.join(METHODS)}")
-    parser.add_argument("file", type=Path, metavar="F.toml", help="a campaign with a table [network_operator]")
+    parser.add_argument(
+        "file", metavar="F.toml", help="a campaign with a table [network_operator]; by name of laws/searches, or a path"
+    )
     parser.add_argument("--output", type=Path, metavar="DIR", help="write checkpoints, Pareto set and law to a folder")
     parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
     parser.add_argument("--workers", type=int, metavar="N", help="laws in flight together; default: one per processor")
@@ -27,7 +30,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     result = run_synthesis(
-        read_synthesis(options.file),
+        read_synthesis(named_search(options.file)),
         seed=options.seed,
         workers=options.workers,
         output=options.output,
@@ -36,4 +39,7 @@ def run(options: argparse.Namespace) -> int:
     )
     if not write_json(result.document(), options.json):
         print(result.text())
+    if not result.succeeded:
+        print(f"perilune: {result.failure()}", file=sys.stderr)
+        return 1
     return 0

@@ -16,8 +16,8 @@ from types import FunctionType
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 
+from .compiled import compiled
 from .fmi_calls import change_mode, do_step, exchange, setup_experiment
 
 # Instruction codes.
@@ -249,5 +249,5 @@ def _under_another_name(function: Any, name: str) -> FunctionType:
 
 
 # For Python FMUs, which need the interpreter lock at every call, and for native ones, which run without.
-fly_locked = njit(cache=True)(_fly)
-fly_unlocked = njit(cache=True, nogil=True)(_under_another_name(_fly, "_fly_unlocked"))
+fly_locked = compiled(_fly)
+fly_unlocked = compiled(_under_another_name(_fly, "_fly_unlocked"), nogil=True)

@@ -60,7 +60,7 @@ class Law:
 
 def named_law(name: str, folder: Path | None = None) -> Path:
     """The file of a law: NAME for laws/NAME.json of this repository, else a path, relative to ``folder``."""
-    if (LAWS / f"{name}.json").is_file() and "/" not in name:
+    if (LAWS / f"{name}.json").is_file() and Path(name).name == name:
         return LAWS / f"{name}.json"
     path = (folder or Path()) / name
     if not path.is_file():

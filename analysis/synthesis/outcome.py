@@ -20,7 +20,7 @@ from .candidate import Candidate
 from .genetic import Search
 from .synthesis_file import Synthesis
 
-FORMAT, VERSION = "perilune-pareto-set", 1
+FORMAT, VERSION = "perilune-pareto-set", 2
 
 
 @dataclass
@@ -40,22 +40,49 @@ class SynthesisResult:
     def _law(self, candidate: Candidate) -> Law:
         found = self.search.law(candidate)
         evaluation = candidate.evaluation
-        values = ", ".join(f"{name} {value:.6g}" for name, value in self._objectives(candidate).items())
         file = Path(self.synthesis.campaign.file).name
         description = (
-            f"Found by {file}, seed {self.provenance['seed']}, from {self.synthesis.basic.name}: {values}; "
+            f"Found by {file}, seed {self.provenance['seed']}, from {self.synthesis.basic.name}: "
+            f"{self._words(candidate)}; "
             f"{evaluation.successes} of {evaluation.flown} trials are successes."
         )
         name = f"{Path(file).stem}_{candidate.key[:8]}"
         return Law(name, found.matrix, found.q, self.synthesis.basic.exp_saturation, description)
 
-    def _objectives(self, candidate: Candidate) -> dict[str, float]:
-        return dict(zip(self.synthesis.objectives, candidate.evaluation.objectives, strict=True))
+    @property
+    def succeeded(self) -> bool:
+        """Whether the chosen law has every trial a success."""
+        return self.search.chosen().evaluation.successes == self.search.evaluator.trials
+
+    def failure(self) -> str:
+        """A line for a search that found no law, with what to do."""
+        evaluation = self.search.chosen().evaluation
+        return (
+            f"{self.synthesis.campaign.file}: no law found: the chosen one succeeds in {evaluation.successes} of "
+            f"{self.search.evaluator.trials} trials; give more generations, another --seed or another basic solution"
+        )
+
+    def _objectives(self, candidate: Candidate) -> dict[str, dict[str, float]]:
+        """Of each objective the sum over the flights, which the search makes small, and the mean of one flight."""
+        _, _, flown = evaluation = candidate.evaluation
+        sums = zip(self.synthesis.objectives, evaluation.objectives, strict=True)
+        return {name: {"sum": value, "mean": value / flown} for name, value in sums}
+
+    def _words(self, candidate: Candidate) -> str:
+        flown = candidate.evaluation.flown
+        return ", ".join(
+            f"{name} {value['mean']:.6g} per flight ({value['sum']:.6g} over {flown})"
+            for name, value in self._objectives(candidate).items()
+        )
 
     def _member(self, candidate: Candidate) -> dict[str, Any]:
-        objectives = {name: _plain(value) for name, value in self._objectives(candidate).items()}
+        objectives = {
+            name: {kind: _plain(number) for kind, number in value.items()}
+            for name, value in self._objectives(candidate).items()
+        }
         return {
             "objectives": objectives,
+            "flights": candidate.evaluation.flown,
             "successes": candidate.evaluation.successes,
             "law": self._law(candidate).document(),
         }
@@ -88,12 +115,12 @@ class SynthesisResult:
     def text(self) -> str:
         """The result for a terminal."""
         state, chosen = self.search.state, self.search.chosen()
-        values = ", ".join(f"{name} {value:.6g}" for name, value in self._objectives(chosen).items())
         return "\n".join(
             [
                 f"laws flown: {state.evaluations}, in {state.flights} flights, {state.generation} generations; "
                 f"ended by {self.ended}; {len(state.front)} in the Pareto set",
-                f"chosen: {chosen.evaluation.successes} of {chosen.evaluation.flown} trials are successes; {values}",
+                f"chosen: {chosen.evaluation.successes} of {chosen.evaluation.flown} trials are successes; "
+                + self._words(chosen),
                 "",
                 formula_text(self.law),
             ]
@@ -101,8 +128,8 @@ class SynthesisResult:
 
 
 def write_log(path: Path, synthesis: Synthesis, search: Search) -> None:
-    """Write the history, a line per generation, with the least value of every objective so far."""
-    names = {f"least_{place}": f"least_{name}" for place, name in enumerate(synthesis.objectives, 1)}
+    """Write the history, a line per generation, with the least sum of every objective so far."""
+    names = {f"least_{place}": f"least_sum_of_{name}" for place, name in enumerate(synthesis.objectives, 1)}
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     history = search.state.history

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
+from ...fmus_src.places import SEARCHES
 from ..campaign.campaign import Campaign
 from ..campaign.expressions import Expression
 from ..campaign.file import SYNTHESIS, parse_campaign
@@ -67,6 +68,12 @@ class Synthesis:
         )
         overlaid = tuple(law_parameters(self.basic, self.component))
         return BatchPlan(campaign.system, campaign, options, self.sha256, overlaid)
+
+
+def named_search(name: str) -> Path:
+    """The file of a search: NAME for laws/searches/NAME.toml of this repository, else a path."""
+    own = SEARCHES / f"{name}.toml"
+    return own if own.is_file() and Path(name).name == name else Path(name)
 
 
 def read_synthesis(path: Path) -> Synthesis:

@@ -14,10 +14,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
-from ...fmus_src.places import ROOT, SYSTEMS, built_fmu
+from ...fmus_src.places import IS_CHECKOUT, ROOT, SYSTEMS, own_fmu
 from ..errors import InputError, suggestion
 
+HOW_TO_BUILD = (
+    "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""
+) + "perilune export FILE.py those of your own"
 DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 
 # what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
@@ -57,16 +61,16 @@ class SystemArchive:
     def fmu(self, source: str, element: str, flavour: str) -> tuple[bytes, str]:
         """An FMU's content and its name in messages.
 
-        A folder without FMUs of its own takes those that were built from this repository.
+        A folder without FMUs of its own takes those of this repository and of the working folder.
         """
         name = posixpath.normpath(source)
         if name in self.files or self.path.is_file():
             return self._content(name, element), f"{self.label}!{name}"
-        path = built_fmu(Path(source).stem, flavour)
-        if not path.is_file():
-            raise InputError(
-                self.label, element, f"no file {name}, and {path} is not built", "run build_fmus.py or add the FMU"
-            )
+        path = fmu_file(Path(source).stem, flavour)
+        if path is None:
+            own = own_fmu(Path(source).stem, flavour)
+            problem = f"no file {name} in the system, no {flavour} FMU of this repository, and {own} is not built"
+            raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
         return path.read_bytes(), str(path)
 
     def variants(self) -> list[str]:

@@ -72,10 +72,15 @@ def load_fmu(data: bytes, label: str) -> Fmu:
         raise InputError(label, DESCRIPTION, f"not valid: {error}", "mend the FMU") from error
     if description.coSimulation is None:
         raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export it for co-simulation")
+    if fmpy.architecture == "aarch64" and fmpy.system != "darwin":
+        problem = f"FMI 2.0 has no name for the platform {fmpy.platform_tuple}, so no FMU has a library for it"
+        raise InputError(label, "binaries", problem, "fly on x86_64 or macOS")
     identifier = description.coSimulation.modelIdentifier
     binary = f"binaries/{fmpy.platform}/{identifier}{fmpy.sharedLibraryExtension}"
     if binary not in archive.namelist():
-        raise InputError(label, binary, "no binary for this platform", "compile the FMU's sources for it")
+        runs_python = description.coSimulation.needsExecutionTool
+        remedy = "take its native flavour" if runs_python else "compile the FMU's sources for it"
+        raise InputError(label, binary, "no binary for this platform", remedy)
     folder = Path(tempfile.mkdtemp(prefix="perilune_"))
     archive.extractall(folder)
     fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 from .parameter_sets import ParameterValue
 
 ALGORITHMS = ("sequential", "jacobi")
-FLAVOURS = ("native", "python")
 
 
 # Who may ask something of a system, from the lowest to the highest: what a later one says wins. Below all of them

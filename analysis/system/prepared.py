@@ -5,14 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...fmus_src.places import BUILD, built_fmu
+from ...fmus_src.export.available import fmu_file, fmu_flavours
+from ...fmus_src.places import FLAVOURS
 from ..errors import InputError, suggestion
-from .archive import SystemArchive, open_system
+from .archive import HOW_TO_BUILD, SystemArchive, open_system
 from .assignments import Settings, collect_settings, text_assignment
 from .description import Component, read_description
 from .fmu import Fmu, load_fmu
 from .network import Network, build_network
-from .options import ALGORITHMS, FLAVOURS, SystemOptions
+from .options import ALGORITHMS, SystemOptions
 from .parameter_sets import Assignment, read_parameter_file
 from .schedule import Schedule, make_schedule
 
@@ -75,22 +76,21 @@ def prepare_system(
 def _flavour(component: Component, options: SystemOptions) -> str:
     if options.flavour is not None:
         return options.flavour
-    return "native" if built_fmu(Path(component.source).stem, "native").is_file() else "python"
+    return "native" if fmu_file(Path(component.source).stem, "native") is not None else "python"
 
 
 def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:
     """An FMU named by its block or by a path: its content and its name in messages. Raises InputError."""
-    if name.endswith(".fmu") or "/" in name:
+    if name.endswith(".fmu") or Path(name).name != name:
         path = Path(name)
         if not path.is_file():
             raise InputError(option, name, "no such file", "give a block's name or the path of an .fmu")
         return path.read_bytes(), name
     for candidate in FLAVOURS if flavour is None else (flavour,):
-        path = built_fmu(name, candidate)
-        if path.is_file():
-            return path.read_bytes(), str(path)
-    built = {path.stem for path in BUILD.glob("fmus/*/*.fmu")}
-    raise InputError(option, name, "no such FMU is built", f"{suggestion(name, built)}; build_fmus.py builds them")
+        file = fmu_file(name, candidate)
+        if file is not None:
+            return file.read_bytes(), str(file)
+    raise InputError(option, name, "no such FMU is built", f"{suggestion(name, fmu_flavours())}; {HOW_TO_BUILD}")
 
 
 def _assignments(archive: SystemArchive, options: SystemOptions) -> list[Assignment]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-import os
-import threading
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
+
+from ...analysis.atomic import whole_file
 
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date a zip can hold
 
@@ -15,18 +15,15 @@ EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date a zip can hold
 def write_zip(path: Path, files: Mapping[str, bytes]) -> None:
     """Write ``files`` (name in the archive -> content) in name order, with fixed dates and modes.
 
-    The archive appears whole or not at all: it is written beside its place and moved there.
+    The archive appears whole or not at all.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.{threading.get_ident()}.part")
-    with zipfile.ZipFile(partial, "w") as archive:
+    with whole_file(path) as partial, zipfile.ZipFile(partial, "w") as archive:
         for name in sorted(files):
             entry = zipfile.ZipInfo(name, EPOCH)
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.create_system = 3
             entry.external_attr = 0o644 << 16
             archive.writestr(entry, files[name], compresslevel=6)
-    partial.replace(path)
 
 
 def read_zip(path: Path) -> dict[str, bytes]:

@@ -7,21 +7,17 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..block import Block
-from ..catalogue import blocks_in_file, catalogue
-from ..places import BUILD, SYSTEMS
+from ..catalogue import catalogue
+from ..places import BUILD, FLAVOURS, SYSTEMS
 from .compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
 from .native_fmu import build_native_fmu
 from .pythonfmu_fmu import build_python_fmu
 from .ssp_package import pack_system
 
-FLAVOURS = ("native", "python")
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Build FMUs and systems; returns the exit status: 0 done, 1 compilation failed, 2 wrong input."""
     parser = argparse.ArgumentParser(prog="build_fmus.py", description="Build every FMU and pack every system.")
-    parser.add_argument("--blocks", type=Path, metavar="FILE", help="build the blocks of this file only")
     parser.add_argument("--output", type=Path, metavar="DIR", default=BUILD, help="default: build")
     parser.add_argument("--flavour", choices=(*FLAVOURS, "all"), default="all")
     parser.add_argument(
@@ -40,18 +36,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if not flavours:
             return 1
     try:
-        blocks = catalogue() if options.blocks is None else _blocks_of(options.blocks)
-        counts = {flavour: _build(flavour, blocks, options.output, platforms, options.portable) for flavour in flavours}
+        counts = {flavour: _build(flavour, options.output, platforms, options.portable) for flavour in flavours}
         print(
             ", ".join(f"{count} {flavour} FMUs" for flavour, count in counts.items()), f"in {options.output / 'fmus'}"
         )
-        if options.blocks is None:
-            for folder in sorted(path.parent for path in SYSTEMS.glob("*/SystemStructure.ssd")):
-                print(
-                    pack_system(
-                        folder, [options.output / "fmus" / flavour for flavour in flavours], options.output / "ssp"
-                    )
-                )
+        folders = [options.output / "fmus" / flavour for flavour in flavours]
+        for system in sorted(path.parent for path in SYSTEMS.glob("*/SystemStructure.ssd")):
+            print(pack_system(system, folders, options.output / "ssp"))
     except ValueError as error:
         print(f"build_fmus.py: {error}", file=sys.stderr)
         return 2
@@ -61,24 +52,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _build(flavour: str, blocks: dict[str, type[Block]], output: Path, platforms: Sequence[str], portable: bool) -> int:
+def _build(flavour: str, output: Path, platforms: Sequence[str], portable: bool) -> int:
     """Build the FMUs of one flavour; returns how many. Blocks that need Python have no native form."""
     count = 0
-    for name, block in blocks.items():
+    for name, block in catalogue().items():
         path = output / "fmus" / flavour / f"{name}.fmu"
         if flavour == "python":
             build_python_fmu(block, path)
         elif not block.python_only:
-            build_native_fmu(block, path, platforms=platforms, cache=output / "cache", portable=portable)
+            build_native_fmu(block, path, platforms=platforms, portable=portable)
         else:
             continue
         count += 1
     return count
-
-
-def _blocks_of(path: Path) -> dict[str, type[Block]]:
-    """The blocks of a file by FMU name; a name of the repository's own is refused, not overwritten."""
-    found = {block.fmu_name: block for block in blocks_in_file(path)}
-    for name in sorted(set(found) & set(catalogue())):
-        raise ValueError(f"{path}: {found[name].__name__}: {name} is an FMU of this repository; rename the class")
-    return found

@@ -16,6 +16,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from .fat_binary import fat_binary
+
 FLAGS = ("-O2", "-std=c99", "-ffp-contract=off", "-fno-builtin", "-fPIC", "-shared", "-s")
 
 
@@ -29,28 +31,31 @@ class CompilationFailed(RuntimeError):  # noqa: N818
 
 @dataclass(frozen=True)
 class Platform:
-    """An FMI 2.0 platform: the extension of its libraries and zig's name for it."""
+    """An FMI 2.0 platform: the extension of its libraries, and zig's names for it; several make a universal library."""
 
     extension: str
-    zig_target: str
+    zig_targets: tuple[str, ...]
 
 
 PLATFORMS = {
-    "linux64": Platform(".so", "x86_64-linux-gnu.2.17"),
-    "win64": Platform(".dll", "x86_64-windows-gnu"),
-    "darwin64": Platform(".dylib", "x86_64-macos"),
+    "linux64": Platform(".so", ("x86_64-linux-gnu.2.17",)),
+    "win64": Platform(".dll", ("x86_64-windows-gnu",)),
+    "darwin64": Platform(".dylib", ("x86_64-macos", "aarch64-macos")),
 }
 
 
 def local_platform() -> str | None:
     """FMI 2.0 name of the platform that this process runs on; None where FMI 2.0 has none."""
-    if host.machine().lower() not in ("x86_64", "amd64"):
+    machine = host.machine().lower()
+    if sys.platform == "darwin":
+        return "darwin64"
+    if machine not in ("x86_64", "amd64"):
         return None
-    return {"linux": "linux64", "win32": "win64", "darwin": "darwin64"}.get(sys.platform)
+    return {"linux": "linux64", "win32": "win64"}.get(sys.platform)
 
 
-def compiler_for(platform: str, portable: bool = False) -> list[str]:
-    """The compiler's command for a platform, without flags.
+def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
+    """The commands of a platform's compilers, without flags: one for each processor that its libraries serve.
 
     The system's ``cc`` serves the platform this process runs on; zig, from the PyPI package
     ziglang, serves all. ``portable`` asks for zig everywhere, whose linux64 libraries run on any
@@ -60,9 +65,9 @@ def compiler_for(platform: str, portable: bool = False) -> list[str]:
         raise ValueError(f"platform {platform!r} is unknown; give one of {', '.join(PLATFORMS)}")
     system = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if system and platform == local_platform() and not portable:
-        return [system]
+        return [[system]]
     if importlib.util.find_spec("ziglang") is not None:
-        return [sys.executable, "-m", "ziglang", "cc", "-target", PLATFORMS[platform].zig_target]
+        return [[sys.executable, "-m", "ziglang", "cc", "-target", name] for name in PLATFORMS[platform].zig_targets]
     raise CompilerMissing(
         f"no C compiler for {platform}: pip install ziglang (any platform), or install a system cc for the local one; "
         "the FMU's sources/ folder can also be compiled elsewhere"
@@ -74,7 +79,7 @@ def available_platforms() -> list[str]:
     found = []
     for platform in ("linux64", "win64"):
         try:
-            compiler_for(platform)
+            compilers_for(platform)
         except CompilerMissing:
             continue
         found.append(platform)
@@ -99,18 +104,22 @@ def shared_library(
     ``sources`` holds all files by name. The result depends on sources, flags and compiler only,
     not on time or place. Raises `CompilerMissing` and `CompilationFailed`.
     """
-    command = compiler_for(platform, portable)
-    digest = hashlib.sha256("\0".join([_identity(tuple(command)), *FLAGS, main]).encode())
-    for name in sorted(sources):
-        digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
-    cached = cache / f"{digest.hexdigest()[:32]}{PLATFORMS[platform].extension}"
-    if not cached.is_file():
-        library = _compile(command, sources, main, Path(main).stem + PLATFORMS[platform].extension)
-        cache.mkdir(parents=True, exist_ok=True)
-        partial = cached.with_name(f".{cached.name}.{os.getpid()}.{threading.get_ident()}.part")
-        partial.write_bytes(library)
-        partial.replace(cached)
-    return cached.read_bytes()
+    commands = compilers_for(platform, portable)
+    extension = PLATFORMS[platform].extension
+    libraries = []
+    for command in commands:
+        digest = hashlib.sha256("\0".join([_identity(tuple(command)), *FLAGS, main]).encode())
+        for name in sorted(sources):
+            digest.update(b"\0" + name.encode() + b"\0" + hashlib.sha256(sources[name]).digest())
+        cached = cache / f"{digest.hexdigest()[:32]}{extension}"
+        if not cached.is_file():
+            library = _compile(command, sources, main, Path(main).stem + extension)
+            cache.mkdir(parents=True, exist_ok=True)
+            partial = cached.with_name(f".{cached.name}.{os.getpid()}.{threading.get_ident()}.part")
+            partial.write_bytes(library)
+            partial.replace(cached)
+        libraries.append(cached.read_bytes())
+    return libraries[0] if len(libraries) == 1 else fat_binary(libraries)
 
 
 def _compile(command: list[str], sources: Mapping[str, bytes], main: str, output: str) -> bytes:

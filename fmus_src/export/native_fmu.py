@@ -9,6 +9,7 @@ from pathlib import Path
 import fmpy
 
 from ..block import Block
+from ..places import CACHE
 from .archive import content_guid, write_zip
 from .compilers import PLATFORMS, shared_library
 from .model_description import model_description
@@ -45,7 +46,7 @@ def build_native_fmu(
     path: Path,
     *,
     platforms: Sequence[str] = ("linux64", "win64"),
-    cache: Path = Path("build/cache"),
+    cache: Path = CACHE,
     portable: bool = False,
 ) -> Path:
     """Build the native FMU of a block at ``path``; two builds on one machine are byte-identical.

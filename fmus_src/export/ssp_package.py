@@ -39,6 +39,18 @@ def system_files(folder: Path) -> dict[str, Path]:
     return files
 
 
+def named_fmus(folder: Path) -> dict[str, str]:
+    """FMUs that the SSDs of a system name and its folder does not hold: source -> the SSD that names it first."""
+    files = system_files(folder)
+    found: dict[str, str] = {}
+    for name in [name for name in files if name.endswith(".ssd")]:
+        for component in etree.fromstring(files[name].read_bytes()).iter(f"{{{SSD_NAMESPACE}}}Component"):
+            source = component.get("source", "")
+            if source not in files:
+                found.setdefault(source, name)
+    return found
+
+
 def pack_system(folder: Path, fmus: Sequence[Path], target: Path) -> Path:
     """Write ``target``/NAME.ssp with the system's files and the FMUs its SSDs name.
 
@@ -46,16 +58,12 @@ def pack_system(folder: Path, fmus: Sequence[Path], target: Path) -> Path:
     the SSD and the FMU that is in none.
     """
     files = {name: path.read_bytes() for name, path in system_files(folder).items()}
-    for name in [name for name in files if name.endswith(".ssd")]:
-        for component in etree.fromstring(files[name]).iter(f"{{{SSD_NAMESPACE}}}Component"):
-            source = component.get("source", "")
-            if source in files:
-                continue
-            built = [path / Path(source).name for path in fmus if (path / Path(source).name).is_file()]
-            if not built:
-                places = " or ".join(str(path) for path in fmus)
-                raise ValueError(f"{folder / name}: {source}: no such FMU in {places}; add a block of this name")
-            files[source] = built[0].read_bytes()
+    for source, name in named_fmus(folder).items():
+        built = [path / Path(source).name for path in fmus if (path / Path(source).name).is_file()]
+        if not built:
+            places = " or ".join(str(path) for path in fmus)
+            raise ValueError(f"{folder / name}: {source}: no such FMU in {places}; add a block of this name")
+        files[source] = built[0].read_bytes()
     path = target / f"{folder.name}.ssp"
     write_zip(path, files)
     return path

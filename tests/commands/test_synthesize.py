@@ -30,20 +30,34 @@ def file(tmp_path):
 def test_prints_and_writes_what_was_found(file, tmp_path, capsys):
     out = tmp_path / "new" / "out"
     command = ["synthesize", "network-operator", str(file), "--seed", "5", "--workers", "1", "--output", str(out)]
-    assert main(command) == 0
-    captured = capsys.readouterr()
-    assert captured.err == ""
     expected = run_synthesis(read_synthesis(file), seed=5, workers=1)
+    chosen = expected.search.chosen().evaluation
+    assert chosen.successes < chosen.flown == 4, "three generations have become enough: take fewer"
+    assert main(command) == 1
+    captured = capsys.readouterr()
+    assert captured.err.count("\n") == 1
+    assert f"search.toml: no law found: the chosen one succeeds in {chosen.successes} of 4 trials; " in captured.err
+    for name, total in zip(("altitude", "speed"), chosen.objectives, strict=True):
+        assert f"{name} {total / 4:.6g} per flight ({total:.6g} over 4)" in captured.out
     assert captured.out == expected.text() + "\n"
     assert json.loads((out / "pareto.json").read_text()) == expected.document()
-    assert main([*command, "--resume", "--json", "-"]) == 0
+    assert main([*command, "--resume", "--json", "-"]) == 1
     assert json.loads(capsys.readouterr().out) == expected.document()
     assert main(["run", "lunar_descent_2d", "--parameters", str(out / "law.ssv"), "--stop-time", "10"]) == 0
 
 
+def test_a_law_that_is_found_ends_with_status_0(file, capsys):
+    file.write_text(TEXT.replace("final_speed < 6 and 1200 <= final_altitude <= 1800", "final_speed >= 0"))
+    assert main(["synthesize", "network-operator", str(file), "--workers", "1", "--json", "-"]) == 0
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    found = json.loads(captured.out)
+    assert (found["ended"], found["chosen"]["successes"], found["chosen"]["flights"]) == ("success", 4, 4)
+
+
 def test_evaluations_limit_the_search(file, capsys):
     command = ["synthesize", "network-operator", str(file), "--workers", "1", "--evaluations", "9", "--json", "-"]
-    assert main(command) == 0
+    assert main(command) == 1
     found = json.loads(capsys.readouterr().out)
     assert found["ended"] == "evaluations"
     assert found["evaluations"] >= 9

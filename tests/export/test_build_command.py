@@ -1,11 +1,11 @@
-"""build_fmus.py on blocks from outside: what it builds flies, what it cannot build it says in one line.
+"""`perilune export FILE.py`: what it builds flies, by name and by path; what it cannot build it says in one line.
 
 Truth: the exit statuses 0 (built), 2 (wrong input); flights of what was built, known in advance.
 """
 
 import pytest
 
-from perilune.fmus_src.export.command import main
+from perilune.analysis.cli import main
 from tests.support.builders import BLOCKS, component, document, fly, pack, system
 
 GUIDANCE = '''
@@ -23,10 +23,12 @@ class StraightUp(TerminalGuidance):
 
 
 @pytest.fixture
-def built(tmp_path, capsys):
+def built(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
     def run(text, *options, name="mine.py"):
         (tmp_path / name).write_text(text)
-        status = main(["--blocks", str(tmp_path / name), "--output", str(tmp_path / "out"), *options])
+        status = main(["export", name, *options])
         captured = capsys.readouterr()
         return status, captured.out, captured.err
 
@@ -38,17 +40,17 @@ def built(tmp_path, capsys):
 def test_a_guidance_from_outside_flies_in_the_slot(built, tmp_path, flavour):
     import perilune
 
-    status, _, error = built(GUIDANCE, "--flavour", flavour)
-    assert (status, error) == (0, "")
-    path = tmp_path / "out" / "fmus" / flavour / "straight_up.fmu"
-    result = perilune.simulate("lunar_terminal_guidance", use={"guidance": str(path)}, stop_time=5.0)
-    assert result["plant.velocity[3]"][-1] == pytest.approx(-47.4802098 + (2.0 - 1.62) * 5.0, rel=1e-9)
+    status, output, error = built(GUIDANCE, "--flavour", flavour)
+    assert (status, output, error) == (0, f"build/fmus/{flavour}/straight_up.fmu\n", "")
+    for name in ("straight_up", f"build/fmus/{flavour}/straight_up.fmu"):
+        result = perilune.simulate("lunar_terminal_guidance", use={"guidance": name}, flavour=flavour, stop_time=5.0)
+        assert result["plant.velocity[3]"][-1] == pytest.approx(-47.4802098 + (2.0 - 1.62) * 5.0, rel=1e-9)
 
 
 def test_blocks_of_one_file_in_any_name(built, tmp_path):
     status, _, error = built(BLOCKS, "--flavour", "python", name="my blocks-2.py")
     assert (status, error) == (0, "")
-    folder = tmp_path / "out" / "fmus" / "python"
+    folder = tmp_path / "build" / "fmus" / "python"
     assert {path.stem for path in folder.iterdir()} >= {"ramp", "gain", "delay"}
     path = pack(tmp_path / "s.ssp", folder, document(system(component("ramp", "ramp", "output y Real m"))))
     assert fly(path)["ramp.y"].tolist() == [1.0, 1.5, 2.0, 2.5, 3.0]
@@ -96,7 +98,7 @@ def test_wrong_files(built, name):
     status, output, error = built(text, "--flavour", "python")
     assert (status, output) == (2, "")
     assert words in error
-    assert error.startswith("build_fmus.py: ")
+    assert error.startswith("perilune: ")
     assert error.count("\n") == 1
 
 
@@ -105,10 +107,11 @@ def test_a_declaration_error_is_shown(built):
     assert "unit 'ell' is not understood" in built(text, "--flavour", "python")[2]
 
 
-def test_a_file_that_is_not_there(tmp_path, capsys):
-    assert main(["--blocks", str(tmp_path / "gone.py"), "--output", str(tmp_path / "out")]) == 2
+def test_a_file_that_is_not_there(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["export", "gone.py"]) == 2
     assert "gone.py: not a Python file" in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_name_of_the_repository_is_not_overwritten(built):

@@ -17,7 +17,7 @@ import pytest
 from perilune.analysis.flight.instance import instantiate
 from perilune.analysis.system.fmu import load_fmu
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export.command import main
+from perilune.fmus_src.export.own_blocks import build_own_blocks
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.places import ROOT
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
@@ -218,8 +218,8 @@ class Percent(Block):
 
 def test_messages_are_not_read_as_formats(tmp_path):
     (tmp_path / "percent.py").write_text(PERCENT)
-    assert main(["--blocks", str(tmp_path / "percent.py"), "--output", str(tmp_path), "--flavour", "python"]) == 0
-    path = pack(tmp_path / "s.ssp", tmp_path / "fmus" / "python", document(system(component("p", "percent"))))
+    build_own_blocks(tmp_path / "percent.py", tmp_path, ["python"], [])
+    path = pack(tmp_path / "s.ssp", tmp_path / "python", document(system(component("p", "percent"))))
     result = fly(path)
     assert "100 %s %n of 50 %" in result.message
 

@@ -22,7 +22,8 @@ from perilune.analysis.flight.results import Result
 from perilune.analysis.flight.simulation import Simulation
 from perilune.analysis.system.options import SystemOptions
 from perilune.analysis.system.prepared import prepare_system
-from perilune.fmus_src.export.command import main as build_fmus
+from perilune.fmus_src.export.own_blocks import build_own_blocks
+from perilune.fmus_src.places import FLAVOURS
 
 BLOCKS = '''
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
@@ -210,20 +211,16 @@ NAMESPACES = """xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescripti
  xmlns:ssb="http://ssp-standard.org/SSP1/SystemStructureSignalDictionary\""""
 
 
-FLAVOURS = ("python", "native")
-
-
 def build_tiny_fmus(folder: Path) -> None:
     """Build the FMUs above into ``folder``/FLAVOUR, with retouched ones beside them."""
     folder.mkdir(parents=True)
     blocks = folder / "tiny_blocks.py"
     blocks.write_text(BLOCKS)
-    assert build_fmus(["--blocks", str(blocks), "--output", str(folder), "--platform", fmpy.platform]) == 0
+    build_own_blocks(blocks, folder, FLAVOURS, [fmpy.platform])
     script = folder / "stranger.py"
     script.write_text(STRANGER)
     FmuBuilder.build_FMU(script, folder)
     for flavour in FLAVOURS:
-        (folder / "fmus" / flavour).rename(folder / flavour)
         shutil.copy(folder / "Stranger.fmu", folder / flavour / "stranger.fmu")
         retouch_tiny_fmus(folder / flavour)
 

@@ -85,13 +85,15 @@ def test_what_is_written(whole):
     document = json.loads((folder / "pareto.json").read_text())
     assert document["format"] == "perilune-pareto-set"
     assert document["chosen"]["law"] == law.document()
-    members = [tuple(member["objectives"].values()) for member in document["members"]]
-    assert tuple(document["chosen"]["objectives"].values()) in members
+    members = [tuple(value["sum"] for value in member["objectives"].values()) for member in document["members"]]
+    chosen = result.search.chosen().evaluation.objectives
+    assert [*document["chosen"]["objectives"].values()] == [{"sum": total, "mean": total / 4} for total in chosen]
+    assert chosen in members
     for point in members:
         assert not any(a[0] <= point[0] and a[1] <= point[1] and a != point for a in members)
     assert document["ended"] == "generations"
     lines = (folder / "log.csv").read_text().splitlines()
-    assert lines[0] == "generation,evaluations,flights,front,successes,least_altitude,least_speed"
+    assert lines[0] == "generation,evaluations,flights,front,successes,least_sum_of_altitude,least_sum_of_speed"
     assert [line.split(",")[0] for line in lines[1:]] == ["0", "1", "2", "3"]
     assert lines[-1].split(",")[1:3] == [str(document["evaluations"]), str(document["flights"])]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ....fmus_src.block import Block
 from ....fmus_src.catalogue import catalogue
-from ....fmus_src.export.compilers import FLAGS, PLATFORMS, CompilerMissing, compiler_for, local_platform
+from ....fmus_src.export.compilers import FLAGS, PLATFORMS, CompilerMissing, compilers_for, local_platform
 from ....fmus_src.export.native_fmu import C_FILES
 from .contestant import Fly, Unavailable, Values
 from .course import Course
@@ -52,9 +52,11 @@ def compile_system(course: Course, blocks: Mapping[str, type[Block]]) -> Path:
     if platform is None:
         raise Unavailable("there is no compiler for this platform")
     try:
-        command = compiler_for(platform)
+        command, *others = compilers_for(platform)
     except CompilerMissing as reason:
         raise Unavailable(str(reason)) from reason
+    if others:
+        raise Unavailable("there is no compiler for this processor alone")
     parts = _parts(course, blocks)
     units = {part.file: part.unit for part in parts} | {FILE: write_main(course, parts)}
     folder = Path(tempfile.mkdtemp(prefix="perilune_fused_"))

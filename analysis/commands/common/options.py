@@ -10,10 +10,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from ....fmus_src.places import FLAVOURS
 from ...atomic import write_atomically
 from ...errors import InputError
 from ...system.faults import KINDS, Fault, parse_fault
-from ...system.options import ALGORITHMS, FLAVOURS, SystemOptions
+from ...system.options import ALGORITHMS, SystemOptions
 from .targets import Results, check_file
 
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import fmpy
 
-from perilune.fmus_src.export.command import main as build_fmus
+from perilune.fmus_src.export.own_blocks import build_own_blocks
+from perilune.fmus_src.places import FLAVOURS
 
 BLOCKS = '''
 import math
@@ -265,7 +266,4 @@ def build_exact_fmus(folder: Path) -> None:
     folder.mkdir(parents=True)
     blocks = folder / "exact_blocks.py"
     blocks.write_text(BLOCKS)
-    arguments = ["--blocks", str(blocks), "--output", str(folder), "--platform", fmpy.platform]
-    assert build_fmus(arguments) == 0
-    for flavour in ("native", "python"):
-        (folder / "fmus" / flavour).rename(folder / flavour)
+    build_own_blocks(blocks, folder, FLAVOURS, [fmpy.platform])

@@ -8,7 +8,7 @@ from pathlib import Path
 import fmpy
 from pythonfmu import FmuBuilder
 
-from perilune.fmus_src.export.compilers import FLAGS, compiler_for
+from perilune.fmus_src.export.compilers import FLAGS, compilers_for
 from tests.support.builders import write_zip
 
 INTEGRATOR = """
@@ -105,7 +105,7 @@ def build_foreign_fmus(folder: Path) -> Path:
     source, library = folder / "integrator.c", folder / f"integrator{fmpy.sharedLibraryExtension}"
     source.write_text(INTEGRATOR)
     headers = Path(fmpy.__file__).parent / "c-code"
-    subprocess.run([*compiler_for(fmpy.platform), *FLAGS, f"-I{headers}", "-o", library, source], check=True)
+    subprocess.run([*compilers_for(fmpy.platform)[0], *FLAGS, f"-I{headers}", "-o", library, source], check=True)
     binary = f"binaries/{fmpy.platform}/{library.name}"
     write_zip(folder / "integrator.fmu", {"modelDescription.xml": DESCRIPTION, binary: library.read_bytes()})
     script = folder / "law.py"

@@ -1,0 +1,51 @@
+"""The FMUs there are, by name: this repository's own, and those in the working folder's ``build/fmus``.
+
+An installed package has its native FMUs inside. Its Python FMUs, whose loader alone would make it three times as large,
+are built when they are first asked for, which takes no compiler, and kept in the cache folder.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+
+from ..catalogue import catalogue
+from ..places import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, built_fmu, own_fmu
+from .pythonfmu_fmu import build_python_fmu
+
+
+def fmu_file(name: str, flavour: str) -> Path | None:
+    """The FMU of this name, the repository's before one of the working folder; None where there is none."""
+    shipped = built_fmu(name, flavour)
+    if shipped.is_file():
+        return shipped
+    if not IS_CHECKOUT and flavour == "python" and name in catalogue():
+        path = _python_folder() / f"{name}.fmu"
+        return path if path.is_file() else build_python_fmu(catalogue()[name], path)
+    own = own_fmu(name, flavour)
+    return own if own.is_file() else None
+
+
+def fmu_flavours() -> dict[str, dict[str, Path | None]]:
+    """All FMUs by name, with the flavours there are; a file is None until it is asked for and built."""
+    found: dict[str, dict[str, Path | None]] = {}
+    for flavour in FLAVOURS:
+        if not IS_CHECKOUT and flavour == "python":
+            for name in catalogue():
+                found.setdefault(name, {})[flavour] = None
+        for folder in (built_fmu("x", flavour).parent, own_fmu("x", flavour).parent):
+            for path in sorted(folder.glob("*.fmu")):
+                found.setdefault(path.stem, {}).setdefault(flavour, path)
+    return found
+
+
+@cache
+def _python_folder() -> Path:
+    """Where Python FMUs of these sources are kept."""
+    sources = PACKAGE / "fmus_src"
+    digest = hashlib.sha256(version("pythonfmu").encode())
+    for path in sorted(sources.rglob("*.py")):
+        digest.update(b"\0" + path.relative_to(sources).as_posix().encode() + b"\0" + path.read_bytes())
+    return CACHE / "fmus" / digest.hexdigest()[:16]

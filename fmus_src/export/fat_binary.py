@@ -1,0 +1,32 @@
+"""Mach-O libraries of several processors joined into one, as macOS loads them for whichever it runs on.
+
+Apple's `lipo` does this, which runs on macOS only. Format: Apple, mach-o/fat.h.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Sequence
+
+FAT_MAGIC = 0xCAFEBABE  # everything in the header is big-endian
+MACH_O_64 = 0xFEEDFACF  # little-endian, as all processors that are joined here
+ALIGNMENT = 14  # power of 2: the pages of arm64, 16 KiB, of which those of x86_64 are a part
+
+
+def fat_binary(libraries: Sequence[bytes]) -> bytes:
+    """One library of 64-bit Mach-O libraries, each of another processor; raises ValueError for anything else."""
+    header = struct.pack(">II", FAT_MAGIC, len(libraries))
+    body = b""
+    processors = set()
+    start = len(header) + 20 * len(libraries)
+    for library in libraries:
+        magic, processor, variant = struct.unpack_from("<III", library)
+        if magic != MACH_O_64:
+            raise ValueError(f"magic number {magic:#x} is not that of a 64-bit Mach-O library")
+        if processor in processors:
+            raise ValueError(f"two libraries are of processor {processor:#x}; give one of each")
+        processors.add(processor)
+        body += bytes(-(start + len(body)) % (1 << ALIGNMENT))
+        header += struct.pack(">IIIII", processor, variant, start + len(body), len(library), ALIGNMENT)
+        body += library
+    return header + body

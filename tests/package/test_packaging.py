@@ -1,0 +1,70 @@
+"""What pyproject.toml, setup.py and the Makefile say of the package; the wheel itself is flown in test_wheel.py.
+
+Truth: the files of the checkout; a Python that says it is an old one.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+import tomllib
+
+from perilune.fmus_src.places import ROOT
+
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+FILES = """
+import json
+from setuptools.dist import Distribution
+found = Distribution()
+found.parse_config_files()
+command = found.get_command_obj("build_py")
+command.ensure_finalized()
+command.manifest_files = {}  # what git or an older build would add
+files = [file for each in command.packages for file in command.find_data_files(each, command.get_package_dir(each))]
+print(json.dumps({"packages": command.packages, "files": files}))
+"""
+
+
+def test_all_that_is_not_python_is_packed_under_one_name():
+    done = subprocess.run([sys.executable, "-c", FILES], cwd=ROOT, capture_output=True, text=True, check=True)
+    found = json.loads(done.stdout.splitlines()[-1])
+    assert {name.split(".")[0] for name in found["packages"]} == {"perilune"}
+    packed = {(ROOT / name).resolve().relative_to(ROOT).as_posix() for name in found["files"]}
+    expected = {"perilune/py.typed"}
+    for room, kinds in {
+        "ssp_systems": ("*",),
+        "laws": ("*",),
+        "fmus_src": ("*.c", "*.h"),
+        "analysis": ("*.html", "*.css"),
+    }.items():
+        paths = [path for kind in kinds for path in (ROOT / room).rglob(kind) if path.is_file()]
+        expected |= {path.relative_to(ROOT).as_posix() for path in paths}
+    assert packed == expected
+
+
+def test_the_citation_is_of_this_version():
+    lines = (ROOT / "CITATION.cff").read_text(encoding="utf-8").splitlines()
+    declared = dict(line.split(": ", 1) for line in lines if ": " in line and not line.startswith(" "))
+    assert declared["version"] == PROJECT["version"]
+    assert declared["license"] == PROJECT["license"]
+    assert (declared["cff-version"], declared["title"]) == ("1.2.0", "Perilune")
+
+
+def test_make_refuses_an_old_python_before_it_makes_anything(tmp_path):
+    for name in ("Makefile", "pyproject.toml", "setup.py"):
+        shutil.copy(ROOT / name, tmp_path)
+    old = tmp_path / "python3.9"
+    pretend = "import sys; sys.version_info = (3, 9, 1); sys.version = '3.9.1 (old)'; exec(sys.argv[1])"
+    old.write_text(f'#!/bin/sh\nexec {sys.executable} -c "{pretend}" "$2"\n')
+    old.chmod(0o755)
+    before = sorted(tmp_path.iterdir())
+    for target in ("demo", "test", "build"):
+        done = subprocess.run(
+            ["make", target, f"PYTHON={old}"], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 2
+        first = done.stderr.splitlines()[0]
+        assert first.startswith(f"Perilune needs Python 3.11 to 3.13, and {old} is 3.9.1; ")
+        assert sorted(tmp_path.iterdir()) == before

@@ -1,0 +1,46 @@
+"""Nothing that only Linux or Unix has is called in the product.
+
+Truth: what Python's library reference marks "Availability: Unix", as its own parser finds it.
+"""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from perilune.fmus_src.places import ROOT
+
+MODULES = {"fcntl", "grp", "posix", "pty", "pwd", "resource", "syslog", "termios", "tty"}
+NAMES = {
+    "os": {"fork", "forkpty", "getpgid", "getuid", "geteuid", "getgid", "killpg", "nice", "sched_getaffinity"}
+    | {"sched_setaffinity", "setsid", "sysconf", "uname", "wait", "chown", "mkfifo"},
+    "signal": {"SIGALRM", "SIGCHLD", "SIGHUP", "SIGKILL", "SIGQUIT", "SIGSTOP", "SIGUSR1", "SIGUSR2", "alarm"}
+    | {"pause", "pthread_kill", "pthread_sigmask", "setitimer", "sigwait"},
+    "time": {"clock_gettime", "tzset"},
+}
+SOURCES = [path for room in ("analysis", "fmus_src") for path in sorted((ROOT / room).rglob("*.py"))]
+
+
+def found(text):
+    """What is only there on Unix, with its line."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, node.lineno) for alias in node.names if alias.name in MODULES)
+        elif isinstance(node, ast.ImportFrom) and not node.level:
+            named = {alias.name for alias in node.names} & NAMES.get(str(node.module), set())
+            yield from ((name, node.lineno) for name in named | ({node.module} & MODULES))
+        elif isinstance(node, ast.Attribute) and node.attr in NAMES.get(getattr(node.value, "id", ""), ()):
+            yield ast.unparse(node), node.lineno
+
+
+def test_no_call_that_only_unix_has():
+    assert len(SOURCES) > 300
+    assert {path: list(found(path.read_text(encoding="utf-8"))) for path in SOURCES} == {path: [] for path in SOURCES}
+
+
+@pytest.mark.parametrize(
+    "text", ["import os\nos.fork()", "import fcntl", "from resource import *", "from os import getuid"]
+)
+def test_what_would_be_found(text):
+    assert list(found(text))

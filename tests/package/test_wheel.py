@@ -1,0 +1,137 @@
+"""The wheel as a user has it: what is in it, and every verb from another folder, without compiler or checkout.
+
+Truth: the same flights in the checkout; macholib and the formats' magic numbers; site-packages before and after.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import re
+import shutil
+import zipfile
+
+import pytest
+from macholib.MachO import MachO
+from macholib.SymbolTable import SymbolTable
+
+import perilune
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.places import ROOT
+
+pytestmark = pytest.mark.slow
+
+SYSTEM = "lunar_terminal_guidance"
+LARGEST = 15e6  # bytes
+X86_64, ARM64 = 0x01000007, 0x0100000C  # Apple, mach/machine.h
+MACHINE = {"linux64": (b"\x7fELF", 18, b"\x3e\x00"), "win64": (b"MZ", None, b"")}  # ELF e_machine 62: x86_64
+
+
+@pytest.fixture
+def perform(installed, tmp_path):
+    """A verb that succeeds: its standard output."""
+
+    def run(*arguments, status=0):
+        done = installed.run(*arguments, cwd=tmp_path)
+        assert done.returncode == status, done.stderr
+        return done.stdout
+
+    return run
+
+
+def test_one_new_name_of_moderate_size(installed):
+    assert installed.wheel.stat().st_size < LARGEST
+    with zipfile.ZipFile(installed.wheel) as wheel:
+        names = wheel.namelist()
+    assert {name.split("/")[0] for name in names} == {"perilune", "perilune-0.1.0.dist-info"}
+    assert "perilune/py.typed" in names
+    for room in ("ssp_systems", "laws"):
+        expected = {path.relative_to(ROOT).as_posix() for path in (ROOT / room).rglob("*") if path.is_file()}
+        assert {f"perilune/{name}" for name in expected} <= set(names)
+    native = {name for name, block in catalogue().items() if not block.python_only}
+    assert {name for name in names if name.endswith(".fmu")} == {f"perilune/build/fmus/native/{n}.fmu" for n in native}
+
+
+def test_every_native_fmu_has_its_libraries(installed, tmp_path):
+    """By structure: the macOS libraries hold both processors, signed on arm64, with the functions of FMI."""
+    for path in sorted((installed.site / "perilune" / "build" / "fmus" / "native").iterdir()):
+        with zipfile.ZipFile(path) as fmu:
+            assert fmu.testzip() is None
+            for platform, extension in (("linux64", "so"), ("win64", "dll")):
+                content = fmu.read(f"binaries/{platform}/{path.stem}.{extension}")
+                magic, place, machine = MACHINE[platform]
+                assert content.startswith(magic)
+                assert place is None or content[place : place + 2] == machine
+            library = tmp_path / "library.dylib"
+            library.write_bytes(fmu.read(f"binaries/darwin64/{path.stem}.dylib"))
+        parts = MachO(str(library)).headers
+        assert {part.header.cputype for part in parts} == {X86_64, ARM64}
+        for part in parts:
+            commands = {command.get_cmd_name() for command, _, _ in part.commands}
+            assert part.header.cputype == X86_64 or "LC_CODE_SIGNATURE" in commands
+            exported = {name for _, name in SymbolTable(MachO(str(library)), part).extdefsyms}
+            assert {b"_fmi2Instantiate", b"_fmi2DoStep", b"_fmi2GetReal"} <= exported
+
+
+def test_every_verb_in_another_folder(installed, perform, tmp_path):
+    before = installed.files()
+    assert perform("--version") == "perilune 0.1.0\n"
+    listed = json.loads(perform("list", "--json", "-"))
+    assert set(listed["systems"]) == {path.parent.name for path in (ROOT / "ssp_systems").glob("*/SystemStructure.ssd")}
+    for name, block in catalogue().items():
+        assert listed["fmus"][name]["built"] == (["python"] if block.python_only else ["native", "python"])
+    for flavour in ("native", "python"):
+        options = ("--flavour", flavour, "--stop-time", "5", "--output", f"{flavour}.csv")
+        flown = json.loads(perform("run", SYSTEM, *options, "--report", "run.html", "--json", "-"))
+        here = perilune.simulate(SYSTEM, flavour=flavour, stop_time=5.0)
+        assert flown["final"] == here.final()
+    variants = "guidance=analytic_guidance,analytic_exact_guidance"
+    batch = ("batch", SYSTEM, "--campaign", "paper", "--trials", "4", "--workers", "2")
+    perform(*batch, "--compare", variants, "--output", "native", "--report", "batch.html")
+    perform(*batch, "--compare", variants, "--output", "python", "--flavour", "python")
+    summaries = [json.loads((tmp_path / flavour / "summary.json").read_text()) for flavour in ("native", "python")]
+    assert summaries[0]["variants"] == summaries[1]["variants"]
+    perform("compare", "native", "--report", "compare.html")
+    perform("stability", "robot_rendezvous", "--loop", "attitude", "--report", "stability.html")
+    perform("validate", SYSTEM, "orbital_attitude")
+    assert "guidance" in perform("describe", SYSTEM)
+    assert "matrix" in perform("law", "diveev_2013", "--graph", "law.svg", "--json", "-")
+    search = ("synthesize", "network-operator", "lunar_descent_2d", "--evaluations", "1", "--output", "search")
+    perform(*search, status=1)  # nothing is found so soon
+    perform("benchmark", "--steps", "10", "--repeats", "1")
+    assert installed.files() == before, "site-packages were written to"
+    assert {path.name for path in installed.site.iterdir()} == {"perilune", "perilune-0.1.0.dist-info", "shared.pth"}
+    assert (installed.home / ".cache" / "perilune" / "numba").is_dir()
+
+
+def test_export_without_a_compiler(installed, perform, tmp_path):
+    perform("export", "forming_filter", "--platform", "darwin64", "--platform", "linux64")
+    with zipfile.ZipFile(tmp_path / "forming_filter.fmu") as fmu:
+        libraries = {name.split("/")[1] for name in fmu.namelist() if name.startswith("binaries/")}
+    assert libraries == {"darwin64", "linux64"}
+    for flavour in ("native", "python"):
+        perform("export", SYSTEM, "--flavour", flavour, "--output", f"{flavour}.ssp")
+        flown = json.loads(perform("run", f"{flavour}.ssp", "--stop-time", "5", "--json", "-"))
+        assert flown["final"] == perilune.simulate(SYSTEM, stop_time=5.0, flavour="native").final()
+
+
+def test_an_own_guidance_without_a_compiler(installed, perform, tmp_path):
+    page = (ROOT / "docs" / "write_your_own.md").read_text(encoding="utf-8")
+    (tmp_path / "linear_guidance.py").write_text(re.findall(r"```python\n(.*?)```", page, re.DOTALL)[0])
+    done = installed.run("export", "linear_guidance.py", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (0, "build/fmus/python/linear_guidance.fmu\n")
+    assert "no C compiler here: the Python flavour only" in done.stderr
+    final = json.loads(perform("run", SYSTEM, "--use", "guidance=linear_guidance", "--json", "-"))["final"]
+    assert math.dist([final[f"plant.position[{i}]"] for i in (1, 2, 3)], [0.0, 0.0, 2000.0]) < 1.0
+    shutil.copytree(installed.site / "perilune" / "ssp_systems" / SYSTEM, tmp_path / "mine")
+    ssd = tmp_path / "mine" / "SystemStructure.ssd"
+    ssd.write_text(re.sub(r'"resources/\w+_guidance\.fmu"', '"resources/linear_guidance.fmu"', ssd.read_text()))
+    assert json.loads(perform("run", "mine", "--json", "-"))["final"] == final
+    perform("export", "mine", "--flavour", "python")
+    with zipfile.ZipFile(tmp_path / "mine.ssp") as archive:
+        inside = zipfile.ZipFile(io.BytesIO(archive.read("resources/linear_guidance.fmu")))
+        assert any(name.endswith("outside_linear_guidance.py") for name in inside.namelist())
+    (tmp_path / "elsewhere").mkdir()
+    shutil.move(tmp_path / "mine.ssp", tmp_path / "elsewhere" / "mine.ssp")
+    assert json.loads(perform("run", "elsewhere/mine.ssp", "--json", "-"))["final"] == final

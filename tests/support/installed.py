@@ -1,0 +1,70 @@
+"""Perilune as a user has it: the wheel in a virtual environment, without compiler and without this checkout."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy
+
+from perilune.fmus_src.places import ROOT
+
+HIDDEN = ("ziglang", "perilune", "__editable__", "_pytest", "pytest", "mypy", "ruff")
+
+
+@dataclass(frozen=True)
+class Installed:
+    """A virtual environment with the wheel; ``home`` is the user's, ``site`` its site-packages."""
+
+    wheel: Path
+    python: Path
+    site: Path
+    home: Path
+
+    def run(self, *arguments: str, cwd: Path, script: bool = False) -> subprocess.CompletedProcess[str]:
+        """`perilune ARGUMENTS`, or with ``script`` Python on them, with nothing of this process's environment."""
+        command = [str(self.python), *(() if script else ("-m", "perilune")), *arguments]
+        environment = {"PATH": str(self.python.parent), "HOME": str(self.home), "MPLBACKEND": "agg"}
+        return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True, check=False)
+
+    def files(self) -> dict[str, tuple[int, int]]:
+        """All of site-packages: size and date by name."""
+        found = {path: path.stat() for path in self.site.rglob("*") if path.is_file()}
+        return {str(path.relative_to(self.site)): (stat.st_size, stat.st_mtime_ns) for path, stat in found.items()}
+
+
+def build_wheel(folder: Path) -> Path:
+    """The wheel of this checkout, as `pip wheel` makes it."""
+    command = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, ROOT]
+    subprocess.run(command, check=True, capture_output=True)
+    (wheel,) = folder.glob("*.whl")
+    return wheel
+
+
+def install(wheel: Path, folder: Path) -> None:
+    """Make a virtual environment with the wheel and, by links, what it depends on; site-packages are read-only.
+
+    (Not for the superuser, who may write everywhere: compare `Installed.files` before and after.)
+    """
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder / "venv"], check=True)
+    found = installed_in(folder)
+    pip = [sys.executable, "-m", "pip", "--python", found.python, "install", "--quiet", "--no-deps", "--no-index"]
+    subprocess.run([*pip, wheel], check=True, capture_output=True)
+    shared = folder / "shared"
+    shared.mkdir()
+    for entry in Path(numpy.__file__).parents[1].iterdir():
+        if not entry.name.startswith(HIDDEN) and entry.suffix != ".pth":
+            (shared / entry.name).symlink_to(entry)
+    (found.site / "shared.pth").write_text(f"{shared}\n", encoding="utf-8")
+    for path in [found.site, *(entry for entry in found.site.rglob("*") if entry.is_dir())]:
+        path.chmod(0o555)
+    found.home.mkdir()
+
+
+def installed_in(folder: Path) -> Installed:
+    """What `install` made in a folder."""
+    (site,) = (folder / "venv" / "lib").glob("python*/site-packages")
+    (wheel,) = (folder / "wheel").glob("*.whl")
+    return Installed(wheel, folder / "venv" / "bin" / "python", site, folder / "home")
