@@ -37,8 +37,8 @@ def wait(work: Callable[[], Found], interrupt: Callable[[], None]) -> Found:
         except BaseException as error:  # whatever it is, it is raised where the work is waited for
             future.set_exception(error)
 
-    threading.Thread(target=run, daemon=True).start()
-    try:
+    try:  # Ctrl-C may come as soon as the thread runs, before its start returns
+        threading.Thread(target=run, daemon=True).start()
         return future.result()
     except KeyboardInterrupt:
         interrupt()

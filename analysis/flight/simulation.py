@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from importlib.metadata import version
@@ -118,6 +119,7 @@ class Simulation:
         )
         self._record = np.empty((0, 0))
         self._fresh = True
+        self._under_way = threading.Lock()
 
     def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> Result:
         """One flight from the start, with ``values`` for varied parameters; every n-th row is kept.
@@ -188,6 +190,7 @@ class Simulation:
         for instance in self.instances.values():
             instance.messages.clear()
         function = loop.fly_unlocked if prepared.is_native else loop.fly_locked
+        self._under_way.acquire()
         count = function(
             self.program,
             self.buffers,
@@ -203,6 +206,7 @@ class Simulation:
             loop.Recording(self._recorded, every, self._record, self._times),
             excitation if excitation.size else np.zeros((0, len(self._excitations))),
         )
+        self._under_way.release()
         self._fresh = False
         status, message = self._end()
         flight = Flight(
@@ -284,10 +288,12 @@ class Simulation:
         }
 
     def close(self) -> None:
-        """Free the instances."""
-        for instance in self.instances.values():
-            instance.free()
-        self.instances = {}
+        """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""
+        if self._under_way.acquire(blocking=False):
+            for instance in self.instances.values():
+                instance.free()
+            self.instances = {}
+            self._under_way.release()
 
     def __enter__(self) -> Simulation:
         return self

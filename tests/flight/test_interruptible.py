@@ -18,7 +18,8 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 
 @pytest.mark.parametrize(("flavour", "step"), [("python", None), ("native", 0.005)])
-def test_what_was_flown_comes_back(flavour, step):
+def test_what_was_flown_comes_back(monkeypatch, flavour, step):
+    monkeypatch.setattr("perilune.analysis.flight.interruptible.PATIENCE", 60.0)  # whatever else the machine does
     prepared = prepare_system("lunar_landing", SystemOptions(flavour=flavour, step=step))
     with Simulation(prepared, wanted=["plant.position[1]", "plant.mass"]) as simulation:
         with interrupted_when(lambda: simulation.buffers.outcome[4] > 100):
