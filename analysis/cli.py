@@ -33,7 +33,7 @@ VERBS = {
 
 # What exit status 1 means besides an interruption, of which all verbs make it; 0 is done, 2 wrong input.
 FAILURES = {
-    "plan": "no plan was found",
+    "plan": "there is no such plan, or less propellant on board than it takes",
     "run": "the flight failed, or a requirement is not met",
     "batch": "a requirement is not met",
     "synthesize": "no law was found with every trial a success",

@@ -20,7 +20,7 @@ import perilune
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.places import ROOT
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("fmus")]
 
 SYSTEM = "lunar_terminal_guidance"
 LARGEST = 15e6  # bytes
@@ -99,6 +99,9 @@ def test_every_verb_in_another_folder(installed, perform, tmp_path):
     assert "matrix" in perform("law", "diveev_2013", "--graph", "law.svg", "--json", "-")
     search = ("synthesize", "network-operator", "lunar_descent_2d", "--evaluations", "1", "--output", "search")
     perform(*search, status=1)  # nothing is found so soon
+    refused = installed.run("plan", "landing-bound", "landing_mission", "--store", cwd=tmp_path)
+    assert refused.returncode == 2
+    assert "a system of the installed package, which is not written to; copy this folder" in refused.stderr
     perform("benchmark", "--steps", "10", "--repeats", "1")
     assert installed.files() == before, "site-packages were written to"
     assert {path.name for path in installed.site.iterdir()} == {"perilune", "perilune-0.1.0.dist-info", "shared.pth"}

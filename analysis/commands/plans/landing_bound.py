@@ -7,6 +7,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+from ....fmus_src.places import IS_CHECKOUT, PACKAGE
 from ...errors import InputError
 from ...planning.bounds import Landing
 from ...planning.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
@@ -97,6 +98,9 @@ def _check_store(options: argparse.Namespace, prepared: PreparedSystem | None, s
         raise InputError("--store", "", "no system to store it with", "name a system")
     if not prepared.archive.path.is_dir():
         raise InputError("--store", str(prepared.archive.path), "not a folder", "unpack the .ssp and name its folder")
+    if not IS_CHECKOUT and prepared.archive.path.is_relative_to(PACKAGE):
+        problem = "a system of the installed package, which is not written to"
+        raise InputError("--store", str(prepared.archive.path), problem, "copy this folder and name the copy")
     if single:
         option = f"--{single[0].replace('_', '-')}"
         raise InputError("--store", option, "a stored bound is that of the system's own values", "leave one out")
