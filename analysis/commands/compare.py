@@ -24,11 +24,11 @@ def run(options: argparse.Namespace) -> int:
     check_json(options)
     comparison = compare(options.result, options.reference)
     files = Results()
-    if not write_json(comparison.document(), options.json, files):
-        print(comparison.text())
     words = ["perilune", "compare", *map(str, options.result)]
     words += ["--reference", options.reference] if options.reference is not None else []
     files.write(options.report, lambda path: write_comparison_page(comparison, path, shlex.join(words)))
+    if not write_json(comparison.document(), options.json, files):
+        print(comparison.text())
     if options.json != "-":
         files.say()
     return 2 if files.failed else 0

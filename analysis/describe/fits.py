@@ -9,7 +9,7 @@ from fmpy import read_model_description
 
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
-from ...fmus_src.places import BUILD
+from ...fmus_src.export.available import fmu_flavours
 
 Demand = tuple[str, str, str]  # variable, causality, type
 
@@ -26,15 +26,16 @@ def connectors_of(block: type[Block]) -> set[Demand]:
 @cache
 def _all_connectors() -> Mapping[str, set[Demand]]:
     found = {name: connectors_of(block) for name, block in catalogue().items()}
-    for path in sorted(BUILD.glob("fmus/*/*.fmu")):
-        if path.stem not in found:
+    for name, flavours in fmu_flavours().items():
+        path = next((path for path in flavours.values() if path is not None), None)
+        if name not in found and path is not None:
             variables = read_model_description(str(path), validate=False).modelVariables
-            found[path.stem] = {(variable.name, variable.causality, variable.type) for variable in variables}
+            found[name] = {(variable.name, variable.causality, variable.type) for variable in variables}
     return found
 
 
 def fitting(demanded: Iterable[Demand]) -> list[str]:
-    """The FMUs of this repository, and those built beside them, that have all demanded connectors, by name."""
+    """The FMUs of this repository, and those of the working folder, that have all demanded connectors, by name."""
     wanted = set(demanded)
     return [name for name, has in _all_connectors().items() if wanted <= has]
 

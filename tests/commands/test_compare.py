@@ -147,7 +147,7 @@ def test_different_draws_exit_2_with_one_line(folders, tmp_path, capsys):
         (["{0}", "{0}"], "given twice; give each folder once"),
         (["{0}", "--reference", "nobody"], "--reference: nobody: no such variant; use one of analytic_guidance"),
         (["/dev/null"], "summary.json: not found"),
-        (["{0}", "--report", "/dev/null/page.html"], "give another path"),
+        (["{0}", "--report", "/dev/null/page.html"], "/dev/null is a file; give another folder"),
     ],
 )
 def test_wrong_options(folders, capsys, options, says):

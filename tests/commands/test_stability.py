@@ -114,7 +114,8 @@ def test_page_json_file_and_talk_to_the_terminal(plain, tmp_path, capsys):
     assert main(["stability", plain, "--report", str(page), "--json", str(file)]) == 0
     captured = capsys.readouterr()
     (loop,) = strict(file.read_text())["loops"]
-    line, last = captured.out.splitlines()
+    line, last, written = captured.out.splitlines()
+    assert written == f"written: {page}, {file}"
     assert line.startswith(f"loop at there: {loop['gain_margin_db']:.2f} dB, {loop['phase_margin_deg']:.2f} deg, ")
     assert line.endswith("routes agree: pass")
     assert re.fullmatch(r"late_double_integrator: pass, \d+\.\d s", last)
