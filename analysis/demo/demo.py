@@ -48,6 +48,7 @@ def fly(output: Path, trials: int) -> Path:
     variants = len(plan.campaign.variants())
     print(f"Comparing {variants} guidances over {trials} trials each ...", flush=True)
     batch = run_batch(plan, output=output)
+    batch.write(output)
     return write_files(landing, sample, batch, output)
 
 
@@ -60,7 +61,7 @@ def fly_sample(plan: BatchPlan) -> tuple[Result, list[Result]]:
 
 
 def write_files(landing: Result, sample: list[Result], batch: BatchResult, output: Path) -> Path:
-    """Write the raw landing, the two full reports and the page; `run_batch` has written its own files."""
+    """Write the raw landing, the two full reports and the page; those of the batch are there already."""
     print("Writing pages ...", flush=True)
     landing.write(output / "landing.csv")
     write_run_report(landing, output / "landing.html", f"Lunar landing: trial {LANDING} of campaign {CAMPAIGN}")

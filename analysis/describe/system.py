@@ -47,6 +47,8 @@ def _component(prepared: PreparedSystem, name: str) -> dict[str, Any]:
         for node in network.nodes.values()
         if node.component == name
     ]
+    given = [variable for component, variable in settings.variables if component == name]
+    demanded += [(key, fmu.variables[key].causality, fmu.variables[key].type) for key in given]
     return {
         "name": name,
         "fmu": fmu.name,

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
+from collections import deque
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from ..catalogue import catalogue
@@ -54,14 +57,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _build(flavour: str, output: Path, platforms: Sequence[str], portable: bool) -> int:
     """Build the FMUs of one flavour; returns how many. Blocks that need Python have no native form."""
-    count = 0
-    for name, block in catalogue().items():
-        path = output / "fmus" / flavour / f"{name}.fmu"
-        if flavour == "python":
-            build_python_fmu(block, path)
-        elif not block.python_only:
-            build_native_fmu(block, path, platforms=platforms, portable=portable)
-        else:
-            continue
-        count += 1
-    return count
+    folder, blocks = output / "fmus" / flavour, catalogue()
+    if flavour == "python":
+        for name, block in blocks.items():
+            build_python_fmu(block, folder / f"{name}.fmu")
+        return len(blocks)
+
+    def build(name: str) -> None:
+        build_native_fmu(blocks[name], folder / f"{name}.fmu", platforms=platforms, portable=portable)
+
+    names = [name for name, block in blocks.items() if not block.python_only]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:  # most of the time compilers run, each a process
+        deque(pool.map(build, names), maxlen=0)
+    return len(names)

@@ -96,6 +96,9 @@ class Odd(Block):
     y = Output([0.0, 0.0], unit="m", direct=("level",), description="out")
     state = State([0.0] * 3, description="inside")
 
+    def step(self, t: float, h: float) -> None:
+        pass
+
 
 def test_awkward_values_come_back_to_the_last_bit():
     root = read(Odd)
