@@ -1,4 +1,4 @@
-"""Which FMUs fit where another one stands: those that have all its connectors."""
+"""Which FMUs fit where another one stands: those that have all its connectors, and the parameters given to it."""
 
 from __future__ import annotations
 
