@@ -14,12 +14,21 @@ from .fmus_src.face import HOME_OF
 
 if TYPE_CHECKING:
     from . import modal
-    from .analysis.api import batch, simulate, stability
-    from .analysis.batch.results import BatchResult
+    from .analysis.api.batch import BatchResult, batch
+    from .analysis.api.comparison import Comparison, compare
+    from .analysis.api.flight import Result, simulate
+    from .analysis.api.inventory import inventory
+    from .analysis.api.law import Law, law
+    from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
+    from .analysis.api.stability import StabilityReport, stability
+    from .analysis.api.synthesis import synthesize
+    from .analysis.api.validate import validate
     from .analysis.errors import InputError
-    from .analysis.flight.results import Result
+    from .analysis.planning.bounds import Landing
+    from .analysis.planning.path import PlanError
+    from .analysis.planning.vehicle import Margins, Transfer, Vehicle
     from .analysis.stability.bench.bench import StudyError
-    from .analysis.stability.results.report import StabilityReport
+    from .analysis.synthesis.outcome import SynthesisResult
     from .analysis.system.faults import Fault
     from .fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
     from .fmus_src.interfaces.allocation import Allocation
@@ -49,45 +58,71 @@ __all__ = [
     "AttitudeObserver",
     "BatchResult",
     "Block",
+    "Comparison",
     "DeclarationError",
     "EntryControl",
     "Fault",
     "FilteredNavigation",
     "GyroSteering",
+    "HoverPlan",
     "InertialNavigation",
     "Input",
     "InputError",
     "JetAllocation",
+    "Landing",
+    "LandingBound",
+    "Law",
+    "Margins",
     "Navigation",
     "OrbitalControl",
     "Output",
     "Parameter",
+    "PlanError",
     "Result",
     "StabilityReport",
     "State",
     "StudyError",
+    "SynthesisResult",
     "TerminalGuidance",
+    "Transfer",
     "Vector",
     "Vector2",
     "Vector3",
     "Vector4",
+    "Vehicle",
     "batch",
+    "compare",
     "cross",
     "dot",
+    "inventory",
+    "law",
     "modal",
     "norm",
+    "plan_hover_transfer",
+    "plan_landing_bound",
     "simulate",
     "stability",
+    "synthesize",
+    "validate",
     "vector",
 ]
 
 _HOMES = {
-    "analysis.api": ("batch", "simulate", "stability"),
-    "analysis.batch.results": ("BatchResult",),
+    "analysis.api.batch": ("BatchResult", "batch"),
+    "analysis.api.comparison": ("Comparison", "compare"),
+    "analysis.api.flight": ("Result", "simulate"),
+    "analysis.api.inventory": ("inventory",),
+    "analysis.api.law": ("Law", "law"),
+    "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
+    "analysis.api.stability": ("StabilityReport", "stability"),
+    "analysis.api.synthesis": ("synthesize",),
+    "analysis.api.validate": ("validate",),
     "analysis.errors": ("InputError",),
-    "analysis.flight.results": ("Result",),
+    "analysis.planning.bounds": ("Landing",),
+    "analysis.planning.path": ("PlanError",),
+    "analysis.planning.vehicle": ("Margins", "Transfer", "Vehicle"),
     "analysis.stability.bench.bench": ("StudyError",),
-    "analysis.stability.results.report": ("StabilityReport",),
+    "analysis.synthesis.outcome": ("SynthesisResult",),
     "analysis.system.faults": ("Fault",),
 }
 

@@ -19,7 +19,14 @@ from perilune.fmus_src.places import ROOT
 
 PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 OURS = {"perilune", "analysis", "fmus_src"}
-EVERYWHERE = {"analysis/errors", "analysis/atomic", "analysis/process_end", "fmus_src/places"}
+EVERYWHERE = {
+    "analysis/errors",
+    "analysis/atomic",
+    "analysis/process_end",
+    "analysis/progress",
+    "analysis/targets",
+    "fmus_src/places",
+}
 KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
 MOST = 15
 LISTS = {

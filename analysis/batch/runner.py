@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pyarrow
-from tqdm import tqdm
 
 from ..campaign.plan import BatchPlan, check_plan
+from ..progress import progress_bar
 from .facts import campaign_facts
 from .results import BatchResult, make_result, write_parquet
 from .trials import Trials, joined
@@ -33,7 +33,7 @@ def run_batch(plan: BatchPlan, *, workers: int | None = None, output: Path | Non
     planned = plan.campaign.trials
     total = planned * len(trials)
     try:
-        with tqdm(total=total, unit="trial", disable=None, leave=False) as progress:
+        with progress_bar(total=total, unit="trial") as progress:
             for variant, found in fly_all(plan, tasks, min(count, len(tasks)), native):
                 trials[variant].append(found)
                 progress.update(len(found.trial))

@@ -8,12 +8,11 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import named_fmus, pack_system
 from ...fmus_src.places import SYSTEMS, built_fmu
 from ..errors import InputError, suggestion
+from ..progress import progress_bar
 from ..system.archive import system_names
 from .agreement import strangers
 from .contestants.all import CONTESTANTS, OURS
@@ -109,7 +108,7 @@ def _fly_in_turn(workers: dict[str, Worker], steps: int, repeats: int, unavailab
     """Times of every contestant; a first round, not counted, warms up and compares the values at the end."""
     final: dict[str, Values] = {}
     times = {name: Times(steps) for name in workers}
-    with tqdm(total=(repeats + 1) * len(workers), unit="run", disable=None, leave=False) as progress:
+    with progress_bar(total=(repeats + 1) * len(workers), unit="run") as progress:
         for repeat in range(repeats + 1):
             for name, worker in workers.items():
                 progress.update()

@@ -18,6 +18,7 @@ from ..campaign.expressions import Expression
 from ..campaign.plan import BatchPlan, check_plan, read_plan
 from ..errors import InputError
 from ..reports.batch.batch_report import write_batch_report
+from ..targets import Results, check_file, check_folder
 from .common.options import (
     add_faults,
     add_json,
@@ -30,7 +31,6 @@ from .common.options import (
     write_json,
 )
 from .common.requirements import add_requirements, check_requirements, read_requirements
-from .common.targets import Results, check_file, check_folder
 
 
 def add(parser: argparse.ArgumentParser) -> None:

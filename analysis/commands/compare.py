@@ -8,8 +8,8 @@ from pathlib import Path
 
 from ..compare.side_by_side import compare
 from ..reports.compare.page import write_comparison_page
+from ..targets import Results, check_file
 from .common.options import add_json, check_json, write_json
-from .common.targets import Results, check_file
 
 
 def add(parser: argparse.ArgumentParser) -> None:

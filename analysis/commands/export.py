@@ -22,8 +22,8 @@ from ..atomic import write_atomically
 from ..errors import InputError, suggestion
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.documents import parse_xml
+from ..targets import check_file
 from .common.options import add_json, check_json, write_json
-from .common.targets import check_file
 
 
 def add(parser: argparse.ArgumentParser) -> None:

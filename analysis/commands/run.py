@@ -14,6 +14,7 @@ from ..reports.own.asked.stages import Limits
 from ..reports.own.limit_table import limit_lines
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
+from ..targets import Results, check_file
 from .common.options import (
     add_faults,
     add_json,
@@ -25,7 +26,6 @@ from .common.options import (
     write_json,
 )
 from .common.requirements import add_requirements, check_requirements, read_requirements
-from .common.targets import Results, check_file
 
 OUTPUT_SUFFIXES = (".csv", ".parquet")
 REMEDIES = {

@@ -16,8 +16,8 @@ from ..stability.results.loop import JointReport, LoopReport
 from ..stability.results.requirement import Requirement, Verdict
 from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
+from ..targets import Results, check_file
 from .common.options import add_json, add_system, check_json, system_options, write_json
-from .common.targets import Results, check_file
 
 
 def add(parser: argparse.ArgumentParser) -> None:

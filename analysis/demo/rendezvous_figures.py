@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
 from ...fmus_src.places import ROOT
-from ..api import simulate
+from ..api.flight import simulate
 from ..flight.results import Result
 from ..process_end import leave
 from ..reports.kit.style import BLUE, FAINT, INK, ORANGE, SKY, VERMILION, house_style, look, new_figure, plain_ticks

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from tqdm import tqdm
 
 from ..batch.flyer import Flyer
 from ..batch.runner import write_draws
@@ -15,6 +14,7 @@ from ..batch.workers import worker_count
 from ..campaign.plan import BatchPlan, check_plan
 from ..errors import InputError, suggestion
 from ..laws.parameter_set import law_parameters
+from ..progress import progress_bar
 from ..system.prepared import PreparedSystem
 from .checkpoint import read_checkpoint, write_checkpoint
 from .fitness import VARIANT, FlightEvaluator
@@ -56,7 +56,7 @@ def run_synthesis(
         write_draws(plan, output)
     objectives = tuple(synthesis.objectives.values())
     with (
-        tqdm(initial=state.evaluations, unit="law", disable=None, leave=False) as progress,
+        progress_bar(initial=state.evaluations, unit="law") as progress,
         FlightEvaluator(
             plan,
             synthesis.component,

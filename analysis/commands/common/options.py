@@ -15,7 +15,7 @@ from ...atomic import write_atomically
 from ...errors import InputError
 from ...system.faults import KINDS, Fault, parse_fault
 from ...system.options import ALGORITHMS, SystemOptions
-from .targets import Results, check_file
+from ...targets import Results, check_file
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:

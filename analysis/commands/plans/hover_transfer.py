@@ -7,37 +7,36 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+from ...api.plans import HOVER_MARGINS, HOVER_TRANSFER, HOVER_VEHICLE, check_hover, check_vehicle
 from ...errors import InputError
 from ...planning.hover_study import HoverStudy, hover_study
 from ...planning.path import PlannedPath
 from ...planning.vehicle import Margins, Transfer, Vehicle
 from ...reports.plan.hover_page import write_hover_page
+from ...targets import Results, check_file
 from ..common.options import add_json, check_json, write_json
-from ..common.targets import Results, check_file
-from .vehicle import add_vehicle, burns_text, check_vehicle, enough, given, number, whole
+from .vehicle import add_vehicle, burns_text, enough, given, number, whole
 
 HELP = "plan a transfer between two hovers: simplified programme, true optimum, point-mass bound"
-VEHICLE = Vehicle(600.0, 0.0, 300.0, 4707.192, 4707.192 / 15.0, math.radians(1.0))
-MARGINS = Margins(0.90, 0.10, math.radians(0.70))
-TRANSFER = Transfer(1600.0, 2300.0, 1.622)
 
 
 def add(parser: argparse.ArgumentParser) -> None:
     way = parser.add_argument_group("transfer")
-    way.add_argument("--distance", type=number(0.0, above=False), default=TRANSFER.distance, metavar="X",
-                     help=f"m, along; default: {TRANSFER.distance:g}")  # fmt: skip
-    way.add_argument("--descent", type=number(0.0), default=TRANSFER.descent, metavar="X",
-                     help=f"m, down; default: {TRANSFER.descent:g}")  # fmt: skip
-    way.add_argument("--gravity", type=number(0.0), default=TRANSFER.gravity, metavar="X",
-                     help=f"m/s2, uniform; default: {TRANSFER.gravity:g}")  # fmt: skip
+    way.add_argument("--distance", type=number(0.0, above=False), default=HOVER_TRANSFER.distance, metavar="X",
+                     help=f"m, along; default: {HOVER_TRANSFER.distance:g}")  # fmt: skip
+    way.add_argument("--descent", type=number(0.0), default=HOVER_TRANSFER.descent, metavar="X",
+                     help=f"m, down; default: {HOVER_TRANSFER.descent:g}")  # fmt: skip
+    way.add_argument("--gravity", type=number(0.0), default=HOVER_TRANSFER.gravity, metavar="X",
+                     help=f"m/s2, uniform; default: {HOVER_TRANSFER.gravity:g}")  # fmt: skip
     way.add_argument("--t7", type=number(0.0), metavar="T", help="s, the end; default: the one of least propellant")
-    add_vehicle(parser, VEHICLE)
+    add_vehicle(parser, HOVER_VEHICLE)
     limits = parser.add_argument_group("control margins")
     limits.add_argument(
         "--margins",
         action="store_true",
-        help=f"leave feedback its part: throttle {MARGINS.minimum_throttle:g} to {MARGINS.maximum_throttle:g}, "
-        f"{math.degrees(MARGINS.angular_acceleration):g} deg/s2; without: all that the vehicle has",
+        help="leave feedback its part: "
+        f"throttle {HOVER_MARGINS.minimum_throttle:g} to {HOVER_MARGINS.maximum_throttle:g}, "
+        f"{math.degrees(HOVER_MARGINS.angular_acceleration):g} deg/s2; without: all that the vehicle has",
     )
     limits.add_argument("--maximum-throttle", type=number(0.0, 1.0), metavar="X", help="of the largest thrust")
     limits.add_argument("--minimum-throttle", type=number(0.0, 1.0, above=False), metavar="X", help="of the same")
@@ -57,10 +56,10 @@ def run(options: argparse.Namespace) -> int:
     if options.intervals is not None and not (options.optimum or options.bound):
         problem = "nothing here has intervals"
         raise InputError("--intervals", str(options.intervals), problem, "ask for --optimum or --bound with it")
-    vehicle = check_vehicle(replace(VEHICLE, **given(options)))
+    vehicle = check_vehicle(replace(HOVER_VEHICLE, **given(options)))
     transfer = Transfer(options.distance, options.descent, options.gravity)
     margins = _margins(options, vehicle)
-    _check(vehicle if margins is None else margins.of(vehicle), transfer)
+    check_hover(vehicle if margins is None else margins.of(vehicle), transfer)
     study = hover_study(
         vehicle,
         transfer,
@@ -88,21 +87,7 @@ def _margins(options: argparse.Namespace, vehicle: Vehicle) -> Margins | None:
     base = Margins(1.0, vehicle.minimum_thrust / vehicle.maximum_thrust, vehicle.angular_acceleration)
     if "angular_acceleration" in single:
         single["angular_acceleration"] = math.radians(single["angular_acceleration"])
-    return replace(MARGINS if options.margins else base, **single)
-
-
-def _check(planned: Vehicle, transfer: Transfer) -> None:
-    """Refuse a vehicle that cannot hover, or cannot sink, as the plan uses it."""
-    check_vehicle(planned)
-    full, least = f"{planned.maximum_thrust:g} N", f"{planned.minimum_thrust:g} N"
-    if not planned.full > transfer.gravity:
-        problem = f"{planned.full:.4g} m/s2 do not carry the mass against {transfer.gravity:g} m/s2"
-        raise InputError("--maximum-thrust", full, problem, "give more thrust, or less mass")
-    if not planned.least > 0.0:
-        raise InputError("--minimum-thrust", least, "the programme's engine never stops", "give the least that it has")
-    if not planned.least < transfer.gravity:
-        problem = f"{planned.least:.4g} m/s2 carry the mass, against {transfer.gravity:g} m/s2: it does not sink"
-        raise InputError("--minimum-thrust", least, problem, "give less thrust, or more mass")
+    return replace(HOVER_MARGINS if options.margins else base, **single)
 
 
 def _lines(study: HoverStudy) -> list[str]:

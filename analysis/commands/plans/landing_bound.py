@@ -8,22 +8,19 @@ from dataclasses import replace
 from pathlib import Path
 
 from ....fmus_src.places import IS_CHECKOUT, PACKAGE
+from ...api.plans import LANDING, LANDING_VEHICLE, check_vehicle
 from ...errors import InputError
-from ...planning.bounds import Landing
 from ...planning.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
 from ...planning.landing_study import LandingStudy, landing_study
 from ...planning.stored_bound import PLACE, write_bound
-from ...planning.vehicle import Vehicle
 from ...reports.plan.landing_page import write_landing_page
 from ...system.options import SystemOptions
 from ...system.prepared import PreparedSystem, prepare_system
+from ...targets import Results, check_file
 from ..common.options import add_json, add_system, check_json, system_options, write_json
-from ..common.targets import Results, check_file
-from .vehicle import add_vehicle, burns_text, check_vehicle, enough, given, number, whole
+from .vehicle import add_vehicle, burns_text, enough, given, number, whole
 
 HELP = "bound the propellant of braking and landing in one: a point mass, attitude free"
-VEHICLE = Vehicle(940.13, 440.0, 319.0, 5099.0, 0.0, math.inf)
-LANDING = Landing(285e3, 14995.3, 1692.342, 0.0, 4.0, 1.7374e6, 4.9028e12)
 PLACES = {
     "range": "m along the ground from the site to the start",
     "altitude": "m, of the start",
@@ -38,7 +35,7 @@ SIGNED = ("climb", "target_altitude")
 
 def add(parser: argparse.ArgumentParser) -> None:
     add_system(parser, needed=False)
-    add_vehicle(parser, VEHICLE)
+    add_vehicle(parser, LANDING_VEHICLE)
     group = parser.add_argument_group("landing")
     for name, words in PLACES.items():
         reader = number(-89.0, 89.0) if name == "climb" else number(0.0, above=name not in SIGNED)
@@ -60,7 +57,9 @@ def run(options: argparse.Namespace) -> int:
     inputs = None if prepared is None else _inputs(prepared)
     single, places = given(options), given(options, PLACES)
     _check_store(options, prepared, [*single, *places])
-    base = (VEHICLE, LANDING) if prepared is None or inputs is None else landing_of(inputs, prepared.archive.label)
+    base = (LANDING_VEHICLE, LANDING)
+    if prepared is not None and inputs is not None:
+        base = landing_of(inputs, prepared.archive.label)
     if "climb" in places:
         places["climb"] = math.radians(places["climb"])
     study = landing_study(

@@ -7,7 +7,6 @@ import math
 import sys
 from collections.abc import Callable, Iterable
 
-from ...errors import InputError
 from ...planning.vehicle import Vehicle
 
 UNITS = {
@@ -59,17 +58,6 @@ def add_vehicle(parser: argparse.ArgumentParser, default: Vehicle, names: Iterab
 def given(options: argparse.Namespace, names: Iterable[str] = UNITS) -> dict[str, float]:
     """The options among these that the command line has."""
     return {name: getattr(options, name) for name in names if getattr(options, name, None) is not None}
-
-
-def check_vehicle(vehicle: Vehicle) -> Vehicle:
-    """Refuse what is no vehicle."""
-    if not vehicle.minimum_thrust < vehicle.maximum_thrust:
-        problem = f"not below the largest thrust, {vehicle.maximum_thrust:g} N"
-        raise InputError("--minimum-thrust", f"{vehicle.minimum_thrust:g}", problem, "give less")
-    if not vehicle.dry_mass < vehicle.mass:
-        problem = f"not below the mass, {vehicle.mass:g} kg"
-        raise InputError("--dry-mass", f"{vehicle.dry_mass:g}", problem, "give less")
-    return vehicle
 
 
 def enough(vehicle: Vehicle, propellant: float, what: str) -> int:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ...batch.results import BatchResult
@@ -42,6 +43,13 @@ def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, 
 
 
 def distributions_figure(result: BatchResult, metrics: Sequence[Metric]) -> Markup:
+    """The distributions as they stand on the page."""
+    plot = distributions_plot(result, metrics)
+    with house_style():
+        return inline_svg(plot, "distributions", "Distributions of " + ", ".join(metric.name for metric in metrics))
+
+
+def distributions_plot(result: BatchResult, metrics: Sequence[Metric]) -> Figure:
     """Empirical distributions over all trials: the share of trials with at most that value."""
     rows = -(-len(metrics) // COLUMNS)
     columns = min(COLUMNS, len(metrics))
@@ -60,7 +68,7 @@ def distributions_figure(result: BatchResult, metrics: Sequence[Metric]) -> Mark
         ]
         columns = max(1, int(LEGEND * figure.get_figwidth() / WIDTH / (max(map(len, variants)) + 9)))
         figure.legend(lines, variants, loc="outside upper left", ncols=columns, handlelength=3.2, borderpad=0.1)
-        return inline_svg(figure, "distributions", "Distributions of " + ", ".join(metric.name for metric in metrics))
+        return figure
 
 
 def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray], looks: Sequence[Look]) -> None:

@@ -37,7 +37,7 @@ def limit_section(limits: Limits, result: Result) -> Section:
         title=limits.title,
         table=Table(
             heads=("", "at the end", "limit", "unit", ""),
-            rows=[_row(limit, result) for limit in limits.limits],
+            rows=limit_rows(limits, result),
             numbers=(1, 2),
         ),
         findings=[sentence(words)],
@@ -49,8 +49,13 @@ def limit_lines(limits: Limits, result: Result) -> list[str]:
     """The same for a terminal: a line for each limit, angles in deg."""
     return [
         " ".join(Markup("{}: {} {}, {}: {}").format(name, value, unit, most, verdict).striptags().split())
-        for name, value, most, unit, verdict in (_row(limit, result) for limit in limits.limits)
+        for name, value, most, unit, verdict in limit_rows(limits, result)
     ]
+
+
+def limit_rows(limits: Limits, result: Result) -> list[tuple[Markup | str, ...]]:
+    """A row for each limit: its name, the value at the end, the limit, their unit, the verdict."""
+    return [_row(limit, result) for limit in limits.limits]
 
 
 def _row(limit: Limit, result: Result) -> tuple[Markup | str, ...]:

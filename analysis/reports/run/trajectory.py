@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ...flight.results import Result
@@ -19,6 +20,16 @@ MAXIMUM_STRETCH = 4.0  # axes whose ranges differ by less are drawn to one scale
 
 
 def trajectory_figure(result: Result) -> Markup | None:
+    """The path as it stands on the page; None where nothing has a position."""
+    plot = trajectory_plot(result)
+    if plot is None:
+        return None
+    names = ", ".join(group.component for group in position_groups(result))
+    with house_style():
+        return inline_svg(plot, "trajectory", f"Path of {names}")
+
+
+def trajectory_plot(result: Result) -> Figure | None:
     """Plan (elements 1 and 2) and side view (3 over the wider of the two); None where nothing has a position."""
     groups = position_groups(result)
     if not groups or not result.time.size:
@@ -47,7 +58,7 @@ def trajectory_figure(result: Result) -> Markup | None:
         if flat:
             constant = f"position[{2 - across}] stays at {number(float(paths[0][1 - across][0]))} m"
             panels[0].set_title(constant, loc="left", color=FAINT)
-        return inline_svg(figure, "trajectory", f"Path of {', '.join(group.component for group in groups)}")
+        return figure
 
 
 def _marked_rows(time: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Collection
 from pathlib import Path
 
-from ...errors import InputError
+from .errors import InputError
 
 RESULTS = ("trials.parquet", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json")
 

@@ -1,0 +1,119 @@
+"""A campaign from Python: `batch`, and its result with page, plots and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from matplotlib.figure import Figure as Plot
+
+from ..batch import results
+from ..batch.runner import run_batch
+from ..batch.summary import CONFIDENCE, summary_rows
+from ..batch.tables import who_cells, who_heads
+from ..campaign.plan import read_plan
+from ..errors import suggestion
+from ..reports.batch.batch_report import write_batch_report
+from ..reports.batch.distributions import distributions_plot, sort_metrics
+from ..reports.kit.quantities import number
+from ..system.faults import Fault
+from ..system.parameter_sets import ParameterValue
+from ..targets import check_folder
+from .notebook import Grid, metric_grid, notebook_view
+from .options import FilePath, system_options
+
+MOST_PLOTTED = 6  # metrics, in a notebook
+
+
+@dataclass(repr=False)
+class BatchResult(results.BatchResult):
+    """All trials of all variants; ``summary`` has rates and statistics by variant, ``trials`` the numbers behind."""
+
+    def __repr__(self) -> str:
+        rates = ", ".join(f"{name} {100 * found['success_rate']:.4g} %" for name, found in self.summary.items())
+        return f"{type(self).__name__}({self.provenance['system']}, {self.plan.campaign.trials} trials: {rates})"
+
+    def to_pandas(self) -> Any:
+        """`table` as a pandas.DataFrame, a row per variant and trial; needs pandas."""
+        return self.table().to_pandas()
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune batch --report`: one HTML file."""
+        write_batch_report(self, Path(path), self.provenance["system"])
+
+    def plot(self, *metrics: str) -> Plot:
+        """How metrics are distributed over all trials, variant beside variant; of none named all that vary.
+
+        Raises KeyError for a metric that the campaign does not have, and ValueError where there is none to draw.
+        """
+        known = {metric.name: metric for metric in self.plan.campaign.metrics}
+        for name in metrics:
+            if name not in known:
+                raise KeyError(f"no metric {name}; {suggestion(name, known)}")
+        drawn = [known[name] for name in metrics] or sort_metrics(self)[0]
+        if not drawn:
+            raise ValueError(f"{self.plan.campaign.file}: no metric that varies and is finite anywhere")
+        return distributions_plot(self, drawn)
+
+    def _repr_html_(self) -> str:
+        group, rows = self.plan.campaign.group, summary_rows(self.summary)
+        head = (*who_heads(group), "trials", "success, %", f"{100 * CONFIDENCE:g} % interval", "statuses")
+        rates = [
+            (
+                *who_cells(row, group),
+                str(row.entry["trials"]),
+                number(100.0 * row.entry["success_rate"]),
+                " to ".join(number(100.0 * end) for end in row.entry["success_interval"]),
+                ", ".join(f"{count} {status}" for status, count in row.entry["statuses"].items()),
+            )
+            for row in rows
+        ]
+        drawn = sort_metrics(self)[0][:MOST_PLOTTED]
+        plot = distributions_plot(self, drawn) if drawn else None
+        faults = self.plan.fault_texts()
+        words = [Path(self.plan.campaign.file).name, f"with faults: {'; '.join(faults)}" if faults else ""]
+        grids = [Grid(head, rates), metric_grid(rows, [metric.name for metric in self.plan.campaign.metrics], group)]
+        return notebook_view(self.provenance["system"], words, grids, plot)
+
+
+def batch(
+    system: FilePath,
+    campaign: FilePath,
+    *,
+    compare: Mapping[str, Sequence[str]] | None = None,
+    trials: int | None = None,
+    seed: int | None = None,
+    workers: int | None = None,
+    output: FilePath | None = None,
+    overwrite: bool = False,
+    use: Mapping[str, FilePath] | None = None,
+    parameters: Sequence[FilePath] = (),
+    set: Mapping[str, ParameterValue] | None = None,
+    faults: Sequence[Fault] = (),
+    step: float | None = None,
+    stop_time: float | None = None,
+    algorithm: Literal["sequential", "jacobi"] = "sequential",
+    variant: str | None = None,
+    flavour: Literal["native", "python"] | None = None,
+    allow_unmatched: bool = False,
+    no_feedthrough: Sequence[str] = (),
+) -> BatchResult:
+    """Fly a campaign, by name or path of its .toml file: `perilune batch`.
+
+    ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for trials.parquet,
+    draws.parquet and summary.json, refused if it holds results unless ``overwrite``; ``faults`` fly in every trial,
+    after the campaign's own. The rest is as in `simulate`. Raises InputError.
+    """
+    folder = Path(output) if output is not None else None
+    check_folder("output", folder, overwrite=overwrite)
+    options = system_options(
+        use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
+        flavour=flavour, allow_unmatched=allow_unmatched,
+    )  # fmt: skip
+    plan = read_plan(Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults)
+    result = BatchResult(**vars(run_batch(plan, workers=workers, output=folder)))
+    if folder is not None:
+        result.write(folder)
+    return result

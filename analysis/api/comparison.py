@@ -1,0 +1,99 @@
+"""Stored batches compared from Python: `compare`, and its result with page, plots and tables."""
+
+from __future__ import annotations
+
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure as Plot
+
+from ..batch.summary import summary_rows
+from ..batch.tables import who_cells, who_heads
+from ..compare import comparison
+from ..compare.side_by_side import compare as side_by_side
+from ..errors import InputError, suggestion
+from ..reports.compare.page import write_comparison_page
+from ..reports.compare.plots import metric_plot, varying_metrics
+from ..reports.kit.quantities import number
+from .notebook import Grid, metric_grid, notebook_view
+from .options import FilePath
+
+MOST_PLOTTED = 6  # metrics, in a notebook
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison(comparison.Comparison):
+    """Variants on the same trials: ``summary`` by label, ``pairs`` of labels, `paired_rates`, `paired_values`."""
+
+    def __repr__(self) -> str:
+        trials = len(next(iter(self.contenders.values())).trials.trial)
+        return f"{type(self).__name__}({', '.join(self.contenders)}; {trials} trials)"
+
+    def to_pandas(self) -> Any:
+        """Statistics as a pandas.DataFrame, a row per metric, variant and group; needs pandas."""
+        from pandas import DataFrame
+
+        rows = [
+            {"metric": metric, "variant": row.variant, "group": row.group, **values}
+            for row in summary_rows(self.summary)
+            for metric, values in row.entry["metrics"].items()
+        ]
+        return DataFrame(rows)
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune compare --report`: one HTML file."""
+        folders = [str(batch.folder) for batch in self.batches.values()]
+        words = ["perilune", "compare", *folders, "--reference", self.reference]
+        write_comparison_page(self, Path(path), shlex.join(words))
+
+    def plot(self, *metrics: str) -> Plot:
+        """How metrics are distributed over successful trials, contender over contender; of none named all that vary.
+
+        Raises KeyError for a metric that no batch has, and ValueError where there is none to draw.
+        """
+        known = {metric.name: metric for metric in self.metrics}
+        for name in metrics:
+            if name not in known:
+                raise KeyError(f"no metric {name}; {suggestion(name, known)}")
+        drawn = [known[name] for name in metrics] or varying_metrics(self)
+        if not drawn:
+            raise ValueError("no metric that varies and is finite anywhere")
+        return metric_plot(self, drawn)
+
+    def _repr_html_(self) -> str:
+        names = [comparison.name_of(rate) for rate in self.rates]
+        rows = summary_rows(self.summary)
+        rates = [
+            (
+                *who_cells(row, self.group),
+                str(row.entry["trials"]),
+                *(_percent(row.entry["rates"][name]) for name in names),
+            )
+            for row in rows
+        ]
+        grids = [
+            Grid((*who_heads(self.group), "trials", *(f"{name}, %" for name in names)), rates),
+            metric_grid(rows, [metric.name for metric in self.metrics], self.group),
+        ]
+        drawn = varying_metrics(self)[:MOST_PLOTTED]
+        system = self.first.document["system"]
+        words = [f"{len(self.contenders)} variants on the same trials", *self.notes]
+        return notebook_view(system, words, grids, metric_plot(self, drawn) if drawn else None)
+
+
+def compare(*results: FilePath, reference: str | None = None) -> Comparison:
+    """Put the variants of stored batches side by side: `perilune compare`.
+
+    ``results`` are folders that `batch` wrote to its ``output``, all flown on the same draws; ``reference`` names the
+    variant that others are put against, by default the first. Raises InputError.
+    """
+    if not results:
+        raise InputError("compare", "", "no folder of results", "name what batch(..., output=...) wrote")
+    return Comparison(**vars(side_by_side([Path(folder) for folder in results], reference)))
+
+
+def _percent(rate: dict[str, Any]) -> str:
+    low, high = (100.0 * end for end in rate["interval"])
+    return f"{number(100.0 * rate['rate'])} ({number(low)} to {number(high)})"

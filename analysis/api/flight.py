@@ -1,0 +1,107 @@
+"""One flight from Python: `simulate`, and its result with page, plots and what a notebook shows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from matplotlib.figure import Figure as Plot
+
+from ..flight import results
+from ..flight.interruptible import fly
+from ..flight.simulation import Simulation
+from ..reports.own.asked.declared import Figure
+from ..reports.own.asked.histories import Band
+from ..reports.own.asked.reading import read_figures
+from ..reports.own.asked.stages import Limits
+from ..reports.own.limit_table import limit_rows
+from ..reports.run.plots import signal_plot
+from ..reports.run.run_report import key_values, write_run_report
+from ..reports.run.trajectory import trajectory_plot
+from ..system.faults import Fault
+from ..system.parameter_sets import ParameterValue
+from ..system.prepared import prepare_system
+from .notebook import Grid, notebook_view, value_text
+from .options import FilePath, system_options
+
+MOST_PLOTTED = 3  # signals of a flight without a path, in a notebook
+
+
+@dataclass(repr=False)
+class Result(results.Result):
+    """A flight. ``result["plant.position"]`` is a signal over ``time``, [n] or [n, k]; see `Flight` for the rest.
+
+    ``system`` is the system's name, ``figures`` what its SSD asks for, which `report` draws.
+    """
+
+    system: str
+    figures: tuple[Figure, ...]
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune run --report`: one HTML file."""
+        write_run_report(self, Path(path), self.system, self.figures)
+
+    def plot(self, name: str, *more: str) -> Plot:
+        """Signals over time, a panel for each name; a vector's elements are together. Raises KeyError."""
+        return signal_plot(self, [name, *more])
+
+    def plot_trajectory(self) -> Plot:
+        """The path of whatever has a position: plan and side view. Raises ValueError where nothing has one."""
+        plot = trajectory_plot(self)
+        if plot is None:
+            raise ValueError(f"{self.system}: no signal COMPONENT.position of three elements in m; plot others by name")
+        return plot
+
+    def _repr_html_(self) -> str:
+        end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
+        words = f"{self.status}{end}, {self.time.size} rows, {len(self.signals)} signals"
+        grids = [
+            Grid((figure.title, "at the end", "limit", "unit", ""), limit_rows(figure, self))
+            for figure in self.figures
+            if isinstance(figure, Limits) and self.time.size
+        ]
+        if not grids:
+            rows = [(row["label"], row["note"], value_text(row["values"], row["unit"])) for row in key_values(self)]
+            grids = [Grid(("", "", "at the end"), rows)]
+        return notebook_view(self.system, [words, self.message], grids, self._main_plot())
+
+    def _main_plot(self) -> Plot | None:
+        if not self.time.size:
+            return None
+        asked = [figure.signal.label for figure in self.figures if isinstance(figure, Band)]
+        vectors = [row["label"] for row in key_values(self) if len(row["values"]) > 1]
+        return trajectory_plot(self) or signal_plot(self, (asked or vectors or list(self.signals))[:MOST_PLOTTED])
+
+
+def simulate(
+    system: FilePath,
+    *,
+    use: Mapping[str, FilePath] | None = None,
+    parameters: Sequence[FilePath] = (),
+    set: Mapping[str, ParameterValue] | None = None,
+    faults: Sequence[Fault] = (),
+    step: float | None = None,
+    stop_time: float | None = None,
+    algorithm: Literal["sequential", "jacobi"] = "sequential",
+    variant: str | None = None,
+    flavour: Literal["native", "python"] | None = None,
+    allow_unmatched: bool = False,
+    no_feedthrough: Sequence[str] = (),
+) -> Result:
+    """Fly a system once: `perilune run`.
+
+    ``system`` is a name under ssp_systems, a folder or an .ssp; ``use`` maps components to FMUs (block names or
+    paths), ``parameters`` lists parameter sets (names of the system's, or paths), ``set`` maps ``component.variable``
+    to values in SI units; ``step`` and ``stop_time`` are in s. Raises InputError; a flight that fails comes back with
+    its ``status``.
+    """
+    options = system_options(
+        use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
+        flavour=flavour, allow_unmatched=allow_unmatched,
+    )  # fmt: skip
+    prepared = prepare_system(Path(system), options)
+    figures = tuple(read_figures(prepared))
+    with Simulation(prepared, faults=faults) as simulation:
+        return Result(**vars(fly(simulation)), system=prepared.archive.name, figures=figures)

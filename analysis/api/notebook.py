@@ -1,0 +1,59 @@
+"""What a notebook shows of a result: a heading, a few tables, one figure; nothing that clashes with its other cells."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from markupsafe import Markup
+from matplotlib.figure import Figure as Plot
+
+from ..batch.statistics import STATISTICS
+from ..batch.summary import SummaryRow
+from ..batch.tables import who_cells, who_heads
+from ..reports.kit.page import render_page
+from ..reports.kit.quantities import in_shown_unit, number, shown_unit
+from ..reports.kit.svg import svg_bytes
+
+TEMPLATE = Path(__file__).with_name("notebook.html")
+MOST_ROWS = 12
+
+
+class Grid(NamedTuple):
+    """A small table: head cells and rows of cells, text or markup."""
+
+    head: Sequence[str]
+    rows: Sequence[Sequence[Markup | str]]
+
+
+def notebook_view(title: str, words: Iterable[str], grids: Iterable[Grid], plot: Plot | None) -> str:
+    """The HTML of a result; of long tables the first rows, and how many there are."""
+    shown = [(grid.head, grid.rows[:MOST_ROWS], len(grid.rows)) for grid in grids if grid.rows]
+    lines = [line for line in words if line]
+    return render_page(TEMPLATE, title=title, words=lines, grids=shown, picture=plot and _picture(plot))
+
+
+def _picture(plot: Plot) -> str:
+    """A figure as the address of an image, whose identifiers no other figure of the notebook can meet."""
+    svg = svg_bytes(plot, "notebook", text_as_paths=True)
+    return f"data:image/svg+xml;base64,{b64encode(svg).decode()}"
+
+
+def value_text(values: Iterable[Any], unit: str | None) -> str:
+    """Numbers with their unit, angles in deg."""
+    text = ", ".join(number(in_shown_unit(value, unit)) for value in values)
+    return f"{text} {shown_unit(unit)}".strip()
+
+
+def metric_grid(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str | None) -> Grid:
+    """Statistics of metrics over successful trials, a row for each variant or group, angles in deg."""
+    cells = []
+    for metric in metrics:
+        for row in rows:
+            found = row.entry["metrics"][metric]
+            values = [in_shown_unit(found[name], found["unit"]) for name in STATISTICS]
+            numbers = [number(value) for value in values]
+            cells.append((metric, *who_cells(row, group), *numbers, shown_unit(found["unit"])))
+    return Grid(("metric, successful trials", *who_heads(group), *STATISTICS, "unit"), cells)

@@ -1,0 +1,34 @@
+"""System options as keywords of a function, for `SystemOptions`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ..errors import InputError
+from ..system.options import SystemOptions
+from ..system.parameter_sets import ParameterValue
+
+FilePath = str | os.PathLike[str]
+
+
+def system_options(
+    use: Mapping[str, FilePath] | None,
+    parameters: Sequence[FilePath],
+    set: Mapping[str, ParameterValue] | None,
+    no_feedthrough: Sequence[str],
+    **others: Any,
+) -> SystemOptions:
+    """The options of a call; ``others`` are the rest of `SystemOptions` by name. Raises InputError."""
+    for name, given in (("parameters", parameters), ("no_feedthrough", no_feedthrough)):
+        if isinstance(given, str | os.PathLike):
+            text = os.fspath(given)
+            raise InputError(name, text, "one name where a list is meant", f'give {name}=["{text}"]')
+    return SystemOptions(
+        use={slot: os.fspath(fmu) for slot, fmu in (use or {}).items()},
+        parameters=tuple(os.fspath(name) for name in parameters),
+        set=dict(set or {}),
+        no_feedthrough=tuple(no_feedthrough),
+        **others,
+    )
