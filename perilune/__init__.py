@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from . import modal
     from .analysis.api.batch import BatchResult, batch
     from .analysis.api.comparison import Comparison, compare
+    from .analysis.api.describe import describe
+    from .analysis.api.export import Exported, export
     from .analysis.api.flight import Result, simulate
     from .analysis.api.inventory import inventory
     from .analysis.api.law import Law, law
@@ -61,6 +63,7 @@ __all__ = [
     "Comparison",
     "DeclarationError",
     "EntryControl",
+    "Exported",
     "Fault",
     "FilteredNavigation",
     "GyroSteering",
@@ -93,7 +96,9 @@ __all__ = [
     "batch",
     "compare",
     "cross",
+    "describe",
     "dot",
+    "export",
     "inventory",
     "law",
     "modal",
@@ -110,6 +115,8 @@ __all__ = [
 _HOMES = {
     "analysis.api.batch": ("BatchResult", "batch"),
     "analysis.api.comparison": ("Comparison", "compare"),
+    "analysis.api.describe": ("describe",),
+    "analysis.api.export": ("Exported", "export"),
     "analysis.api.flight": ("Result", "simulate"),
     "analysis.api.inventory": ("inventory",),
     "analysis.api.law": ("Law", "law"),

@@ -4,19 +4,11 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any
 
-from ...fmus_src.catalogue import catalogue
-from ...fmus_src.export.available import fmu_flavours
-from ..describe.fits import blocks_of_slot, slots
-from ..describe.system import describe_system
-from ..describe.variables import of_causality, variables_of
-from ..errors import InputError, suggestion
-from ..system.archive import system_names
-from ..system.fmu import load_fmu
-from ..system.prepared import find_fmu, prepare_system
-from .common.options import add_json, add_system_options, system_options, write_json
+from ..api.describe import described
+from ..describe.variables import of_causality
+from .common.options import add_json, add_system_options, check_json, system_options, write_json
 from .common.text_table import text_table
 
 WIDE = 100  # characters of a list of values, beyond which it is cut
@@ -30,72 +22,25 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    what = options.what
-    if _is_fmu(what):
-        return _fmu(options)
-    if what in slots():
-        return _slot(options)
-    if what in system_names() or Path(what).exists():
-        return _system(options)
-    known = [*system_names(), *slots(), *catalogue()]
-    raise InputError("describe", what, "no system, FMU or slot of this name", suggestion(what, known))
-
-
-def _is_fmu(what: str) -> bool:
-    return what.endswith(".fmu") or what in catalogue() or what in fmu_flavours()
-
-
-def _fmu(options: argparse.Namespace) -> int:
-    if options.component is not None:
-        raise InputError("describe", options.component, "an FMU has no components", "name a system before it")
-    data, label = find_fmu(options.what, options.flavour, "describe")
-    fmu = load_fmu(data, label)
-    document: dict[str, Any] = {
-        "fmu": fmu.name,
-        "file": label,
-        "description": fmu.description.description or "",
-        "native": fmu.is_native,
-        "variables": variables_of(fmu),
-    }
-    if not write_json(document, options.json):
-        print(f"{fmu.name}: {document['description']}")
-        _print_variables(document["variables"])
-    return 0
-
-
-def _slot(options: argparse.Namespace) -> int:
-    slot = slots()[options.what]
-    rows = [
-        {"name": name, "causality": variable.causality, "size": variable.size, "unit": variable.unit, "value": None,
-         "minimum": variable.minimum, "maximum": variable.maximum, "from": None, "description": variable.description}
-        for name, variable in slot.variables.items()
-    ]  # fmt: skip
-    fmus = {block.fmu_name: block.summary() for block in blocks_of_slot(slot)}
-    if not write_json(
-        {"slot": options.what, "description": slot.summary(), "variables": rows, "fmus": fmus}, options.json
-    ):
-        print(f"{options.what} ({slot.__name__}): {slot.summary()}")
-        print("FMUs")
-        _lines(text_table([[f"  {name}", words] for name, words in fmus.items()]))
-        _print_variables(rows)
-    return 0
-
-
-def _system(options: argparse.Namespace) -> int:
-    document = describe_system(prepare_system(options.what, system_options(options)))
-    found = {component["name"]: component for component in document["components"]}
-    if options.component is None:
-        if not write_json(document, options.json):
-            _print_system(document)
+    check_json(options)
+    document = described(options.what, options.component, system_options(options))
+    if write_json(document, options.json):
         return 0
-    if options.component not in found:
-        raise InputError("describe", options.component, "no such component", suggestion(options.component, found))
-    component = found[options.component]
-    if not write_json(component, options.json):
-        print(f"{component['name']}: {component['fmu']}, {component['description']}")
-        print(f"fits here too   {', '.join(component['fits']) or 'nothing else of this repository'}")
-        _print_connections(document, component["name"])
-        _print_variables(component["variables"])
+    if "slot" in document:
+        print(f"{document['slot']} ({document['interface']}): {document['description']}")
+        print("FMUs")
+        _lines(text_table([[f"  {name}", words] for name, words in document["fmus"].items()]))
+        _print_variables(document["variables"])
+    elif "components" in document:
+        _print_system(document)
+    elif options.component is not None:
+        print(f"{document['name']}: {document['fmu']}, {document['description']}")
+        print(f"fits here too   {', '.join(document['fits']) or 'nothing else of this repository'}")
+        _print_connections(document)
+        _print_variables(document["variables"])
+    else:
+        print(f"{document['fmu']}: {document['description']}")
+        _print_variables(document["variables"])
     return 0
 
 
@@ -120,16 +65,14 @@ def _print_system(document: dict[str, Any]) -> None:
     _lines(text_table(given or [["  none"]]))
 
 
-def _print_connections(document: dict[str, Any], component: str | None = None) -> None:
+def _print_connections(document: dict[str, Any]) -> None:
     print("connections")
     paths: dict[tuple[str, str], list[str]] = {}
     for row in document["connections"]:
-        if component in (None, row["from"], row["to"]):
-            size = f"[{row['elements']}]" if row["elements"] > 1 else ""
-            name = row["output"] if row["output"] == row["input"] else f"{row['output']} as {row['input']}"
-            paths.setdefault((row["from"] or document["system"], row["to"] or document["system"]), []).append(
-                name + size
-            )
+        size = f"[{row['elements']}]" if row["elements"] > 1 else ""
+        name = row["output"] if row["output"] == row["input"] else f"{row['output']} as {row['input']}"
+        ends = (row["from"] or document["system"], row["to"] or document["system"])
+        paths.setdefault(ends, []).append(name + size)
     _lines(text_table([[f"  {source}", f"-> {target}", ", ".join(names)] for (source, target), names in paths.items()]))
 
 

@@ -1,0 +1,103 @@
+"""What a system, an FMU or a slot has, as plain values."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.export.available import fmu_flavours
+from ..describe.fits import blocks_of_slot, slots
+from ..describe.system import describe_system
+from ..describe.variables import variables_of
+from ..errors import InputError, suggestion
+from ..system.archive import system_names
+from ..system.fmu import load_fmu
+from ..system.options import SystemOptions
+from ..system.parameter_sets import ParameterValue
+from ..system.prepared import find_fmu, prepare_system
+from .options import FilePath, system_options
+
+
+def describe(
+    what: FilePath,
+    component: str | None = None,
+    *,
+    use: Mapping[str, FilePath] | None = None,
+    parameters: Sequence[FilePath] = (),
+    set: Mapping[str, ParameterValue] | None = None,
+    step: float | None = None,
+    stop_time: float | None = None,
+    algorithm: Literal["sequential", "jacobi"] = "sequential",
+    variant: str | None = None,
+    flavour: Literal["native", "python"] | None = None,
+    allow_unmatched: bool = False,
+    no_feedthrough: Sequence[str] = (),
+) -> dict[str, Any]:
+    """What a system, an FMU or a slot has: `perilune describe`, as a dictionary.
+
+    ``what`` is a system, an FMU by name or file, or an interface by name; ``component`` one of a system, with all its
+    variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, loops; of an FMU
+    or a component ``variables``; of a slot ``fmus`` too. The rest is as in `simulate`. Raises InputError.
+    """
+    options = system_options(
+        use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
+        flavour=flavour, allow_unmatched=allow_unmatched,
+    )  # fmt: skip
+    return described(os.fspath(what), component, options)
+
+
+def described(what: str, component: str | None, options: SystemOptions) -> dict[str, Any]:
+    """Likewise, with the options of a command line."""
+    if what.endswith(".fmu") or what in catalogue() or what in fmu_flavours():
+        if component is not None:
+            raise InputError("describe", component, "an FMU has no components", "name a system before it")
+        return _fmu(what, options.flavour)
+    if what in slots():
+        return _slot(what)
+    if what in system_names() or Path(what).exists():
+        return _system(what, component, options)
+    known = [*system_names(), *slots(), *catalogue()]
+    raise InputError("describe", what, "no system, FMU or slot of this name", suggestion(what, known))
+
+
+def _fmu(what: str, flavour: str | None) -> dict[str, Any]:
+    data, label = find_fmu(what, flavour, "describe")
+    fmu = load_fmu(data, label)
+    return {
+        "fmu": fmu.name,
+        "file": label,
+        "description": fmu.description.description or "",
+        "native": fmu.is_native,
+        "variables": variables_of(fmu),
+    }
+
+
+def _slot(what: str) -> dict[str, Any]:
+    slot = slots()[what]
+    rows = [
+        {"name": name, "causality": variable.causality, "size": variable.size, "unit": variable.unit, "value": None,
+         "minimum": variable.minimum, "maximum": variable.maximum, "from": None, "description": variable.description}
+        for name, variable in slot.variables.items()
+    ]  # fmt: skip
+    fmus = {block.fmu_name: block.summary() for block in blocks_of_slot(slot)}
+    return {
+        "slot": what,
+        "interface": slot.__name__,
+        "description": slot.summary(),
+        "variables": rows,
+        "fmus": fmus,
+    }
+
+
+def _system(what: str, component: str | None, options: SystemOptions) -> dict[str, Any]:
+    document = describe_system(prepare_system(what, options))
+    if component is None:
+        return document
+    found = {entry["name"]: entry for entry in document["components"]}
+    if component not in found:
+        raise InputError("describe", component, "no such component", suggestion(component, found))
+    own = [row for row in document["connections"] if component in (row["from"], row["to"])]
+    return found[component] | {"system": document["system"], "connections": own}

@@ -1,0 +1,160 @@
+"""FMUs, systems with their FMUs inside, and the blocks of a file, built to fly here or elsewhere."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from ...fmus_src.block import Block
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.export.archive import read_zip, write_zip
+from ...fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
+from ...fmus_src.export.native_fmu import build_native_fmu
+from ...fmus_src.export.own_blocks import build_own_blocks, own_blocks
+from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
+from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
+from ...fmus_src.places import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu
+from ..atomic import write_atomically
+from ..errors import InputError, suggestion
+from ..system.archive import SystemArchive, open_system, system_names
+from ..system.documents import parse_xml
+from ..targets import check_file
+from .options import FilePath
+
+Flavour = Literal["native", "python"]
+
+
+@dataclass(frozen=True)
+class Exported:
+    """What was written, in which flavours, for which platforms: none where all of it is Python."""
+
+    paths: tuple[Path, ...]
+    flavours: tuple[str, ...]
+    platforms: tuple[str, ...]
+
+
+def export(
+    name: FilePath,
+    *,
+    platforms: Sequence[str] | None = None,
+    flavour: Flavour | None = None,
+    output: FilePath | None = None,
+) -> Exported:
+    """Build an FMU, a system as one .ssp with its FMUs, or the blocks of a .py file: `perilune export`.
+
+    ``name`` is a block's, a system's (or its folder), or a file; ``platforms`` of native FMUs (linux64, win64,
+    darwin64), by default those that come built, or that a compiler here serves; ``flavour`` native, of a file both as
+    far as a compiler is here; ``output`` NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises
+    InputError, and ValueError with one line for what is wrong with a block.
+    """
+    text = os.fspath(name)
+    target = None if output is None else Path(output)
+    for platform in platforms or ():
+        if platform not in PLATFORMS:
+            raise InputError("platforms", platform, "no such platform", suggestion(platform, PLATFORMS))
+    if platforms and flavour == "python":
+        raise InputError("--platform", platforms[0], "Python FMUs have no platform to choose", "leave it out")
+    check_file("--output", target)
+    try:
+        if text.endswith(".py"):
+            return _export_file(Path(text), platforms, flavour, target)
+        return _export_named(text, platforms, flavour or "native", target)
+    except CompilerMissing as error:
+        raise InputError("export", text, "cannot be compiled here", str(error)) from error
+    except CompilationFailed as error:
+        raise InputError("export", text, "the compiler refused it", " ".join(str(error).split())) from error
+
+
+def _export_named(name: str, asked: Sequence[str] | None, flavour: Flavour, output: Path | None) -> Exported:
+    """An FMU or a system of this repository or of a folder."""
+    platforms = [] if flavour == "python" else _platforms(asked, own=False)
+    blocks = catalogue()
+    if name in blocks:
+        path = output or Path(f"{name}.fmu")
+        _build(blocks[name], path, flavour, platforms)
+    elif name in system_names() or Path(name).is_dir():
+        path = output or Path(f"{Path(name).resolve().name}.ssp")
+        _export_system(open_system(name), path, flavour, platforms)
+    else:
+        problem = "neither an FMU, a system nor a .py file"
+        raise InputError("export", name, problem, suggestion(name, [*blocks, *system_names()]))
+    return Exported((path,), (flavour,), tuple(platforms))
+
+
+def _platforms(asked: Sequence[str] | None, *, own: bool) -> list[str]:
+    if asked:
+        return list(asked)
+    return available_platforms() if IS_CHECKOUT or own else list(PLATFORMS)
+
+
+def _build(block: type[Block], path: Path, flavour: str, platforms: list[str]) -> None:
+    """One FMU of this repository: an installed package has its native ones with all their libraries inside."""
+    if flavour == "python":
+        build_python_fmu(block, path)
+    elif block.python_only:
+        raise InputError("export", block.fmu_name, "needs Python and has no native form", "give --flavour python")
+    elif not IS_CHECKOUT:
+        files = read_zip(built_fmu(block.fmu_name, flavour))
+        left_out = tuple(f"binaries/{name}/" for name in PLATFORMS if name not in platforms)
+        write_zip(path, {name: content for name, content in files.items() if not name.startswith(left_out)})
+    elif not platforms:
+        raise InputError("export", block.fmu_name, "no C compiler here", "pip install ziglang, or --flavour python")
+    else:
+        build_native_fmu(block, path, platforms=platforms, portable=_zig_is_here())
+
+
+def _zig_is_here() -> bool:
+    """Whether libraries are compiled against an old C library; only zig serves both of these platforms."""
+    return "win64" in available_platforms()
+
+
+def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: list[str]) -> None:
+    """The system's folder as one archive, with the FMUs of this repository and of the working folder that it names."""
+    blocks = catalogue()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for entry in [entry for entry in archive.files if entry.endswith(".ssd")]:
+            root = parse_xml(archive.read(entry, entry), f"{archive.label}/{entry}")
+            for component in root.iter(f"{{{SSD_NAMESPACE}}}Component"):
+                source = component.get("source", "")
+                target = folder / f"{Path(source).stem}.fmu"
+                if source in archive.files or target.exists():
+                    continue
+                own = own_fmu(target.stem, flavour)
+                if target.stem in blocks:
+                    _build(blocks[target.stem], target, flavour, platforms)
+                elif own.is_file():
+                    shutil.copyfile(own, target)
+                else:
+                    element = f"{component.get('name')} (line {component.sourceline})"
+                    problem = f"no {source} in the system, no FMU of this repository, no {own}"
+                    remedy = f"build your own with perilune export FILE.py --flavour {flavour}, or add the FMU"
+                    raise InputError(f"{archive.label}/{entry}", element, problem, remedy)
+        packed = pack_system(archive.path, [folder], folder / "packed")
+        write_atomically(path, packed.read_bytes())
+
+
+def _export_file(file: Path, asked: Sequence[str] | None, flavour: Flavour | None, output: Path | None) -> Exported:
+    """The blocks of a file into the working folder's build/fmus, where ``use`` finds them by name."""
+    platforms = _platforms(asked, own=True)
+    flavours = [flavour] if flavour else [name for name in FLAVOURS if platforms or name == "python"]
+    built_for = tuple(platforms) if "native" in flavours else ()
+    if output is None:
+        folder = own_fmu("x", "x").parents[1]
+        written = build_own_blocks(file, folder, flavours, platforms, portable=_zig_is_here())
+        return Exported(tuple(path.relative_to(Path.cwd()) for path in written), tuple(flavours), built_for)
+    blocks = own_blocks(file)
+    if output.suffix != ".fmu" or len(blocks) > 1:
+        problem = "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} are no one FMU"
+        raise InputError("--output", str(output), problem, "leave it out: FMUs go to build/fmus")
+    with tempfile.TemporaryDirectory() as name:
+        built = build_own_blocks(file, Path(name), flavours[:1], platforms, portable=_zig_is_here())
+        if not built:
+            raise InputError(file, blocks[0].__name__, "needs Python and has no native form", "give --flavour python")
+        write_atomically(output, built[0].read_bytes())
+    return Exported((output,), tuple(flavours[:1]), built_for if flavours[0] == "native" else ())
