@@ -1,4 +1,4 @@
-# make demo | test | quick | long | build | wheel | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | build | wheel | notebooks | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 
@@ -26,6 +26,12 @@ build: .venv/ready
 # What one installs elsewhere with pip: build/wheel/perilune-VERSION-py3-none-any.whl, native FMUs of all platforms inside.
 wheel: .venv/ready
 	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir build/wheel .
+
+# The notebooks of docs/notebooks as pages with their results: build/notebooks/NAME.html.
+notebooks: build
+	mkdir -p build/notebooks/run
+	cp docs/notebooks/*.ipynb build/notebooks/run
+	cd build/notebooks/run && ../../../$(BIN)/python -m jupyter nbconvert --to html --execute --output-dir .. *.ipynb
 
 # The property tests with examples drawn anew; what it finds goes into a test as an @example.
 explore: build
@@ -69,4 +75,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long build wheel explore gains bench sanitize browser lint clean
+.PHONY: demo test quick long build wheel notebooks explore gains bench sanitize browser lint clean

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
     from .analysis.api.stability import StabilityReport, stability
     from .analysis.api.synthesis import synthesize
+    from .analysis.api.timing import benchmark
     from .analysis.api.validate import validate
     from .analysis.errors import InputError
     from .analysis.planning.bounds import Landing
@@ -94,6 +95,7 @@ __all__ = [
     "Vector4",
     "Vehicle",
     "batch",
+    "benchmark",
     "compare",
     "cross",
     "describe",
@@ -123,6 +125,7 @@ _HOMES = {
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
     "analysis.api.stability": ("StabilityReport", "stability"),
     "analysis.api.synthesis": ("synthesize",),
+    "analysis.api.timing": ("benchmark",),
     "analysis.api.validate": ("validate",),
     "analysis.errors": ("InputError",),
     "analysis.planning.bounds": ("Landing",),

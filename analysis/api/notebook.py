@@ -14,8 +14,8 @@ from ..batch.statistics import STATISTICS
 from ..batch.summary import SummaryRow
 from ..batch.tables import who_cells, who_heads
 from ..reports.kit.page import render_page
+from ..reports.kit.picture import svg_bytes
 from ..reports.kit.quantities import in_shown_unit, number, shown_unit
-from ..reports.kit.svg import svg_bytes
 
 TEMPLATE = Path(__file__).with_name("notebook.html")
 MOST_ROWS = 12

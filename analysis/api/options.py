@@ -21,10 +21,8 @@ def system_options(
     **others: Any,
 ) -> SystemOptions:
     """The options of a call; ``others`` are the rest of `SystemOptions` by name. Raises InputError."""
-    for name, given in (("parameters", parameters), ("no_feedthrough", no_feedthrough)):
-        if isinstance(given, str | os.PathLike):
-            text = os.fspath(given)
-            raise InputError(name, text, "one name where a list is meant", f'give {name}=["{text}"]')
+    check_list("parameters", parameters)
+    check_list("no_feedthrough", no_feedthrough)
     return SystemOptions(
         use={slot: os.fspath(fmu) for slot, fmu in (use or {}).items()},
         parameters=tuple(os.fspath(name) for name in parameters),
@@ -32,3 +30,10 @@ def system_options(
         no_feedthrough=tuple(no_feedthrough),
         **others,
     )
+
+
+def check_list(name: str, given: Sequence[FilePath]) -> None:
+    """Refuse one text where several are meant, which Python takes for its letters. Raises InputError."""
+    if isinstance(given, str | os.PathLike):
+        text = os.fspath(given)
+        raise InputError(name, text, "one name where a list is meant", f'give {name}=["{text}"]')

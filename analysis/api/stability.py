@@ -21,7 +21,7 @@ from ..stability.results.requirement import Verdict
 from ..stability.study import study
 from ..system.parameter_sets import ParameterValue
 from .notebook import Grid, notebook_view
-from .options import FilePath, system_options
+from .options import FilePath, check_list, system_options
 
 
 @dataclass(repr=False)
@@ -145,6 +145,7 @@ def stability(
     studies the draws of one of them instead. The rest is as in `simulate`. Raises InputError, and
     StudyError where a flight that the study needs breaks off.
     """
+    check_list("loops", loops)
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched,

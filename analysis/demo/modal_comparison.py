@@ -19,8 +19,8 @@ from ...fmus_src.places import ROOT
 from ..modal.output.feedback import output_feedback
 from ..modal.place import place
 from ..modal.spectrum import Spectrum
+from ..reports.kit.picture import svg_bytes
 from ..reports.kit.style import house_style
-from ..reports.kit.svg import svg_bytes
 from .modal_figures import choices_figure, free_figure, spreads_figure
 
 SYSTEMS = 20

@@ -7,7 +7,7 @@ from pathlib import Path
 from ...fmus_src.places import ROOT
 from ..campaign.plan import read_plan
 from ..process_end import leave
-from ..reports.kit.svg import svg_bytes
+from ..reports.kit.picture import svg_bytes
 from ..system.options import SystemOptions
 from .landing import fly_landings, landing_figure
 

@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.path import Path
 
+from ..reports.kit.picture import svg_bytes
 from ..reports.kit.quantities import MINUS
 from ..reports.kit.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure
-from ..reports.kit.svg import svg_bytes
 from .expression_tree import OUTPUT_NUMBERS, Node, expression_tree, nodes_of
 from .law import Law
 from .layers import Edge, Layout

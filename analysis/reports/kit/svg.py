@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
-import io
 import re
-from typing import Any
 
-import matplotlib
 from lxml import etree
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
+from .picture import svg_bytes
 from .style import WIDTH
 
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK_HREF = "{http://www.w3.org/1999/xlink}href"
 DECIMALS = re.compile(r"(\.\d\d)\d+")  # beyond hundredths of a point
 REFERENCE = re.compile(r"url\(#([^)]+)\)")
-
-
-def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
-    """A figure as an SVG document without date or version; ``name`` salts its identifiers."""
-    buffer = io.BytesIO()
-    settings: Any = {"svg.hashsalt": name, "svg.fonttype": "path" if text_as_paths else "none"}
-    with matplotlib.rc_context(settings):
-        figure.savefig(buffer, format="svg", dpi=200, metadata={"Date": None, "Creator": None})
-    return buffer.getvalue()
 
 
 def inline_svg(figure: Figure, name: str, description: str, *, fill: bool = False) -> Markup:

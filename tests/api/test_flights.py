@@ -1,0 +1,121 @@
+"""A flight in Python: its plots draw its signals, a notebook shows it, its page is that of the command.
+
+Truth: the signals themselves, read back from the drawn lines; lxml; the command's page.
+"""
+
+from __future__ import annotations
+
+from base64 import b64decode
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lxml import etree, html
+
+import perilune
+from perilune.analysis.cli import main
+
+pytestmark = pytest.mark.usefixtures("fmus")
+SYSTEM = "lunar_terminal_guidance"
+
+
+@pytest.fixture(scope="module")
+def flight(fmus):
+    return perilune.simulate(SYSTEM, stop_time=60.0)
+
+
+def pictures(text: str) -> list[etree._Element]:
+    """The images of a notebook's HTML, parsed."""
+    sources = html.fromstring(text).xpath("//img/@src")
+    return [etree.fromstring(b64decode(source.removeprefix("data:image/svg+xml;base64,"))) for source in sources]
+
+
+def test_plots_draw_the_signals(flight):
+    figure = flight.plot("plant.velocity", "guidance.thrust_direction_rate[3]", "allocation.thrust")
+    assert [len(axes.lines) for axes in figure.axes] == [3, 1, 1]
+    for axes, name in zip(figure.axes, ("plant.velocity", "guidance.thrust_direction_rate[3]"), strict=False):
+        degrees = np.degrees(1.0) if "rate" in name and flight.units[name] == "rad/s" else 1.0
+        for line, column in zip(axes.lines, flight[name].reshape(flight.time.size, -1).T, strict=True):
+            np.testing.assert_array_equal(line.get_xdata(), flight.time)
+            np.testing.assert_allclose(line.get_ydata(), degrees * column, rtol=1e-15)
+    trajectory = flight.plot_trajectory()
+    x, y = trajectory.axes[0].lines[0].get_data()
+    np.testing.assert_allclose(x, 1e-3 * flight["plant.position"][:, 0])
+    np.testing.assert_allclose(y, 1e-3 * flight["plant.position"][:, 2])
+    assert etree.fromstring(trajectory._repr_svg_().encode()).tag.endswith("svg")
+
+
+def test_angles_are_drawn_in_degrees(fmus):
+    flight = perilune.simulate("orbital_attitude", stop_time=2.0)
+    figure = flight.plot("plant.angles")
+    np.testing.assert_allclose(figure.axes[0].lines[0].get_ydata(), np.degrees(flight["plant.angles"][:, 0]))
+    assert figure.axes[0].get_title(loc="left") == "plant.angles, deg"
+    with pytest.raises(ValueError, match=r"orbital_attitude: no signal COMPONENT\.position"):
+        flight.plot_trajectory()
+
+
+def test_names_that_are_wrong_get_the_nearest(flight):
+    for wrong in (lambda: flight["plant.positon"], lambda: flight.plot("plant.positon")):
+        with pytest.raises(KeyError, match=r"no signal plant\.positon; the nearest of .*plant\.position"):
+            wrong()
+
+
+def test_a_notebook_shows_a_table_and_a_figure(flight):
+    text = flight._repr_html_()
+    page = html.fromstring(text)
+    assert "stop_time at t = 60 s, 601 rows" in page.text_content()
+    rows = {row.xpath("td[1]")[0].text_content(): row for row in page.xpath("//tbody/tr")}
+    assert "plant.position" in rows
+    assert len(pictures(text)) == 1
+    assert not page.xpath("//*[@id]")  # nothing that another cell could hold too
+    assert "<script" not in text
+    assert len(repr(flight)) < 100
+
+
+def test_a_flight_that_asks_for_its_own_figures_shows_these(fmus):
+    flight = perilune.simulate("orbital_attitude", stop_time=2.0)
+    (figure,) = pictures(flight._repr_html_())
+    assert len(figure.xpath("//*[starts-with(@id, 'axes_')]")) >= 1
+
+
+def test_the_page_is_that_of_the_command(flight, tmp_path):
+    flight.report(str(tmp_path / "own.html"))
+    assert main(["run", SYSTEM, "--stop-time", "60", "--report", str(tmp_path / "command.html")]) == 0
+    assert (tmp_path / "own.html").read_bytes() == (tmp_path / "command.html").read_bytes()
+
+
+def test_pandas_has_the_signals(flight):
+    table = flight.to_pandas()
+    np.testing.assert_array_equal(table["plant.position[3]"], flight["plant.position[3]"])
+    np.testing.assert_array_equal(table.index, flight.time)
+
+
+def test_an_interrupted_flight_has_a_page(flight, tmp_path):
+    broken = type(flight)(**{**vars(flight), "status": "interrupted", "message": "by Ctrl-C"})
+    broken.report(tmp_path / "page.html")
+    assert "interrupted" in (tmp_path / "page.html").read_text(encoding="utf-8")
+
+
+def test_an_own_guidance_from_python(tmp_path, monkeypatch):
+    source = """
+from perilune import GOOD, TerminalGuidance, vector
+
+
+class Coasting(TerminalGuidance):
+    \"\"\"No thrust.\"\"\"
+
+    def solve(self) -> None:
+        self.time_to_go = 10.0
+        self.thrust_acceleration = 0.0
+        self.thrust_direction = vector(1.0, 0.0, 0.0)
+        self.status = GOOD
+"""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "coasting.py").write_text(source)
+    exported = perilune.export("coasting.py", flavour="python")
+    assert exported.paths == (Path("build/fmus/python/coasting.fmu"),)
+    flight = perilune.simulate(SYSTEM, use={"guidance": "coasting"}, stop_time=10.0, set={"guidance.gravity": 1.62})
+    fall = flight["plant.velocity"][:, 2] - flight["plant.velocity"][0, 2]
+    slope = np.polyfit(flight.time, fall, 1)[0]
+    assert np.ptp(np.diff(fall)) < 1e-12  # free fall
+    assert 1.6 < -slope < 1.65

@@ -1,0 +1,32 @@
+"""The notebooks of the docs, run as a user runs them: in a fresh folder, by a kernel of its own.
+
+Truth: nbclient, which stops at an exception; every result that has a picture shows one.
+"""
+
+from __future__ import annotations
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+from perilune.fmus_src.places import ROOT
+
+NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
+SHOWN = ("image/svg+xml", "text/html")
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_it_runs_to_its_end(path, tmp_path):
+    book = nbformat.read(path, 4)
+    nbformat.validate(book)
+    code = [cell for cell in book.cells if cell.cell_type == "code"]
+    assert not any(cell.outputs or cell.execution_count for cell in code)  # results are made, not kept
+    NotebookClient(book, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    results = [output.data for cell in code for output in cell.outputs if output.output_type == "execute_result"]
+    assert sum(any(kind in data for kind in SHOWN) for data in results) >= 3
+    assert not any(output.get("name") == "stderr" for cell in code for output in cell.outputs)
+
+
+def test_there_are_three():
+    assert len(NOTEBOOKS) == 3
