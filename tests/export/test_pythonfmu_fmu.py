@@ -23,6 +23,7 @@ from perilune.fmus_src.places import ROOT
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
 from perilune.fmus_src.runtime import Component
 from tests.support.builders import component, document, fly, pack, system
+from tests.support.lengths import either
 
 
 def run(code, *arguments, cwd=ROOT, isolated=False):
@@ -36,7 +37,7 @@ from pathlib import Path
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.command import main
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-for name, block in catalogue().items():
+for name, block in list(catalogue().items())[:: int(sys.argv[2])]:
     build_python_fmu(block, Path(sys.argv[1]) / f"{name}.fmu")
 """
 
@@ -51,9 +52,10 @@ build_python_fmu(FlatMoonLander, Path(sys.argv[1]) / "flat_moon_lander.fmu")
 
 
 def test_builds_in_two_processes_are_the_same_bytes(fmus, tmp_path):
-    done = run(f"import os; os.environ['PYTHONHASHSEED']='7'\n{BUILD_ALL}", tmp_path / "again")
+    every = either(1, 4)
+    done = run(f"import os; os.environ['PYTHONHASHSEED']='7'\n{BUILD_ALL}", tmp_path / "again", every)
     assert done.returncode == 0, done.stderr
-    for name in catalogue():
+    for name in list(catalogue())[::every]:
         first, second = (folder / f"{name}.fmu" for folder in (fmus, tmp_path / "again"))
         digests = [hashlib.sha256(path.read_bytes()).hexdigest() for path in (first, second)]
         assert digests[0] == digests[1], name
@@ -239,7 +241,7 @@ def statuses(count):
 
 @pytest.mark.usefixtures("fmus")
 def test_exit_status_is_right():
-    assert statuses(3) == {(0, "")}
+    assert statuses(1) == {(0, "")}
 
 
 @pytest.mark.slow
@@ -248,11 +250,15 @@ def test_exit_status_is_right_100_times():
     assert statuses(100) == {(0, "")}
 
 
-BATCH = "batch lunar_terminal_guidance --campaign paper --trials 6 --flavour python --workers"
+BATCH = "batch lunar_terminal_guidance --campaign paper --trials 6 --stop-time 5 --flavour python --workers"
 
 
 @pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize("words", ["", f"{BATCH} 1", f"{BATCH} 2"], ids=["run", "batch", "batch in processes"])
+@pytest.mark.parametrize(
+    "words",
+    ["", pytest.param(f"{BATCH} 1", marks=pytest.mark.slow), f"{BATCH} 2"],
+    ids=["run", "batch", "batch in processes"],
+)
 def test_unpacked_files_are_gone_afterwards(tmp_path, words):
     done = subprocess.run(
         [sys.executable, "-c", FLIGHT, *words.split()],
