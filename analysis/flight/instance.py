@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import itertools
-import threading
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from fmpy import fmi2
@@ -15,7 +12,7 @@ from fmpy.logging import addLoggerProxy
 
 from ..errors import InputError
 from ..system.fmu import Fmu
-from .loop import FUNCTION_NAMES
+from .library import Library, acquire, release
 
 
 @dataclass
@@ -23,6 +20,7 @@ class Instance:
     """One fmi2Component with its log; freed with `free`."""
 
     fmu: Fmu
+    library: Library
     slave: fmi2.FMU2Slave
     messages: list[str]
 
@@ -33,19 +31,17 @@ class Instance:
 
     def function_addresses(self) -> list[int]:
         """Addresses of the C functions in the order of loop.FUNCTION_NAMES."""
-        return [ctypes.cast(getattr(self.slave.dll, name), ctypes.c_void_p).value or 0 for name in FUNCTION_NAMES]
+        return self.library.addresses
 
     def free(self) -> None:
         _logs.pop(self.slave.instanceName, None)
-        self.slave.freeInstance()
+        self.slave.fmi2FreeInstance(self.slave.component)
+        release(self.fmu)
 
 
 # fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
 _logs: dict[str, list[str]] = {}
 _instances = itertools.count(1)
-# fmpy changes the process's working directory while it loads a library: whoever does so, or reads
-# files by relative path beside threads that do, holds this.
-LOADING = threading.RLock()
 
 
 def _log(_environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
@@ -65,16 +61,14 @@ def instantiate(fmu: Fmu, name: str) -> Instance:
     """Instantiate an FMU; ``name`` is the component's, made unique in the process."""
     unique = f"{name}#{next(_instances)}"
     _logs[unique] = []
+    library = None
     try:
-        with LOADING, contextlib.chdir(Path.cwd()):  # back also when loading fails
-            slave = fmi2.FMU2Slave(
-                guid=fmu.description.guid,
-                unzipDirectory=str(fmu.folder),
-                modelIdentifier=fmu.description.coSimulation.modelIdentifier,
-                instanceName=unique,
-            )
+        library = acquire(fmu)
+        slave = library.slave(unique)
         slave.instantiate(callbacks=_callbacks, loggingOn=True)
     except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate
+        if library is not None:
+            release(fmu)
         log = " | ".join([str(error), *_logs.pop(unique)])
         raise InputError(fmu.label, name, f"cannot be instantiated: {log}", "see the FMU's log") from error
-    return Instance(fmu, slave, _logs[unique])
+    return Instance(fmu, library, slave, _logs[unique])

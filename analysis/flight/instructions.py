@@ -36,6 +36,7 @@ class InstructionList:
         self.ranges = ranges
         self.parameter_ranges = parameter_ranges
         self.connections = connections
+        self.firsts = np.cumsum([0, *(len(group) for group in connections)]).tolist()
         self.fault_slots = fault_slots
         self.rows: list[list[int]] = []
 
@@ -50,9 +51,8 @@ class InstructionList:
         With ``known`` only those whose value comes from one of these components.
         """
         group %= len(self.connections)
-        first = sum(len(connections) for connections in self.connections[:group])
         run: list[int] = []
-        for number, (code, origin, source, target) in enumerate(self.connections[group], first):
+        for number, (code, origin, source, target) in enumerate(self.connections[group], self.firsts[group]):
             if known is not None and origin not in known:
                 run = []
             elif code == loop.COPY:

@@ -11,6 +11,7 @@ import numpy as np
 from ..system.assignments import Settings, numbers
 from ..system.faults import connector_type
 from ..system.network import Link, Network, Node
+from ..system.parameter_sets import ParameterValue
 from ..system.schedule import Schedule, origin
 from ..system.transformations import IDENTITY
 from . import loop
@@ -74,6 +75,7 @@ class _Builder:
         self.settings = settings
         self.injections = injections
         self.names = list(network.fmus)
+        self.numbers = {name: number for number, name in enumerate(self.names)}
         self.slots: dict[str, int] = {}
         self.references: list[int] = []
         self.initial: list[float] = []
@@ -133,9 +135,11 @@ class _Builder:
         values: list[float] = []
         self.parameter_ranges = np.zeros((len(self.names), 3, 2), dtype=np.int64)
         self.strings: dict[str, dict[int, str]] = {}
-        for index, component in enumerate(self.names):
+        given: dict[str, dict[str, ParameterValue]] = {name: {} for name in self.names}
+        for (owner, name), value in self.settings.variables.items():
+            given[owner][name] = value
+        for index, (component, mine) in enumerate(given.items()):
             fmu = self.network.fmus[component]
-            mine = {name: value for (owner, name), value in self.settings.variables.items() if owner == component}
             texts = {
                 fmu.variables[name].valueReference: value for name, value in mine.items() if isinstance(value, str)
             }
@@ -154,30 +158,25 @@ class _Builder:
 
     def _links(self) -> list[list[Link]]:
         """Links grouped by the component they feed, upstream first; the last group feeds system connectors."""
-        groups: list[list[Link]] = []
-        for component in self.names:
-            group: list[Link] = []
-            for name in self.slots:
-                if name in self.network.driver and name.startswith(f"{component}."):
-                    node = self.network.driver[name].target
-                    if node.component == component:
-                        self._chain(name, group)
-            groups.append(group)
-        plain: list[Link] = []
+        groups: dict[str | None, dict[str, Link]] = {name: {} for name in self.names}
+        groups[None] = {}
+        for name in self.slots:
+            link = self.network.driver.get(name)
+            if link is not None and link.target.component is not None:
+                self._chain(name, groups[link.target.component])
         for node in self.network.nodes.values():
             if node.name in self.slots and node.component is None:
-                self._chain(node.name, plain)
-        groups.append(plain)
-        return groups
+                self._chain(node.name, groups[None])
+        return [list(group.values()) for group in groups.values()]
 
-    def _chain(self, name: str, group: list[Link]) -> None:
-        """Append the links that bring a value to a node, those before it first, none twice."""
+    def _chain(self, name: str, group: dict[str, Link]) -> None:
+        """Add the links that bring a value to a node, by their targets, those before it first, none twice."""
         link = self.network.driver.get(name)
-        if link is None or link in group:
+        if link is None or name in group:
             return
         if link.source.component is None:
             self._chain(link.source.name, group)
-        group.append(link)
+        group[name] = link
 
     def program(self, schedule: Schedule, algorithm: str, instances: dict[str, Instance]) -> loop.Program:
         groups = self._links()
@@ -222,7 +221,7 @@ class _Builder:
     def _connection(self, link: Link) -> tuple[int, int, int, int]:
         """What `InstructionList` needs to know of a connection."""
         component = origin(self.network, link).component
-        number = -1 if component is None else self.names.index(component)
+        number = -1 if component is None else self.numbers[component]
         return _connection_code(link), number, self.slots[link.source.name], self.slots[link.target.name]
 
     def _fault_slot(self, injection: Injection) -> int:

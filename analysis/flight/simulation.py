@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..system.faults import Fault, check_fault
+from ..system.garbage import no_collection
 from ..system.parameter_sets import ParameterValue, parse_value
 from ..system.prepared import PreparedSystem
 from . import loop
@@ -63,7 +64,8 @@ class Simulation:
         self._declared = faults
         self._faults: Sequence[Fault | None] = faults
         self._excitations = [of_excitation(name, column) for column, name in enumerate(excited)]
-        self._instantiate()
+        with no_collection():
+            self._instantiate()
 
     def _place_varied(self) -> None:
         """Give every varied parameter a place in the settings, at its start value."""

@@ -9,9 +9,9 @@ import posixpath
 import struct
 import zipfile
 import zlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 from ...fmus_src.export.available import fmu_file
@@ -58,20 +58,20 @@ class SystemArchive:
         content = self.files[name]
         return content if isinstance(content, bytes) else content.read_bytes()
 
-    def fmu(self, source: str, element: str, flavour: str) -> tuple[bytes, str]:
-        """An FMU's content and its name in messages.
+    def fmu(self, source: str, element: str, flavour: str) -> tuple[Callable[[], bytes], str]:
+        """What reads an FMU's content, and its name in messages.
 
         A folder without FMUs of its own takes those of this repository and of the working folder.
         """
         name = posixpath.normpath(source)
         if name in self.files or self.path.is_file():
-            return self._content(name, element), f"{self.label}!{name}"
+            return partial(self._content, name, element), f"{self.label}!{name}"
         path = fmu_file(Path(source).stem, flavour)
         if path is None:
             own = own_fmu(Path(source).stem, flavour)
             problem = f"no file {name} in the system, no {flavour} FMU of this repository, and {own} is not built"
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
-        return path.read_bytes(), str(path)
+        return path.read_bytes, str(path)
 
     def variants(self) -> list[str]:
         """Names of the archive's SSDs, the default one included."""

@@ -240,8 +240,7 @@ def _passed(network: Network, link: Link, value: float) -> float:
         return value * link.transformation.factor + link.transformation.offset
     table = dict(numbers(network, link))
     if value not in table:
-        where = f"connection {link.source.name} -> {link.target.name} (line {link.line})"
-        raise InputError(network.file, where, f"the mapping has no entry for {value:g}", "add one")
+        raise InputError(network.file, link.where, f"the mapping has no entry for {value:g}", "add one")
     return table[value]
 
 
@@ -256,9 +255,8 @@ def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
         if kind == "Integer":
             return float(text)
         if text not in node.enumeration:
-            where = f"connection {link.source.name} -> {link.target.name} (line {link.line})"
             problem = f"{node.name} has no enumeration item {text}"
-            raise InputError(network.file, where, problem, suggestion(text, node.enumeration))
+            raise InputError(network.file, link.where, problem, suggestion(text, node.enumeration))
         return float(node.enumeration[text])
 
     return [(number(source, link.source), number(target, link.target)) for source, target in transformation.table]

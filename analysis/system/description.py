@@ -16,7 +16,7 @@ FMU_TYPE = "application/x-fmu-sharedlibrary"
 STEP_ANNOTATION = "org.perilune.step"  # our own: SSP 1.0 has no place for the communication step
 
 
-@dataclass
+@dataclass(slots=True)
 class Connector:
     """A declared connector; type and unit are None where the SSD does not state them."""
 
@@ -27,8 +27,12 @@ class Connector:
     enumeration: str | None
     line: int
 
+    def at(self, name: str) -> str:
+        """Where it is declared, by the name that it has in the flat network."""
+        return f"{name} (line {self.line})"
 
-@dataclass
+
+@dataclass(slots=True)
 class Connection:
     start: tuple[str | None, str]
     end: tuple[str | None, str]
@@ -39,6 +43,10 @@ class Connection:
     def __str__(self) -> str:
         start, end = (".".join(part for part in point if part) for point in (self.start, self.end))
         return f"connection {start} -> {end}"
+
+    @property
+    def where(self) -> str:
+        return f"{self} (line {self.line})"
 
 
 @dataclass

@@ -77,4 +77,4 @@ def children(element: etree._Element | None, name: str) -> list[etree._Element]:
 
 def tag(element: etree._Element) -> str:
     """Local name of an element, empty for comments and processing instructions."""
-    return etree.QName(element).localname if isinstance(element.tag, str) else ""
+    return element.tag.rpartition("}")[2] if isinstance(element.tag, str) else ""

@@ -15,7 +15,7 @@ SOURCES = ("output", "calculatedParameter")
 SINKS = ("input", "parameter")
 
 
-@dataclass
+@dataclass(slots=True)
 class Node:
     """A connector of the flat network: of a component, of a system, or a dictionary's signal.
 
@@ -37,7 +37,7 @@ class Node:
         return f"{self.name} (line {self.line})" if self.line else self.name
 
 
-@dataclass
+@dataclass(slots=True)
 class Link:
     """A connection between nodes, with unit conversion and transformation in one."""
 
@@ -45,6 +45,10 @@ class Link:
     target: Node
     transformation: Transformation
     line: int
+
+    @property
+    def where(self) -> str:
+        return f"connection {self.source.name} -> {self.target.name} (line {self.line})"
 
     @property
     def is_parameter(self) -> bool:
@@ -118,18 +122,21 @@ def _add(network: Network, node: Node) -> None:
     network.nodes[node.name] = node
 
 
-def _unit(network: Network, name: str | None, fmu: Fmu | None, where: str) -> Unit | None:
-    if name is None:
+def _unit(network: Network, name: str, fmu: Fmu | None, connector: Connector) -> Unit | None:
+    """The unit that a connector, by its flat name, declares: one of the SSD, or of the FMU behind it."""
+    unit = connector.unit
+    if unit is None:
         return None
-    units = (fmu.units if fmu is not None else {}) | network.description.units
-    if name not in units:
-        raise InputError(network.file, where, f"unit {name} is not defined", "define it under Units of the SSD")
-    return units[name]
+    found = network.description.units.get(unit) or (fmu.units.get(unit) if fmu is not None else None)
+    if found is None:
+        raise InputError(
+            network.file, connector.at(name), f"unit {unit} is not defined", "define it under Units of the SSD"
+        )
+    return found
 
 
 def _plain_node(network: Network, name: str, connector: Connector) -> Node:
-    where = f"{name} (line {connector.line})"
-    unit = _unit(network, connector.unit, None, where)
+    unit = _unit(network, name, None, connector)
     items = network.description.enumerations.get(connector.enumeration or "", {})
     return Node(name, connector.kind, None, connector.name, connector.type_name, unit, connector.line, items)
 
@@ -138,31 +145,30 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     """A component's connector, checked against the variable of its FMU."""
     fmu = network.fmus[component]
     name = f"{component}.{connector.name}"
-    where = f"{name} (line {connector.line})"
     variable = fmu.variables.get(connector.name)
     if variable is None:
         remedy = f"correct the connector or use another FMU; {suggestion(connector.name, fmu.variables)}"
-        raise InputError(network.file, where, f"{fmu.label} has no variable of this name", remedy)
+        raise InputError(network.file, connector.at(name), f"{fmu.label} has no variable of this name", remedy)
     if variable.causality != connector.kind:
         raise InputError(
             network.file,
-            where,
+            connector.at(name),
             f"is {variable.causality} in {fmu.label}, {connector.kind} here",
             "correct the connector's kind or use another FMU",
         )
     if connector.type_name not in (None, variable.type):
         raise InputError(
             network.file,
-            where,
+            connector.at(name),
             f"is {variable.type} in {fmu.label}, {connector.type_name} here",
             "correct the connector's type or use another FMU",
         )
     own = fmu.units.get(fmu.unit_of(variable) or "")
-    declared = _unit(network, connector.unit, fmu, where)
+    declared = _unit(network, name, fmu, connector)
     if own and declared and not own.is_same(declared):
         raise InputError(
             network.file,
-            where,
+            connector.at(name),
             f"unit is {own.name} in {fmu.label}, {declared.name} here",
             "correct the connector's unit or use another FMU",
         )
@@ -175,25 +181,24 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
 def _end(network: Network, path: str, system: System, point: tuple[str | None, str], connection: Connection) -> Node:
     """The node that one end of a connection names."""
     element_name, connector_name = point
-    where = f"{connection} (line {connection.line})"
     owner: Element = system
     prefix = path
     if element_name is not None:
         if element_name not in system.elements:
             raise InputError(
-                network.file, where, f"no element {element_name}", suggestion(element_name, system.elements)
+                network.file, connection.where, f"no element {element_name}", suggestion(element_name, system.elements)
             )
         owner = system.elements[element_name]
         prefix = f"{path}{element_name}."
     if connector_name not in owner.connectors:
         raise InputError(
             network.file,
-            where,
+            connection.where,
             f"{owner.name} declares no connector {connector_name}",
             suggestion(connector_name, owner.connectors),
         )
     if isinstance(owner, DictionaryReference):
-        return _signal(network, path, owner, connector_name, where)
+        return _signal(network, path, owner, connector_name, connection.where)
     return network.nodes[prefix + connector_name]
 
 
@@ -217,27 +222,26 @@ def _signal(network: Network, path: str, reference: DictionaryReference, signal:
 
 
 def _connect(network: Network, path: str, system: System, connection: Connection) -> None:
-    where = f"{connection} (line {connection.line})"
     start = _end(network, path, system, connection.start, connection)
     end = _end(network, path, system, connection.end, connection)
     # Seen from inside a system its own inputs are sources and its outputs are sinks.
     starts = SINKS if connection.start[0] is None else SOURCES
     ends = SOURCES if connection.end[0] is None else SINKS
-    if start.kind not in (*starts, "inout"):
-        raise InputError(network.file, where, f"{start.name} is {start.kind} and cannot be a start", "swap the ends")
-    if end.kind not in (*ends, "inout"):
-        raise InputError(network.file, where, f"{end.name} is {end.kind} and cannot be an end", "swap the ends")
+    for node, kinds, word in ((start, starts, "a start"), (end, ends, "an end")):
+        if node.kind not in (*kinds, "inout"):
+            problem = f"{node.name} is {node.kind} and cannot be {word}"
+            raise InputError(network.file, connection.where, problem, "swap the ends")
     if "calculatedParameter" in (start.kind, end.kind):
         raise InputError(
             network.file,
-            where,
+            connection.where,
             "calculated parameters are not passed on yet",
             "remove the connection and give the value in a parameter set",
         )
     if "parameter" in (start.kind, end.kind) and start.kind != end.kind:
         raise InputError(
             network.file,
-            where,
+            connection.where,
             f"connects {start.kind} {start.name} with {end.kind} {end.name}",
             "connect parameters with parameters, and signals with signals",
         )
@@ -245,7 +249,7 @@ def _connect(network: Network, path: str, system: System, connection: Connection
         first = network.driver[end.name]
         raise InputError(
             network.file,
-            where,
+            connection.where,
             f"{end.name} is driven twice, first by {first.source.name} (line {first.line})",
             "remove one of the two connections",
         )
@@ -254,7 +258,7 @@ def _connect(network: Network, path: str, system: System, connection: Connection
         if not start.unit.fits(end.unit):
             raise InputError(
                 network.file,
-                where,
+                connection.where,
                 f"units do not fit: {start.unit.name} and {end.unit.name}",
                 "correct the unit of one end",
             )
@@ -275,13 +279,12 @@ def _settle_types(network: Network) -> None:
 
 def _check_link(network: Network, link: Link) -> None:
     source, target = link.source, link.target
-    where = f"connection {source.name} -> {target.name} (line {link.line})"
     if source.type_name != target.type_name and (source.type_name, target.type_name) != ("Integer", "Real"):
         raise InputError(
             network.file,
-            where,
+            link.where,
             f"types do not fit: {source.type_name} and {target.type_name}",
             "connect variables of one type",
         )
     if link.transformation != IDENTITY:
-        check_type(link.transformation, target.type_name or "", network.file, where)
+        check_type(link.transformation, target.type_name or "", network.file, link.where)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from ...fmus_src.export.available import fmu_file, fmu_flavours
@@ -12,6 +14,7 @@ from .archive import HOW_TO_BUILD, SystemArchive, open_system
 from .assignments import Settings, collect_settings, text_assignment
 from .description import Component, read_description
 from .fmu import Fmu, load_fmu
+from .garbage import no_collection
 from .network import Network, build_network
 from .options import ALGORITHMS, SystemOptions
 from .parameter_sets import Assignment, read_parameter_file
@@ -43,8 +46,11 @@ def prepare_system(
 
     ``loaded`` keeps FMUs by their place, for a system that is prepared again and again: those in it are not read again.
     """
-    loaded = {} if loaded is None else loaded
-    options = options or SystemOptions()
+    with no_collection():
+        return _prepared(system, options or SystemOptions(), {} if loaded is None else loaded)
+
+
+def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]) -> PreparedSystem:
     for name, value, known in (
         ("--algorithm", options.algorithm, ALGORITHMS),
         ("--flavour", options.flavour, FLAVOURS),
@@ -54,13 +60,18 @@ def prepare_system(
     archive = open_system(system)
     description = read_description(archive, options.variant)
 
+    @cache
+    def flavour_of(block: str) -> str:
+        return options.flavour or ("native" if fmu_file(block, "native") is not None else "python")
+
     def load(name: str, component: Component) -> Fmu:
         if name in options.use:
-            data, label = find_fmu(options.use[name], options.flavour)
+            read, label = locate_fmu(options.use[name], options.flavour)
         else:
-            data, label = archive.fmu(component.source, f"{name} (line {component.line})", _flavour(component, options))
+            flavour = flavour_of(Path(component.source).stem)
+            read, label = archive.fmu(component.source, f"{name} (line {component.line})", flavour)
         if label not in loaded:
-            loaded[label] = load_fmu(data, label)
+            loaded[label] = load_fmu(read(), label)
         return loaded[label]
 
     network = build_network(description, load)
@@ -73,23 +84,23 @@ def prepare_system(
     return PreparedSystem(archive, options, network, settings, schedule, start, step, steps)
 
 
-def _flavour(component: Component, options: SystemOptions) -> str:
-    if options.flavour is not None:
-        return options.flavour
-    return "native" if fmu_file(Path(component.source).stem, "native") is not None else "python"
-
-
 def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:
     """An FMU named by its block or by a path: its content and its name in messages. Raises InputError."""
+    read, label = locate_fmu(name, flavour, option)
+    return read(), label
+
+
+def locate_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[Callable[[], bytes], str]:
+    """Likewise, with what reads the content."""
     if name.endswith(".fmu") or Path(name).name != name:
         path = Path(name)
         if not path.is_file():
             raise InputError(option, name, "no such file", "give a block's name or the path of an .fmu")
-        return path.read_bytes(), name
+        return path.read_bytes, name
     for candidate in FLAVOURS if flavour is None else (flavour,):
         file = fmu_file(name, candidate)
         if file is not None:
-            return file.read_bytes(), str(file)
+            return file.read_bytes, str(file)
     raise InputError(option, name, "no such FMU is built", f"{suggestion(name, fmu_flavours())}; {HOW_TO_BUILD}")
 
 

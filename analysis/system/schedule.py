@@ -43,13 +43,14 @@ def make_schedule(network: Network, no_feedthrough: Collection[str] = ()) -> Sch
     }
     _check_loops(network, direct)
     followers = [name for name in network.fmus if any(direct[name].values())]
-    sources = [name for name in network.fmus if name not in followers]
+    follows = set(followers)
+    sources = [name for name in network.fmus if name not in follows]
     edges = [
         (start, link.target)
         for link in network.driver.values()
-        if link.target.component in followers and not link.is_parameter
+        if link.target.component in follows and not link.is_parameter
         for start in [origin(network, link)]
-        if start.component in followers
+        if start.component in follows
     ]
     late: list[Edge] = []
     while True:
@@ -101,8 +102,9 @@ def _check_loops(network: Network, direct: dict[str, dict[str, set[str]]]) -> No
             graph.setdefault(link.target.name, set()).add(link.source.name)
     for node in network.nodes.values():
         if node.kind == "output" and node.component is not None:
-            inputs = direct[node.component].get(node.variable, set())
-            graph.setdefault(node.name, set()).update(f"{node.component}.{name}" for name in inputs)
+            inputs = direct[node.component].get(node.variable)
+            if inputs:
+                graph.setdefault(node.name, set()).update(f"{node.component}.{name}" for name in inputs)
     try:
         TopologicalSorter(graph).prepare()
     except CycleError as error:

@@ -1,0 +1,65 @@
+"""The shared library of an FMU: loaded for its first instance, unloaded after its last."""
+
+from __future__ import annotations
+
+import contextlib
+import copy
+import ctypes
+import threading
+from pathlib import Path
+
+from fmpy import fmi2
+
+from ..system.fmu import Fmu
+from .loop import FUNCTION_NAMES
+
+# fmpy changes the process's working directory while it loads a library: whoever does so, or reads
+# files by relative path beside threads that do, holds this.
+LOADING = threading.RLock()
+
+
+class Library:
+    """What the instances of one unpacked FMU share, since fmpy takes milliseconds to load it for each."""
+
+    def __init__(self, fmu: Fmu) -> None:
+        with contextlib.chdir(Path.cwd()):  # back also when loading fails
+            self._slave = fmi2.FMU2Slave(
+                guid=fmu.description.guid,
+                unzipDirectory=str(fmu.folder),
+                modelIdentifier=fmu.description.coSimulation.modelIdentifier,
+            )
+        functions = [getattr(self._slave.dll, name) for name in FUNCTION_NAMES]
+        self.addresses = [ctypes.cast(function, ctypes.c_void_p).value or 0 for function in functions]
+        self.users = 0
+
+    def slave(self, instance_name: str) -> fmi2.FMU2Slave:
+        """fmpy's face of one more instance, not instantiated yet."""
+        slave = copy.copy(self._slave)
+        slave.instanceName = instance_name
+        return slave
+
+    def unload(self) -> None:
+        self._slave.freeLibrary()
+
+
+_libraries: dict[Path, Library] = {}  # by the folder that the FMU is unpacked into
+
+
+def acquire(fmu: Fmu) -> Library:
+    """The library of an FMU, loaded if need be; give it back with `release`. fmpy raises bare Exception."""
+    with LOADING:
+        if fmu.folder not in _libraries:
+            _libraries[fmu.folder] = Library(fmu)
+        library = _libraries[fmu.folder]
+        library.users += 1
+        return library
+
+
+def release(fmu: Fmu) -> None:
+    """Unload the library of an FMU if this was its last user."""
+    with LOADING:
+        library = _libraries[fmu.folder]
+        library.users -= 1
+        if not library.users:
+            del _libraries[fmu.folder]
+            library.unload()
