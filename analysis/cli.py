@@ -28,6 +28,7 @@ VERBS = {
     "plan": "plan a transfer between hovers, or bound what a landing takes",
     "stability": "report on the stability of a system's loops",
     "benchmark": "time a communication step against other importers",
+    "new": "write a block or a system of your own to start from",
     "export": "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
 }
 
