@@ -6,7 +6,7 @@ import argparse
 
 from ..benchmark.measure import run_benchmark
 from ..benchmark.table import benchmark_text
-from .common.options import add_json, write_json
+from .common.options import add_json, check_json, tell
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -16,7 +16,6 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    check_json(options)
     document = run_benchmark(steps=options.steps, repeats=options.repeats)
-    if not write_json(document, options.json):
-        print(benchmark_text(document))
-    return 0
+    return tell(document, options, lambda: print(benchmark_text(document)))

@@ -16,7 +16,7 @@ from ..errors import InputError, suggestion
 from ..system.archive import system_names
 from ..system.fmu import load_fmu
 from ..system.prepared import find_fmu, prepare_system
-from .common.options import add_json, add_system_options, system_options, write_json
+from .common.options import add_json, add_system_options, check_json, system_options, tell
 from .common.text_table import text_table
 
 WIDE = 100  # characters of a list of values, beyond which it is cut
@@ -30,6 +30,7 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    check_json(options)
     what = options.what
     if _is_fmu(what):
         return _fmu(options)
@@ -57,10 +58,12 @@ def _fmu(options: argparse.Namespace) -> int:
         "native": fmu.is_native,
         "variables": variables_of(fmu),
     }
-    if not write_json(document, options.json):
-        print(f"{fmu.name}: {document['description']}")
-        _print_variables(document["variables"])
-    return 0
+    return tell(document, options, lambda: _print_fmu(document))
+
+
+def _print_fmu(document: dict[str, Any]) -> None:
+    print(f"{document['fmu']}: {document['description']}")
+    _print_variables(document["variables"])
 
 
 def _slot(options: argparse.Namespace) -> int:
@@ -71,32 +74,33 @@ def _slot(options: argparse.Namespace) -> int:
         for name, variable in slot.variables.items()
     ]  # fmt: skip
     fmus = {block.fmu_name: block.summary() for block in blocks_of_slot(slot)}
-    if not write_json(
-        {"slot": options.what, "description": slot.summary(), "variables": rows, "fmus": fmus}, options.json
-    ):
-        print(f"{options.what} ({slot.__name__}): {slot.summary()}")
-        print("FMUs")
-        _lines(text_table([[f"  {name}", words] for name, words in fmus.items()]))
-        _print_variables(rows)
-    return 0
+    document = {"slot": options.what, "description": slot.summary(), "variables": rows, "fmus": fmus}
+    return tell(document, options, lambda: _print_slot(document, slot.__name__))
+
+
+def _print_slot(document: dict[str, Any], interface: str) -> None:
+    print(f"{document['slot']} ({interface}): {document['description']}")
+    print("FMUs")
+    _lines(text_table([[f"  {name}", words] for name, words in document["fmus"].items()]))
+    _print_variables(document["variables"])
 
 
 def _system(options: argparse.Namespace) -> int:
     document = describe_system(prepare_system(options.what, system_options(options)))
     found = {component["name"]: component for component in document["components"]}
     if options.component is None:
-        if not write_json(document, options.json):
-            _print_system(document)
-        return 0
+        return tell(document, options, lambda: _print_system(document))
     if options.component not in found:
         raise InputError("describe", options.component, "no such component", suggestion(options.component, found))
     component = found[options.component]
-    if not write_json(component, options.json):
-        print(f"{component['name']}: {component['fmu']}, {component['description']}")
-        print(f"fits here too   {', '.join(component['fits']) or 'nothing else of this repository'}")
-        _print_connections(document, component["name"])
-        _print_variables(component["variables"])
-    return 0
+    return tell(component, options, lambda: _print_component(document, component))
+
+
+def _print_component(document: dict[str, Any], component: dict[str, Any]) -> None:
+    print(f"{component['name']}: {component['fmu']}, {component['description']}")
+    print(f"fits here too   {', '.join(component['fits']) or 'nothing else of this repository'}")
+    _print_connections(document, component["name"])
+    _print_variables(component["variables"])
 
 
 def _print_system(document: dict[str, Any]) -> None:

@@ -22,7 +22,7 @@ from ..atomic import write_atomically
 from ..errors import InputError, suggestion
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.documents import parse_xml
-from .common.options import add_json, check_json, write_json
+from .common.options import add_json, check_json, tell
 from .common.targets import check_file
 
 
@@ -61,9 +61,7 @@ def run(options: argparse.Namespace) -> int:
     except ValueError as error:  # what is wrong with a block, told by the export as one line
         print(f"perilune: {' '.join(str(error).split())}", file=sys.stderr)
         return 2
-    if not write_json(document, options.json):
-        print("\n".join(document["paths"]))
-    return 0
+    return tell(document, options, lambda: print("\n".join(document["paths"])))
 
 
 def _export(options: argparse.Namespace) -> dict[str, Any]:
@@ -75,9 +73,11 @@ def _export(options: argparse.Namespace) -> dict[str, Any]:
     blocks = catalogue()
     if options.name in blocks:
         path = options.output or Path(f"{options.name}.fmu")
+        check_file("--output", path, (".fmu",))
         _build(blocks[options.name], path, flavour, platforms)
     elif options.name in system_names() or Path(options.name).is_dir():
         path = options.output or Path(f"{Path(options.name).resolve().name}.ssp")
+        check_file("--output", path, (".ssp",))
         _export_system(open_system(options.name), path, flavour, platforms)
     else:
         known = [*blocks, *system_names()]
@@ -148,6 +148,8 @@ def _export_file(options: argparse.Namespace) -> dict[str, Any]:
         print("perilune: no C compiler here: the Python flavour only; pip install ziglang for both", file=sys.stderr)
     output: Path | None = options.output
     if output is None:
+        for flavour in flavours:
+            check_file("export", own_fmu(file.stem, flavour))
         written = build_own_blocks(file, own_fmu("x", "x").parents[1], flavours, platforms, portable=_zig_is_here())
         return {"paths": [str(path.relative_to(Path.cwd())) for path in written]} | _made(flavours, platforms)
     blocks = own_blocks(file)

@@ -11,7 +11,8 @@ from ..laws.formula import formula, formula_text
 from ..laws.graph import law_svg
 from ..laws.law import named_law, read_law
 from ..laws.parameter_set import parameter_set
-from .common.options import add_json, write_json
+from .common.options import add_json, check_json, tell
+from .common.targets import Results, check_file
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -23,19 +24,17 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    for option, path, suffix in (("--output", options.output, ".ssv"), ("--graph", options.graph, ".svg")):
-        if path is not None and path.suffix != suffix:
-            raise InputError(option, str(path), f"not {suffix}", f"end the name with {suffix}")
+    check_file("--output", options.output, (".ssv",))
+    check_file("--graph", options.graph, (".svg",))
+    check_json(options)
     if options.component is not None and options.output is None:
         raise InputError("--component", options.component, "names nothing without --output", "give both or neither")
     component = options.component if options.component is not None else "guidance"
     if not component.isprintable() or "" in component.split("."):
         raise InputError("--component", repr(component), "not a component's name", "name it as the system does")
     law = read_law(named_law(options.law))
-    if options.output is not None:
-        write_atomically(options.output, parameter_set(law, component))
-    if options.graph is not None:
-        write_atomically(options.graph, law_svg(law))
-    if not write_json(law.document() | {"formula": formula(law)}, options.json):
-        print(formula_text(law))
-    return 0
+    files = Results()
+    files.write(options.output, lambda path: write_atomically(path, parameter_set(law, component)))
+    files.write(options.graph, lambda path: write_atomically(path, law_svg(law)))
+    document = law.document() | {"formula": formula(law)}
+    return tell(document, options, lambda: print(formula_text(law)), files)

@@ -16,7 +16,7 @@ from ...fmus_src.places import LAWS, SEARCHES
 from ..stability.ask.reading import read_declaration
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.description import read_description
-from .common.options import add_json, write_json
+from .common.options import add_json, check_json, tell
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -24,14 +24,17 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    check_json(options)
     document: dict[str, Any] = {
         "systems": {name: _system(open_system(name)) for name in system_names()},
         "laws": sorted(path.stem for path in LAWS.glob("*.json")),
         "searches": sorted(path.stem for path in SEARCHES.glob("*.toml")),
         "fmus": _fmus(),
     }
-    if write_json(document, options.json):
-        return 0
+    return tell(document, options, lambda: _print(document))
+
+
+def _print(document: dict[str, Any]) -> None:
     for name, system in document["systems"].items():
         print(name)
         print(f"  parameter sets  {', '.join(system['parameter_sets']) or 'none'}")
@@ -43,7 +46,6 @@ def run(options: argparse.Namespace) -> int:
     width = max((len(name) for name in document["fmus"]), default=0)
     for name, entry in document["fmus"].items():
         print(f"  {name:{width}}  {'+'.join(entry['built']) or 'not built':13}  {entry['description']}")
-    return 0
 
 
 def _system(archive: SystemArchive) -> dict[str, list[str]]:

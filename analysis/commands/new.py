@@ -6,7 +6,7 @@ import argparse
 
 from ..new.block import Written, block_slots, new_block
 from ..new.system import new_system
-from .common.options import add_json, check_json, write_json
+from .common.options import add_json, check_json, tell
 
 BLOCK, SYSTEM = "block", "system"
 NAME = "small letters, digits and underscores"
@@ -29,13 +29,12 @@ def add(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     check_json(options)
     written = new_block(options.name, options.slot) if options.kind == BLOCK else new_system(options.name)
-    if not write_json(_document(written), options.json):
-        print(f"written: {', '.join(map(str, written.paths))}")
-        print("next:")
-        for command in written.commands:
-            print(f"  {command}")
-    return 0
+    document = {"paths": [path.as_posix() for path in written.paths], "next": written.commands}
+    return tell(document, options, lambda: _print(written))
 
 
-def _document(written: Written) -> dict[str, list[str]]:
-    return {"paths": [path.as_posix() for path in written.paths], "next": written.commands}
+def _print(written: Written) -> None:
+    print(f"written: {', '.join(map(str, written.paths))}")
+    print("next:")
+    for command in written.commands:
+        print(f"  {command}")

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from ..synthesis.synthesis import run_synthesis
 from ..synthesis.synthesis_file import named_search, read_synthesis
-from .common.options import add_json, write_json
+from .common.options import add_json, check_json, tell
+from .common.targets import Results, check_folder
 
 METHODS = ("network-operator",)
 
@@ -29,6 +30,8 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    check_folder("--output", options.output, overwrite=options.resume, otherwise="--resume to go on")
+    check_json(options)
     result = run_synthesis(
         read_synthesis(named_search(options.file)),
         seed=options.seed,
@@ -37,9 +40,10 @@ def run(options: argparse.Namespace) -> int:
         resume=options.resume,
         evaluations=options.evaluations,
     )
-    if not write_json(result.document(), options.json):
-        print(result.text())
+    files = Results()
+    if options.output is not None:
+        files.written.append(options.output)
+    status = tell(result.document(), options, lambda: print(result.text()), files)
     if not result.succeeded:
         print(f"perilune: {result.failure()}", file=sys.stderr)
-        return 1
-    return 0
+    return status or int(not result.succeeded)

@@ -22,7 +22,7 @@ from ..system.fmu import load_fmu
 from ..system.options import SystemOptions
 from ..system.parameter_sets import read_parameter_file
 from ..system.prepared import prepare_system
-from .common.options import add_json, write_json
+from .common.options import add_json, check_json, tell
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -31,17 +31,21 @@ def add(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    check_json(options)
     results = [_check(path) for path in options.path]
-    silent = write_json(results, options.json)
     for result in results:
         for problem in result["problems"]:
             print(f"perilune: {problem}", file=sys.stderr)
-        if not silent:
-            for note in result["notes"]:
-                print(f"{result['path']}: note: {note}")
-            if not result["problems"]:
-                print(f"{result['path']}: good")
-    return 2 if any(result["problems"] for result in results) else 0
+    status = tell(results, options, lambda: _print(results))
+    return 2 if any(result["problems"] for result in results) else status
+
+
+def _print(results: list[dict[str, Any]]) -> None:
+    for result in results:
+        for note in result["notes"]:
+            print(f"{result['path']}: note: {note}")
+        if not result["problems"]:
+            print(f"{result['path']}: good")
 
 
 def _check(path: str) -> dict[str, Any]:

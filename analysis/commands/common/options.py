@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -138,3 +138,16 @@ def write_json(document: Any, target: str | None, files: Results | None = None) 
         return True
     (files or Results()).write(Path(target), lambda path: write_atomically(path, text.encode()))
     return False
+
+
+def tell(document: Any, options: argparse.Namespace, text: Callable[[], object], files: Results | None = None) -> int:
+    """Print a result by ``text``, or its document as --json asks for, and where files are.
+
+    Returns the exit status: 2 where a file could not be written, ``files`` included, else 0.
+    """
+    files = files or Results()
+    if not write_json(document, options.json, files):
+        text()
+    if options.json != "-":
+        files.say()
+    return 2 if files.failed else 0
