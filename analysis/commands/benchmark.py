@@ -6,13 +6,7 @@ import argparse
 
 from ..benchmark.measure import run_benchmark
 from ..benchmark.table import benchmark_text
-from .common.options import add_json, check_json, tell
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--steps", type=int, default=2500, metavar="N", help="communication steps; default 2500")
-    parser.add_argument("--repeats", type=int, default=5, metavar="N", help="runs of each; default 5")
-    add_json(parser)
+from .common.options import check_json, tell
 
 
 def run(options: argparse.Namespace) -> int:

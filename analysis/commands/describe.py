@@ -16,17 +16,10 @@ from ..errors import InputError, suggestion
 from ..system.archive import system_names
 from ..system.fmu import load_fmu
 from ..system.prepared import find_fmu, prepare_system
-from .common.options import add_json, add_system_options, check_json, system_options, tell
+from .common.options import check_json, system_options, tell
 from .common.text_table import text_table
 
 WIDE = 100  # characters of a list of values, beyond which it is cut
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("what", metavar="SYSTEM|FMU|SLOT", help="a system, an FMU by its name or file, or an interface")
-    parser.add_argument("component", nargs="?", metavar="COMPONENT", help="of a system: this component with all it has")
-    add_system_options(parser)
-    add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -22,27 +22,8 @@ from ..atomic import write_atomically
 from ..errors import InputError, suggestion
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.documents import parse_xml
-from .common.options import add_json, check_json, tell
+from .common.options import check_json, tell
 from .common.targets import check_file
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "name", metavar="SYSTEM|FMU|FILE.py", help="a system or its folder, a block's name, or a file with blocks"
-    )
-    parser.add_argument(
-        "--platform",
-        action="append",
-        choices=tuple(PLATFORMS),
-        help="of native FMUs; may be repeated; default: those that come built, or that a compiler here serves",
-    )
-    parser.add_argument(
-        "--flavour", choices=FLAVOURS, help="default: native; of FILE.py: both, as far as a compiler is here"
-    )
-    parser.add_argument(
-        "--output", type=Path, metavar="F", help="default: NAME.fmu or NAME.ssp here; of FILE.py: in build/fmus"
-    )
-    add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:

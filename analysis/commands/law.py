@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from ..atomic import write_atomically
 from ..errors import InputError
@@ -11,16 +10,8 @@ from ..laws.formula import formula, formula_text
 from ..laws.graph import law_svg
 from ..laws.law import named_law, read_law
 from ..laws.parameter_set import parameter_set
-from .common.options import add_json, check_json, tell
+from .common.options import check_json, tell
 from .common.targets import Results, check_file
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("law", metavar="LAW", help="a law of laws/ by name, or the path of its .json file")
-    parser.add_argument("--output", type=Path, metavar="F.ssv", help="write the parameter set that flies it")
-    parser.add_argument("--component", metavar="NAME", help="the component it is for; default: guidance")
-    parser.add_argument("--graph", type=Path, metavar="F.svg", help="draw its graph")
-    add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -16,11 +16,7 @@ from ...fmus_src.places import LAWS, SEARCHES
 from ..stability.ask.reading import read_declaration
 from ..system.archive import SystemArchive, open_system, system_names
 from ..system.description import read_description
-from .common.options import add_json, check_json, tell
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    add_json(parser)
+from .common.options import check_json, tell
 
 
 def run(options: argparse.Namespace) -> int:

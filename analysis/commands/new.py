@@ -4,26 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from ..new.block import Written, block_slots, new_block
+from ..new.block import Written, new_block
 from ..new.system import new_system
-from .common.options import add_json, check_json, tell
-
-BLOCK, SYSTEM = "block", "system"
-NAME = "small letters, digits and underscores"
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    kinds = parser.add_subparsers(dest="kind", required=True, metavar="KIND", parser_class=type(parser))
-    words = "write NAME.py, a block that perilune export builds"
-    block = kinds.add_parser(BLOCK, help=words, description=words)
-    block.add_argument("name", metavar="NAME", help=NAME)
-    slots = ", ".join(block_slots())
-    block.add_argument("--slot", metavar="SLOT", help=f"what it is to fit into: {slots}; default: a plain block")
-    add_json(block)
-    words = "write the folder NAME: blocks, system, parameter sets, campaign"
-    system = kinds.add_parser(SYSTEM, help=words, description=words)
-    system.add_argument("name", metavar="NAME", help=NAME)
-    add_json(system)
+from .asked.new import BLOCK
+from .common.options import check_json, tell
 
 
 def run(options: argparse.Namespace) -> int:

@@ -4,29 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
-from pathlib import Path
 
 from ..synthesis.synthesis import run_synthesis
 from ..synthesis.synthesis_file import named_search, read_synthesis
-from .common.options import add_json, check_json, tell
+from .common.options import check_json, tell
 from .common.targets import Results, check_folder
-
-METHODS = ("network-operator",)
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("method", choices=METHODS, metavar="METHOD", help=f"one of: {', '.join(METHODS)}")
-    parser.add_argument(
-        "file", metavar="F.toml", help="a campaign with a table [network_operator]; by name of laws/searches, or a path"
-    )
-    parser.add_argument("--output", type=Path, metavar="DIR", help="write checkpoints, Pareto set and law to a folder")
-    parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
-    parser.add_argument("--workers", type=int, metavar="N", help="laws in flight together; default: one per processor")
-    parser.add_argument("--resume", action="store_true", help="go on from the checkpoint in --output DIR")
-    parser.add_argument(
-        "--evaluations", type=int, metavar="N", help="end with the generation in which N laws have flown"
-    )
-    add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -25,12 +25,7 @@ from ..system.fmu import load_fmu
 from ..system.options import SystemOptions
 from ..system.parameter_sets import read_parameter_file
 from ..system.prepared import prepare_system
-from .common.options import add_json, check_json, tell
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("path", nargs="+", metavar="PATH", help="a system, .ssp, .fmu, .ssv or campaign .toml")
-    add_json(parser)
+from .common.options import check_json, tell
 
 
 def run(options: argparse.Namespace) -> int:

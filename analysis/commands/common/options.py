@@ -15,6 +15,7 @@ from ...atomic import write_atomically
 from ...errors import InputError
 from ...system.faults import KINDS, Fault, parse_fault
 from ...system.options import ALGORITHMS, SystemOptions
+from .completers import completed, parameter_sets, slots_with_fmus, systems
 from .targets import Results, check_file
 
 
@@ -26,23 +27,26 @@ def add_json(parser: argparse.ArgumentParser) -> None:
 
 def add_system(parser: argparse.ArgumentParser, needed: bool = True) -> None:
     """The system and its options, as in docs/command_line.md; one that is not ``needed`` and not given is None."""
-    parser.add_argument(
+    system = parser.add_argument(
         "system",
         metavar="SYSTEM",
         nargs=None if needed else "?",
         help="a name under ssp_systems, a folder or an .ssp file",
     )
+    completed(system, systems)
     add_system_options(parser)
 
 
 def add_system_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("system options")
-    group.add_argument(
+    use = group.add_argument(
         "--use", action="append", default=[], metavar="SLOT=FMU", help="put another FMU in a component's place"
     )
-    group.add_argument(
+    completed(use, slots_with_fmus)
+    sets = group.add_argument(
         "--parameters", action="append", default=[], metavar="F.ssv", help="apply a parameter set, by name or path"
     )
+    completed(sets, parameter_sets)
     group.add_argument(
         "--set", action="append", default=[], metavar="COMPONENT.VARIABLE=VALUE", help="set one parameter or input"
     )
