@@ -1,10 +1,12 @@
 """`perilune new block`: what it writes for each slot is built and flies where the command says.
 
-Truth: the slot's task: target met, angles in their band, the declared error, whole steps of throttle; ruff.
+Truth: the slot's task: target met, angles in their band, the declared error, whole steps of throttle; python-control;
+ruff.
 """
 
 import math
 
+import control
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.new.block import block_slots, where_it_flies
 from tests.support.lengths import either
+from tests.support.loops.exact_margins import crossings
 from tests.support.own_style import assert_in_style
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -89,6 +92,14 @@ def test_the_block_of_no_slot_flies_in_a_new_system(tmp_path, monkeypatch, capsy
     # what a disturbance leaves of the angle without an integral
     held = perilune.simulate("axis", use={"control": "damper"})
     assert held["plant.angle"][-1] == pytest.approx(0.01 / 6.6, rel=1e-2)
+    (loop,) = perilune.stability("axis", use={"control": "damper"}).loops
+    plant = control.ss([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0 / 500.0]], np.eye(2), np.zeros((2, 1)))
+    share = 0.5 / (0.5 + 0.5)
+    low_pass = control.ss(1.0 - share, 1.0 - share, share, share, 0.5)
+    exact = low_pass * control.ss([], [], [], [[6.6, 90.0]], 0.5) * control.c2d(plant, 0.5, "zoh")
+    gain, phase, _ = crossings(exact)
+    assert loop.margins.gain == pytest.approx(gain[np.argmin(abs(np.log(gain)))], rel=1e-4)
+    assert loop.margins.phase == pytest.approx(min(abs(phase)), rel=1e-4)
 
 
 def test_python_is_as_ruff_writes_it(tmp_path, monkeypatch):
