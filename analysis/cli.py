@@ -28,6 +28,7 @@ VERBS = {
     "plan": "plan a transfer between hovers, or bound what a landing takes",
     "stability": "report on the stability of a system's loops",
     "benchmark": "time a communication step against other importers",
+    "new": "write a block or a system of your own to start from",
     "export": "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
 }
 
@@ -48,7 +49,8 @@ class Parser(argparse.ArgumentParser):
         super().__init__(**keywords, allow_abbrev=False)
 
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message}; see {self.prog} --help\n")
+        place = ": ".join(self.prog.split())
+        self.exit(2, f"{place}: {message}; see {self.prog} --help\n")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -75,22 +77,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser(given: Sequence[str]) -> Parser:
-    """All verbs by name; only the one that is given has its options read, since a verb's imports take a second."""
+    """All verbs by name; only the one that is given has its options read, which is what keeps completion quick."""
     parser = Parser(prog="perilune", description="Spacecraft guidance, navigation and control as FMI components.")
     parser.add_argument("--version", action="version", version=f"perilune {version('perilune')}")
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
-    completing = "_ARGCOMPLETE" in os.environ
+    named = [*given, *os.environ.get("COMP_LINE", "").split()]  # a shell asks with the line that is being written
     for verb, words in VERBS.items():
         failure = f"{FAILURES[verb]}, or interrupted" if verb in FAILURES else "interrupted"
         epilog = f"Exit status: 0: done. 1: {failure}. 2: wrong input, or a result could not be written."
         own = verbs.add_parser(verb, help=words, description=words, epilog=epilog)
-        if completing or verb in given:
-            _module(verb).add(own)
+        if verb in named:
+            _module(f"asked.{verb}").add(own)
     return parser
 
 
-def _module(verb: str) -> ModuleType:
-    return importlib.import_module(f".commands.{verb}", __package__)
+def _module(name: str) -> ModuleType:
+    return importlib.import_module(f".commands.{name}", __package__)
 
 
 def run() -> NoReturn:

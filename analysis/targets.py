@@ -17,7 +17,8 @@ def check_file(option: str, path: Path | None, suffixes: Collection[str] = ()) -
     if path is None:
         return
     if suffixes and path.suffix not in suffixes:
-        raise InputError(option, str(path), f"neither {' nor '.join(suffixes)}", "end the name with one of them")
+        problem = f"{'neither' if len(suffixes) > 1 else 'not'} {' nor '.join(suffixes)}"
+        raise InputError(option, str(path), problem, f"end the name with {' or '.join(suffixes)}")
     if path.is_dir():
         raise InputError(option, str(path), "is a folder", "give the name of a file in it")
     _check_folder(option, path.parent)
@@ -25,16 +26,18 @@ def check_file(option: str, path: Path | None, suffixes: Collection[str] = ()) -
         raise InputError(option, str(path), "cannot be written", "give another file, or change its permissions")
 
 
-def check_folder(option: str, path: Path | None, *, overwrite: bool) -> None:
-    """Refuse a folder that cannot be written, or that holds results unless ``overwrite``. Raises InputError."""
+def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: str = "--overwrite") -> None:
+    """Refuse a folder that cannot be written, or that holds results unless ``overwrite``. Raises InputError.
+
+    ``otherwise`` is the option with which it would not be refused.
+    """
     if path is None:
         return
     _check_folder(option, path)
     held = [name for name in RESULTS if (path / name).exists()]
     if held and not overwrite:
-        raise InputError(
-            option, str(path), f"holds results already ({', '.join(held)})", "give another, or --overwrite"
-        )
+        problem = f"holds results already ({', '.join(held)})"
+        raise InputError(option, str(path), problem, f"give another, or {otherwise}")
 
 
 def _check_folder(option: str, folder: Path) -> None:

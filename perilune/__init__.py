@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from .analysis.api.export import Exported, export
     from .analysis.api.flight import Result, simulate
     from .analysis.api.inventory import inventory
-    from .analysis.api.law import Law, law
+    from .analysis.api.laws import Law, law, synthesize
+    from .analysis.api.own import new_block, new_system
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
     from .analysis.api.stability import StabilityReport, stability
-    from .analysis.api.synthesis import synthesize
     from .analysis.api.timing import benchmark
     from .analysis.api.validate import validate
     from .analysis.errors import InputError
@@ -104,6 +104,8 @@ __all__ = [
     "inventory",
     "law",
     "modal",
+    "new_block",
+    "new_system",
     "norm",
     "plan_hover_transfer",
     "plan_landing_bound",
@@ -121,10 +123,10 @@ _HOMES = {
     "analysis.api.export": ("Exported", "export"),
     "analysis.api.flight": ("Result", "simulate"),
     "analysis.api.inventory": ("inventory",),
-    "analysis.api.law": ("Law", "law"),
+    "analysis.api.laws": ("Law", "law", "synthesize"),
+    "analysis.api.own": ("new_block", "new_system"),
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
     "analysis.api.stability": ("StabilityReport", "stability"),
-    "analysis.api.synthesis": ("synthesize",),
     "analysis.api.timing": ("benchmark",),
     "analysis.api.validate": ("validate",),
     "analysis.errors": ("InputError",),

@@ -76,9 +76,11 @@ def _export_named(name: str, asked: Sequence[str] | None, flavour: Flavour, outp
     blocks = catalogue()
     if name in blocks:
         path = output or Path(f"{name}.fmu")
+        check_file("--output", path, (".fmu",))
         _build(blocks[name], path, flavour, platforms)
     elif name in system_names() or Path(name).is_dir():
         path = output or Path(f"{Path(name).resolve().name}.ssp")
+        check_file("--output", path, (".ssp",))
         _export_system(open_system(name), path, flavour, platforms)
     else:
         problem = "neither an FMU, a system nor a .py file"
@@ -145,6 +147,8 @@ def _export_file(file: Path, asked: Sequence[str] | None, flavour: Flavour | Non
     flavours = [flavour] if flavour else [name for name in FLAVOURS if platforms or name == "python"]
     built_for = tuple(platforms) if "native" in flavours else ()
     if output is None:
+        for each in flavours:
+            check_file("export", own_fmu(file.stem, each))
         folder = own_fmu("x", "x").parents[1]
         written = build_own_blocks(file, folder, flavours, platforms, portable=_zig_is_here())
         return Exported(tuple(path.relative_to(Path.cwd()) for path in written), tuple(flavours), built_for)

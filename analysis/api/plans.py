@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import InputError
-from ..planning.bounds import Landing
+from ..planning.bounds import LANDING, Landing
 from ..planning.hover_study import HoverStudy, hover_study
 from ..planning.landing_study import LandingStudy, landing_study
-from ..planning.vehicle import Margins, Transfer, Vehicle
+from ..planning.vehicle import (
+    HOVER_TRANSFER,
+    HOVER_VEHICLE,
+    LANDING_VEHICLE,
+    Margins,
+    Transfer,
+    Vehicle,
+    check_hover,
+    check_vehicle,
+)
 from ..reports.plan.hover_page import write_hover_page
 from ..reports.plan.landing_page import write_landing_page
 from .options import FilePath
-
-HOVER_VEHICLE = Vehicle(600.0, 0.0, 300.0, 4707.192, 4707.192 / 15.0, math.radians(1.0))
-HOVER_MARGINS = Margins(0.90, 0.10, math.radians(0.70))
-HOVER_TRANSFER = Transfer(1600.0, 2300.0, 1.622)
-LANDING_VEHICLE = Vehicle(940.13, 440.0, 319.0, 5099.0, 0.0, math.inf)
-LANDING = Landing(285e3, 14995.3, 1692.342, 0.0, 4.0, 1.7374e6, 4.9028e12)
 
 
 @dataclass(frozen=True)
@@ -80,28 +82,3 @@ def plan_landing_bound(
     ``direct`` checks it by a direct method. Raises InputError and PlanError.
     """
     return LandingBound(**vars(landing_study(check_vehicle(vehicle), landing, direct=direct, intervals=intervals)))
-
-
-def check_vehicle(vehicle: Vehicle) -> Vehicle:
-    """Refuse what is no vehicle."""
-    if not vehicle.minimum_thrust < vehicle.maximum_thrust:
-        problem = f"not below the largest thrust, {vehicle.maximum_thrust:g} N"
-        raise InputError("--minimum-thrust", f"{vehicle.minimum_thrust:g}", problem, "give less")
-    if not vehicle.dry_mass < vehicle.mass:
-        problem = f"not below the mass, {vehicle.mass:g} kg"
-        raise InputError("--dry-mass", f"{vehicle.dry_mass:g}", problem, "give less")
-    return vehicle
-
-
-def check_hover(planned: Vehicle, transfer: Transfer) -> None:
-    """Refuse a vehicle that cannot hover, or cannot sink, as the plan uses it."""
-    check_vehicle(planned)
-    full, least = f"{planned.maximum_thrust:g} N", f"{planned.minimum_thrust:g} N"
-    if not planned.full > transfer.gravity:
-        problem = f"{planned.full:.4g} m/s2 do not carry the mass against {transfer.gravity:g} m/s2"
-        raise InputError("--maximum-thrust", full, problem, "give more thrust, or less mass")
-    if not planned.least > 0.0:
-        raise InputError("--minimum-thrust", least, "the programme's engine never stops", "give the least that it has")
-    if not planned.least < transfer.gravity:
-        problem = f"{planned.least:.4g} m/s2 carry the mass, against {transfer.gravity:g} m/s2: it does not sink"
-        raise InputError("--minimum-thrust", least, problem, "give less thrust, or more mass")

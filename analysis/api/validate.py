@@ -14,7 +14,10 @@ from ..errors import InputError
 from ..laws.law import read_law
 from ..planning.stored_bound import MissingBound, find_bound
 from ..reports.own.asked.reading import read_figures
+from ..stability.ask.channels import channels_of
+from ..stability.ask.declaration import Declaration
 from ..stability.ask.reading import read_declaration
+from ..stability.ask.subject import Subject
 from ..synthesis.synthesis_file import read_synthesis
 from ..system.archive import DEFAULT_VARIANT, open_system
 from ..system.fmu import load_fmu
@@ -53,8 +56,9 @@ def _check(path: str) -> dict[str, Any]:
         else:
             variants = [None, *(name for name in open_system(path).variants() if name != DEFAULT_VARIANT)]
             for variant in variants:
-                prepared = prepare_system(path, SystemOptions(variant=variant))
-                read_declaration(prepared.network.description)
+                subject = Subject(path, SystemOptions(variant=variant))
+                prepared = prepare_system(path, subject.options, subject.fmus)
+                _check_loops(subject, read_declaration(prepared.network.description))
                 read_figures(prepared)
                 bound = find_bound(prepared)
                 notes += [f"bound: {bound.reason}"] if isinstance(bound, MissingBound) else []
@@ -63,6 +67,14 @@ def _check(path: str) -> dict[str, Any]:
     except InputError as error:
         problems.append(str(error))
     return {"path": path, "problems": problems, "notes": notes}
+
+
+def _check_loops(subject: Subject, declared: Declaration) -> None:
+    """Refuse an operating point that cannot be set, and a loop that is cut where no signal is."""
+    points = {point.name: subject.at(point) for point in declared.points}
+    for loop in declared.loops:
+        for name in loop.points:
+            channels_of(loop, points[name].network, points[name].step)
 
 
 def _read(path: str) -> bytes:

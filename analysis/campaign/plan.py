@@ -121,6 +121,8 @@ def read_plan(
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
     changes: dict = {}
     if trials is not None:
+        if trials < 1:
+            raise InputError("--trials", str(trials), "not a positive number", "give 1 or more")
         changes["trials"] = trials
     if seed is not None:
         changes["seed"] = seed
@@ -204,9 +206,8 @@ def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
         if _is_signal(prepared, name) or _is_output(prepared, name):
             signals.append(name)
         elif name in recorded:
-            raise InputError(
-                campaign.file, f"record: {name}", "not a signal of the system", "record outputs and inputs"
-            )
+            known = [other for other in prepared.network.nodes if _is_signal(prepared, other)]
+            raise InputError(campaign.file, f"record: {name}", "not a signal of the system", suggestion(name, known))
         else:
             constants[name] = _constant(plan, prepared, name)
     statuses = [f"{name}.status" for name in prepared.network.fmus if _is_output(prepared, f"{name}.status")]
@@ -236,9 +237,6 @@ def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:
         if name.startswith(f"{component}.") and variable is not None and variable.start is not None:
             value = prepared.settings.variables.get((component, variable.name), variable.start)
             return float({"true": 1, "false": 0}.get(str(value).lower(), value))
-    raise InputError(
-        plan.campaign.file,
-        name,
-        "neither a signal nor a parameter of the system",
-        "correct the name, as component.variable",
-    )
+    known = [f"{component}.{key}" for component, fmu in prepared.network.fmus.items() for key in fmu.variables]
+    problem = "neither a signal nor a parameter of the system"
+    raise InputError(plan.campaign.file, name, problem, suggestion(name, known))

@@ -1,1 +1,1 @@
-"""The verbs of the command line, one file each: `add` declares a verb's options, `run` carries it out."""
+"""The verbs of the command line, one file each: `run` carries a verb out; `add` of `asked` declares its options."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,36 +18,8 @@ from ..campaign.plan import BatchPlan, check_plan, read_plan
 from ..errors import InputError
 from ..reports.batch.batch_report import write_batch_report
 from ..targets import Results, check_file, check_folder
-from .common.options import (
-    add_faults,
-    add_json,
-    add_system,
-    check_json,
-    faults,
-    json_number,
-    pairs,
-    system_options,
-    write_json,
-)
-from .common.requirements import add_requirements, check_requirements, read_requirements
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    add_system(parser)
-    add_faults(parser)
-    parser.add_argument("--campaign", required=True, metavar="NAME", help="a campaign of the system, or a .toml file")
-    parser.add_argument("--trials", type=int, metavar="N", help="instead of the campaign's number")
-    parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
-    parser.add_argument(
-        "--compare", action="append", metavar="SLOT=A,B,C", help="fly these FMUs in a slot, on the same draws"
-    )
-    parser.add_argument("--workers", type=int, metavar="N", help="flights in parallel; default: one per processor")
-    parser.add_argument("--output", type=Path, metavar="DIR", help="write trials.parquet, draws.parquet, summary.json")
-    parser.add_argument("--replay", type=int, metavar="K", help="fly trial K only, with all signals to --output DIR")
-    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
-    parser.add_argument("--overwrite", action="store_true", help="put the results in place of those in --output DIR")
-    add_requirements(parser, "the summary's numbers")
-    add_json(parser)
+from .common.options import check_json, faults, json_number, pairs, system_options, write_json
+from .common.requirements import check_requirements, read_requirements
 
 
 def run(options: argparse.Namespace) -> int:

@@ -6,17 +6,10 @@ import argparse
 
 from ..benchmark.measure import run_benchmark
 from ..benchmark.table import benchmark_text
-from .common.options import add_json, write_json
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--steps", type=int, default=2500, metavar="N", help="communication steps; default 2500")
-    parser.add_argument("--repeats", type=int, default=5, metavar="N", help="runs of each; default 5")
-    add_json(parser)
+from .common.options import check_json, tell
 
 
 def run(options: argparse.Namespace) -> int:
+    check_json(options)
     document = run_benchmark(steps=options.steps, repeats=options.repeats)
-    if not write_json(document, options.json):
-        print(benchmark_text(document))
-    return 0
+    return tell(document, options, lambda: print(benchmark_text(document)))

@@ -4,19 +4,11 @@ from __future__ import annotations
 
 import argparse
 import shlex
-from pathlib import Path
 
 from ..compare.side_by_side import compare
 from ..reports.compare.page import write_comparison_page
 from ..targets import Results, check_file
-from .common.options import add_json, check_json, write_json
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("result", nargs="+", type=Path, metavar="RESULT", help="a folder that batch --output wrote")
-    parser.add_argument("--reference", metavar="VARIANT", help="put the others against this one; default: the first")
-    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
-    add_json(parser)
+from .common.options import check_json, write_json
 
 
 def run(options: argparse.Namespace) -> int:

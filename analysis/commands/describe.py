@@ -8,40 +8,33 @@ from typing import Any
 
 from ..api.describe import described
 from ..describe.variables import of_causality
-from .common.options import add_json, add_system_options, check_json, system_options, write_json
+from .common.options import check_json, system_options, tell
 from .common.text_table import text_table
 
 WIDE = 100  # characters of a list of values, beyond which it is cut
 
 
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("what", metavar="SYSTEM|FMU|SLOT", help="a system, an FMU by its name or file, or an interface")
-    parser.add_argument("component", nargs="?", metavar="COMPONENT", help="of a system: this component with all it has")
-    add_system_options(parser)
-    add_json(parser)
-
-
 def run(options: argparse.Namespace) -> int:
     check_json(options)
     document = described(options.what, options.component, system_options(options))
-    if write_json(document, options.json):
-        return 0
+    return tell(document, options, lambda: _print(document))
+
+
+def _print(document: dict[str, Any]) -> None:
+    if "components" in document:
+        _print_system(document)
+        return
     if "slot" in document:
         print(f"{document['slot']} ({document['interface']}): {document['description']}")
         print("FMUs")
         _lines(text_table([[f"  {name}", words] for name, words in document["fmus"].items()]))
-        _print_variables(document["variables"])
-    elif "components" in document:
-        _print_system(document)
-    elif options.component is not None:
+    elif "fits" in document:
         print(f"{document['name']}: {document['fmu']}, {document['description']}")
         print(f"fits here too   {', '.join(document['fits']) or 'nothing else of this repository'}")
         _print_connections(document)
-        _print_variables(document["variables"])
     else:
         print(f"{document['fmu']}: {document['description']}")
-        _print_variables(document["variables"])
-    return 0
+    _print_variables(document["variables"])
 
 
 def _print_system(document: dict[str, Any]) -> None:

@@ -4,32 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
-from pathlib import Path
 
-from ...fmus_src.export.compilers import PLATFORMS
-from ...fmus_src.places import FLAVOURS
 from ..api.export import export
 from ..errors import InputError
-from .common.options import add_json, check_json, write_json
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "name", metavar="SYSTEM|FMU|FILE.py", help="a system or its folder, a block's name, or a file with blocks"
-    )
-    parser.add_argument(
-        "--platform",
-        action="append",
-        choices=tuple(PLATFORMS),
-        help="of native FMUs; may be repeated; default: those that come built, or that a compiler here serves",
-    )
-    parser.add_argument(
-        "--flavour", choices=FLAVOURS, help="default: native; of FILE.py: both, as far as a compiler is here"
-    )
-    parser.add_argument(
-        "--output", type=Path, metavar="F", help="default: NAME.fmu or NAME.ssp here; of FILE.py: in build/fmus"
-    )
-    add_json(parser)
+from .common.options import check_json, tell
 
 
 def run(options: argparse.Namespace) -> int:
@@ -45,6 +23,4 @@ def run(options: argparse.Namespace) -> int:
         print("perilune: no C compiler here: the Python flavour only; pip install ziglang for both", file=sys.stderr)
     paths = [str(path) for path in exported.paths]
     document = {"paths": paths, "flavours": list(exported.flavours), "platforms": list(exported.platforms)}
-    if not write_json(document, options.json):
-        print("\n".join(paths))
-    return 0
+    return tell(document, options, lambda: print("\n".join(paths)))

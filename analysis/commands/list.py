@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from ..api.inventory import inventory
-from .common.options import add_json, write_json
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    add_json(parser)
+from .common.options import check_json, tell
 
 
 def run(options: argparse.Namespace) -> int:
+    check_json(options)
     document = inventory()
-    if write_json(document, options.json):
-        return 0
+    return tell(document, options, lambda: _print(document))
+
+
+def _print(document: dict[str, Any]) -> None:
     for name, system in document["systems"].items():
         print(name)
         print(f"  parameter sets  {', '.join(system['parameter_sets']) or 'none'}")
@@ -27,4 +27,3 @@ def run(options: argparse.Namespace) -> int:
     width = max((len(name) for name in document["fmus"]), default=0)
     for name, entry in document["fmus"].items():
         print(f"  {name:{width}}  {'+'.join(entry['built']) or 'not built':13}  {entry['description']}")
-    return 0

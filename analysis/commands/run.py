@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from pathlib import Path
 
 from ..batch.tables import faults_line
 from ..flight.interruptible import fly
@@ -15,32 +14,14 @@ from ..reports.own.limit_table import limit_lines
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
 from ..targets import Results, check_file
-from .common.options import (
-    add_faults,
-    add_json,
-    add_system,
-    check_json,
-    faults,
-    json_number,
-    system_options,
-    write_json,
-)
-from .common.requirements import add_requirements, check_requirements, read_requirements
+from .common.options import check_json, faults, json_number, system_options, write_json
+from .common.requirements import check_requirements, read_requirements
 
 OUTPUT_SUFFIXES = (".csv", ".parquet")
 REMEDIES = {
     "nonfinite": "see what drives it with --output F.csv",
     "interrupted": "what was flown until then is in the files",
 }
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    add_system(parser)
-    add_faults(parser)
-    parser.add_argument("--output", type=Path, metavar="F", help="write all signals to F.csv or F.parquet")
-    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
-    add_requirements(parser, "the last values of signals and of time")
-    add_json(parser)
 
 
 def run(options: argparse.Namespace) -> int:

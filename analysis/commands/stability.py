@@ -17,28 +17,7 @@ from ..stability.results.requirement import Requirement, Verdict
 from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
 from ..targets import Results, check_file
-from .common.options import add_json, add_system, check_json, system_options, write_json
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    add_system(parser)
-    parser.add_argument(
-        "--loop",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="a loop that the SSD names, or COMPONENT.CONNECTOR to cut; default: all that the SSD names",
-    )
-    parser.add_argument("--at", type=float, metavar="T", help="time of the operating point of a cut, s; default: 0")
-    parser.add_argument("--campaign", metavar="NAME", help="disperse the margins over a campaign, by name or .toml")
-    parser.add_argument("--trials", type=int, metavar="N", help="fewer or more trials than the campaign says")
-    parser.add_argument("--seed", type=int, metavar="S", help="another root seed than the campaign's")
-    parser.add_argument("--trial", type=int, metavar="K", help="study the draws of one trial of the campaign instead")
-    parser.add_argument(
-        "--workers", type=int, metavar="N", help="points studied side by side; default: one per processor"
-    )
-    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
-    add_json(parser)
+from .common.options import check_json, system_options, write_json
 
 
 def run(options: argparse.Namespace) -> int:

@@ -12,9 +12,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..system.faults import Fault, check_fault
-from ..system.garbage import no_collection
 from ..system.parameter_sets import ParameterValue, parse_value
-from ..system.prepared import PreparedSystem
+from ..system.prepared import PreparedSystem, no_collection
 from . import loop
 from .injections import NEVER, of_excitation, of_fault
 from .instance import Instance, instantiate

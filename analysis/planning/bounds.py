@@ -43,6 +43,9 @@ class Landing:
     gravitational_parameter: float
 
 
+LANDING = Landing(285e3, 14995.3, 1692.342, 0.0, 4.0, 1.7374e6, 4.9028e12)
+
+
 def landing_problem(vehicle: Vehicle, landing: Landing) -> PointMassProblem:
     """Braking and landing in the site's frame: along, from the site to where the flight comes from, and up."""
     angle = landing.range / landing.radius

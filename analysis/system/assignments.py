@@ -21,6 +21,7 @@ from .parameter_sets import (
 from .transformations import VALUE_TYPES, Transformation
 
 SETTABLE = ("parameter", "input")
+SINGLE = "--set"  # where single values come from
 
 
 @dataclass
@@ -52,6 +53,7 @@ def collect_settings(
         for assignment in _bound(network, archive, system.bindings):
             _apply(network, settings, path, "", assignment, allow_unmatched)
     for assignment in assignments:
+        _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
     _pass_parameters(network, settings)
     _check_inputs(network, settings)
@@ -62,8 +64,8 @@ def text_assignment(text: str) -> Assignment:
     """``component.variable=value`` from the command line."""
     name, equals, value = text.partition("=")
     if not equals or not name.strip():
-        raise InputError("--set", text, "not of the form component.variable=value", "write it so")
-    return Assignment(name.strip(), value.strip(), "Text", None, "--set", 0)
+        raise InputError(SINGLE, text, "not of the form component.variable=value", "write it so")
+    return Assignment(name.strip(), value.strip(), "Text", None, SINGLE, 0)
 
 
 def _bound(network: Network, archive: SystemArchive, bindings: list[Binding]) -> list[Assignment]:
@@ -112,6 +114,7 @@ def _apply(
 ) -> None:
     target = _resolve(network, path, prefix + assignment.name)
     known: list[str] = []
+    problem = "matches no parameter"
     if isinstance(target, Node):
         if target.kind in SETTABLE:
             number = _fit(assignment, target.type_name or "Real", target)
@@ -137,15 +140,26 @@ def _apply(
             settings.variables[component, name] = value
             settings.origins[component, name] = assignment.origin
             return
+        if variable is not None:
+            problem += f": it is of causality {variable.causality}"
     if not allow_unmatched:
         candidates = known or [f"{component}." for component in network.fmus]
         raise InputError(
             assignment.file,
             assignment.where,
-            "matches no parameter",
+            problem,
             f"{suggestion(path + prefix + assignment.name, candidates)}; --allow-unmatched lets it pass",
         )
     settings.unmatched.append(f"{assignment.file}: {assignment.where}")
+
+
+def _check_driven(network: Network, assignment: Assignment) -> None:
+    """Refuse a single value for a connected input, which would be lost before the first step."""
+    link = network.driver.get(assignment.name)
+    if assignment.file == SINGLE and link is not None and link.target.kind == "input":
+        problem = f"is connected to {link.source.name}, which would overwrite the value"
+        remedy = f"set a parameter, or override it: --fault {assignment.name}=override:{assignment.value}@0"
+        raise InputError(SINGLE, assignment.name, problem, remedy)
 
 
 def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:

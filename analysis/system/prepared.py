@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import gc
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -14,7 +16,6 @@ from .archive import HOW_TO_BUILD, SystemArchive, open_system
 from .assignments import Settings, collect_settings, text_assignment
 from .description import Component, read_description
 from .fmu import Fmu, load_fmu
-from .garbage import no_collection
 from .network import Network, build_network
 from .options import ALGORITHMS, SystemOptions
 from .parameter_sets import Assignment, read_parameter_file
@@ -140,3 +141,15 @@ def _times(network: Network, options: SystemOptions) -> tuple[float, float, int]
             f"for instance --stop-time {description.start_time + max(1, steps) * step:.12g}",
         )
     return description.start_time, step, steps
+
+
+@contextmanager
+def no_collection() -> Iterator[None]:
+    """What is made inside has no cycles, and the collector would walk over all of it again and again."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()

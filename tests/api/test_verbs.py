@@ -14,22 +14,20 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import VERBS
-from perilune.analysis.commands import batch as batch_command
-from perilune.analysis.commands import describe, export, stability, synthesize
-from perilune.analysis.commands import run as run_command
+from perilune.analysis.commands.asked import batch, describe, export, run, stability, synthesize
 from perilune.analysis.system.options import SystemOptions
 
 FUNCTIONS = {
     "list": "inventory", "describe": "describe", "validate": "validate", "run": "simulate", "batch": "batch",
     "compare": "compare", "law": "law", "synthesize": "synthesize", "plan": "plan_hover_transfer",
-    "stability": "stability", "benchmark": "benchmark", "export": "export",
+    "stability": "stability", "new": "new_block", "benchmark": "benchmark", "export": "export",
 }  # fmt: skip
 # Options that are something else in Python: methods of the result, its values, or another name.
 PRINTED = {"help", "json", "report", "require", "replay", "output"}
 NAMES = {"loop": "loops", "fault": "faults", "platform": "platforms"}
 COMMANDS = {
-    "simulate": run_command,
-    "batch": batch_command,
+    "simulate": run,
+    "batch": batch,
     "stability": stability,
     "describe": describe,
     "export": export,

@@ -143,7 +143,7 @@ def test_different_draws_exit_2_with_one_line(folders, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        ([], "perilune compare: the following arguments are required: RESULT"),
+        ([], "perilune: compare: the following arguments are required: RESULT"),
         (["{0}", "{0}"], "given twice; give each folder once"),
         (["{0}", "--reference", "nobody"], "--reference: nobody: no such variant; use one of analytic_guidance"),
         (["/dev/null"], "summary.json: not found"),

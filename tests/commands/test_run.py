@@ -36,10 +36,14 @@ def test_writes_what_the_api_returns(tmp_path, capsys):
 def test_says_how_it_ended(capsys):
     assert main(["run", SYSTEM]) == 0
     captured = capsys.readouterr()
-    assert captured.out == f"{SYSTEM}: finished at t = 207.2 s, 2073 rows\n"
+    lines = captured.out.splitlines()
+    assert lines[0] == f"{SYSTEM}: finished at t = 207.2 s, 2073 rows"
+    assert [line.rpartition(": ")[2] for line in lines[1:]] == ["kept", "kept"]
     assert captured.err == ""
     assert main(["run", SYSTEM, "--stop-time", "2"]) == 0
-    assert capsys.readouterr().out == f"{SYSTEM}: stop_time at t = 2 s, 21 rows\n"
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == f"{SYSTEM}: stop_time at t = 2 s, 21 rows"
+    assert [line.rpartition(": ")[2] for line in lines[1:]] == ["not kept", "not kept"]
 
 
 def test_json_to_a_file_and_talk_to_the_terminal(tmp_path, capsys):

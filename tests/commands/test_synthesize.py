@@ -39,7 +39,7 @@ def test_prints_and_writes_what_was_found(file, tmp_path, capsys):
     assert f"search.toml: no law found: the chosen one succeeds in {chosen.successes} of 4 trials; " in captured.err
     for name, total in zip(("altitude", "speed"), chosen.objectives, strict=True):
         assert f"{name} {total / 4:.6g} per flight ({total:.6g} over 4)" in captured.out
-    assert captured.out == expected.text() + "\n"
+    assert captured.out == expected.text() + f"\nwritten: {out}\n"
     assert json.loads((out / "pareto.json").read_text()) == expected.document()
     assert main([*command, "--resume", "--json", "-"]) == 1
     assert json.loads(capsys.readouterr().out) == expected.document()

@@ -119,6 +119,16 @@ def test_export_without_a_compiler(installed, perform, tmp_path):
         assert flown["final"] == perilune.simulate(SYSTEM, stop_time=5.0, flavour="native").final()
 
 
+def test_a_new_system_and_a_new_block_without_a_compiler(installed, perform):
+    perform("new", "system", "mine")
+    perform("export", "mine/blocks.py")
+    assert "angle: " in perform("run", "mine")
+    perform("stability", "mine")
+    perform("new", "block", "mine_guidance", "--slot", "terminal_guidance")
+    perform("export", "mine_guidance.py")
+    perform("run", SYSTEM, "--use", "guidance=mine_guidance", "--require", "guidance.finished == 1")
+
+
 def test_an_own_guidance_without_a_compiler(installed, perform, tmp_path):
     page = (ROOT / "docs" / "write_your_own.md").read_text(encoding="utf-8")
     (tmp_path / "linear_guidance.py").write_text(re.findall(r"```python\n(.*?)```", page, re.DOTALL)[0])

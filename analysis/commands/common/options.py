@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from ...errors import InputError
 from ...system.faults import KINDS, Fault, parse_fault
 from ...system.options import ALGORITHMS, SystemOptions
 from ...targets import Results, check_file
+from .completers import completed, parameter_sets, slots_with_fmus, systems
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -26,23 +27,26 @@ def add_json(parser: argparse.ArgumentParser) -> None:
 
 def add_system(parser: argparse.ArgumentParser, needed: bool = True) -> None:
     """The system and its options, as in docs/command_line.md; one that is not ``needed`` and not given is None."""
-    parser.add_argument(
+    system = parser.add_argument(
         "system",
         metavar="SYSTEM",
         nargs=None if needed else "?",
         help="a name under ssp_systems, a folder or an .ssp file",
     )
+    completed(system, systems)
     add_system_options(parser)
 
 
 def add_system_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("system options")
-    group.add_argument(
+    use = group.add_argument(
         "--use", action="append", default=[], metavar="SLOT=FMU", help="put another FMU in a component's place"
     )
-    group.add_argument(
+    completed(use, slots_with_fmus)
+    sets = group.add_argument(
         "--parameters", action="append", default=[], metavar="F.ssv", help="apply a parameter set, by name or path"
     )
+    completed(sets, parameter_sets)
     group.add_argument(
         "--set", action="append", default=[], metavar="COMPONENT.VARIABLE=VALUE", help="set one parameter or input"
     )
@@ -138,3 +142,16 @@ def write_json(document: Any, target: str | None, files: Results | None = None) 
         return True
     (files or Results()).write(Path(target), lambda path: write_atomically(path, text.encode()))
     return False
+
+
+def tell(document: Any, options: argparse.Namespace, text: Callable[[], object], files: Results | None = None) -> int:
+    """Print a result by ``text``, or its document as --json asks for, and where files are.
+
+    Returns the exit status: 2 where a file could not be written, ``files`` included, else 0.
+    """
+    files = files or Results()
+    if not write_json(document, options.json, files):
+        text()
+    if options.json != "-":
+        files.say()
+    return 2 if files.failed else 0

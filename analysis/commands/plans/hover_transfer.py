@@ -5,49 +5,15 @@ from __future__ import annotations
 import argparse
 import math
 from dataclasses import replace
-from pathlib import Path
 
-from ...api.plans import HOVER_MARGINS, HOVER_TRANSFER, HOVER_VEHICLE, check_hover, check_vehicle
 from ...errors import InputError
 from ...planning.hover_study import HoverStudy, hover_study
 from ...planning.path import PlannedPath
-from ...planning.vehicle import Margins, Transfer, Vehicle
+from ...planning.vehicle import HOVER_MARGINS, HOVER_VEHICLE, Margins, Transfer, Vehicle, check_hover, check_vehicle
 from ...reports.plan.hover_page import write_hover_page
 from ...targets import Results, check_file
-from ..common.options import add_json, check_json, write_json
-from .vehicle import add_vehicle, burns_text, enough, given, number, whole
-
-HELP = "plan a transfer between two hovers: simplified programme, true optimum, point-mass bound"
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    way = parser.add_argument_group("transfer")
-    way.add_argument("--distance", type=number(0.0, above=False), default=HOVER_TRANSFER.distance, metavar="X",
-                     help=f"m, along; default: {HOVER_TRANSFER.distance:g}")  # fmt: skip
-    way.add_argument("--descent", type=number(0.0), default=HOVER_TRANSFER.descent, metavar="X",
-                     help=f"m, down; default: {HOVER_TRANSFER.descent:g}")  # fmt: skip
-    way.add_argument("--gravity", type=number(0.0), default=HOVER_TRANSFER.gravity, metavar="X",
-                     help=f"m/s2, uniform; default: {HOVER_TRANSFER.gravity:g}")  # fmt: skip
-    way.add_argument("--t7", type=number(0.0), metavar="T", help="s, the end; default: the one of least propellant")
-    add_vehicle(parser, HOVER_VEHICLE)
-    limits = parser.add_argument_group("control margins")
-    limits.add_argument(
-        "--margins",
-        action="store_true",
-        help="leave feedback its part: "
-        f"throttle {HOVER_MARGINS.minimum_throttle:g} to {HOVER_MARGINS.maximum_throttle:g}, "
-        f"{math.degrees(HOVER_MARGINS.angular_acceleration):g} deg/s2; without: all that the vehicle has",
-    )
-    limits.add_argument("--maximum-throttle", type=number(0.0, 1.0), metavar="X", help="of the largest thrust")
-    limits.add_argument("--minimum-throttle", type=number(0.0, 1.0, above=False), metavar="X", help="of the same")
-    limits.add_argument("--angular-acceleration", type=number(0.0), metavar="X", help="deg/s2; the vehicle's is 1")
-    more = parser.add_argument_group("more than the programme")
-    more.add_argument("--optimum", action="store_true", help="the true optimum, too, by direct multiple shooting")
-    more.add_argument("--bound", action="store_true", help="the bound of a point mass, too, by the convex form")
-    more.add_argument("--curves", action="store_true", help="propellant over t7 and over distance, too")
-    more.add_argument("--intervals", type=whole, metavar="N", help="of both; default: 320 and 240")
-    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures, curves included")
-    add_json(parser)
+from ..common.options import check_json, write_json
+from ..common.vehicle import burns_text, enough, given
 
 
 def run(options: argparse.Namespace) -> int:

@@ -5,47 +5,21 @@ from __future__ import annotations
 import argparse
 import math
 from dataclasses import replace
-from pathlib import Path
 
 from ....fmus_src.places import IS_CHECKOUT, PACKAGE
-from ...api.plans import LANDING, LANDING_VEHICLE, check_vehicle
 from ...errors import InputError
+from ...planning.bounds import LANDING
 from ...planning.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
 from ...planning.landing_study import LandingStudy, landing_study
 from ...planning.stored_bound import PLACE, write_bound
+from ...planning.vehicle import LANDING_VEHICLE, check_vehicle
 from ...reports.plan.landing_page import write_landing_page
 from ...system.options import SystemOptions
 from ...system.prepared import PreparedSystem, prepare_system
 from ...targets import Results, check_file
-from ..common.options import add_json, add_system, check_json, system_options, write_json
-from .vehicle import add_vehicle, burns_text, enough, given, number, whole
-
-HELP = "bound the propellant of braking and landing in one: a point mass, attitude free"
-PLACES = {
-    "range": "m along the ground from the site to the start",
-    "altitude": "m, of the start",
-    "speed": "m/s at the start",
-    "climb": "deg, of the velocity at the start above the horizontal",
-    "target_altitude": "m above the site, at rest",
-    "radius": "m, of the Moon",
-    "gravitational_parameter": "m3/s2, of the Moon",
-}
-SIGNED = ("climb", "target_altitude")
-
-
-def add(parser: argparse.ArgumentParser) -> None:
-    add_system(parser, needed=False)
-    add_vehicle(parser, LANDING_VEHICLE)
-    group = parser.add_argument_group("landing")
-    for name, words in PLACES.items():
-        reader = number(-89.0, 89.0) if name == "climb" else number(0.0, above=name not in SIGNED)
-        group.add_argument(f"--{name.replace('_', '-')}", type=reader, metavar="X",
-                           help=f"{words}; default: {getattr(LANDING, name):g}")  # fmt: skip
-    parser.add_argument("--direct", action="store_true", help="check it by a direct method")
-    parser.add_argument("--intervals", type=whole, metavar="N", help="of both; default: 240")
-    parser.add_argument("--store", action="store_true", help="keep it in the system's folder, for the pages of flights")
-    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
-    add_json(parser)
+from ..asked.landing_bound import PLACES
+from ..common.options import check_json, system_options, write_json
+from ..common.vehicle import burns_text, enough, given
 
 
 def run(options: argparse.Namespace) -> int:

@@ -18,14 +18,10 @@ VERDICTS = {
 
 def is_kept(limit: Limit, result: Result) -> bool:
     """Whether the last row keeps a limit, the limit itself included; what is not finite does not."""
-    value = _last(limit, result)
+    value = limit.value(result)
     above = limit.least is None or value >= limit.least
     below = limit.most is None or value <= limit.most
     return above and below and abs(value) < float("inf")
-
-
-def _last(limit: Limit, result: Result) -> float:
-    return float(limit.signal.values(result)[0, -1])
 
 
 def limit_section(limits: Limits, result: Result) -> Section:
@@ -62,7 +58,7 @@ def _row(limit: Limit, result: Result) -> tuple[Markup | str, ...]:
     unit = limit.signal.unit_name
     return (
         limit.name,
-        exact(_last(limit, result), unit),
+        exact(limit.value(result), unit),
         _limit(limit, unit),
         shown_unit(unit),
         VERDICTS[is_kept(limit, result)],

@@ -170,7 +170,7 @@ REFUSED_FUNCTIONS: dict[str, str] = {
     "radians": "stay in radians; multiply by math.pi / 180.0 where a table needs degrees",
 }
 
-OTHER_FUNCTION = "use a function listed in subset_table.py, or write one in mathlib"
+OTHER_FUNCTION = "use a function listed in subset_table.py, write one in mathlib, or declare python_only = True"
 
 # What a kernel may not say although each word of it is allowed.
 RULES: dict[str, Rule] = {

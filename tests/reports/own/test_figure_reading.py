@@ -4,6 +4,7 @@ Truth: the declaration as written, the number of the line on which its wrong ele
 """
 
 import math
+import re
 import shutil
 
 import pytest
@@ -58,8 +59,10 @@ def read(folder, loaded, inside):
     return text, read_figures(prepare_system(folder, SystemOptions(), loaded))
 
 
-def test_nothing_is_asked_for():
-    assert read_figures(prepare_system("lunar_terminal_guidance")) == []
+def test_nothing_is_asked_for(folder, loaded):
+    asked = re.compile(r'<ssc:Annotation type="org.perilune.report">.*?</ssc:Annotation>', re.DOTALL)
+    (folder / "SystemStructure.ssd").write_text(asked.sub("", SSD), encoding="utf-8")
+    assert read_figures(prepare_system(folder, SystemOptions(), loaded)) == []
 
 
 def test_all_that_can_be_asked_for(folder, loaded):

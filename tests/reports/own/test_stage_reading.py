@@ -6,6 +6,7 @@ Truth: the declaration as written, the number of the line on which its wrong ele
 import math
 import shutil
 
+import numpy as np
 import pytest
 
 from perilune.analysis.cli import main
@@ -66,6 +67,25 @@ def test_phases_and_limits(folder, loaded):
     (limit,) = found.limits
     assert (limit.name, limit.least, limit.most, limit.signal.unit_name) == ("yaw", -1.0, 2.0, "deg")
     assert limit.signal.factor == pytest.approx(180.0 / math.pi, rel=1e-15)
+
+
+def test_limits_of_vectors(folder, loaded):
+    """Parameters, which come in rad as 17 deg, signals and numbers are subtracted; then what is left is measured."""
+    inside = (
+        '<Limits><Limit signal="plant.angles" measure="length" most="9" unit="deg"/>'
+        '<Limit signal="plant.angles" measure="largest" most="9" less="plant.initial_angles" unit="deg"/>'
+        '<Limit signal="plant.angles" measure="largest" most="9" less="plant.angles" unit="deg"/>'
+        '<Limit signal="plant.angles" measure="length" most="9" about="0.1 0 -0.2"/>'
+        '<Limit signal="plant.angles[2]" most="9" less="plant.initial_angles[2]" unit="deg"/></Limits>'
+    )
+    (found,) = read(folder, loaded, inside)
+    start = {f"plant.angles[{place}]": np.array([angle]) for place, angle in ((1, 0.4), (2, -0.5), (3, 0.6))}
+    length, initial, itself, shifted, one = (limit.value(start) for limit in found.limits)
+    assert length == pytest.approx(math.degrees(math.hypot(0.4, 0.5, 0.6)), rel=1e-14)
+    assert initial == pytest.approx(abs(-math.degrees(0.5) - 17.0), rel=1e-14)
+    assert itself == 0.0
+    assert shifted == pytest.approx(math.hypot(0.3, 0.5, 0.8), rel=1e-14)
+    assert one == pytest.approx(-math.degrees(0.5) - 17.0, rel=1e-14)
 
 
 def test_statuses_with_times(folder, loaded):
@@ -188,6 +208,26 @@ WRONG = {
         f'<Limits><Limit signal="{SPACE}" least="2" most="1"/></Limits>', "Limit", "least 2 is not below most 1"
     ),
     "a limit of a vector": ('<Limits><Limit signal="plant.angles" most="1"/></Limits>', "Limit", "is a vector"),
+    "an unknown measure": (
+        '<Limits><Limit signal="plant.angles" measure="size" most="1"/></Limits>',
+        "Limit", "measure size is unknown; use one of largest, length",
+    ),
+    "less of another size": (
+        '<Limits><Limit signal="plant.angles" less="plant.orbital_rate" measure="length" most="1"/></Limits>',
+        "Limit", "less plant.orbital_rate has 1 elements, plant.angles has 3 elements",
+    ),
+    "less in another unit": (
+        '<Limits><Limit signal="plant.angles" less="regulator.angle_poles" measure="length" most="1"/></Limits>',
+        "Limit", "less regulator.angle_poles: its unit is 1/s, asked for is rad",
+    ),
+    "less of nothing": (
+        '<Limits><Limit signal="plant.angles" less="plant.target" measure="length" most="1"/></Limits>',
+        "Limit", "less plant.target: no such signal",
+    ),
+    "less twice": (
+        '<Limits><Limit signal="plant.angles[1]" less="plant.angles[2]" about="0" most="1"/></Limits>',
+        "Limit", "about and less; give one of them",
+    ),
     "a limit in another unit": (
         f'<Limits><Limit signal="{SPACE}" most="1" unit="s"/></Limits>', "Limit", "its unit is rad, asked for is s"
     ),

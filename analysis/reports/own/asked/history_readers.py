@@ -25,9 +25,7 @@ def read_band(reader: SignalReader, element: etree._Element) -> Band:
     unit = reader.unit(element, found["unit"], found["signal"]) if "unit" in found else None
     signal = reader.signal(element, "signal", unit=unit)
     about = tuple(signal.factor * value for value in reader.numbers(element, "about"))
-    if about:
-        reader.as_many(element, f"about has {len(about)} numbers", len(about), signal)
-        signal = replace(signal, offsets=tuple(-value for value in about))
+    signal = reader.about(element, signal)
     if ("shade" in found) != ("shade_below" in found):
         raise reader.refuse(element, "shade and shade_below belong together", "give both, or neither")
     return Band(

@@ -46,8 +46,11 @@ class SignalReader(AnnotationReader):
         return TRUTHS[text]
 
     def parameter(self, element: etree._Element, attribute: str) -> float:
-        """The value that a parameter has in this system, in its FMU's unit."""
-        name = element.get(attribute, "").strip()
+        """The value that the parameter of an attribute has in this system, in its FMU's unit."""
+        return self.parameter_value(element, attribute, element.get(attribute, "").strip())
+
+    def parameter_value(self, element: etree._Element, attribute: str, name: str) -> float:
+        """The value of a parameter by its name, of one element where it is a vector's."""
         component, variable = parted(name, self.network.fmus)
         fmu = self.network.fmus.get(component)
         if fmu is None or variable not in fmu.variables or fmu.variables[variable].causality != "parameter":
@@ -171,6 +174,31 @@ class SignalReader(AnnotationReader):
             self.as_many(element, f"{what} has {len(names)} elements", len(names), like)
             unit = like.unit
         return found if unit is None and like is None else self.converted(element, what, found, unit)
+
+    def about(self, element: etree._Element, signal: Signal) -> Signal:
+        """A signal less the numbers of the attribute ``about``, which are in its own unit."""
+        numbers = self.numbers(element, "about")
+        if not numbers:
+            return signal
+        self.as_many(element, f"about has {len(numbers)} numbers", len(numbers), signal)
+        return replace(signal, offsets=tuple(-signal.factor * value for value in numbers))
+
+    def less(self, element: etree._Element, signal: Signal) -> tuple[Signal, Signal | None]:
+        """What the attribute ``less`` names: a signal to subtract, or parameters, which go into the first's offsets."""
+        name = element.get("less", "").strip()
+        component, variable = parted(name, self.network.fmus)
+        fmu = self.network.fmus.get(component)
+        names = elements(variable, fmu.variables) if fmu is not None else []
+        if "less" not in element.attrib or fmu is None or not names or elements(name, self.types):
+            return signal, self.signal(element, "less", like=signal) if "less" in element.attrib else None
+        self.as_many(element, f"less {name} has {len(names)} elements", len(names), signal)
+        own = fmu.units.get(fmu.unit_of(fmu.variables[names[0]]) or "")
+        values = Signal(name, tuple(f"{component}.{item}" for item in names), own, 1.0, (0.0,) * len(names))
+        like = self.converted(element, f"less {name}", values, signal.unit)
+        constants = (self.parameter_value(element, "less", item) for item in values.names)
+        pairs = zip(signal.offsets, constants, like.offsets, strict=True)
+        offsets = tuple(offset - (like.factor * value + shift) for offset, value, shift in pairs)
+        return replace(signal, offsets=offsets), None
 
     def converted(self, element: etree._Element, what: str, signal: Signal, unit: Unit | None) -> Signal:
         own = signal.unit

@@ -14,8 +14,7 @@ from ....system.prepared import PreparedSystem
 from .declared import Figure
 from .history_readers import SECOND
 from .signal_reader import NUMBERS, LackingError, SignalReader
-from .stages import LANDING, BoundValues, Budget, Item, Limit, Limits, Phase, Phases
-from .values import Signal
+from .stages import LANDING, MEASURES, BoundValues, Budget, Item, Limit, Limits, Phase, Phases
 
 
 def bound_values(prepared: PreparedSystem) -> BoundValues | None:
@@ -92,13 +91,23 @@ def read_limits(reader: SignalReader, element: etree._Element) -> Limits:
 
 
 def _limit(reader: SignalReader, element: etree._Element) -> Limit:
-    found = reader.attributes(element, ("signal",), ("least", "most", "unit", "name"))
+    found = reader.attributes(element, ("signal",), ("least", "most", "unit", "name", "measure", "about", "less"))
+    measure = found.get("measure")
+    if measure is not None and measure not in MEASURES:
+        raise reader.refuse(element, f"measure {measure} is unknown", suggestion(measure, MEASURES))
     least, most = reader.limits(element, "least", "most")
     if least is None and most is None:
         raise reader.refuse(element, "neither least nor most", "give one of them, or both")
     unit = reader.unit(element, found["unit"], found["signal"]) if "unit" in found else None
-    signal: Signal = reader.scalar(element, "signal", unit=unit)
-    return Limit(signal, found.get("name") or signal.label, least, most)
+    signal = reader.signal(element, "signal", unit=unit)
+    if measure is None and len(signal.names) > 1:
+        remedy = f"name a scalar, or write measure={' or '.join(f'{name!r}' for name in MEASURES)}"
+        raise reader.unfit(element, signal.label, f"signal {signal.label} is a vector", remedy)
+    if "about" in found and "less" in found:
+        raise reader.refuse(element, "about and less", "give one of them")
+    signal = reader.about(element, signal)
+    signal, less = reader.less(element, signal)
+    return Limit(signal, found.get("name") or signal.label, least, most, less, measure)
 
 
 def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[Figure]) -> Budget:

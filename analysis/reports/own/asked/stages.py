@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
+from ....flight.results import Flight
 from .values import Own, Signal
 
 LANDING = "landing"
+# What a vector is measured by, as a number: its length, or the largest size of its elements.
+MEASURES: Mapping[str, Callable[[np.ndarray], float]] = {
+    "length": lambda vector: float(np.linalg.norm(vector)),
+    "largest": lambda vector: float(np.max(np.abs(vector))),
+}
 
 
 @dataclass(frozen=True)
@@ -42,12 +50,25 @@ class Phases(Own):
 
 @dataclass(frozen=True)
 class Limit:
-    """What a scalar may be at the end of the run: from ``least`` to ``most`` in its unit, None for no limit."""
+    """What a number may be at the end of the run: from ``least`` to ``most`` in its unit, None for no limit.
+
+    The number is the ``signal``, or the ``measure`` of it where it is a vector. ``less`` is a signal that is subtracted
+    first, element by element; constants that are subtracted are in the signal's offsets.
+    """
 
     signal: Signal
     name: str
     least: float | None
     most: float | None
+    less: Signal | None = None
+    measure: str | None = None
+
+    def value(self, flight: Flight) -> float:
+        """The number at the last row of a flight that has one."""
+        last = self.signal.values(flight)[:, -1]
+        if self.less is not None:
+            last = last - self.less.values(flight)[:, -1]
+        return MEASURES[self.measure](last) if self.measure is not None else float(last[0])
 
 
 @dataclass(frozen=True)

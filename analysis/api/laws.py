@@ -1,4 +1,4 @@
-"""Laws of network operators from Python."""
+"""Laws of network operators from Python: read, and searched for."""
 
 from __future__ import annotations
 
@@ -14,6 +14,9 @@ from ..laws.graph import law_figure
 from ..laws.law import named_law
 from ..laws.parameter_set import parameter_set
 from ..reports.kit.style import house_style
+from ..synthesis.outcome import SynthesisResult
+from ..synthesis.synthesis import run_synthesis
+from ..synthesis.synthesis_file import named_search, read_synthesis
 from .notebook import Grid, notebook_view
 from .options import FilePath
 
@@ -42,3 +45,28 @@ class Law(laws.Law):
 def law(name: FilePath) -> Law:
     """A law of laws/ by name, or from its .json file: `perilune law`. Raises InputError."""
     return Law(**vars(laws.read_law(named_law(os.fspath(name)))))
+
+
+def synthesize(
+    search: FilePath,
+    *,
+    seed: int | None = None,
+    workers: int | None = None,
+    output: FilePath | None = None,
+    resume: bool = False,
+    evaluations: int | None = None,
+) -> SynthesisResult:
+    """Search for a law of a network operator, every candidate flown: `perilune synthesize network-operator`.
+
+    ``search`` is a name of laws/searches/ or the path of a campaign with what to search for; ``output`` a folder for
+    checkpoints, Pareto set and law, from which ``resume`` goes on; the search ends with the generation in which
+    ``evaluations`` laws have flown. Whether a law was found is the result's ``succeeded``. Raises InputError.
+    """
+    return run_synthesis(
+        read_synthesis(named_search(os.fspath(search))),
+        seed=seed,
+        workers=workers,
+        output=None if output is None else Path(output),
+        resume=resume,
+        evaluations=evaluations,
+    )

@@ -1,0 +1,31 @@
+"""The options of perilune batch."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..common.completers import campaigns, completed
+from ..common.options import add_faults, add_json, add_system
+from ..common.requirements import add_requirements
+
+
+def add(parser: argparse.ArgumentParser) -> None:
+    add_system(parser)
+    add_faults(parser)
+    campaign = parser.add_argument(
+        "--campaign", required=True, metavar="NAME", help="a campaign of the system, or a .toml file"
+    )
+    completed(campaign, campaigns)
+    parser.add_argument("--trials", type=int, metavar="N", help="instead of the campaign's number")
+    parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
+    parser.add_argument(
+        "--compare", action="append", metavar="SLOT=A,B,C", help="fly these FMUs in a slot, on the same draws"
+    )
+    parser.add_argument("--workers", type=int, metavar="N", help="flights in parallel; default: one per processor")
+    parser.add_argument("--output", type=Path, metavar="DIR", help="write trials.parquet, draws.parquet, summary.json")
+    parser.add_argument("--replay", type=int, metavar="K", help="fly trial K only, with all signals to --output DIR")
+    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
+    parser.add_argument("--overwrite", action="store_true", help="put the results in place of those in --output DIR")
+    add_requirements(parser, "the summary's numbers")
+    add_json(parser)

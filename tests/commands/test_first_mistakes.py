@@ -1,0 +1,272 @@
+"""What a new user does wrong at the command line: one line that names place and remedy, status 2, nothing written.
+
+Truth: the folder before and after; the words are those that a reader needs to find the place.
+What is wrong inside of systems and FMUs is in tests/system/test_refusals.py.
+"""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from perilune.analysis.cli import main
+
+pytestmark = pytest.mark.usefixtures("fmus")
+SYSTEM = "lunar_terminal_guidance"
+RUN = ["run", SYSTEM]
+BATCH = ["batch", SYSTEM, "--campaign", "paper"]
+
+SSV = """<?xml version="1.0" encoding="UTF-8"?>
+<ssv:ParameterSet version="1.0" name="mine"
+    xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues"
+    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon">
+  <ssv:Parameters>
+    <ssv:Parameter name="{name}"><ssv:Real value="{value}" unit="{unit}"/></ssv:Parameter>
+  </ssv:Parameters>
+  <ssv:Units><ssc:Unit name="s"><ssc:BaseUnit s="1"/></ssc:Unit></ssv:Units>
+</ssv:ParameterSet>
+"""
+CAMPAIGN = """
+system = "lunar_terminal_guidance"
+trials = 2
+seed = 1
+[success]
+expression = "1 < 2"
+"""
+BLOCK = '''"""A block."""
+{imports}
+from perilune import Block, Input, Output, TerminalGuidance, vector
+
+
+class Mine({base}):
+    """A block."""
+
+{declared}
+    def {method}:
+        {body}
+'''
+
+
+def block(
+    body="self.y = self.u", declared="", base="Block", method="step(self, t: float, h: float) -> None", imports=""
+):
+    given = (
+        '    u = Input(0.0, description="in")\n    y = Output(0.0, description="out")\n'
+        '    v = Output([0.0, 0.0, 0.0], description="out")\n'
+    )
+    return BLOCK.format(body=body, declared=declared + given, base=base, method=method, imports=imports)
+
+
+def zipped(path, files):
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+
+
+@pytest.fixture
+def working(tmp_path, monkeypatch):
+    """The user's folder, with the files that the table names."""
+    monkeypatch.chdir(tmp_path)
+    for name, text in {
+        "no_system.ssv": SSV.format(name="plnt.initial_mass", value="1", unit="s"),
+        "wrong_unit.ssv": SSV.format(name="plant.initial_mass", value="1", unit="s"),
+        "unknown_unit.ssv": SSV.format(name="plant.initial_mass", value="1", unit="stone"),
+        "no_number.ssv": SSV.format(name="plant.initial_mass", value="heavy", unit="s"),
+        "cut.ssv": SSV[:300],
+        "cut.toml": 'system = "lunar_terminal_guidance\n',
+        "key.toml": CAMPAIGN + "[sucess]\nexpression = 'true'\n",
+        "draw.toml": CAMPAIGN + '[draw."plant.mass"]\ndistribution = "gaussian"\nmean = 0\nsigma = 1\n',
+        "metric.toml": CAMPAIGN + '[metric.miss]\nexpression = "plant.positon[1]"\nreduction = "final"\n',
+        "text.fmu": "no zip",
+        "notes.txt": "no block",
+        "no_block.py": "x = 1\n",
+        "syntax.py": "class Mine(\n",
+        "no_solve.py": block(base="TerminalGuidance", method="help(self) -> None", body="self.status = 0"),
+        "undeclared.py": block("self.gain = self.u"),
+        "wrong_size.py": block("self.v = vector(self.u, self.u)"),
+        "uses_numpy.py": block("self.y = float(np.sin(self.u))", imports="import numpy as np\n"),
+        "no_unit.py": block(declared='    w = Input(0.0, unit="furlong", description="in")\n'),
+        "no_words.py": block(declared="    w = Input(0.0)\n"),
+        "taken_name.py": block().replace("Mine", "AstarGuidance"),
+        "here.py": "mine\n",
+        "file": "mine",
+    }.items():
+        Path(name).write_text(text, encoding="utf-8")
+    Path("folder").mkdir()
+    Path("results").mkdir()
+    Path("results/summary.json").write_text("{}")
+    zipped("empty.ssp", {"readme.txt": "no SSD"})
+    zipped("bare.fmu", {"readme.txt": "no description"})
+    return tmp_path
+
+
+def snapshot(folder):
+    # Python keeps what it compiles of a user's file beside it, as it does for any import
+    found = [path for path in sorted(folder.rglob("*")) if "__pycache__" not in path.parts]
+    return {path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else None for path in found}
+
+
+CASES = {
+    # names
+    "a verb with a typo": (["rn", SYSTEM], ["'rn'", "run"]),
+    "no verb": ([], ["VERB", "perilune --help"]),
+    "a system with a typo": (["run", "lunar_landings"], ["lunar_landings", "use one of", "lunar_landing,"]),
+    "a system that is an FMU": (["run", "astar_guidance"], ["astar_guidance", "neither a system"]),
+    "an FMU with a typo": ([*RUN, "--use", "guidance=astar_guidence"], ["--use", "astar_guidence", "astar_guidance"]),
+    "a slot with a typo": ([*RUN, "--use", "guidence=astar_guidance"], ["--use", "guidence", "use one of", "guidance"]),
+    "an FMU that does not fit": ([*RUN, "--use", "guidance=thrust_allocation"], ["guidance.", "use another FMU"]),
+    "--use without =": ([*RUN, "--use", "astar_guidance"], ["--use", "SLOT=FMU", "write it so"]),
+    "a slot twice": (
+        [*RUN, "--use", "guidance=astar_guidance", "--use", "guidance=analytic_guidance"],
+        ["--use", "guidance is given twice", "give it once"],
+    ),
+    "a parameter with a typo": (
+        [*RUN, "--set", "guidance.gravty=1.6"],
+        ["--set", "guidance.gravty", "gravity"],
+    ),
+    "a component with a typo": ([*RUN, "--set", "gidance.gravity=1.6"], ["--set", "gidance.gravity"]),
+    "a parameter set with a typo": ([*RUN, "--parameters", "nosy.ssv"], ["--parameters", "nosy.ssv", "noisy.ssv"]),
+    "a campaign with a typo": (["batch", SYSTEM, "--campaign", "papr"], ["--campaign", "papr", "paper.toml"]),
+    "a variant that is not there": ([*RUN, "--variant", "other"], ["--variant", "other", "SystemStructure"]),
+    "a loop with a typo": (["stability", "robot_rendezvous", "--loop", "atitude"], ["--loop", "atitude", "attitude"]),
+    "a law with a typo": (["law", "diveev_2031"], ["diveev_2031", "diveev_2013"]),
+    "something to describe with a typo": (
+        ["describe", "terminal_guidence"],
+        ["terminal_guidence", "terminal_guidance"],
+    ),
+    "a component to describe with a typo": (["describe", SYSTEM, "plnt"], ["plnt", "plant"]),
+    "a fault on no connector": ([*RUN, "--fault", "plant.thrst=freeze@5"], ["fault", "plant.thrst", "plant.thrust"]),
+    "a fault of no kind": ([*RUN, "--fault", "plant.thrust=broken@5"], ["--fault", "broken", "override"]),
+    "a fault without a time": ([*RUN, "--fault", "plant.thrust=freeze"], ["--fault", "plant.thrust=freeze", "@"]),
+    "a requirement on nothing": ([*RUN, "--require", "plant.masss > 0"], ["--require", "plant.masss", "plant.mass"]),
+    "a requirement that is no expression": ([*RUN, "--require", "plant.mass >"], ["--require", "plant.mass >"]),
+    "a batch's requirement on nothing": ([*BATCH, "--require", "default.rate > 0"], ["--require", "default.rate"]),
+    # values
+    "a text for a number": ([*RUN, "--set", "plant.initial_mass=heavy"], ["plant.initial_mass", "heavy", "number"]),
+    "a fraction for a whole number": (
+        [*RUN, "--set", "guidance.terminal_step=0.5"],
+        ["guidance.terminal_step", "0.5"],
+    ),
+    "a number for a truth": ([*RUN, "--set", "guidance.gravity_correction=2"], ["gravity_correction", "true or false"]),
+    "beyond the largest": ([*RUN, "--set", "guidance.terminal_step=2"], ["guidance.terminal_step", "2", "maximum"]),
+    "below the least": ([*RUN, "--set", "guidance.gravity=-1"], ["guidance.gravity", "-1", "minimum"]),
+    "a connected input": (
+        [*RUN, "--set", "plant.thrust=5"],
+        ["plant.thrust", "connected to allocation.thrust", "--fault plant.thrust=override:5@0"],
+    ),
+    "an output": ([*RUN, "--set", "plant.mass=5"], ["plant.mass", "output"]),
+    "a whole vector": ([*RUN, "--set", "guidance.target_position=5"], ["guidance.target_position", "[1]"]),
+    "a step of nothing": ([*RUN, "--step", "0"], ["--step", "positive"]),
+    "a step that is no number": ([*RUN, "--step", "fast"], ["--step", "'fast'", "number of seconds"]),
+    "an end between steps": ([*RUN, "--stop-time", "1.05"], ["--stop-time", "1.05", "whole number", "--stop-time 1"]),
+    "an end before the start": ([*RUN, "--stop-time", "-1"], ["--stop-time", "-1"]),
+    "no trials": ([*BATCH, "--trials", "0"], ["--trials", "0", "1 or more"]),
+    "trials that are no number": ([*BATCH, "--trials", "many"], ["--trials", "many"]),
+    "no workers": ([*BATCH, "--workers", "0"], ["--workers", "0"]),
+    "a trial that is not in the batch": ([*BATCH, "--trials", "5", "--replay", "5"], ["--replay", "5", "0 to 4"]),
+    "a replay with a page": ([*BATCH, "--replay", "0", "--report", "x.html"], ["--replay", "--report", "leave one"]),
+    "a comparison of one that is not there": (
+        [*BATCH, "--compare", "guidance=analytic_guidance,astar_guidnce"],
+        ["astar_guidnce", "astar_guidance"],
+    ),
+    "a draw that is set, too": (
+        [*BATCH, "--set", "plant.initial_position[3]=15e3"],
+        ["plant.initial_position[3]", "draws"],
+    ),
+    "no steps to time": (["benchmark", "--steps", "0"], ["0 steps", "2 and 1 at least"]),
+    # files
+    "a parameter set of no system": ([*RUN, "--parameters", "no_system.ssv"], ["no_system.ssv", "plnt.initial_mass"]),
+    "a value in a wrong unit": ([*RUN, "--parameters", "wrong_unit.ssv"], ["wrong_unit.ssv", "unit", "kg"]),
+    "a value in an unknown unit": ([*RUN, "--parameters", "unknown_unit.ssv"], ["unknown_unit.ssv", "stone"]),
+    "a value that is no number": ([*RUN, "--parameters", "no_number.ssv"], ["no_number.ssv", "heavy"]),
+    "XML cut off": ([*RUN, "--parameters", "cut.ssv"], ["cut.ssv", "not well-formed", "line"]),
+    "TOML cut off": (["batch", SYSTEM, "--campaign", "cut.toml"], ["cut.toml", "line 1"]),
+    "a key with a typo": (["batch", SYSTEM, "--campaign", "key.toml"], ["key.toml", "sucess", "success"]),
+    "a distribution that is none": (["batch", SYSTEM, "--campaign", "draw.toml"], ["draw.toml", "gaussian", "normal"]),
+    "a metric of no signal": (
+        ["batch", SYSTEM, "--campaign", "metric.toml"],
+        ["metric.toml", "plant.positon[1]", "plant.position[1]"],
+    ),
+    "a campaign of another system": (["batch", "lunar_descent_2d", "--campaign", "paper"], ["paper", "table1.toml"]),
+    "an FMU that is no zip": ([*RUN, "--use", "guidance=text.fmu"], ["text.fmu", "not a readable zip"]),
+    "an FMU without a description": ([*RUN, "--use", "guidance=bare.fmu"], ["bare.fmu", "modelDescription.xml"]),
+    "an FMU that is not there": ([*RUN, "--use", "guidance=none.fmu"], ["none.fmu", "no such file"]),
+    "an .ssp without an SSD": (["run", "empty.ssp"], ["empty.ssp", "SystemStructure.ssd", "not found"]),
+    "a folder without an SSD": (["run", "folder"], ["folder", "SystemStructure.ssd", "not found"]),
+    "a file that is no system": (["run", "notes.txt"], ["notes.txt", "not a readable zip"]),
+    "nothing to validate": (["validate", "none.ssp"], ["none.ssp"]),
+    "results that are none": (["compare", "folder"], ["folder"]),
+    "results that are not there": (["compare", "nowhere"], ["nowhere"]),
+    "a law that is no law": (["law", "results/summary.json"], ["summary.json", "format"]),
+    # targets
+    "a table of another kind": ([*RUN, "--output", "flight.xlsx"], ["--output", "flight.xlsx", ".csv or .parquet"]),
+    "a table that is a folder": ([*RUN, "--output", "folder"], ["--output", "folder", ".csv"]),
+    "a page below a file": ([*RUN, "--report", "file/page.html"], ["--report", "is a file", "another folder"]),
+    "JSON into a folder": ([*RUN, "--json", "folder"], ["--json", "is a folder"]),
+    "a folder with results": ([*BATCH, "--output", "results"], ["--output", "results", "--overwrite"]),
+    "a batch into a file": ([*BATCH, "--output", "file"], ["--output", "file is a file"]),
+    "a law of another kind": (["law", "diveev_2013", "--output", "law.json"], ["--output", "law.json", ".ssv"]),
+    "a law below a file": (["law", "diveev_2013", "--output", "file/law.ssv"], ["--output", "is a file"]),
+    "a drawing below a file": (["law", "diveev_2013", "--graph", "file/law.svg"], ["--graph", "is a file"]),
+    "a law's JSON into a folder": (["law", "diveev_2013", "--json", "folder"], ["--json", "is a folder"]),
+    "a search into a file": (
+        ["synthesize", "network-operator", "lunar_descent_2d", "--output", "file"],
+        ["--output", "file is a file"],
+    ),
+    "a search over results": (
+        ["synthesize", "network-operator", "lunar_descent_2d", "--output", "results"],
+        ["--output", "holds results already", "--resume"],
+    ),
+    "a search's JSON into a folder": (
+        ["synthesize", "network-operator", "lunar_descent_2d", "--json", "folder"],
+        ["--json", "is a folder"],
+    ),
+    "a plan's page into a folder": (["plan", "hover-transfer", "--report", "folder"], ["--report", "is a folder"]),
+    "a plan's JSON below a file": (["plan", "landing-bound", "--json", "file/x.json"], ["--json", "is a file"]),
+    "a description below a file": (["describe", SYSTEM, "--json", "file/x.json"], ["--json", "is a file"]),
+    "a benchmark into a folder": (["benchmark", "--json", "folder"], ["--json", "is a folder"]),
+    "a list into a folder": (["list", "--json", "folder"], ["--json", "is a folder"]),
+    "a check into a folder": (["validate", SYSTEM, "--json", "folder"], ["--json", "is a folder"]),
+    "an FMU of another kind": (["export", "astar_guidance", "--output", "x.zip"], ["--output", "x.zip", ".fmu"]),
+    "a system of another kind": (["export", SYSTEM, "--output", "x.fmu"], ["--output", "x.fmu", ".ssp"]),
+    "an FMU below a file": (["export", "astar_guidance", "--output", "file/x.fmu"], ["--output", "is a file"]),
+    # blocks of one's own
+    "a block that is not there": (["export", "none.py"], ["none.py", "give the .py file"]),
+    "no block at all": (["export", "no_block.py"], ["no_block.py", "defines no block", "derive a class"]),
+    "no Python": (["export", "syntax.py"], ["syntax.py", "SyntaxError"]),
+    "a guidance without solve": (["export", "no_solve.py"], ["no_solve.py", "has no solve", "write def solve(self)"]),
+    "what is not declared": (["export", "undeclared.py"], ["undeclared.py", "self.gain", "State"]),
+    "a vector of another size": (["export", "wrong_size.py"], ["wrong_size.py", "v", "3"]),
+    "a library in a kernel": (["export", "uses_numpy.py"], ["uses_numpy.py", "np.sin", "python_only"]),
+    "a unit that is none": (["export", "no_unit.py"], ["no_unit.py", "Mine.w", "furlong", "write it of m, kg"]),
+    "a variable without words": (["export", "no_words.py"], ["no_words.py", "Mine.w", "give a description"]),
+    "a name of ours": (["export", "taken_name.py"], ["taken_name.py", "astar_guidance", "rename the class"]),
+    "something to export with a typo": (["export", "astar_guidence"], ["astar_guidence", "astar_guidance"]),
+    "a block over a file": (["new", "block", "here"], ["here.py", "not written over", "another name"]),
+    "a system over a folder": (["new", "system", "folder"], ["folder", "not written over", "another name"]),
+    "a block of no slot": (["new", "block", "mine", "--slot", "guidance"], ["--slot", "guidance", "terminal_guidance"]),
+}
+
+
+def test_there_are_many():
+    assert len(CASES) >= 40
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_mistake(name, working, capfd):
+    arguments, words = CASES[name]
+    before = snapshot(working)
+    try:
+        status = main(arguments)
+    except SystemExit as stop:  # argparse's own
+        status = stop.code
+    captured = capfd.readouterr()
+    assert captured.err.startswith("perilune: "), captured.err
+    assert captured.err.count("\n") == 1, captured.err
+    for word in words:
+        assert word in captured.err, captured.err
+    assert status == 2
+    assert captured.out == ""
+    assert snapshot(working) == before

@@ -1,0 +1,80 @@
+"""What `perilune run` says of the end of each system's flight: distances, speeds, errors against published limits.
+
+Truth: the same numbers worked out here from the last values of the signals; the pages of the systems, line by line.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+import pytest
+
+import perilune
+from perilune.analysis.cli import main
+from perilune.analysis.reports.own.asked.reading import read_figures
+from perilune.analysis.reports.own.asked.stages import Limits
+from perilune.analysis.system.options import SystemOptions
+from perilune.analysis.system.prepared import prepare_system
+from perilune.fmus_src.places import ROOT
+
+pytestmark = pytest.mark.usefixtures("fmus")
+
+
+def vector(final, name):
+    return [final[f"{name}[{place}]"] for place in (1, 2, 3)]
+
+
+def largest(values):
+    return max(abs(value) for value in values)
+
+
+def target(height):
+    return lambda final: math.dist(vector(final, "plant.position"), [0.0, 0.0, height])
+
+
+TRUTH = {
+    "lunar_terminal_guidance": [target(2000.0), lambda final: math.hypot(*vector(final, "plant.velocity"))],
+    "lunar_landing": [
+        lambda final: math.dist(vector(final, "plant.position"), [0.0, 0.0, -1.7374e6]) - 1.7374e6,
+        lambda final: math.hypot(*vector(final, "plant.velocity")),
+        target(1500.0),
+    ],
+    "lunar_descent_2d": [lambda final: final["plant.altitude"], lambda final: final["plant.speed"]],
+    "robot_rendezvous": [
+        lambda final: (
+            math.dist(vector(final, "robot.position"), vector(final, "target.position"))
+            - math.hypot(*vector(final, "guidance.planned_relative_position"))
+        ),
+        lambda final: largest(vector(final, "monitor.position_error")),
+        lambda final: largest(vector(final, "monitor.attitude_error")) * 648000.0 / math.pi,
+    ],
+    "orbital_attitude": [
+        lambda final: math.degrees(largest(vector(final, "plant.angles"))),
+        lambda final: math.degrees(
+            largest([a - b for a, b in zip(vector(final, "plant.angular_velocity"), (0, 0, -0.0011), strict=True)])
+        ),
+    ],
+}
+
+
+@pytest.mark.parametrize("name", TRUTH)
+def test_the_limits_of_a_system(name, capsys):
+    assert main(["run", name]) == 0
+    said = capsys.readouterr().out.splitlines()[1:]
+    page = (ROOT / "docs" / "systems" / f"{name}.md").read_text(encoding="utf-8")
+    assert "".join(f"    {line}\n" for line in said) in page
+    final = perilune.simulate(name).final()
+    for line, truth in zip(said, TRUTH[name], strict=True):
+        shown = re.search(r": (\S+)", line).group(1).replace("\N{MINUS SIGN}", "-")
+        assert float(shown) == pytest.approx(truth(final), rel=1e-3), line
+        assert line.endswith(": kept")
+
+
+def test_what_is_subtracted_follows_the_parameters_that_fly():
+    name, moved = "lunar_terminal_guidance", {"guidance.target_position[3]": 1990.0}
+    flight = perilune.simulate(name)
+    for changes, height in (({}, 2000.0), (moved, 1990.0)):
+        prepared = prepare_system(name, SystemOptions(set=changes))
+        (limits,) = [figure for figure in read_figures(prepared) if isinstance(figure, Limits)]
+        assert limits.limits[0].value(flight) == pytest.approx(target(height)(flight.final()), rel=1e-12)

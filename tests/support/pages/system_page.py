@@ -1,0 +1,51 @@
+"""The system of docs/write_a_system.md, taken from the page, and what a reader may write wrong in it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from perilune.fmus_src.places import ROOT
+
+PAGE = (ROOT / "docs" / "write_a_system.md").read_text(encoding="utf-8")
+EXAMPLES = re.findall(r"```(\w+)\n(.*?)```", PAGE, re.DOTALL)
+SSD, SSV = "SystemStructure.ssd", "nominal.ssv"
+PLANT_ALTITUDE = '<ssd:Connector name="altitude" kind="output"><ssc:Real unit="m"/></ssd:Connector>'
+TO_PLANT = (
+    '      <ssd:Connection startElement="control" startConnector="thrust" endElement="plant" endConnector="thrust"/>\n'
+)
+
+FROM_MONITOR = TO_PLANT.replace("control", "monitor").replace('"thrust" endE', '"finished" endE')
+BACKWARDS = TO_PLANT.replace("control", "?").replace("plant", "control").replace("?", "plant")
+BINDINGS = "    <ssd:ParameterBindings/>\n    <ssd:Connections>"
+
+# What the page's table says of a mistake: the file, what stands there, what a reader writes instead.
+MISTAKES = {
+    "a connector that the FMU does not have": (SSD, PLANT_ALTITUDE, PLANT_ALTITUDE.replace("altitude", "height")),
+    "a connector in another unit than the FMU's": (SSD, PLANT_ALTITUDE, PLANT_ALTITUDE.replace('"m"', '"m/s"')),
+    "a unit that nobody defines": (SSD, PLANT_ALTITUDE, PLANT_ALTITUDE.replace('"m"', '"ell"')),
+    "an input that nothing drives": (SSD, TO_PLANT, ""),
+    "an input with two sources": (SSD, TO_PLANT, TO_PLANT + FROM_MONITOR),
+    "a connection the wrong way round": (SSD, TO_PLANT, BACKWARDS),
+    "a component with a typo": (SSD, 'startElement="control"', 'startElement="controll"'),
+    "an FMU that is not built": (SSD, "vertical_lander.fmu", "vertical_landr.fmu"),
+    "elements in another order than the schema's": (SSD, "    <ssd:Connections>", BINDINGS),
+    "a parameter with a typo": (SSV, "plant.initial_altitude", "plant.initial_hight"),
+    "a value in a unit that does not fit": (SSV, 'value="1.6" unit="km"', 'value="1.6" unit="m/s"'),
+    "a step that does not go into the flight": (SSD, 'size="0.1"', 'size="0.3"'),
+    "a loop cut at no signal": (SSD, 'cut="control.thrust"', 'cut="control.force"'),
+    "a limit of an unknown signal": (SSD, 'Limit signal="plant.speed"', 'Limit signal="plant.sped"'),
+    "XML that does not close": (SSD, "    </ssd:Elements>\n", ""),
+}  # fmt: skip
+
+
+def write_system(folder: Path) -> None:
+    """The files of the page in the folder ``descent`` of a working folder."""
+    whole = [text for kind, text in EXAMPLES if kind == "xml" and text.startswith("<?xml") and text.count("\n") > 8]
+    (sets,) = [text for text in whole if "ParameterSet>" in text]
+    (ssd,) = [text for text in whole if "</ssd:SystemStructureDescription>" in text]
+    (blocks,), (campaign,) = ([text for kind, text in EXAMPLES if kind == each] for each in ("python", "toml"))
+    for name, text in {"blocks.py": blocks, SSD: ssd, SSV: sets, "campaigns/dispersed.toml": campaign}.items():
+        path = folder / "descent" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
