@@ -14,33 +14,40 @@ def declared(block: type[Block], kind: type[Variable]) -> list[Variable]:
 
 
 def inputs(block: type[Block]) -> str:
-    """The table of its inputs; like the others here empty where there are none."""
-    rows = [[*_name(variable), _unit(variable), _frame(variable), _words(variable)] for variable in declared(block, Input)]
-    return table(["input", "type", "unit", "frame", "what it is"], rows) if rows else ""
+    """The table of its inputs; like the others here empty where there are none, and without columns that are empty."""
+    rows = [
+        [*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)]
+        for variable in declared(block, Input)
+    ]
+    return _filled(["input", "type", "unit", "bounds", "frame", "what it is"], rows)
 
 
 def outputs(block: type[Block]) -> str:
     """The table of its outputs, with the inputs of the same communication point that each depends on."""
     rows = [
-        [*_name(variable), _unit(variable), _frame(variable), _at_once(block, variable), _words(variable)]
+        [*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _at_once(block, variable),
+         _words(variable)]
         for variable in declared(block, Output)
-    ]
-    return table(["output", "type", "unit", "frame", "at once from", "what it is"], rows) if rows else ""
+    ]  # fmt: skip
+    return _filled(["output", "type", "unit", "bounds", "frame", "at once from", "what it is"], rows)
 
 
 def parameters(block: type[Block]) -> str:
     """The table of its parameters with what they are unless set, and between what they may be set."""
     rows = [
-        [*_name(variable), start(variable), _bounds(variable), _unit(variable), _frame(variable), _words(variable)]
+        [*_name(variable), start(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)]
         for variable in declared(block, Parameter)
     ]
-    return table(["parameter", "type", "default", "bounds", "unit", "frame", "what it is"], rows) if rows else ""
+    return _filled(["parameter", "type", "default", "unit", "bounds", "frame", "what it is"], rows)
 
 
 def states(block: type[Block]) -> str:
     """The table of what it keeps from step to step."""
-    rows = [[*_name(variable), _unit(variable), _frame(variable), _words(variable)] for variable in declared(block, State)]
-    return table(["state", "type", "unit", "frame", "what it is"], rows) if rows else ""
+    rows = [
+        [*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)]
+        for variable in declared(block, State)
+    ]
+    return _filled(["state", "type", "unit", "bounds", "frame", "what it is"], rows)
 
 
 def start(variable: Variable) -> str:
@@ -51,6 +58,12 @@ def start(variable: Variable) -> str:
     if len(set(values)) == 1:
         return f"all {values[0]}"
     return ", ".join(values) if len(values) <= SHOWN else ", ".join(values[:SHOWN]) + ", ..."
+
+
+def _filled(head: list[str], rows: list[list[str]]) -> str:
+    """A table of the columns in which something stands; nothing without rows."""
+    kept = [index for index in range(len(head)) if any(row[index] for row in rows)]
+    return table([head[index] for index in kept], [[row[index] for index in kept] for row in rows]) if rows else ""
 
 
 def _name(variable: Variable) -> list[str]:
