@@ -29,7 +29,10 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
             "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results --report batch.html",
             "three guidances on the same fifty draws",
         ),
-        ("perilune batch lunar_terminal_guidance --campaign paper --replay 7 --output replay", "one trial again, with all signals"),
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --replay 7 --output replay",
+            "one trial again, with all signals",
+        ),
     ),
     "compare": (
         ("perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results", "what is compared"),
@@ -62,6 +65,9 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
     "benchmark": (("perilune benchmark --steps 500 --repeats 2", "a shorter run than the default"),),
     "export": (
         ("perilune export forming_filter --platform linux64", "forming_filter.fmu"),
-        ("perilune export lunar_terminal_guidance --flavour python --output landing.ssp", "a system with its FMUs inside"),
+        (
+            "perilune export lunar_terminal_guidance --flavour python --output landing.ssp",
+            "a system with its FMUs inside",
+        ),
     ),
 }

@@ -45,7 +45,9 @@ def slots_page() -> str:
         parts += [f"## {name}", prose(slot.__doc__, "../"), table(["block", "what it is"], rows)]
         for title, content in (("Inputs", inputs(slot)), ("Outputs", outputs(slot)), ("Parameters", parameters(slot))):
             if content:
-                parts.append(f'??? note "{title} of {name}"\n\n' + "\n".join(f"    {row}" for row in content.splitlines()))
+                parts.append(
+                    f'??? note "{title} of {name}"\n\n' + "\n".join(f"    {row}" for row in content.splitlines())
+                )
     return "\n\n".join(parts) + "\n"
 
 

@@ -38,7 +38,9 @@ def test_every_option_of_every_verb_is_there(pages):
     for verb, text in found.items():
         helps = [_sub_parser(parser_of([verb]), verb)]
         helps += [choice for choice in _sub_parsers(helps[0]).values()]
-        printed = {option for parser in helps for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", parser.format_usage())}
+        printed = {
+            option for parser in helps for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", parser.format_usage())
+        }
         assert set(re.findall(r"^\| `(--[a-z][\w-]*)", text, re.MULTILINE)) == printed - {"--help"}
 
 
