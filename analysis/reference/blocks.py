@@ -23,6 +23,7 @@ def block_page(block: type[Block]) -> str:
         _section("Parameters", parameters(block)),
         _section("States", states(block)),
         _section("In its place", _place(block)),
+        _section("What it shares", _shared(block)),
         _section("Where it flies", _flown(usages().get(block.fmu_name, Usage()))),
     ]
     return "\n\n".join(part for part in parts if part) + "\n"
@@ -79,6 +80,12 @@ def _feedthrough(block: type[Block]) -> str:
     if not direct:
         return "no: outputs depend on inputs of earlier points only"
     return f"yes: {'all' if len(direct) == len(every) else 'some'} of its outputs depend on inputs of the same point"
+
+
+def _shared(block: type[Block]) -> str:
+    """What is said of all blocks of its slots, and of the block that it is a variant of."""
+    bases: list[type[Block]] = [base for base in block.__mro__[1:] if issubclass(base, Block) and base is not Block]
+    return "\n\n".join(f"### {base.fmu_name}\n\n{prose(base.__doc__, '../../')}" for base in bases)
 
 
 def _place(block: type[Block]) -> str:

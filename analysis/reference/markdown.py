@@ -18,10 +18,10 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def escaped(text: str) -> str:
-    """Words that shall be seen as they are, in a table too: no emphasis, no tag, no link, no end of a cell."""
+    """Words as they are, in a table too: no tag, no link, no end of a cell, no emphasis but that of two asterisks."""
     parts = CODE.split(text)
     return "".join(
-        part if index % 2 else re.sub(r"([*_\[\]|\\])", r"\\\1", part).replace("<", "&lt;")
+        part if index % 2 else re.sub(r"((?<!\*)\*(?!\*)|[_\[\]|\\])", r"\\\1", part).replace("<", "&lt;")
         for index, part in enumerate(parts)
     )
 

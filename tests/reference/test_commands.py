@@ -11,6 +11,7 @@ import shlex
 import subprocess
 import sys
 from importlib import import_module
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -100,7 +101,7 @@ def test_the_commands(place, tmp_path, monkeypatch, capsys):
             continue
         expected = 1 if _beginning(command, FAILS) else 0
         assert main(words) == expected, f"{command}\n{capsys.readouterr().err}"
-        for option, value in zip(words, words[1:], strict=False):
+        for option, value in pairwise(words):
             if option in ("--output", "--report", "--graph", "--json"):
                 assert Path(value).exists(), command
     capsys.readouterr()

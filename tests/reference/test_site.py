@@ -44,7 +44,8 @@ def test_links_between_pages(page):
     text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
     for target, anchor in LINK.findall(text):
         path = page if not target else (page.parent / target).resolve()
-        assert path.is_file() and path.is_relative_to(ROOT), target
+        assert path.is_file(), target
+        assert path.is_relative_to(ROOT), target
         if anchor:
             assert anchor in anchors(path.read_text(encoding="utf-8")), f"{target}#{anchor}"
 
@@ -62,7 +63,8 @@ def test_it_is_complete(site):
     for name in catalogue():
         assert (site / "reference" / "blocks" / f"{name}.html").is_file()
     signature = (site / "reference" / "python" / "flying.html").read_text(encoding="utf-8")
-    assert "stop_time" in signature and 'id="perilune.simulate"' in signature
+    assert "stop_time" in signature
+    assert 'id="perilune.simulate"' in signature
 
 
 @pytest.mark.slow
