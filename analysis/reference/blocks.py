@@ -51,7 +51,7 @@ def _connectors(block: type[Block]) -> set[Demand]:
 
 
 def _facts(block: type[Block]) -> list[list[str]]:
-    parents = [base for base in block.__mro__[1:] if base in catalogue().values()]
+    parents = [other for other in catalogue().values() if other is not block and issubclass(block, other)]
     standing = ", ".join(f"[{slot.fmu_name}](../slots.md#{slot.fmu_name})" for slot in slots_of(block))
     facts = [
         ["class", f"`{block.__name__}` in `{source_of(block)}`"],
