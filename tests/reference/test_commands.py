@@ -67,7 +67,9 @@ WORK = {
     "run": ["run.fly"],
     "stability": ["stability.study"],
 }
+ALIKE = ("describe", "list", "run", "stability")  # read nothing of the folder: once is enough
 PLACES = documented()
+_done: set[str] = set()
 
 
 class ReadyError(Exception):
@@ -99,6 +101,9 @@ def test_the_commands(place, tmp_path, monkeypatch, capsys):
         if brief:
             _prepare(words, monkeypatch)
             continue
+        if command in _done:
+            continue
+        _done.update([command] if words[0] in ALIKE and "linear_guidance" not in command else [])
         expected = 1 if _beginning(command, FAILS) else 0
         assert main(words) == expected, f"{command}\n{capsys.readouterr().err}"
         for option, value in pairwise(words):
