@@ -1,4 +1,4 @@
-# make demo | test | quick | long | build | wheel | notebooks | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | build | docs | wheel | notebooks | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 
@@ -22,6 +22,10 @@ long: build
 
 build: .venv/ready
 	$(BIN)/python build_fmus.py
+
+# The documentation as a site, build/site/index.html: it needs no server and no network. Broken links fail.
+docs: .venv/ready
+	$(BIN)/python build_docs.py
 
 # What one installs elsewhere with pip: build/wheel/perilune-VERSION-py3-none-any.whl, native FMUs of all platforms inside.
 wheel: .venv/ready
@@ -75,4 +79,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long build wheel notebooks explore gains bench sanitize browser lint clean
+.PHONY: demo test quick long build docs wheel notebooks explore gains bench sanitize browser lint clean

@@ -6,6 +6,7 @@ import argparse
 import importlib
 import os
 import sys
+import textwrap
 from collections.abc import Sequence
 from importlib.metadata import version
 from types import ModuleType
@@ -14,6 +15,7 @@ from typing import Any, NoReturn
 import argcomplete
 
 from .errors import InputError
+from .examples import EXAMPLES
 from .process_end import leave
 
 VERBS = {
@@ -42,11 +44,23 @@ FAILURES = {
 }
 
 
+class Formatter(argparse.HelpFormatter):
+    """argparse's own, which keeps the lines of examples as they are: those with an indent."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return "\n".join(
+            line
+            if line.startswith(" ")
+            else textwrap.fill(line, width, initial_indent=indent, subsequent_indent=indent)
+            for line in text.splitlines()
+        )
+
+
 class Parser(argparse.ArgumentParser):
     """argparse with errors on one line and options in full."""
 
     def __init__(self, **keywords: Any) -> None:
-        super().__init__(**keywords, allow_abbrev=False)
+        super().__init__(**keywords, allow_abbrev=False, formatter_class=Formatter)
 
     def error(self, message: str) -> NoReturn:
         place = ": ".join(self.prog.split())
@@ -56,7 +70,7 @@ class Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out one command; returns the exit status."""
     given = sys.argv[1:] if arguments is None else list(arguments)
-    parser = _parser(given)
+    parser = parser_of(given)
     argcomplete.autocomplete(parser)
     options = parser.parse_args(given)
     try:
@@ -76,15 +90,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
 
 
-def _parser(given: Sequence[str]) -> Parser:
+def exit_status(verb: str) -> str:
+    """What the exit statuses of a verb mean."""
+    failure = f"{FAILURES[verb]}, or interrupted" if verb in FAILURES else "interrupted"
+    return f"Exit status: 0: done. 1: {failure}. 2: wrong input, or a result could not be written."
+
+
+def parser_of(given: Sequence[str]) -> Parser:
     """All verbs by name; only the one that is given has its options read, which is what keeps completion quick."""
     parser = Parser(prog="perilune", description="Spacecraft guidance, navigation and control as FMI components.")
     parser.add_argument("--version", action="version", version=f"perilune {version('perilune')}")
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
     named = [*given, *os.environ.get("COMP_LINE", "").split()]  # a shell asks with the line that is being written
     for verb, words in VERBS.items():
-        failure = f"{FAILURES[verb]}, or interrupted" if verb in FAILURES else "interrupted"
-        epilog = f"Exit status: 0: done. 1: {failure}. 2: wrong input, or a result could not be written."
+        examples = "".join(f"  {command}\n      {comment}\n" for command, comment in EXAMPLES[verb])
+        epilog = f"Examples:\n{examples}\n{exit_status(verb)}"
         own = verbs.add_parser(verb, help=words, description=words, epilog=epilog)
         if verb in named:
             _module(f"asked.{verb}").add(own)

@@ -20,6 +20,7 @@ class PulseAllocation(Block):
     At a tick without any demand the rest fades to rest_kept of itself.
     With mean, the demand is passed as a torque that is held over the tick, within the level, and no jet fires: for
     linear studies. A demand that is not finite fires nothing and leaves the rest as it is. Frame: body.
+    Assumes jets that are at full level at once. The rule is ours: docs/systems/orbital_attitude.md.
     """
 
     default_step = 0.2

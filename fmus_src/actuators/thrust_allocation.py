@@ -28,6 +28,7 @@ class ThrustAllocation(Allocation):
     cut-off, so that a burn from settled thrust gives the demanded impulse. direction_lead commands the
     direction of that much later, which a first-order response follows without delay where the direction
     turns steadily. Frame: landing site.
+    Assumes thrust through the centre of mass. Vehicle and leads are ours: docs/systems/lunar_landing.md.
     """
 
     minimum_thrust = Parameter(0.0, unit="N", minimum=0.0, description="least thrust while burning")

@@ -24,6 +24,7 @@ class AttitudeControl(Block):
     are not finite leave it as it is.
     Frame: body. Equations, gains and margins: docs/systems/robot_rendezvous.md.
     Source: Somov, Butyrin, Somov and Somova, see there; m has the opposite sign there.
+    Assumes small errors, and inertia as declared.
     """
 
     default_step = 0.125

@@ -27,6 +27,7 @@ class ThrustAxisControl(Block):
     The square root is the speed from which braking_acceleration stops in e: a linear law of that speed goes to the
     limit of acceleration and stays there, from side to side. A direction without length, as there is before guidance
     has given one, only brings the rate to feed's. Frame: landing site. ``maximum_angular_acceleration`` 0: no limit.
+    Assumes that roll about the axis does not matter. The law is ours: docs/systems/hover_transfer.md.
     """
 
     rate_gain = Parameter(1.5, unit="1/s", minimum=0.0, description="acceleration over error of the rate")

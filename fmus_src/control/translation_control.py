@@ -20,6 +20,7 @@ class TranslationControl(Block):
     by its count, the one at the start counts. Inputs that are not finite leave the force as it is.
     Frame: inertial. Equations, gains and margins: docs/systems/robot_rendezvous.md.
     Source: Somov, Butyrin, Somov and Somova, see there.
+    Assumes mass as declared.
     """
 
     default_step = 0.125

@@ -6,7 +6,10 @@ from ..block import Block, Output, Parameter, State
 
 
 class AirDisturbance(Block):
-    """A gust (1 - cos)/2 over gust_duration from gust_time on, and a density that changes once, at density_time."""
+    """A gust (1 - cos)/2 over gust_duration from gust_time on, and a density that changes once, at density_time.
+
+    Ours: docs/systems/entry_attitude.md.
+    """
 
     default_step = 0.2
 

@@ -4,7 +4,10 @@ from ..block import Block, Output, Parameter
 
 
 class JetHealth(Block):
-    """Factors on the torques of six jets, constant over a flight; faults on the connectors change them in flight."""
+    """Factors on the torques of six jets, constant over a flight; faults on the connectors change them in flight.
+
+    Ours: docs/systems/entry_attitude.md.
+    """
 
     default_step = 0.2
 

@@ -18,6 +18,7 @@ class BankProgramme(Block):
     may act on. 2, time-optimal: the reference accelerates with bank_acceleration, coasts at bank_rate at most, and
     brakes likewise, the quickest way within both (a limit on the rate is one on propellant). Reversals at or after 1e9
     s do not come. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 3.2; numbers ours.
+    Assumes a vehicle that rolls about its velocity and reaches bank_acceleration and bank_rate.
     """
 
     default_step = 0.2

@@ -31,6 +31,7 @@ class HoverPlan(Block, interface=True):
     Programmes lie in the plane through start and target with the target's vertical; gravity is constant over a plan,
     the mean of start and target. Plans keep margins of the engine and of the angular acceleration, for control to
     work with. Frame: landing site. Equations: docs/systems/hover_transfer.md. Source: Huang 2017; in space, ours.
+    Assumes gravity that is uniform over a plan, and a thrust axis that turns with a limited angular acceleration.
     """
 
     specific_impulse = Parameter(300.0, unit="s", minimum=1e-3, description="of the engine")

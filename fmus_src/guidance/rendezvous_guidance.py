@@ -31,6 +31,7 @@ class RendezvousGuidance(Block):
     Phases out of order make no plan: status 1, and the robot is to stay at rest.
     Frames: inertial; body of the plan. Equations: docs/systems/robot_rendezvous.md.
     Source: Somov, Butyrin, Somov and Somova, see there.
+    Assumes an object that drifts uniformly about a known spin axis, and a robot at rest at the origin at the start.
     """
 
     default_step = 0.125

@@ -26,6 +26,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
     An observer writes `begin`, which may make gains, and `observe`, which sets angles_now and rates_now from the sample
     (roll, pitch, rates), those of the tick before and the pulses between. Frames: orbital, body.
     Equations: docs/systems/orbital_attitude.md. Source: Lapin, thesis, chapter 3.1.
+    Assumes a circular orbit, and inertia and jets as known on board.
     """
 
     yaw_pole = Parameter(0.1, unit="1/s", minimum=1e-6, description="decay of a full observer's error of yaw")

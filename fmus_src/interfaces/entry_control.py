@@ -16,6 +16,7 @@ class EntryControl(Block, interface=True):
     the capsule turns about its velocity by w = rate (cos a0, -sin a0, 0), a0 = trim_attack. Demands below dead_zone of
     a level are put out as 0. A regulator writes `regulate`, which sets demand. Inputs that are not finite ask for no
     torque. Frame: body. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 3.2.
+    Assumes a capsule near its trim, and inertia as known on board.
     """
 
     to_write = ("regulate",)

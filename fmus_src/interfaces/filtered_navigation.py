@@ -34,6 +34,7 @@ class FilteredNavigation(InertialNavigation, interface=True):
     counts where nothing is measured for a good part of an orbit.
     Frame: landing site. Equations: docs/systems/lunar_navigation.md.
     Source: Bar-Shalom, Li and Kirubarajan 2001, sections 5.4 and 10.3; Groves 2013, chapter 14.
+    Assumes that sensors' errors are white, but for the inertial sensor's constants.
     """
 
     to_write = ("predict", "weigh", "take_in")

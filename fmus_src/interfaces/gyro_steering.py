@@ -21,6 +21,7 @@ class GyroSteering(Block, interface=True):
     keeps the torque's direction. A steering writes `steer`, which sets gimbal_rates and status from the
     rate of the cluster's momentum that is wanted.
     Equations: docs/systems/robot_rendezvous.md.
+    Assumes gimbals that follow their rates at once, and rotors of constant speed.
     """
 
     to_write = ("steer",)

@@ -17,6 +17,8 @@ class InertialNavigation(Navigation, interface=True):
     with equal errors. New samples are told by their counts; samples that are there at the start count.
     In free flight the specific force is known to be 0, and inertial samples are passed over.
     Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
+    Assumes a specific force that is linear in time over an inertial sample. Equations:
+    docs/systems/lunar_navigation.md.
     """
 
     seed = Parameter(1, minimum=0, description="random numbers: seed")

@@ -27,6 +27,7 @@ class JetAllocation(Block, interface=True):
     An allocation writes `allocate`, which sets new_thrust and status from wanted_wrench. jet_tilt is the angle
     of the nozzles from the body's xy plane, jet_azimuth their angle from x in it, jet_arm the place of the first jet.
     Equations: docs/systems/robot_rendezvous.md.
+    Assumes jets that are where they are declared to be and give what is asked at once.
     """
 
     to_write = ("allocate",)

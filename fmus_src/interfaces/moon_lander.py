@@ -20,6 +20,7 @@ class MoonLander(Block, interface=True):
     Runge-Kutta-Nystrom of fourth order (Hairer, Norsett and Wanner 1993, section II.14); thrust is scaled so that each
     step obeys the rocket equation. Where ground_contact is set, everything stops and is kept.
     Frame: landing site (x north, y west, z up), the Moon's centre at (0, 0, -moon_radius).
+    Assumes a Moon without rotation and terrain, and propellant that neither sloshes nor moves the centre of mass.
     """
 
     initial_position = Parameter(

@@ -38,6 +38,7 @@ class NetworkOperatorLaw(Block, interface=True):
     altitude. Outputs: z15, the angle from the local vertical to the thrust (kept in 0 to pi rad),
     and z16, the thrust above nominal (kgf, kept within thrust_variation).
     Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
+    Assumes that altitude and path angle are enough to brake by: neither range nor cross-range is in the law.
     """
 
     matrix = Parameter(

@@ -17,6 +17,7 @@ class OrbitalBody(Block, interface=True):
     for so long. Motion: `mathlib.orbital`; a block may add to `slopes` what drives its model. Inertia is the matrix
     that multiplies angular velocity: elements off the diagonal are minus the products of inertia.
     Frames: orbital and body. Equations: docs/systems/orbital_attitude.md.
+    Assumes an orbit that stays circular, constant inertia, and no torque but the gravity gradient's and the jets'.
     """
 
     default_step = 0.2

@@ -18,6 +18,7 @@ class OrbitalControl(OrbitalBody, interface=True):
     are those that any regulator of the slot may need; inertia and jets are those known on board. Inputs that are not
     finite ask for no torque. A regulator writes `begin`, which may make gains, and `regulate`, which sets
     torque_command. Frames: orbital, body. Equations: docs/systems/orbital_attitude.md.
+    Assumes a circular orbit.
     """
 
     to_write = ("regulate",)

@@ -43,6 +43,7 @@ class AttitudeFilter(Block):
     A sample that is not finite is left out and reported. sample_period is how often the filter looks; new samples are
     told by their count. Frames: body, quaternions from body to inertial. Equations: docs/systems/robot_rendezvous.md.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2; Lefferts, Markley and Shuster 1982 (error in body axes).
+    Assumes small errors against the plan, and inertia and jets as declared.
     """
 
     default_step = 0.125

@@ -17,6 +17,7 @@ class ColouredNavigation(Navigation):
     are not used; errors of position do not follow from those of velocity. Which normal numbers a flight uses depends
     on seed, stream and the point's number only. Frame: landing site.
     Source: Gillespie 1996 (exact updating formula of the Ornstein-Uhlenbeck process).
+    Assumes errors that do not depend on the motion, nor one axis on another.
     """
 
     position_sigma = Parameter(2.0, unit="m", minimum=0.0, description="wandering error, 1 sigma per axis")

@@ -4,7 +4,10 @@ from ..interfaces.navigation import Navigation
 
 
 class IdealNavigation(Navigation):
-    """Ideal navigation: the estimate is the truth, and nothing else of the slot is used. Frame: landing site."""
+    """Ideal navigation: the estimate is the truth, and nothing else of the slot is used.
+
+    Frame: landing site. What it is compared with: docs/systems/lunar_navigation.md.
+    """
 
     def initialize(self) -> None:
         self.measure()

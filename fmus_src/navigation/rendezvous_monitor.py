@@ -10,6 +10,7 @@ class RendezvousMonitor(Block):
 
     position_error is the planned less the true relative position: the robot's distance from its place
     beside the object. Frames: inertial; body for errors of attitude.
+    Equations: docs/systems/robot_rendezvous.md.
     """
 
     default_step = 0.125

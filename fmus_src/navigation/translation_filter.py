@@ -34,6 +34,7 @@ class TranslationFilter(Block):
     A sample that is not finite is left out and reported. sample_period is how often the filter looks; new samples
     are told by their count. Frames: inertial, except for the force. Equations: docs/systems/robot_rendezvous.md.
     Source: Bar-Shalom, Li and Kirubarajan 2001, section 6.2.2.
+    Assumes errors that are alike in all axes, and a mass as declared.
     """
 
     default_step = 0.125

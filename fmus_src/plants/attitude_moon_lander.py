@@ -25,6 +25,7 @@ class AttitudeMoonLander(MoonLander):
 
     Attitude: Runge-Kutta of fourth order, two steps in each internal one. The results depend on how communication
     points cut a flight as those of spherical_moon_lander do.
+    Equations: docs/systems/hover_transfer.md.
     """
 
     initial_position = MoonLander.initial_position.with_start([0.0, 0.0, 2400.0])

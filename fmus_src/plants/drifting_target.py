@@ -13,6 +13,7 @@ class DriftingTarget(Block):
     Exact at any time. Its body axes are the inertial ones at the start; a spin_axis of length 0 means that it
     does not turn. The paper does not give the rate of the spin. Frame: inertial.
     Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md.
+    Assumes that nothing acts on it, and a spin about a principal axis of inertia.
     """
 
     default_step = 0.125

@@ -38,6 +38,7 @@ class EntryCapsule(Block):
     is cut exactly where it ends, whatever the communication step. mean_torque acts beside them. jet_torque and
     jet_factor: +x, -x, +y, -y, +z, -z. Runge-Kutta of fourth order in steps of at most internal_step. Equations:
     docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
+    Assumes constant inertia, and jets that are at full level at once.
     """
 
     default_step = 0.2

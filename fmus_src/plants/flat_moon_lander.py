@@ -12,6 +12,7 @@ class FlatMoonLander(Block):
     Runge-Kutta with a fixed step of its own; the acceleration depends on time only, so its
     slopes are one at each end and two in the middle. Frame: landing site (x north, y west, z up).
     Source: Fomichev and Li 2017, equations of motion.
+    Assumes an attitude and an engine without lag.
     """
 
     initial_position = Parameter(

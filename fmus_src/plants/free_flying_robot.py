@@ -24,6 +24,7 @@ class FreeFlyingRobot(Block):
     Runge-Kutta of fourth order in steps of internal_step, or equal parts of the communication step no longer
     than that: results are the same to the bit for all communication steps that are whole multiples of
     an internal_step which is a power of two.
+    Assumes rigid bodies, rotors of constant speed and jets without lag.
     """
 
     default_step = 0.125

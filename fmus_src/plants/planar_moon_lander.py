@@ -21,6 +21,7 @@ class PlanarMoonLander(Block):
     falls with the square of R = moon_radius + altitude. Fourth-order Runge-Kutta with a step of its
     own. On the ground the motion stops and is kept. Thrust ends where the mass would.
     Source: Diveev, Pupkov and Sofronova 2013; see docs/systems/lunar_descent_2d.md.
+    Assumes an attitude and an engine without lag, and a Moon without rotation.
     """
 
     initial_speed = Parameter(1689.0, unit="m/s", minimum=0.0, description="speed at the start")

@@ -24,6 +24,7 @@ class SphericalMoonLander(MoonLander):
     none), and cut where thrust ends. So the results depend on how communication points cut a flight
     by rounding only, if these are whole multiples of internal_step apart; other distances are divided
     into equal steps.
+    The vehicle is ours: docs/systems/lunar_landing.md.
     """
 
     direction_response = Parameter(0.5, unit="s", minimum=0.0, description="time constant of the attitude; 0: none")

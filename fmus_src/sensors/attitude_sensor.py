@@ -12,6 +12,7 @@ class AttitudeSensor(Block):
     constant_sigma per axis, and one of attitude_sigma per axis that is new in every sample; measured_angular_rate has
     an error of rate_sigma per axis, new in every sample. The first sample is at the start. Which normal numbers a
     flight uses depends on seed, stream and the sample's number only. Frame: landing site.
+    Assumes errors that do not depend on the motion. They are ours: docs/systems/hover_transfer.md.
     """
 
     constant_sigma = Parameter(

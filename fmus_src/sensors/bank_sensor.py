@@ -8,6 +8,7 @@ class BankSensor(Block):
     """Bank with a bias and white normal errors: measured = true + bias + sigma n.
 
     The first sample is at the start. Which numbers a flight uses depends on seed, stream and the sample's number only.
+    Assumes errors that do not depend on the motion. They are ours: docs/systems/entry_attitude.md.
     """
 
     default_step = 0.2

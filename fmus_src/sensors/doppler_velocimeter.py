@@ -14,6 +14,7 @@ class DopplerVelocimeter(Block):
     count are held, 0 before the first sample; random numbers are drawn all the same, so that the
     errors of sample k depend on seed, stream and k only, whatever path was flown before. Frame:
     landing site, the attitude being known.
+    Assumes beams that always find the ground. Errors are ours: docs/systems/lunar_landing.md.
     """
 
     speed_error = Parameter(0.001, unit="1", minimum=0.0, description="error over speed, 1 sigma per axis")

@@ -19,6 +19,7 @@ class InertialSensor(Block):
     axis and sample. The start has no increment, so it is not counted. Which normal numbers a flight
     uses depends on seed, stream and the sample's number only, not on the sizes of the errors.
     Source: Groves 2013, section 4.4 (error model of inertial sensors).
+    Assumes accelerometers at the centre of mass, and an attitude error that is constant over a flight.
     """
 
     bias_sigma = Parameter(1e-3, unit="m/s2", minimum=0.0, description="bias, 1 sigma per axis, constant")

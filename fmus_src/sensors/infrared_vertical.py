@@ -13,6 +13,7 @@ class InfraredVertical(Block):
     measured = true + bias + sigma n. The errors n are white, or with a correlation_time those of a first-order
     Gauss-Markov process with the same sigma, which is what real horizons do. The first sample is at the start; which
     numbers a flight uses depends on seed, stream and the sample's number only.
+    Assumes a horizon that is alike all around. Errors are ours: docs/systems/orbital_attitude.md.
     """
 
     default_step = 0.2

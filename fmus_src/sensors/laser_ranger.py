@@ -12,6 +12,7 @@ class LaserRanger(Block):
     beyond, near_sigma below. All three components are taken, as the ranges alone would not tell where the robot
     is. The first sample is at the start. Which normal numbers a flight uses depends on seed, stream and
     the sample's number only. Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md.
+    Assumes that the object's centre is what is measured, from any side.
     """
 
     default_step = 0.125

@@ -9,6 +9,7 @@ class PlanarStateSensor(Block):
 
     measured = true (1 + noise u), u uniform on (-1, 1) and drawn anew for each quantity and sample.
     Source: Diveev, Pupkov and Sofronova 2013, table 2.
+    Assumes that nothing else is wrong: no bias, no delay.
     """
 
     default_step = 0.01

@@ -12,6 +12,7 @@ class RadarAltimeter(Block):
     start. Above maximum_altitude output and count are held, 0 before the first sample; random
     numbers are drawn all the same, so that the error of sample k depends on seed, stream and k only,
     whatever path was flown before. Frame: landing site.
+    Assumes a smooth sphere, without terrain. Errors are ours: docs/systems/lunar_landing.md.
     """
 
     range_error = Parameter(0.005, unit="1", minimum=0.0, description="error over altitude, 1 sigma")

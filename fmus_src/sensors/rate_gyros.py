@@ -11,6 +11,7 @@ class RateGyros(Block):
     measured = true + bias + drawn bias + sigma n; the drawn bias is uniform within +- bias_limit per axis and constant
     over a flight. The first sample is at the start. Which numbers a flight uses depends on seed, stream and the
     sample's number only. Frame: body.
+    Assumes gyros without scale factors or misalignment. Errors are ours: docs/systems/orbital_attitude.md.
     """
 
     default_step = 0.2

@@ -11,6 +11,7 @@ class StarInertial(Block):
     The rotation vector has normal, independent components of attitude_sigma in body axes. The first
     sample is at the start. Which normal numbers a flight uses depends on seed, stream and the
     sample's number only. Source: Somov, Butyrin, Somov and Somova, see docs/systems/robot_rendezvous.md.
+    Assumes errors that are small and alike about all axes, without bias.
     """
 
     default_step = 0.125

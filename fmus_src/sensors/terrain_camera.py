@@ -12,6 +12,7 @@ class TerrainCamera(Block):
     is at the start. Outside of the band output and count are held, 0 before the first sample; random
     numbers are drawn all the same, so that the errors of sample k depend on seed, stream and k only,
     whatever path was flown before. Frame: landing site.
+    Assumes mapped terrain in sight all over the band. Errors are ours: docs/systems/lunar_landing.md.
     """
 
     altitude_error = Parameter(0.0015, unit="1", minimum=0.0, description="error over altitude, 1 sigma per axis")

@@ -11,6 +11,7 @@ class CommandSwitch(Block):
     `source` 1 is the sequencer's own command, 2 the braking guidance's, 3 the hover guidance's, and only its
     angular_acceleration_feed is passed on. Without a source there is no thrust, and a direction of length 0, at which
     the attitude control only brings the rate to rest. Frame: landing site.
+    Ours: docs/systems/landing_mission.md.
     """
 
     source = Input(0, description="0 none, 1 own, 2 braking, 3 hover")

@@ -8,6 +8,7 @@ class FlightMonitor(Block):
 
     The hand-over is the first communication point with less than handover_speed inside the band of
     altitudes. All outputs stay true once they are.
+    Ours: docs/systems/lunar_landing.md.
     """
 
     handover_speed = Parameter(0.0, unit="m/s", minimum=0.0, description="hand over below it; 0: no hand-over here")

@@ -10,6 +10,7 @@ class TouchdownMonitor(Block):
     """Speeds, tilt, angular rate and distance from the site at the first ground contact, and whether they are allowed.
 
     All outputs keep their values from then on; before it, within_limits is false. Frame: landing site.
+    Limits are ours: docs/systems/landing_mission.md.
     """
 
     vertical_speed_limit = Parameter(3.0, unit="m/s", minimum=0.0, description="largest vertical speed")

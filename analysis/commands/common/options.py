@@ -51,8 +51,10 @@ def add_system_options(parser: argparse.ArgumentParser) -> None:
         "--set", action="append", default=[], metavar="COMPONENT.VARIABLE=VALUE", help="set one parameter or input"
     )
     group.add_argument("--step", type=_seconds, metavar="H", help="communication step, s")
-    group.add_argument("--stop-time", type=_seconds, metavar="T", help="s")
-    group.add_argument("--algorithm", choices=ALGORITHMS, default="sequential")
+    group.add_argument("--stop-time", type=_seconds, metavar="T", help="end of the flight, s")
+    group.add_argument(
+        "--algorithm", choices=ALGORITHMS, default="sequential", help="how values are exchanged; default: sequential"
+    )
     group.add_argument("--variant", metavar="NAME", help="another SSD of the archive")
     group.add_argument("--flavour", choices=FLAVOURS, help="which FMUs of this repository; default: native if built")
     group.add_argument("--allow-unmatched", action="store_true", help="let parameters pass that match nothing")

@@ -1,0 +1,111 @@
+"""The pages that are derived for the site: verbs, slots, the Python interface, the front pages; and files as text.
+
+Truth: argparse's own help, the public names, the pages' sources; a site with known mistakes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import subprocess
+
+import pytest
+
+import perilune
+from perilune.analysis.cli import VERBS, parser_of
+from perilune.analysis.describe.fits import slots
+from perilune.analysis.reference.build import pages_of, site_settings
+from perilune.analysis.reference.links import broken_links
+from perilune.analysis.reference.markdown import escaped, prose
+from perilune.analysis.reference.pages import derived_pages
+from perilune.fmus_src.places import ROOT
+
+
+@pytest.fixture(scope="module")
+def pages():
+    return derived_pages()
+
+
+def sections(page):
+    """Text by heading of the second level."""
+    return dict(part.split("\n", 1) for part in re.split(r"^## ", page, flags=re.MULTILINE)[1:])
+
+
+def test_every_option_of_every_verb_is_there(pages):
+    """Those that `perilune VERB --help` prints, and no others."""
+    found = sections(pages["reference/verbs.md"])
+    assert list(found) == list(VERBS)
+    for verb, text in found.items():
+        helps = [_sub_parser(parser_of([verb]), verb)]
+        helps += [choice for choice in _sub_parsers(helps[0]).values()]
+        printed = {
+            option for parser in helps for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", parser.format_usage())
+        }
+        assert set(re.findall(r"^\| `(--[a-z][\w-]*)", text, re.MULTILINE)) == printed - {"--help"}
+
+
+def _sub_parser(parser, verb):
+    return _sub_parsers(parser)[verb]
+
+
+def _sub_parsers(parser):
+    actions = [action for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
+    return dict(actions[0].choices) if actions else {}
+
+
+def test_every_public_name_is_there(pages):
+    text = "".join(page for path, page in pages.items() if path.startswith("reference/python/"))
+    named = set(re.findall(r"^::: (\S+)$", text, re.MULTILINE))
+    public = {f"perilune.{name}" for name in perilune.__all__ if name != "modal"}
+    assert named == public | {f"perilune.modal.{name}" for name in perilune.modal.__all__}
+
+
+def test_every_slot_is_there(pages):
+    assert list(sections(pages["reference/slots.md"])) == list(slots())
+
+
+def test_every_page_is_in_the_navigation(pages):
+    written = {path.relative_to(ROOT / "docs").as_posix() for path in (ROOT / "docs").rglob("*.md")}
+    listed = pages_of(site_settings()["nav"])
+    assert sorted(listed) == sorted(written | set(pages))
+
+
+def test_links_of_the_front_pages_lead_to_the_same_places(pages):
+    """A link of README to docs/x.md is one to x.md from the site's top."""
+    linked = set(re.findall(r"\]\(docs/([\w./-]+)", (ROOT / "README.md").read_text(encoding="utf-8")))
+    assert len(linked) > 10
+    assert linked <= set(re.findall(r"\]\(([\w./-]+)", pages["index.md"]))
+    assert "](docs/" not in pages["index.md"]
+
+
+def test_words_stay_as_they_are():
+    assert escaped("a*b*c |x| y[1](z) <d> `k*k` e_f_g") == r"a\*b\*c \|x\| y\[1\](z) &lt;d> `k*k` e\_f\_g"
+    text = prose("Purpose.\n\nBody:\n\n    a * b\n\nMore, see docs/systems/lunar_landing.md.\nSource: A 2001.", "../")
+    assert "\n\n    a * b\n\n" in text
+    assert "[lunar\\_landing](../systems/lunar_landing.md)" in text
+    assert "\n\nSource: A 2001." in text
+
+
+def test_broken_links_are_found(tmp_path):
+    (tmp_path / "good.html").write_text('<p id="here">x</p><a href="bad.html#there">y</a><a href="#here">z</a>')
+    (tmp_path / "bad.html").write_text(
+        '<a href="gone.html">1</a><a href="good.html#gone">2</a><img src="gone.svg">'
+        '<script src="https://elsewhere.org/x.js"></script><a href="https://elsewhere.org">fine</a>'
+    )
+    assert list(broken_links(tmp_path)) == [
+        ("bad.html", "gone.html"),
+        ("bad.html", "good.html#gone"),
+        ("bad.html", "gone.svg"),
+        ("bad.html", "https://elsewhere.org/x.js"),
+        ("good.html", "bad.html#there"),
+    ]
+
+
+def test_no_file_holds_marks_of_a_merge():
+    """Nor does `git diff --check`'s own pattern match anywhere in what is committed."""
+    names = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\n")
+    for name in filter(None, names):
+        path = ROOT / name
+        if path.is_file() and not path.is_symlink():
+            text = path.read_bytes()
+            assert not re.search(rb"^(<{7} |>{7} |\|{7} |={7}$)", text, re.MULTILINE), name
