@@ -117,7 +117,7 @@ def band_panels(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[s
             beyond = [value for value in (found.shown().min(), found.shown().max()) if not low <= value <= high]
             if beyond:
                 words = f"goes on to {' and '.join(number(factor * float(value), 3) for value in beyond)}"
-                axes.set_title(words, loc="right", fontsize=7.5, color=FAINT)
+                axes.set_title(words, loc="right", fontsize=8.0, color=FAINT)
             axes.set_xlabel("time, s")
             axes.set_ylabel(unit)
             plain_ticks(axes, x=5, y=5, whole_y=quantity.held)

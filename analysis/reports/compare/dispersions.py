@@ -124,7 +124,7 @@ def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: s
         missing = len(ends.errors) - len(good) - len(bad)
         notes = [f"{outside} failed outside"] if outside else []
         notes += [f"{missing} without an end"] if missing else []
-        axes.set_title(", ".join(notes), loc="right", fontsize=7.5, color=FAINT)
+        axes.set_title(", ".join(notes), loc="right", fontsize=8.0, color=FAINT)
         axes.set_xlim(-reach, reach)
         axes.set_ylim(-reach, reach)
         axes.set_box_aspect(1.0)

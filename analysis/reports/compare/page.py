@@ -77,6 +77,7 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         comparison=comparison,
         first=first,
         summary=comparison.summary,
+        looks=[(swatch(style), label) for label, style in looks.items()],
         swatches={label: swatch(style) for label, style in looks.items()},
         rows=rows,
         group_rows=grouped,

@@ -32,7 +32,7 @@ def stacked(label: str, name: str, description: str, draw: Callable[[Axes, Axes]
         figure = new_figure(HEIGHT, PANEL_WIDTH)
         upper, lower = figure.subplots(2, 1, sharex=True)
         draw(upper, lower)
-        return Panel(label, inline_svg(figure, name, description, fill=True))
+        return Panel(label, inline_svg(figure, name, description))
 
 
 def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
