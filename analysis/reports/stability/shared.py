@@ -18,7 +18,7 @@ from ..kit.panels import Panel
 
 TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide
 NAMES = re.compile(r'\b(?:id|aria-label)="[^"]*"|(?<=href=")#[^"]*|url\(#[^)]*\)')
-PLACES = re.compile(r'\b(d|x|y|transform|points)="([^"]*)"')
+PLACES = re.compile(r'\b(d|x|y|width|height|transform|points)="([^"]*)"')
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 Panels = dict[str, list[Panel]]  # by the part of a loop's section that they belong to
 
