@@ -13,7 +13,13 @@ from .shared import Shared
 
 FEW = 3  # loops with figures of their own that are printed in full
 MOST = 54  # figures of the others
-KINDS = ("Bode", "Nyquist", "Nichols", "Step response", "Sensitivities", "Poles near z = 1", "Poles")
+TIERS = (  # the first three are a row, the fourth stands beside the tables, the others are a second row
+    ("Bode",),
+    ("Nyquist",),
+    ("Nichols",),
+    ("Sensitivities",),
+    ("Poles", "Poles near z = 1", "Step response"),
+)
 FIRST = "Bode"  # which every loop has
 
 
@@ -55,8 +61,8 @@ def paper_of(shared: Sequence[Shared]) -> Paper:
         return Paper(None)
     labels = [panel.label.partition(":")[0] for one in shared for panels in one.panels.values() for panel in panels]
     kinds: list[str] = []
-    for kind in KINDS:
-        if kinds and sum(labels.count(other) for other in (*kinds, kind)) > MOST:
+    for tier in TIERS:
+        if kinds and sum(labels.count(kind) for kind in (*kinds, *tier)) > MOST:
             break
-        kinds.append(kind)
+        kinds += tier
     return Paper(tuple(kinds))
