@@ -12,6 +12,7 @@ from .bounds import transfer_problem
 from .least_time import least_propellant
 from .path import PlanError, PlannedPath
 from .programme import Programme, find_programme, over_distance, over_duration
+from .progress import counted
 from .true_optimum import find_true_optimum
 from .vehicle import Margins, Transfer, Vehicle
 
@@ -120,7 +121,12 @@ def hover_study(
         )
     best = programme if duration is None or not (optimum or curves) else find_programme(planned, transfer)
     assert best is not None  # a programme of a given duration is found from it
-    found = find_true_optimum(best, intervals or OPTIMUM_INTERVALS, vehicle.maximum_thrust) if optimum else None
+    most = vehicle.maximum_thrust
+    with counted(optimum + bound + 2 * curves) as part:
+        found = part(lambda: find_true_optimum(best, intervals or OPTIMUM_INTERVALS, most)) if optimum else None
+        bounded = part(lambda: _bound(vehicle, transfer, intervals or BOUND_INTERVALS)) if bound else None
+        durations = part(lambda: Curve(*over_duration(best))) if curves else None
+        distances = part(lambda: Curve(*over_distance(best))) if curves else None
     return HoverStudy(
         vehicle=vehicle,
         margins=margins,
@@ -129,9 +135,9 @@ def hover_study(
         programme=programme,
         vertical=vertical,
         optimum=found,
-        bound=_bound(vehicle, transfer, intervals or BOUND_INTERVALS) if bound else None,
-        durations=Curve(*over_duration(best)) if curves else None,
-        distances=Curve(*over_distance(best)) if curves else None,
+        bound=bounded,
+        durations=durations,
+        distances=distances,
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any
 
 from .bounds import Landing, landing_problem
@@ -13,6 +14,7 @@ from .hover_study import BOUND_INTERVALS, vehicle_document
 from .least_time import least_propellant
 from .path import PlannedPath
 from .point_mass import PointMassProblem
+from .progress import counted
 from .stored_bound import StoredBound, digest
 from .vehicle import Vehicle
 
@@ -96,9 +98,11 @@ def landing_study(
     """
     problem = landing_problem(vehicle, landing)
     count = intervals or BOUND_INTERVALS
-    path = least_propellant(problem, count)
-    check = Direct(*direct_propellant(problem, count)) if direct else None
-    cut = {
-        name: least_propellant(part, count).propellant_fraction * mass for name, (part, mass) in (pieces or {}).items()
-    }
+    with counted(1 + direct + len(pieces or {})) as part:
+        path = part(lambda: least_propellant(problem, count))
+        check = part(lambda: Direct(*direct_propellant(problem, count))) if direct else None
+        cut = {
+            name: part(partial(least_propellant, piece, count)).propellant_fraction * mass
+            for name, (piece, mass) in (pieces or {}).items()
+        }
     return LandingStudy(vehicle, landing, path.planned(problem), path.looseness, check, cut)
