@@ -7,12 +7,12 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
+from tqdm import tqdm
 
 from .bounds import transfer_problem
 from .least_time import least_propellant
 from .path import PlanError, PlannedPath
 from .programme import Programme, find_programme, over_distance, over_duration
-from .progress import counted
 from .true_optimum import find_true_optimum
 from .vehicle import Margins, Transfer, Vehicle
 
@@ -122,11 +122,15 @@ def hover_study(
     best = programme if duration is None or not (optimum or curves) else find_programme(planned, transfer)
     assert best is not None  # a programme of a given duration is found from it
     most = vehicle.maximum_thrust
-    with counted(optimum + bound + 2 * curves) as part:
-        found = part(lambda: find_true_optimum(best, intervals or OPTIMUM_INTERVALS, most)) if optimum else None
-        bounded = part(lambda: _bound(vehicle, transfer, intervals or BOUND_INTERVALS)) if bound else None
-        durations = part(lambda: Curve(*over_duration(best))) if curves else None
-        distances = part(lambda: Curve(*over_distance(best))) if curves else None
+    with tqdm(total=optimum + bound + 2 * curves, unit="part", disable=None, leave=False) as progress:
+        found = find_true_optimum(best, intervals or OPTIMUM_INTERVALS, most) if optimum else None
+        progress.update(optimum)
+        bounded = _bound(vehicle, transfer, intervals or BOUND_INTERVALS) if bound else None
+        progress.update(bound)
+        durations = Curve(*over_duration(best)) if curves else None
+        progress.update(curves)
+        distances = Curve(*over_distance(best)) if curves else None
+        progress.update(curves)
     return HoverStudy(
         vehicle=vehicle,
         margins=margins,

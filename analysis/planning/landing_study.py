@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from functools import partial
 from typing import Any
+
+from tqdm import tqdm
 
 from .bounds import Landing, landing_problem
 from .declared_bound import Inputs
@@ -14,7 +15,6 @@ from .hover_study import BOUND_INTERVALS, vehicle_document
 from .least_time import least_propellant
 from .path import PlannedPath
 from .point_mass import PointMassProblem
-from .progress import counted
 from .stored_bound import StoredBound, digest
 from .vehicle import Vehicle
 
@@ -98,11 +98,13 @@ def landing_study(
     """
     problem = landing_problem(vehicle, landing)
     count = intervals or BOUND_INTERVALS
-    with counted(1 + direct + len(pieces or {})) as part:
-        path = part(lambda: least_propellant(problem, count))
-        check = part(lambda: Direct(*direct_propellant(problem, count))) if direct else None
-        cut = {
-            name: part(partial(least_propellant, piece, count)).propellant_fraction * mass
-            for name, (piece, mass) in (pieces or {}).items()
-        }
+    with tqdm(total=1 + direct + len(pieces or {}), unit="part", disable=None, leave=False) as progress:
+        path = least_propellant(problem, count)
+        progress.update()
+        check = Direct(*direct_propellant(problem, count)) if direct else None
+        progress.update(direct)
+        cut = {}
+        for name, (part, mass) in (pieces or {}).items():
+            cut[name] = least_propellant(part, count).propellant_fraction * mass
+            progress.update()
     return LandingStudy(vehicle, landing, path.planned(problem), path.looseness, check, cut)
