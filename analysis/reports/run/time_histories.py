@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 from ...flight.results import Result
 from ..kit.panels import Panel, panel, swatch
-from ..kit.quantities import number, shown_factor, shown_unit
+from ..kit.quantities import labelled, number, shown_factor
 from ..kit.signals import SignalGroup, distinct, signal_groups
 from ..kit.style import FAINT, look, plain_ticks
 
@@ -75,7 +75,9 @@ def _panels(groups: list[SignalGroup], result: Result, name: str) -> list[Panel]
         return lambda axes: draw_history(axes, group, result)
 
     return [
-        panel(group.variable, f"{name}-{index}", f"{group.label} over time", drawing(group), HEIGHT)
+        panel(
+            labelled(group.variable, group.unit), f"{name}-{index}", f"{group.label} over time", drawing(group), HEIGHT
+        )
         for index, group in enumerate(_in_order_of_unit(groups))
     ]
 
@@ -94,7 +96,6 @@ def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
         colour, dashes, _ = look(index)
         marker = "." if np.count_nonzero(np.isfinite(row)) == 1 else ""
         axes.plot(result.time, row, color=colour, linestyle=dashes, drawstyle=style, marker=marker)
-    axes.set_title(shown_unit(group.unit), loc="left", pad=4)
     axes.set_xlabel("time, s")
     plain_ticks(axes, x=5, y=4, whole_y=not group.is_real)
     if group.type == "Boolean":
