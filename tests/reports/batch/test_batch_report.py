@@ -130,7 +130,7 @@ def test_nothing_finite(tmp_path):
 def test_one_trial(tmp_path):
     page = write(batch_result({"only": [(True, 0.5, 0.1)]}), tmp_path / "page.html")
     assert_self_contained(page)
-    assert 'aria-label="Distributions of miss, tilt"' in page
+    assert all(f'aria-label="Distributions of {name}"' in page for name in ("miss", "tilt"))
     assert "2.50 to 100.00" in text_of(page)
 
 
