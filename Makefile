@@ -1,6 +1,8 @@
 # make demo | test | quick | long | build | docs | wheel | notebooks | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
+# On a terminal pip shows what it does, in a log nothing.
+QUIET := $(shell [ -t 2 ] || echo --quiet)
 
 demo: .venv/ready
 	$(BIN)/python -m perilune.analysis.demo.demo
@@ -72,8 +74,9 @@ lint: .venv/ready
 		sys.exit(0 if (3, low) <= sys.version_info < (3, high) else 'Perilune needs Python 3.%d to 3.%d, and $(PYTHON) is %s; ' \
 		'give another one: make PYTHON=python3.%d' % (low, high - 1, sys.version.split()[0], high - 1))"
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'setuptools>=77'
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-build-isolation --editable '.[dev]'
+	@echo 'Installing Perilune with its packages and tools into .venv; it takes about a minute ...'
+	$(BIN)/python -m pip install $(QUIET) --disable-pip-version-check 'setuptools>=77'
+	$(BIN)/python -m pip install $(QUIET) --disable-pip-version-check --no-build-isolation --editable '.[dev]'
 	touch $@
 
 clean:

@@ -16,7 +16,8 @@ from ..batch.tables import who_cells, who_heads
 from ..campaign.plan import read_plan
 from ..errors import suggestion
 from ..reports.batch.batch_report import write_batch_report
-from ..reports.batch.distributions import distributions_plot, sort_metrics
+from ..reports.batch.distributions import sort_metrics
+from ..reports.batch.plots import metric_plot
 from ..reports.kit.quantities import number
 from ..system.faults import Fault
 from ..system.parameter_sets import ParameterValue
@@ -55,7 +56,7 @@ class BatchResult(results.BatchResult):
         drawn = [known[name] for name in metrics] or sort_metrics(self)[0]
         if not drawn:
             raise ValueError(f"{self.plan.campaign.file}: no metric that varies and is finite anywhere")
-        return distributions_plot(self, drawn)
+        return metric_plot(self, drawn)
 
     def _repr_html_(self) -> str:
         group, rows = self.plan.campaign.group, summary_rows(self.summary)
@@ -71,7 +72,7 @@ class BatchResult(results.BatchResult):
             for row in rows
         ]
         drawn = sort_metrics(self)[0][:MOST_PLOTTED]
-        plot = distributions_plot(self, drawn) if drawn else None
+        plot = metric_plot(self, drawn) if drawn else None
         faults = self.plan.fault_texts()
         words = [Path(self.plan.campaign.file).name, f"with faults: {'; '.join(faults)}" if faults else ""]
         grids = [Grid(head, rates), metric_grid(rows, [metric.name for metric in self.plan.campaign.metrics], group)]

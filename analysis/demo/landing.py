@@ -13,8 +13,10 @@ from ..campaign.campaign import Variant
 from ..campaign.plan import BatchPlan, variant_names
 from ..flight.results import Result
 from ..flight.simulation import Simulation
+from ..reports.kit.panels import is_slim
 from ..reports.kit.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure, plain_ticks
 
+HEIGHT, SLIM_HEIGHT = 5.3, 7.0  # in
 SAMPLE = "#b9c9d6"
 ARROW_TIMES = 20.0  # s between thrust arrows
 CROWDED = 6.0  # km from the site, nearer than which arrows would lie on each other
@@ -46,22 +48,29 @@ def vector(result: Result, name: str) -> np.ndarray:
 
 
 def landing_figure(landing: Result, sample: list[Result]) -> Figure:
-    """Side view to scale with thrust arrows; plan, speed and thrust over the sample of other flights."""
+    """As wide as a page, see `draw_landing`."""
     with house_style():
-        figure = new_figure(5.3)
-        top, bottom = figure.subfigures(2, 1, height_ratios=[2.05, 3.2], squeeze=False).flatten()
-        _side_view(top.subplots(), landing, sample)
-        panels = bottom.subplots(1, 4, width_ratios=[1.62, 1.0, 1.0, 1.0])
-        _plan_view(panels[0], landing, sample)
-        for axes, (title, history) in zip(panels[1:], HISTORIES.items(), strict=True):
-            for other in sample:
-                axes.plot(*history(other), color=SAMPLE, linewidth=0.6)
-            axes.plot(*history(landing), color=BLUE, linewidth=1.8)
-            axes.set_title(title, loc="left")
-            axes.set_xlabel("time, s")
-            axes.margins(x=0.03)
-            plain_ticks(axes, x=5, y=5)
+        figure = new_figure(HEIGHT)
+        draw_landing(figure, landing, sample)
         return figure
+
+
+def draw_landing(figure: Figure, landing: Result, sample: list[Result]) -> None:
+    """Side view with thrust arrows, to scale where there is room; plan, speed and thrust over other flights."""
+    slim = is_slim(figure)
+    top, bottom = figure.subfigures(2, 1, height_ratios=[2.05, 5.2 if slim else 3.2], squeeze=False).flatten()
+    _side_view(top.subplots(), landing, sample, to_scale=not slim)
+    panels = bottom.subplots(*((2, 2) if slim else (1, 4)), width_ratios=[1.0, 1.0] if slim else [1.62, 1.0, 1.0, 1.0])
+    plan, *others = panels.flatten()
+    _plan_view(plan, landing, sample)
+    for axes, (title, history) in zip(others, HISTORIES.items(), strict=True):
+        for other in sample:
+            axes.plot(*history(other), color=SAMPLE, linewidth=0.6)
+        axes.plot(*history(landing), color=BLUE, linewidth=1.8)
+        axes.set_title(title, loc="left")
+        axes.set_xlabel("time, s")
+        axes.margins(x=0.03)
+        plain_ticks(axes, x=3 if slim else 5, y=5)
 
 
 def _speed(result: Result) -> tuple[np.ndarray, np.ndarray]:
@@ -85,7 +94,7 @@ HISTORIES = {
 }
 
 
-def _side_view(axes: Axes, landing: Result, sample: list[Result]) -> None:
+def _side_view(axes: Axes, landing: Result, sample: list[Result], *, to_scale: bool) -> None:
     for other in sample:
         x, y, z = vector(other, "plant.position") / 1e3
         axes.plot(np.hypot(x, y), z, color=SAMPLE, linewidth=0.6)
@@ -100,10 +109,10 @@ def _side_view(axes: Axes, landing: Result, sample: list[Result]) -> None:
         distance[rows], z[rows], ARROW_SCALE * outward[rows], ARROW_SCALE * thrust[2, rows], color=VERMILION,
         angles="xy", scale_units="xy", scale=1.0, width=0.0016, headwidth=5.0, headlength=6.0, zorder=3,
     )  # fmt: skip
-    for row in rows:
+    for row in rows if to_scale else rows[::2]:
         axes.annotate(
             f"{landing.time[row]:g} s", (distance[row], z[row]), xytext=(0, -10), textcoords="offset points",
-            ha="center", fontsize=7, color=FAINT,
+            ha="center", fontsize=7 if to_scale else 8, color=FAINT,
         )  # fmt: skip
     axes.plot(distance[rows], z[rows], linestyle="", marker="o", markersize=3, color=BLUE)
     _target(axes, 0.0, 2.0)
@@ -114,12 +123,14 @@ def _side_view(axes: Axes, landing: Result, sample: list[Result]) -> None:
     axes.axhspan(-1.2, 0.0, color="#d9d6d0", linewidth=0)
     axes.set_xlim(-3.0, 118.0)
     axes.set_ylim(-1.2, 16.0)
-    axes.set_aspect("equal")
+    if to_scale:
+        axes.set_aspect("equal")
     axes.grid(visible=False)
-    plain_ticks(axes, x=12, y=3)
+    plain_ticks(axes, x=12 if to_scale else 6, y=3)
     axes.set_xlabel("distance from the site along the ground, km")
     axes.set_ylabel("altitude, km")
-    axes.set_title("Side view, one scale both ways; arrows: thrust", loc="left")
+    scale = "one scale both ways" if to_scale else "heights stretched"
+    axes.set_title(f"Side view, {scale}; arrows: thrust", loc="left")
 
 
 def _plan_view(axes: Axes, landing: Result, sample: list[Result]) -> None:

@@ -9,12 +9,12 @@ import numpy as np
 
 from ..batch.results import BatchResult
 from ..flight.results import Result
-from ..reports.batch.distributions import distributions_figure
-from ..reports.batch.failures import failures_figure
+from ..reports.batch.distributions import distribution_panels, legend_of
+from ..reports.batch.failures import failure_panels
 from ..reports.batch.rates import rates_figure
 from ..reports.kit.page import write_page
-from ..reports.kit.svg import inline_svg
-from .landing import landing_figure, vector
+from ..reports.kit.panels import both_widths
+from .landing import HEIGHT, SLIM_HEIGHT, draw_landing, vector
 from .readme_figure import LANDING
 
 
@@ -51,12 +51,19 @@ def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, p
         position_error=float(np.linalg.norm(vector(landing, "plant.position")[:, -1] - target)),
         speed=float(np.linalg.norm(vector(landing, "plant.velocity")[:, -1])),
         sample=len(sample),
-        figure=inline_svg(landing_figure(landing, sample), "landing", "A landing from the side, in plan and over time"),
+        figure=both_widths(
+            "landing",
+            "A landing from the side, in plan and over time",
+            lambda figure: draw_landing(figure, landing, sample),
+            HEIGHT,
+            SLIM_HEIGHT,
+        ),
         campaign=campaign,
         provenance=batch.provenance,
         summary=batch.summary,
         published={name: PUBLISHED[name] for name in batch.summary},
         rates=rates_figure(batch, {name: PUBLISHED[name].success_rate for name in batch.summary}),
-        distributions=distributions_figure(batch, [m for m in campaign.metrics if m.name in COMPARED]),
-        failures=failures_figure(batch),
+        looks=legend_of(batch),
+        distributions=distribution_panels(batch, [m for m in campaign.metrics if m.name in COMPARED]),
+        failures=failure_panels(batch),
     )

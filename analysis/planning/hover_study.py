@@ -13,6 +13,7 @@ from .least_time import least_propellant
 from .path import PlanError, PlannedPath
 from .programme import Programme, find_programme, over_distance, over_duration
 from .true_optimum import find_true_optimum
+from ..progress import progress_bar
 from .vehicle import Margins, Transfer, Vehicle
 
 OPTIMUM_INTERVALS = 320
@@ -120,7 +121,16 @@ def hover_study(
         )
     best = programme if duration is None or not (optimum or curves) else find_programme(planned, transfer)
     assert best is not None  # a programme of a given duration is found from it
-    found = find_true_optimum(best, intervals or OPTIMUM_INTERVALS, vehicle.maximum_thrust) if optimum else None
+    most = vehicle.maximum_thrust
+    with progress_bar(total=optimum + bound + 2 * curves, unit="part") as progress:
+        found = find_true_optimum(best, intervals or OPTIMUM_INTERVALS, most) if optimum else None
+        progress.update(optimum)
+        bounded = _bound(vehicle, transfer, intervals or BOUND_INTERVALS) if bound else None
+        progress.update(bound)
+        durations = Curve(*over_duration(best)) if curves else None
+        progress.update(curves)
+        distances = Curve(*over_distance(best)) if curves else None
+        progress.update(curves)
     return HoverStudy(
         vehicle=vehicle,
         margins=margins,
@@ -129,9 +139,9 @@ def hover_study(
         programme=programme,
         vertical=vertical,
         optimum=found,
-        bound=_bound(vehicle, transfer, intervals or BOUND_INTERVALS) if bound else None,
-        durations=Curve(*over_duration(best)) if curves else None,
-        distances=Curve(*over_distance(best)) if curves else None,
+        bound=bounded,
+        durations=durations,
+        distances=distances,
     )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
+
 from .bounds import Landing, landing_problem
 from .declared_bound import Inputs
 from .direct_method import direct_propellant
@@ -14,6 +15,7 @@ from .least_time import least_propellant
 from .path import PlannedPath
 from .point_mass import PointMassProblem
 from .stored_bound import StoredBound, digest
+from ..progress import progress_bar
 from .vehicle import Vehicle
 
 
@@ -96,9 +98,13 @@ def landing_study(
     """
     problem = landing_problem(vehicle, landing)
     count = intervals or BOUND_INTERVALS
-    path = least_propellant(problem, count)
-    check = Direct(*direct_propellant(problem, count)) if direct else None
-    cut = {
-        name: least_propellant(part, count).propellant_fraction * mass for name, (part, mass) in (pieces or {}).items()
-    }
+    with progress_bar(total=1 + direct + len(pieces or {}), unit="part") as progress:
+        path = least_propellant(problem, count)
+        progress.update()
+        check = Direct(*direct_propellant(problem, count)) if direct else None
+        progress.update(direct)
+        cut = {}
+        for name, (part, mass) in (pieces or {}).items():
+            cut[name] = least_propellant(part, count).propellant_fraction * mass
+            progress.update()
     return LandingStudy(vehicle, landing, path.planned(problem), path.looseness, check, cut)

@@ -9,10 +9,10 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from loky import ProcessPoolExecutor
+from loky.backend.queues import SimpleQueue
 
 from ..batch.workers import worker_count
 from ..errors import InputError
-from ..process_end import leave_when_done
 from ..system.prepared import PreparedSystem
 from .ask.channels import Channel
 from .ask.declaration import Point
@@ -21,6 +21,7 @@ from .ask.subject import Subject
 from .bench.bench import StudyError
 from .point.limit_cycles import element_report
 from .point.point_study import PointStudy
+from .progress import Tell, begin, heard, shown, tell_parent
 from .results.loop import JointReport, LoopReport
 from .results.report import PointReport, StabilityReport, Unstudied
 from .results.varied import Dispersion
@@ -46,14 +47,18 @@ def study(request: Request, workers: int | None = None) -> StabilityReport:
 
     The report does not depend on their number. Raises InputError, and StudyError where no flight reaches a point.
     """
+    with shown() as tell:
+        return _study(request, worker_count(workers), tell)
+
+
+def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
     begun = time.monotonic()
-    count = worker_count(workers)
     points = [point for point in request.declaration.points if request.loops_at(point)]
     if min(count, len(points)) > 1:
-        with _processes(min(count, len(points))) as pool:
-            found = list(pool.map(study_point, [request] * len(points), points))
+        with heard(tell) as queue, _processes(min(count, len(points)), queue) as pool:
+            found = list(pool.map(_study_in_process, [request] * len(points), points))
     else:
-        found = [study_point(request, point) for point in points]
+        found = [study_point(request, point, tell) for point in points]
     cells = {point.name: result.cells for point, result in zip(points, found, strict=True)}
     unstudied = [item for result in found for item in result.unstudied]
     sweeps = []
@@ -68,7 +73,7 @@ def study(request: Request, workers: int | None = None) -> StabilityReport:
         subject = Subject(request.system, request.options)
         loop, point = request.loop(sweep.loop), request.point(sweep.point)
         try:
-            sweeps.append(swept(subject, point, loop, sweep, request.declaration.limits, known))
+            sweeps.append(swept(subject, point, loop, sweep, request.declaration.limits, known, tell))
         except StudyError as error:
             unstudied.append(Unstudied(sweep.name, sweep.point, "sweep", str(error)))
     return StabilityReport(
@@ -85,20 +90,26 @@ def study(request: Request, workers: int | None = None) -> StabilityReport:
 
 
 @contextmanager
-def _processes(count: int) -> Iterator[ProcessPoolExecutor]:
-    pool = ProcessPoolExecutor(count, initializer=leave_when_done)
+def _processes(count: int, queue: SimpleQueue) -> Iterator[ProcessPoolExecutor]:
+    pool = ProcessPoolExecutor(count, initializer=begin, initargs=(queue,))
     try:
         yield pool
     finally:
         pool.shutdown()
 
 
-def study_point(request: Request, point: Point) -> PointResult:
-    """One point with all its loops. Raises InputError, StudyError."""
+def _study_in_process(request: Request, point: Point) -> PointResult:
+    return study_point(request, point, tell_parent)
+
+
+def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
+    """One point with all its loops: a step each, one for the linear model. Raises InputError, StudyError."""
     subject = Subject(request.system, request.options)
     loops, limits = request.loops_at(point), request.declaration.limits
     with PointStudy(subject, point, loops) as work:
+        tell(1 + len(work.channels), 0)
         work.linearise()
+        tell(0, 1)
         reports: list[LoopReport] = []
         joint: list[JointReport] = []
         unstudied: list[Unstudied] = []
@@ -107,6 +118,7 @@ def study_point(request: Request, point: Point) -> PointResult:
                 reports.append(_loop(request, subject, work, channel))
             except StudyError as error:
                 unstudied.append(Unstudied(channel.name, point.name, "loop", str(error)))
+            tell(0, 1)
         lost = {item.name for item in unstudied}
         for loop in loops:
             if any(channel.loop == loop.name and channel.name in lost for channel in work.channels):
@@ -126,7 +138,7 @@ def study_point(request: Request, point: Point) -> PointResult:
             provenance=work.bench.simulation.provenance(),
         )
     if result.cells is not None and reports:
-        _vary(request, subject, point, reports, step, result.cells, unstudied)
+        _vary(request, subject, point, reports, step, result.cells, unstudied, tell)
     return result
 
 
@@ -161,14 +173,16 @@ def _vary(
     step: float,
     cells: Sequence[int],
     unstudied: list[Unstudied],
+    tell: Tell,
 ) -> None:
     """What needs route A with something changed: the step, the campaign."""
     loops = [loop for loop in request.loops_at(point) if any(report.loop == loop.name for report in reports)]
-    steps = sampled(subject, point, loops, step, cells, [report.name for report in reports])
+    steps = sampled(subject, point, loops, step, cells, [report.name for report in reports], tell)
     spread: dict[str, Dispersion] = {}
     if request.plan is not None:
         try:
-            spread = dispersed(subject, request.plan, point, loops, request.declaration.limits, cells, request.replay)
+            limits = request.declaration.limits
+            spread = dispersed(subject, request.plan, point, loops, limits, cells, request.replay, tell)
         except (StudyError, InputError) as error:  # wrong input has been refused before; a trial may still end early
             unstudied.append(Unstudied(request.campaign or "", point.name, "campaign", str(error)))
     for report in reports:

@@ -6,9 +6,12 @@ import argparse
 import os
 import sys
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import TypeVar
+
+from tqdm import tqdm
 
 from ..catalogue import catalogue
 from ..places import BUILD, FLAVOURS, SYSTEMS
@@ -16,6 +19,8 @@ from .compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_
 from .native_fmu import build_native_fmu
 from .pythonfmu_fmu import build_python_fmu
 from .ssp_package import pack_system
+
+T = TypeVar("T")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -59,7 +64,7 @@ def _build(flavour: str, output: Path, platforms: Sequence[str], portable: bool)
     """Build the FMUs of one flavour; returns how many. Blocks that need Python have no native form."""
     folder, blocks = output / "fmus" / flavour, catalogue()
     if flavour == "python":
-        for name, block in blocks.items():
+        for name, block in _progress(blocks.items(), "python FMUs", len(blocks)):
             build_python_fmu(block, folder / f"{name}.fmu")
         return len(blocks)
 
@@ -68,5 +73,10 @@ def _build(flavour: str, output: Path, platforms: Sequence[str], portable: bool)
 
     names = [name for name, block in blocks.items() if not block.python_only]
     with ThreadPoolExecutor(os.cpu_count()) as pool:  # most of the time compilers run, each a process
-        deque(pool.map(build, names), maxlen=0)
+        deque(_progress(pool.map(build, names), "native FMUs", len(names)), maxlen=0)
     return len(names)
+
+
+def _progress(work: Iterable[T], what: str, total: int) -> Iterable[T]:
+    """The same with a bar on standard error, if that is a terminal."""
+    return tqdm(work, desc=what, total=total, unit="FMU", disable=None, leave=False)

@@ -6,16 +6,20 @@ Truth: the files of the checkout; a Python that says it is an old one.
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import subprocess
 import sys
 import tomllib
+
+import pytest
 
 from perilune.fmus_src.places import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 FILES = """
 import json
+import os
 from setuptools.dist import Distribution
 found = Distribution()
 found.parse_config_files()
@@ -68,3 +72,28 @@ def test_make_refuses_an_old_python_before_it_makes_anything(tmp_path):
         first = done.stderr.splitlines()[0]
         assert first.startswith(f"Perilune needs Python 3.11 to 3.13, and {old} is 3.9.1; ")
         assert sorted(tmp_path.iterdir()) == before
+
+
+@pytest.mark.parametrize(("watched", "quiet"), [(True, False), (False, True)])
+def test_make_shows_what_pip_does_on_a_terminal_only(tmp_path, watched, quiet):
+    for name in ("Makefile", "pyproject.toml", "setup.py"):
+        shutil.copy(ROOT / name, tmp_path)
+    terminal, end = os.openpty()
+    try:
+        error = end if watched else subprocess.DEVNULL
+        done = subprocess.run(
+            ["make", "--dry-run", ".venv/ready"],
+            cwd=tmp_path,
+            stdout=subprocess.PIPE,
+            stderr=error,
+            text=True,
+            check=True,
+        )
+    finally:
+        os.close(terminal)
+        os.close(end)
+    lines = done.stdout.splitlines()
+    assert any("echo 'Installing Perilune" in line for line in lines)
+    installs = [line for line in lines if "pip install" in line]
+    assert len(installs) == 2
+    assert all(("--quiet" in line) == quiet for line in installs)

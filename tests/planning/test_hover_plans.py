@@ -11,11 +11,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from perilune.analysis.planning import hover_study as hover_study_module
 from perilune.analysis.planning.hover_study import hover_study
 from perilune.analysis.planning.path import PlanError
 from perilune.analysis.planning.programme import Programme, find_programme, over_distance, over_duration
 from perilune.analysis.planning.true_optimum import find_true_optimum
 from perilune.analysis.planning.vehicle import Margins, Transfer, Vehicle
+from tests.support.bars import watched
 from tests.support.lengths import either
 
 ENGINE = 4707.192
@@ -169,3 +171,9 @@ def test_no_room_for_the_programme():
         hover_study(VEHICLE, Transfer(10000.0, 500.0, 1.622))
     with pytest.raises(PlanError, match="no simplified programme that takes 40 s goes"):
         hover_study(VEHICLE, TRANSFER, duration=40.0)
+
+
+def test_a_plan_of_several_parts_tells_how_far_it_is(monkeypatch):
+    bars = watched(monkeypatch, hover_study_module)
+    hover_study(VEHICLE, TRANSFER, curves=True)
+    assert bars.ends == [(2, 2)]

@@ -8,8 +8,8 @@ from typing import Any
 from ...batch.results import BatchResult
 from ...campaign.campaign import Campaign
 from ..kit.page import write_page
-from .distributions import distributions_figure, sort_metrics
-from .failures import failures_figure, telling_scores
+from .distributions import distribution_panels, legend_of, sort_metrics
+from .failures import failure_panels, telling_scores
 from .rates import rates_figure
 from .replays import extremes_to_replay, failures_to_replay
 from .rows import HEADINGS, group_rows, variant_rows
@@ -33,11 +33,12 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         group_rows=group_rows(result.summary),
         statistics=HEADINGS,
         rates=rates_figure(result),
-        distributions=distributions_figure(result, drawn) if drawn else None,
+        looks=legend_of(result),
+        distributions=distribution_panels(result, drawn),
         still=still,
         empty=empty,
         scatters=scatter_figures(result),
-        failures=failures_figure(result),
+        failures=failure_panels(result),
         failed=failures_to_replay(result),
         extremes=extremes_to_replay(result),
         seen=seen_statuses(result),

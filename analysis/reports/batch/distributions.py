@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from ...batch.results import BatchResult
 from ...campaign.campaign import Metric
+from ..kit.panels import Panel, panel, swatch
 from ..kit.quantities import labelled, shown_factor
-from ..kit.style import WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
-from ..kit.svg import inline_svg
+from ..kit.style import Look, log_ticks_x, look, plain_ticks
 
-COLUMNS = 3
 DECADES = 2.0  # a metric that spans more gets a logarithmic axis
-LEGEND = 135  # characters on a legend's line over the full width
 TAIL = 0.01  # on it, this share of the smallest values may lie left of the axis
 
 
@@ -42,33 +38,26 @@ def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, 
     return drawn, still, empty
 
 
-def distributions_figure(result: BatchResult, metrics: Sequence[Metric]) -> Markup:
-    """The distributions as they stand on the page."""
-    plot = distributions_plot(result, metrics)
-    with house_style():
-        return inline_svg(plot, "distributions", "Distributions of " + ", ".join(metric.name for metric in metrics))
-
-
-def distributions_plot(result: BatchResult, metrics: Sequence[Metric]) -> Figure:
+def distribution_panels(result: BatchResult, metrics: Sequence[Metric]) -> list[Panel]:
     """Empirical distributions over all trials: the share of trials with at most that value."""
-    rows = -(-len(metrics) // COLUMNS)
-    columns = min(COLUMNS, len(metrics))
-    variants = list(result.trials)
-    with house_style():
-        figure = new_figure(0.35 + 2.3 * rows, WIDTH if columns > 1 else WIDTH / 2)
-        all_axes = figure.subplots(rows, columns, squeeze=False, sharey=True)
-        for axes, metric in zip(all_axes.flatten(), metrics, strict=False):
-            draw_distribution(axes, metric, metric_values(result, metric.name), [look(i) for i in range(len(variants))])
-        for axes in all_axes.flatten()[len(metrics) :]:
-            axes.remove()
-        for axes in all_axes[:, 0]:
-            axes.set_ylabel("share of trials, %")
-        lines = [
-            Line2D([], [], color=look(i).colour, linestyle=look(i).dashes, linewidth=1.6) for i in range(len(variants))
-        ]
-        columns = max(1, int(LEGEND * figure.get_figwidth() / WIDTH / (max(map(len, variants)) + 9)))
-        figure.legend(lines, variants, loc="outside upper left", ncols=columns, handlelength=3.2, borderpad=0.1)
-        return figure
+    looks = [look(index) for index in range(len(result.trials))]
+
+    def drawing(metric: Metric) -> Callable[[Axes], None]:
+        def draw(axes: Axes) -> None:
+            draw_distribution(axes, metric, metric_values(result, metric.name), looks)
+            axes.set_title("share of trials, %", loc="left", fontsize=8.5)
+
+        return draw
+
+    return [
+        panel(metric.name, f"distribution-{index}", f"Distributions of {metric.name}", drawing(metric))
+        for index, metric in enumerate(metrics)
+    ]
+
+
+def legend_of(result: BatchResult) -> list[tuple[Markup, str]]:
+    """Variants with the looks that they are drawn with."""
+    return [(swatch(look(index)), variant) for index, variant in enumerate(result.trials)]
 
 
 def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray], looks: Sequence[Look]) -> None:

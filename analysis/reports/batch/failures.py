@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
-from markupsafe import Markup
 from matplotlib.axes import Axes
 
 from ...batch.results import BatchResult
-from ..kit.style import GRID, VERMILION, WIDTH, house_style, new_figure, plain_ticks
-from ..kit.svg import inline_svg
+from ..kit.panels import Panel, panel
+from ..kit.style import GRID, VERMILION, plain_ticks
 
-COLUMNS = 3
+HEIGHT = 3.2  # in
 GOOD = "#9a9a9a"
 MANY = 3000  # points of a panel from which on they are stored as an image, not one by one
 
@@ -41,22 +42,28 @@ def telling_scores(result: BatchResult, variant: str) -> dict[str, float]:
     return dict(sorted(scores.items(), key=lambda item: -item[1]))
 
 
-def failures_figure(result: BatchResult) -> Markup | None:
-    """Failures and successes over the two most telling draws of each variant; None where nothing can be told."""
+def failure_panels(result: BatchResult) -> list[Panel]:
+    """Failures and successes over the two most telling draws of each variant for which something can be told."""
     chosen = {variant: list(telling_scores(result, variant))[:2] for variant in result.trials}
-    chosen = {variant: names for variant, names in chosen.items() if names}
-    if not chosen:
-        return None
-    columns = min(COLUMNS, len(chosen))
-    rows = -(-len(chosen) // columns)
-    with house_style():
-        figure = new_figure(3.5 * rows, WIDTH if columns > 1 else WIDTH / 2)
-        all_axes = figure.subplots(rows, columns, squeeze=False).flatten()
-        for axes, (variant, names) in zip(all_axes, chosen.items(), strict=False):
-            _draw_panel(axes, result, variant, names)
-        for axes in all_axes[len(chosen) :]:
-            axes.remove()
-        return inline_svg(figure, "failures", "Failures over the most telling draws of " + ", ".join(chosen))
+
+    def drawing(variant: str, names: list[str]) -> Callable[[Axes], None]:
+        return lambda axes: _draw_panel(axes, result, variant, names)
+
+    return [
+        panel(
+            variant,
+            f"failures-{index}",
+            _words(variant, names),
+            drawing(variant, names),
+            HEIGHT,
+        )
+        for index, (variant, names) in enumerate(chosen.items())
+        if names
+    ]
+
+
+def _words(variant: str, names: list[str]) -> str:
+    return f"Failures of {variant} over {' and '.join(names)}"
 
 
 def _draw_panel(axes: Axes, result: BatchResult, variant: str, names: list[str]) -> None:
@@ -65,8 +72,6 @@ def _draw_panel(axes: Axes, result: BatchResult, variant: str, names: list[str])
     y = result.plan.draws.columns[names[1]] if len(names) > 1 else np.arange(good.size, dtype=float)
     image = good.size > MANY
     size = max(0.35, min(1.0, (500.0 / good.size) ** 0.5))
-    figure = axes.get_figure()
-    assert figure is not None  # the axes have just been made in one
     axes.plot(
         x[good], y[good], "o", markersize=3.0 * size, color=GOOD, markeredgewidth=0.0, rasterized=image,
         label=f"{int(good.sum())} successes",
@@ -79,7 +84,6 @@ def _draw_panel(axes: Axes, result: BatchResult, variant: str, names: list[str])
     axes.grid(color=GRID)
     axes.set_xlabel(names[0])
     axes.set_ylabel(names[1] if len(names) > 1 else "trial")
-    axes.set_title(variant, loc="left", pad=24, fontweight="bold")
     axes.legend(
         loc="lower left",
         bbox_to_anchor=(-0.02, 1.0),

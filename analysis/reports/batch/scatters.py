@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,21 +13,20 @@ from matplotlib.patches import Circle
 from ...batch.results import BatchResult
 from ...campaign.campaign import Metric, Scatter
 from ..kit.page import exact
+from ..kit.panels import Panel, panel
 from ..kit.quantities import labelled, number, shown_factor, shown_unit
-from ..kit.style import INK, VERMILION, WIDTH, house_style, new_figure, plain_ticks
-from ..kit.svg import inline_svg
+from ..kit.style import INK, VERMILION, plain_ticks
 from .failures import GOOD, MANY
 
-COLUMNS = 3
-SIDE = 3.6  # in
+SIDE = 3.4  # in
 
 
 @dataclass(frozen=True)
 class ScatterFigure:
-    """A heading, a figure and what is to be read of it."""
+    """A heading, a panel for each variant and what is to be read of them."""
 
     title: str
-    figure: Markup
+    panels: list[Panel]
     notes: list[Markup]
 
 
@@ -43,39 +43,49 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
         for variant, trials in result.trials.items()
     }
     title = scatter.title or f"{scatter.y} over {scatter.x}"
-    columns = min(COLUMNS, len(points))
-    rows = -(-len(points) // columns)
-    with house_style():
-        figure = new_figure(SIDE * rows + 0.2, WIDTH if columns > 1 else WIDTH / 2)
-        all_axes = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True).flatten()
-        for axes, (variant, found) in zip(all_axes, points.items(), strict=False):
-            _draw_panel(axes, variant, found, np.asarray(result.trials[variant].success, dtype=bool), pair, scatter)
-        for axes in all_axes[len(points) :]:
-            axes.remove()
-        if pair[0].unit == pair[1].unit:
-            _square(all_axes[0], np.concatenate(list(points.values()), axis=1), scatter, shown_factor(pair[0].unit))
-        drawn = inline_svg(figure, f"scatter-{scatter.name}", f"{title}: {', '.join(points)}")
-    return ScatterFigure(title, drawn, _reading(scatter, pair[0], points))
+    everything = np.concatenate(list(points.values()), axis=1)
+    limits = _limits(everything, 0.0 if scatter.circle is None else shown_factor(pair[0].unit) * scatter.circle)
+    to_scale = pair[0].unit == pair[1].unit
+    if to_scale and limits is not None:
+        limits = _square(limits)
+
+    def drawing(variant: str) -> Callable[[Axes], None]:
+        good = np.asarray(result.trials[variant].success, dtype=bool)
+        return lambda axes: _draw_panel(axes, points[variant], good, pair, scatter, limits, to_scale)
+
+    panels = [
+        panel(variant, f"scatter-{scatter.name}-{index}", f"{title}: {variant}", drawing(variant), SIDE)
+        for index, variant in enumerate(points)
+    ]
+    return ScatterFigure(title, panels, _reading(scatter, pair[0], points))
 
 
-def _square(axes: Axes, points: np.ndarray, scatter: Scatter, factor: float) -> None:
-    """All panels, which share their axes, to one scale of both, with all points and the circle in them."""
+def _limits(points: np.ndarray, radius: float) -> np.ndarray | None:
+    """Low and high ends of both axes, a row each, with all finite points and the circle in them; None without any."""
     points = points[:, np.all(np.isfinite(points), axis=0)]
-    radius = 0.0 if scatter.circle is None else factor * scatter.circle
     ends = np.array([[-radius, radius]] * 2) if radius else np.empty((2, 0))
     everything = np.concatenate([points, ends], axis=1)
     if not everything.size:
-        return
+        return None
     low, high = everything.min(axis=1), everything.max(axis=1)
-    middle, half = (low + high) / 2.0, 0.53 * float(np.max(high - low)) or 1.0
-    axes.set_xlim(middle[0] - half, middle[0] + half)
-    axes.set_ylim(middle[1] - half, middle[1] + half)
-    for panel in axes.get_shared_x_axes().get_siblings(axes):
-        panel.set_aspect("equal")
+    margin = np.where(high > low, 0.05 * (high - low), 0.5)
+    return np.stack([low - margin, high + margin], axis=1)
+
+
+def _square(limits: np.ndarray) -> np.ndarray:
+    """Both axes as long as the longer one."""
+    middle, half = limits.mean(axis=1), 0.5 * float(np.max(np.ptp(limits, axis=1)))
+    return np.stack([middle - half, middle + half], axis=1)
 
 
 def _draw_panel(
-    axes: Axes, variant: str, points: np.ndarray, good: np.ndarray, pair: tuple[Metric, Metric], scatter: Scatter
+    axes: Axes,
+    points: np.ndarray,
+    good: np.ndarray,
+    pair: tuple[Metric, Metric],
+    scatter: Scatter,
+    limits: np.ndarray | None,
+    to_scale: bool,
 ) -> None:
     image = good.size > MANY
     size = max(0.5, min(1.0, (500.0 / good.size) ** 0.5))
@@ -94,7 +104,11 @@ def _draw_panel(
     plain_ticks(axes, x=5, y=6)
     axes.set_xlabel(labelled(pair[0].name, pair[0].unit))
     axes.set_ylabel(labelled(pair[1].name, pair[1].unit))
-    axes.set_title(variant, loc="left", pad=24, fontweight="bold")
+    if limits is not None:
+        axes.set_xlim(*limits[0])
+        axes.set_ylim(*limits[1])
+    if to_scale:
+        axes.set_aspect("equal")
     axes.legend(
         loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2, borderpad=0.2, handletextpad=0.2, columnspacing=1.0
     )

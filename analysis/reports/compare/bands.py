@@ -88,11 +88,33 @@ def _resampled(grid: np.ndarray, time: np.ndarray, values: np.ndarray, held: boo
     return np.where(inside, found, np.nan)
 
 
-def band_panels(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[str, Look], name: str) -> list[Panel]:
-    """A panel per contender, all to one scale, which failed flights may leave.
+@dataclass(frozen=True)
+class Frame:
+    """What all panels of a quantity have in common: factor and unit shown, limits in SI, what is expected."""
 
-    Errors over sigma far beyond what is to be expected leave it too, and their panel says how far they go.
-    """
+    factor: float
+    unit: str
+    time: tuple[float, float]
+    low: float
+    high: float
+    expected: tuple[float, ...]
+    held: bool
+
+    def dress(self, axes: Axes) -> None:
+        """Limits, labels, and where the errors of a consistent filter would lie."""
+        for value in self.expected:
+            axes.axhline(self.factor * value, linewidth=0.9, **FAILED)
+        start, end = self.time
+        margin = 0.06 * (self.high - self.low) or 0.06 * abs(self.high) or 1.0
+        axes.set_xlim(start, end + 0.02 * (end - start))
+        axes.set_ylim(self.factor * (self.low - margin), self.factor * (self.high + margin))
+        axes.set_xlabel("time, s")
+        axes.set_ylabel(self.unit)
+        plain_ticks(axes, x=5, y=5, whole_y=self.held)
+
+
+def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
+    """One scale for all, which failed flights may leave, and errors over sigma far beyond what is to be expected."""
     expected = expectation(quantity)
     everything = np.concatenate([found.shown() for found in bands.values()] + [np.asarray(expected)])
     factor, unit = shown_factor(quantity.unit), shown_unit(quantity.unit)
@@ -102,25 +124,25 @@ def band_panels(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[s
     if expected:
         room = REACH * (expected[-1] - expected[0])
         low, high = max(low, expected[0] - room), min(high, expected[-1] + room)
-    margin = 0.06 * (high - low) or 0.06 * abs(high) or 1.0
     start = min(found.time[0] for found in bands.values())
     end = max(time[-1] for found in bands.values() for time, _ in [(found.time, None), *found.singles])
+    return Frame(factor, unit, (float(start), float(end)), low, high, expected, quantity.held)
+
+
+def band_panels(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[str, Look], name: str) -> list[Panel]:
+    """A panel per contender, all to one scale; one whose errors over sigma leave it says how far they go."""
+    frame = frame_of(quantity, bands)
     panels = []
     for index, (label, found) in enumerate(bands.items()):
 
         def draw(axes: Axes, found: Bands = found, colour: str = looks[label].colour) -> None:
-            _draw(axes, found, factor, colour, quantity.held)
-            for value in expected:
-                axes.axhline(factor * value, linewidth=0.9, **FAILED)
-            axes.set_xlim(start, end + 0.02 * (end - start))
-            axes.set_ylim(factor * (low - margin), factor * (high + margin))
-            beyond = [value for value in (found.shown().min(), found.shown().max()) if not low <= value <= high]
+            _draw(axes, found, frame.factor, colour, quantity.held)
+            frame.dress(axes)
+            ends = (found.shown().min(), found.shown().max())
+            beyond = [value for value in ends if not frame.low <= value <= frame.high]
             if beyond:
-                words = f"goes on to {' and '.join(number(factor * float(value), 3) for value in beyond)}"
-                axes.set_title(words, loc="right", fontsize=7.5, color=FAINT)
-            axes.set_xlabel("time, s")
-            axes.set_ylabel(unit)
-            plain_ticks(axes, x=5, y=5, whole_y=quantity.held)
+                words = f"goes on to {' and '.join(number(frame.factor * float(value), 3) for value in beyond)}"
+                axes.set_title(words, loc="right", fontsize=8.0, color=FAINT)
 
         description = f"{quantity.label} of {label} over time: percentiles over {found.flights} flights"
         panels.append(panel(label, f"{name}-{index}", description, draw, HEIGHT))

@@ -66,7 +66,7 @@ def dispersion_panels(
     ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str, name: str
 ) -> tuple[list[Panel], list[Panel]]:
     """Panels to one scale; and, where these differ much, each to its own."""
-    reaches = {label: _reach(found) for label, found in ends.items()}
+    reaches = {label: reach_of(found) for label, found in ends.items()}
     most = max(reaches.values())
     common = [_panel(label, found, looks[label], most, unit, f"{name}-{i}") for i, (label, found) in _numbered(ends)]
     if most <= UNEVEN * min(reaches.values()):
@@ -82,15 +82,15 @@ def _numbered(ends: Mapping[str, Ends]) -> list[tuple[int, tuple[str, Ends]]]:
     return list(enumerate(ends.items()))
 
 
-def _shown(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
+def shown_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
     """Horizontal errors of successful and of failed trials; those that are not finite left out."""
     finite = np.all(np.isfinite(ends.errors), axis=1)
     return ends.errors[finite & ends.success], ends.errors[finite & ~ends.success]
 
 
-def _reach(ends: Ends) -> float:
+def reach_of(ends: Ends) -> float:
     """How far from the target a contender's panel goes: its successful trials and 3-sigma ellipse, if any."""
-    good, bad = _shown(ends)
+    good, bad = shown_ends(ends)
     points = good if good.size else bad
     values = [np.abs(points[:, :2]).ravel()]
     if len(good) > 1:
@@ -101,7 +101,7 @@ def _reach(ends: Ends) -> float:
 
 def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: str) -> Panel:
     factor, shown = far(np.array([reach])) if unit == "m" else (1.0, unit)
-    good, bad = (factor * points for points in _shown(ends))
+    good, bad = (factor * points for points in shown_ends(ends))
     reach *= factor
 
     def draw(axes: Axes) -> None:
@@ -124,7 +124,7 @@ def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: s
         missing = len(ends.errors) - len(good) - len(bad)
         notes = [f"{outside} failed outside"] if outside else []
         notes += [f"{missing} without an end"] if missing else []
-        axes.set_title(", ".join(notes), loc="right", fontsize=7.5, color=FAINT)
+        axes.set_title(", ".join(notes), loc="right", fontsize=8.0, color=FAINT)
         axes.set_xlim(-reach, reach)
         axes.set_ylim(-reach, reach)
         axes.set_box_aspect(1.0)

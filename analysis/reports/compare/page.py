@@ -22,6 +22,7 @@ from .consistency import LIMITS, NORMAL, is_over_sigma, sigma_rows
 from .dispersions import Dispersion, dispersion, dispersion_panels
 from .gaps import is_biased, missing_parts
 from .metrics import all_values, distributed, distribution_panel, sort_metrics
+from .overlays import overlaid_bands, overlaid_ends
 from .recorded import Flight, Quantity, kept_names, quantities, read_flights, sampled_trials
 from .tables import draw_ranges, metric_pairs, rate_pairs
 from .targets import UNITS, ends_of
@@ -31,9 +32,10 @@ KINDS = ("commands", "motion", "consistency", "other")
 
 @dataclass(frozen=True)
 class History:
-    """A quantity over time: panels, or its value where it is the same throughout."""
+    """A quantity over time: panels, all contenders in one and each, or its value where it is the same throughout."""
 
     quantity: Quantity
+    together: list[Panel]
     panels: list[Panel]
     constant: float | None
     expected: tuple[float, ...]
@@ -41,12 +43,13 @@ class History:
 
 @dataclass(frozen=True)
 class End:
-    """Final positions or velocities: panels to one scale and to own scales, a row of the table per contender."""
+    """Final positions or velocities: all contenders in a panel, to one scale and to own scales, rows of the table."""
 
     what: str
     unit: str
     signal: str
     targets: list[str]
+    together: list[Panel]
     common: list[Panel]
     own: list[Panel]
     rows: dict[str, Dispersion]
@@ -77,6 +80,7 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         comparison=comparison,
         first=first,
         summary=comparison.summary,
+        looks=[(swatch(style), label) for label, style in looks.items()],
         swatches={label: swatch(style) for label, style in looks.items()},
         rows=rows,
         group_rows=grouped,
@@ -95,6 +99,7 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         still=still,
         empty=empty,
         histories={kind: [found for found in histories if found.quantity.kind == kind] for kind in KINDS},
+        over_sigma=[metric.name for metric in errors],
         sigma_rows=sigma_rows(comparison),
         sigma_distributions=[distribution_panel(metric, errors[metric], looks) for metric in sort_metrics(errors)[0]],
         limits=[(limit, NORMAL[limit]) for limit in LIMITS],
@@ -148,8 +153,12 @@ def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], look
         if not shown:
             continue
         constant = _constant(shown.values())
-        panels = band_panels(quantity, shown, looks, f"history{index}") if constant is None else []
-        found.append(History(quantity, panels, constant, expectation(quantity)))
+        if constant is None:
+            together = overlaid_bands(quantity, shown, looks, f"history{index}-all")
+            panels = band_panels(quantity, shown, looks, f"history{index}")
+            found.append(History(quantity, together, panels, None, expectation(quantity)))
+        else:
+            found.append(History(quantity, [], [], constant, expectation(quantity)))
     return found
 
 
@@ -173,6 +182,7 @@ def _end(comparison: Comparison, variable: str, looks: Mapping[str, Look]) -> En
         unit=UNITS[variable],
         signal=", ".join(dict.fromkeys(found.signal for found in ends.values())),
         targets=list(dict.fromkeys(found.target for found in ends.values())),
+        together=overlaid_ends(ends, looks, UNITS[variable], f"end-{variable}-all"),
         common=common,
         own=own,
         rows={label: dispersion(found) for label, found in ends.items()},

@@ -1,4 +1,8 @@
-"""Small figures of one size that a page lays out side by side, or below each other on a narrow screen."""
+"""Small figures of one size that a page lays out side by side, or below each other on a narrow screen.
+
+Text is never below 8 pt of a figure's own size. A figure fills what it stands in, so on a screen 390 px wide, of which
+366 are the page's, text of 8 pt in the widest panel is 9 px high.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +12,14 @@ from typing import NamedTuple
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from .style import DASHES, Look, house_style, new_figure
+from .style import DASHES, WIDTH, Look, house_style, new_figure
 from .svg import inline_svg
 
 PANEL_WIDTH = 3.4  # in; three in the page's column
 PANEL_HEIGHT = 2.5  # in
-HALF_WIDTH = 5.1  # in; two in the page's column
+HALF_WIDTH = 4.5  # in; two in the page's column
 KILOMETRES = 1e4  # m, from which on lengths are in km
 
 
@@ -37,7 +42,36 @@ def panel(
     with house_style():
         figure = new_figure(height, width)
         draw(figure.subplots())
-        return Panel(label, inline_svg(figure, name, description, fill=True))
+        return Panel(label, inline_svg(figure, name, description))
+
+
+class Widths(NamedTuple):
+    """A figure as wide as the page, and the same for a narrow screen; the page shows one of the two."""
+
+    wide: Markup
+    slim: Markup
+
+
+def both_widths(
+    name: str, description: str, draw: Callable[[Figure], None], height: float, slim_height: float | None = None
+) -> Widths:
+    """A figure that ``draw`` draws twice, since shrunk to a narrow screen its text could not be read.
+
+    Heights in inches; ``name`` must differ between the figures of a page. How wide it is, ``draw`` asks the figure.
+    """
+    drawn = []
+    for kind, width, high in (("wide", WIDTH, height), ("slim", HALF_WIDTH, slim_height or height)):
+        with house_style():
+            figure = new_figure(high, width)
+            draw(figure)
+            own = name if kind == "wide" else f"{name}-{kind}"
+            drawn.append(inline_svg(figure, own, description, kind=kind))
+    return Widths(*drawn)
+
+
+def is_slim(figure: Figure) -> bool:
+    """Whether a figure is drawn for a narrow screen."""
+    return bool(figure.get_figwidth() < WIDTH)
 
 
 def far(values: np.ndarray) -> tuple[float, str]:

@@ -9,7 +9,6 @@ from markupsafe import Markup
 from matplotlib.figure import Figure
 
 from .picture import svg_bytes
-from .style import WIDTH
 
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK_HREF = "{http://www.w3.org/1999/xlink}href"
@@ -17,13 +16,12 @@ DECIMALS = re.compile(r"(\.\d\d)\d+")  # beyond hundredths of a point
 REFERENCE = re.compile(r"url\(#([^)]+)\)")
 
 
-def inline_svg(figure: Figure, name: str, description: str, *, fill: bool = False) -> Markup:
+def inline_svg(figure: Figure, name: str, description: str, *, kind: str = "") -> Markup:
     """A figure as an <svg> element for a page.
 
     Every id is prefixed with ``name``, which must differ between the figures of a page;
     ``description`` is what a screen reader says. Text stays text: it can be searched and copied. Coordinates are
-    cut to hundredths of a point. With ``fill`` the figure is as wide as what it stands in, otherwise its share of the
-    page's column, below which it is not shrunk on a narrow screen.
+    cut to hundredths of a point. The figure is as wide as what it stands in; ``kind`` is a class more, for the style.
     """
     root = etree.fromstring(svg_bytes(figure, name, text_as_paths=False), etree.XMLParser(resolve_entities=False))
     for unwanted in (*root.iter(f"{SVG}metadata"), *root.iter(f"{SVG}style")):
@@ -46,7 +44,5 @@ def inline_svg(figure: Figure, name: str, description: str, *, fill: bool = Fals
     del root.attrib["width"], root.attrib["height"]
     root.set("role", "img")
     root.set("aria-label", description)
-    root.set("class", "figure")
-    if not fill:
-        root.set("style", f"--share: {figure.get_figwidth() / WIDTH:.2f}")
+    root.set("class", f"figure {kind}".rstrip())
     return Markup(etree.tostring(root, encoding="unicode"))

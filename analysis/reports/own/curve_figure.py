@@ -48,10 +48,10 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
     notes = _reading(curve, unit)
     if len(shown) == 1 or curve.together:
         names = ", ".join(signal.label for signal in curve.signals)
-        wide = wide_history(
+        drawn = wide_history(
             name, f"{curve.title}: {names} over time", unit, time, lambda axes: draw(axes, range(len(shown)))
         )
-        return Section(title=curve.title, wide=wide, legend=legend_of(curve.labels), notes=notes)
+        return Section(title=curve.title, drawn=drawn, legend=legend_of(curve.labels), notes=notes)
     panels = [
         history_panel(
             label,

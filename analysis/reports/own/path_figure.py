@@ -5,18 +5,19 @@ from __future__ import annotations
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...flight.results import Result
-from ..kit.panels import far
+from ..kit.panels import both_widths, far, is_slim
 from ..kit.quantities import labelled, shown_unit
-from ..kit.style import BLUE, house_style, look, new_figure, plain_ticks
-from ..kit.svg import inline_svg
+from ..kit.style import BLUE, look, plain_ticks
 from .asked.histories import Path, Point
 from .asked.values import Arc, Signal
 from .section import Section, choice, chosen_rows, nothing_chosen, sentence, trimmed
 
 HEIGHT = 3.6  # in
 EQUAL_HEIGHT = 4.6  # in, where both axes have one scale
+SLIM_HEIGHT = 3.4  # in
 
 
 def path_section(path: Path, result: Result, name: str) -> Section:
@@ -31,8 +32,8 @@ def path_section(path: Path, result: Result, name: str) -> Section:
 
     x, y = line(path.x), line(path.y)
     scales = _scales(path, x, y)
-    with house_style():
-        figure = new_figure(EQUAL_HEIGHT if path.equal else HEIGHT)
+
+    def draw(figure: Figure) -> None:
         axes = figure.subplots()
         axes.plot(scales[0] * x, scales[1] * y, color=BLUE, marker="." if x.size == 1 else "")
         axes.plot(scales[0] * x[-1], scales[1] * y[-1], "o", markersize=6, markerfacecolor="white", color=BLUE)
@@ -40,14 +41,16 @@ def path_section(path: Path, result: Result, name: str) -> Section:
             _draw_point(axes, point, (scales[0] * line(point.x), scales[1] * line(point.y)), index)
         axes.set_xlabel(_axis(path.x, scales[0]))
         axes.set_ylabel(_axis(path.y, scales[1]))
-        plain_ticks(axes, x=10, y=6)
+        plain_ticks(axes, x=5 if is_slim(figure) else 10, y=6)
         axes.margins(0.05, 0.08)
         if path.equal:
             axes.set_aspect("equal", adjustable="datalim")
         if path.points:
             axes.legend(loc="best")
-        drawn = inline_svg(figure, name, f"{path.title}: {path.y.label} over {path.x.label}")
-    return Section(title=path.title, wide=drawn, notes=_reading(path))
+
+    what = f"{path.title}: {path.y.label} over {path.x.label}"
+    drawn = both_widths(name, what, draw, EQUAL_HEIGHT if path.equal else HEIGHT, SLIM_HEIGHT)
+    return Section(title=path.title, drawn=drawn, notes=_reading(path))
 
 
 def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...flight.results import Result
 from ..kit.page import exact
+from ..kit.panels import Widths, both_widths, is_slim
 from ..kit.quantities import number, shown_unit
-from ..kit.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure, plain_ticks
-from ..kit.svg import inline_svg
+from ..kit.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 from .asked.stages import Phases
 from .phase_spans import Span, spans_of, statuses_of
 from .section import Section, Table, evenly, seconds, sentence
@@ -33,7 +34,7 @@ def phase_section(phases: Phases, result: Result, name: str) -> Section:
         notes[0] = Markup("{} The time is cut by {}.").format(notes[0], seconds(left_out))
     return Section(
         title=phases.title,
-        wide=_figure(phases, spans, statuses or [], windows, name),
+        drawn=_figure(phases, spans, statuses or [], windows, name),
         table=_table(phases, spans),
         findings=[] if statuses is None else _findings(phases, statuses),
         notes=[*notes, *(Markup("{}").format(note) for note in phases.notes)],
@@ -55,11 +56,11 @@ def _windows(spans: Sequence[Span], statuses: Sequence[tuple[int, float]]) -> li
 
 def _figure(
     phases: Phases, spans: Sequence[Span], statuses: Sequence[tuple[int, float]], windows: Sequence[Window], name: str
-) -> Markup:
+) -> Widths:
     lanes = list(dict.fromkeys(span.name for span in spans))
     widths = [end - begin or 1.0 for begin, end in windows]
-    with house_style():
-        figure = new_figure(0.75 + LANE * len(lanes))
+
+    def draw(figure: Figure) -> None:
         all_axes = figure.subplots(1, len(windows), squeeze=False, sharey=True, width_ratios=widths)[0]
         for axes, (begin, end), width in zip(all_axes, windows, widths, strict=True):
             for span in spans:
@@ -68,13 +69,15 @@ def _figure(
             axes.set_xlim(begin, begin + width)
             axes.grid(visible=False, axis="y")
             axes.tick_params(axis="y", length=0, labelsize=9)
-            plain_ticks(axes, x=max(2, round(10 * width / sum(widths))))
+            plain_ticks(axes, x=max(2, round((5 if is_slim(figure) else 10) * width / sum(widths))))
         all_axes[0].set_yticks(range(len(lanes)), lanes)
         all_axes[0].set_ylim(len(lanes) - 0.4, -0.6)
         if len(windows) > 1:
             _draw_cut(*all_axes)
         figure.supxlabel("time, s", fontsize=9, color=INK)
-        return inline_svg(figure, name, f"{phases.title}: {', '.join(lanes)} over time")
+
+    words = f"{phases.title}: {', '.join(lanes)} over time"
+    return both_widths(name, words, draw, 0.75 + LANE * len(lanes))
 
 
 def _draw_bar(axes: Axes, span: Span, lane: int, begin: float, end: float) -> None:

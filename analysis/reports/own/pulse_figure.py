@@ -5,14 +5,15 @@ from __future__ import annotations
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
 from ...flight.results import Result
 from ..kit.page import exact
+from ..kit.panels import Widths, both_widths, is_slim
 from ..kit.quantities import labelled, number
-from ..kit.style import BLUE, FAINT, VERMILION, house_style, new_figure, plain_ticks
-from ..kit.svg import inline_svg
+from ..kit.style import BLUE, FAINT, VERMILION, plain_ticks
 from .asked.histories import Pulses
 from .section import Section, sentence
 
@@ -42,20 +43,20 @@ def pulse_section(pulses: Pulses, result: Result, name: str) -> Section:
         return Section(title=pulses.title, findings=[Markup("No pulse was fired.")], notes=notes)
     return Section(
         title=pulses.title,
-        wide=_figure(pulses, result, lengths, name),
+        drawn=_figure(pulses, result, lengths, name),
         findings=[_findings(pulses, lengths)],
         notes=[_reading(pulses, result), *notes],
     )
 
 
-def _figure(pulses: Pulses, result: Result, lengths: np.ndarray, name: str) -> Markup:
+def _figure(pulses: Pulses, result: Result, lengths: np.ndarray, name: str) -> Widths:
     heights = [LANE] * len(lengths) + [SPENT] * (pulses.total is not None)
     reach = 1.1 * float(np.abs(lengths).max())
     rests = None if pulses.remainder is None else pulses.remainder.shown(result)
     if rests is not None:
         reach = max(reach, 1.1 * float(np.nanmax(np.abs(rests), initial=0.0)))
-    with house_style():
-        figure = new_figure(0.45 + sum(heights))
+
+    def draw(figure: Figure) -> None:
         all_axes = figure.subplots(len(heights), 1, squeeze=False, sharex=True, height_ratios=heights)[:, 0]
         for index, axes in enumerate(all_axes[: len(lengths)]):
             rest = None if rests is None else rests[index]
@@ -66,11 +67,12 @@ def _figure(pulses: Pulses, result: Result, lengths: np.ndarray, name: str) -> M
             all_axes[-1].plot(result.time, pulses.total.shown(result)[0], color=BLUE)
             all_axes[-1].set_title(labelled(pulses.total.label, pulses.total.unit_name), loc="left", pad=4)
             plain_ticks(all_axes[-1], y=3)
-        plain_ticks(all_axes[-1], x=10)
+        plain_ticks(all_axes[-1], x=5 if is_slim(figure) else 10)
         all_axes[-1].set_xlim(result.time[0], result.time[-1])
         all_axes[-1].set_xlabel("time, s")
-        description = f"{pulses.title}: a bar for each pulse of {', '.join(pulses.lengths.names)}"
-        return inline_svg(figure, name, description)
+
+    description = f"{pulses.title}: a bar for each pulse of {', '.join(pulses.lengths.names)}"
+    return both_widths(name, description, draw, 0.45 + sum(heights))
 
 
 def _draw_lane(axes: Axes, time: np.ndarray, lengths: np.ndarray, rest: np.ndarray | None, reach: float) -> None:

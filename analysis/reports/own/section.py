@@ -9,13 +9,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...flight.results import Result
 from ..kit.page import exact
-from ..kit.panels import HALF_WIDTH, Panel, panel, swatch
+from ..kit.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel, swatch
 from ..kit.quantities import MINUS, in_shown_unit
-from ..kit.style import house_style, look, new_figure, plain_ticks
-from ..kit.svg import inline_svg
+from ..kit.style import look, plain_ticks
 from .asked.values import Rows
 
 HEIGHT = 2.6  # in
@@ -32,14 +32,14 @@ class Table:
 
 @dataclass(frozen=True)
 class Section:
-    """A heading with figures, ``panels`` side by side or a ``wide`` one, and a table.
+    """A heading with figures, ``panels`` side by side or one ``drawn`` as wide as the page, and a table.
 
     ``legend`` are (swatch, label) of the series, ``findings`` what the figure comes to, ``notes`` how to read it.
     """
 
     title: str
     panels: list[Panel] = field(default_factory=list)
-    wide: Markup | None = None
+    drawn: Widths | None = None
     table: Table | None = None
     legend: list[tuple[Markup, str]] = field(default_factory=list)
     findings: list[Markup] = field(default_factory=list)
@@ -58,12 +58,13 @@ def history_panel(
     return panel(label, name, description, lambda axes: _dress(axes, unit, time, draw, 6), HEIGHT, HALF_WIDTH)
 
 
-def wide_history(name: str, description: str, unit: str, time: np.ndarray, draw: Callable[[Axes], None]) -> Markup:
+def wide_history(name: str, description: str, unit: str, time: np.ndarray, draw: Callable[[Axes], None]) -> Widths:
     """Likewise, as wide as the page's column."""
-    with house_style():
-        figure = new_figure(HEIGHT)
-        _dress(figure.subplots(), unit, time, draw, 12)
-        return inline_svg(figure, name, description)
+
+    def dress(figure: Figure) -> None:
+        _dress(figure.subplots(), unit, time, draw, 6 if is_slim(figure) else 12)
+
+    return both_widths(name, description, dress, HEIGHT)
 
 
 def _dress(axes: Axes, unit: str, time: np.ndarray, draw: Callable[[Axes], None], intervals: int) -> None:

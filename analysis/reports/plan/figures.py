@@ -7,15 +7,14 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...planning.hover_study import Curve
 from ...planning.path import PlannedPath
-from ..kit.panels import HALF_WIDTH, Panel, far, panel
+from ..kit.panels import HALF_WIDTH, Panel, Widths, both_widths, far, is_slim, panel
 from ..kit.quantities import number
-from ..kit.style import FAINT, INK, Look, house_style, new_figure, plain_ticks
-from ..kit.svg import inline_svg
+from ..kit.style import FAINT, INK, Look, plain_ticks
 
 LOWEST, HIGHEST = 3.0, 6.5  # in, of a path to one scale
 LOW = 3.8  # in, of one to two
@@ -71,31 +70,50 @@ def curve_panel(label: str, name: str, curve: Curve, quantity: str, points: Sequ
     return panel(label, name, words, draw, width=HALF_WIDTH)
 
 
-def path_figure(series: Sequence[Series], shown: Sequence[np.ndarray], names: tuple[str, str], even: bool) -> Markup:
-    """The paths; ``shown`` are places and thrust angles in what is drawn, a row each: along (m), up (m), angle (rad).
+Names = tuple[str, str]  # of abscissa and ordinate
 
-    Arrows are thrust along the first one. Where ``even``, both axes have one scale, and the figure is half a page wide.
+
+def path_panel(series: Sequence[Series], shown: Sequence[np.ndarray], names: Names) -> Panel:
+    """The paths to one scale; ``shown`` are places and thrust angles in what is drawn, a row each: along (m), up (m),
+    angle (rad). Arrows are thrust along the first one.
     """
-    with house_style():
-        spans = [max(float(np.ptp(rows[axis])) for rows in shown) for axis in (0, 1)]
-        upright = min(max(LOWEST, HALF_WIDTH * spans[1] / max(spans[0], 1.0)), HIGHEST)
-        figure = new_figure(upright, HALF_WIDTH) if even else new_figure(LOW)
-        axes = figure.subplots()
-        scales = [far(np.concatenate([rows[axis] for rows in shown])) for axis in (0, 1)]
-        for one, rows in zip(series, shown, strict=True):
-            along, up = scales[0][0] * rows[0], scales[1][0] * rows[1]
-            axes.plot(along, up, color=one.look.colour, linestyle=one.look.dashes)
-        axes.plot(scales[0][0] * shown[0][0, -1], scales[1][0] * shown[0][1, -1], "o", markersize=6, color=INK)
-        _draw_arrows(axes, series[0], shown[0], (scales[0][0], scales[1][0]))
-        axes.set_xlabel(f"{names[0]}, {scales[0][1]}")
-        axes.set_ylabel(f"{names[1]}, {scales[1][1]}")
-        axes.margins(0.14, 0.08)
-        plain_ticks(axes, x=7, y=6)
-        if even:
-            axes.set_aspect("equal", adjustable="datalim")
-        axes.set_title(f"axes to {'one scale' if even else 'different scales'}", loc="right", fontsize=7.5, color=FAINT)
-        words = f"Path of {', '.join(one.name for one in series)}, with thrust as arrows"
-        return inline_svg(figure, "path", words, fill=even)
+    spans = [max(float(np.ptp(rows[axis])) for rows in shown) for axis in (0, 1)]
+    upright = min(max(LOWEST, HALF_WIDTH * spans[1] / max(spans[0], 1.0)), HIGHEST)
+
+    def draw(axes: Axes) -> None:
+        _draw_paths(axes, series, shown, names, "one scale")
+        axes.set_aspect("equal", adjustable="datalim")
+
+    return panel("Path", "path", _path_words(series), draw, upright, HALF_WIDTH)
+
+
+def path_widths(series: Sequence[Series], shown: Sequence[np.ndarray], names: Names) -> Widths:
+    """Likewise, each axis to its own scale, as wide as the page."""
+
+    def draw(figure: Figure) -> None:
+        _draw_paths(figure.subplots(), series, shown, names, "different scales", 5 if is_slim(figure) else 7)
+
+    return both_widths("path", _path_words(series), draw, LOW)
+
+
+def _path_words(series: Sequence[Series]) -> str:
+    return f"Path of {', '.join(one.name for one in series)}, with thrust as arrows"
+
+
+def _draw_paths(
+    axes: Axes, series: Sequence[Series], shown: Sequence[np.ndarray], names: Names, scaled: str, intervals: int = 5
+) -> None:
+    scales = [far(np.concatenate([rows[axis] for rows in shown])) for axis in (0, 1)]
+    for one, rows in zip(series, shown, strict=True):
+        along, up = scales[0][0] * rows[0], scales[1][0] * rows[1]
+        axes.plot(along, up, color=one.look.colour, linestyle=one.look.dashes)
+    axes.plot(scales[0][0] * shown[0][0, -1], scales[1][0] * shown[0][1, -1], "o", markersize=6, color=INK)
+    _draw_arrows(axes, series[0], shown[0], (scales[0][0], scales[1][0]))
+    axes.set_xlabel(f"{names[0]}, {scales[0][1]}")
+    axes.set_ylabel(f"{names[1]}, {scales[1][1]}")
+    axes.margins(0.14, 0.08)
+    plain_ticks(axes, x=intervals, y=6)
+    axes.set_title(f"axes to {scaled}", loc="right", fontsize=8.0, color=FAINT)
 
 
 def _draw_arrows(axes: Axes, one: Series, rows: np.ndarray, scale: tuple[float, float]) -> None:

@@ -11,7 +11,7 @@ from ...planning.hover_study import HoverStudy
 from ..kit.page import write_page
 from ..kit.panels import swatch
 from ..kit.style import look
-from .figures import Point, Series, curve_panel, path_figure, time_panels
+from .figures import Point, Series, curve_panel, path_panel, time_panels
 
 NAMES = ("simplified programme", "true optimum", "point-mass bound")
 
@@ -34,9 +34,10 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
         programme=study.programme,
         degrees=math.degrees,
         times=list(zip(("t2", "t5", "w", "tp", "t7"), study.programme.times, strict=True)),
+        looks=[(swatch(one.look), one.name) for one in series],
         rows=[(swatch(one.look), one.name, one.path) for one in series],
         missing=[name for name, plan in zip(NAMES[1:], (study.optimum, study.bound), strict=True) if plan is None],
-        track=path_figure(series, shown, ("along", "up"), even=True),
+        track=[path_panel(series, shown, ("along", "up"))],
         over_time=time_panels(series, "Pitch from the horizontal, deg"),
         curves=[
             curve_panel("Propellant over t7", "durations", study.durations, "t7, s", [own, *compared]),

@@ -10,7 +10,7 @@ import numpy as np
 from ...planning.landing_study import LandingStudy
 from ..kit.page import write_page
 from ..kit.style import look
-from .figures import Series, path_figure, time_panels
+from .figures import Series, path_widths, time_panels
 
 
 def write_landing_page(study: LandingStudy, path: Path) -> None:
@@ -29,6 +29,6 @@ def write_landing_page(study: LandingStudy, path: Path) -> None:
         direct=None if study.direct is None else study.direct.propellant_fraction * study.vehicle.mass,
         climb=math.degrees(study.landing.climb),
         burns=study.bound.burns(),
-        track=path_figure(series, [shown], ("range from the site", "altitude"), even=False),
+        track=path_widths(series, [shown], ("range from the site", "altitude")),
         over_time=time_panels(series, "Angle of thrust above the site's horizontal, deg"),
     )

@@ -14,7 +14,7 @@ from ..kit.signals import SignalGroup, distinct, signal_groups
 from ..own.asked.declared import Figure
 from ..own.own_figures import joint_findings, own_sections
 from .time_histories import time_histories
-from .trajectory import trajectory_figure
+from .trajectory import trajectory_panels
 
 STATUS_WORDS = {
     "finished": "Ended by itself: the system reported that it is finished.",
@@ -31,7 +31,6 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
 
     ``figures`` are those that the system asks for, see own/asked/reading.py.
     """
-    trajectory = trajectory_figure(result)
     write_page(
         path,
         Path(__file__).with_name("run_report.html"),
@@ -41,7 +40,7 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
         end_time=float(result.time[-1]) if result.time.size else None,
         provenance=result.provenance,
         key_values=key_values(result),
-        trajectory=trajectory,
+        trajectory=trajectory_panels(result),
         joint=joint_findings(figures, result),
         own=own_sections(figures, result),
         histories=time_histories(result),

@@ -1,34 +1,35 @@
-"""Every signal of a run over time: small multiples, a figure per component, panels in order of unit."""
+"""Every signal of a run over time: a panel each, by component, in order of unit."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 
 from ...flight.results import Result
-from ..kit.quantities import number, shown_factor, shown_unit
+from ..kit.panels import Panel, panel, swatch
+from ..kit.quantities import labelled, number, shown_factor
 from ..kit.signals import SignalGroup, distinct, signal_groups
-from ..kit.style import FAINT, WIDTH, house_style, look, new_figure, plain_ticks
-from ..kit.svg import inline_svg
+from ..kit.style import FAINT, look, plain_ticks
 
-COLUMNS = 3
+HEIGHT = 1.9  # in
 SPIKE = 8.0  # a range so many times wider than the middle 98 % of the values is cut, and the panel says so
 
 
 @dataclass(frozen=True)
 class ComponentHistory:
-    """One component's section: its figure, and the signals that need no panel of their own.
+    """One component's section: its panels, and the signals that need none of their own.
 
-    ``constant`` are (label, values, unit) of groups that never change; ``copies`` are (label, label of
-    the group that has the same values throughout).
+    ``legend`` are (swatch, element) where one of them is a vector. ``constant`` are (label, values, unit) of groups
+    that never change; ``copies`` are (label, label of the group that has the same values throughout).
     """
 
     component: str
-    figure: Markup | None
+    panels: list[Panel]
+    legend: list[tuple[Markup, str]]
     constant: list[tuple[str, list[float | int | bool], str | None]]
     copies: list[tuple[str, str]]
 
@@ -46,11 +47,11 @@ def time_histories(result: Result) -> list[ComponentHistory]:
         still = [group for group in own if _is_constant(group, result)]
         copies = [(group, originals[group]) for group in own if originals[group] != group and group not in still]
         drawn = [group for group in own if group not in still and originals[group] == group]
-        title = component or "the system"
         sections.append(
             ComponentHistory(
                 component=component,
-                figure=_figure(drawn, result, f"history{number_}", title) if drawn else None,
+                panels=_panels(drawn, result, f"history{number_}"),
+                legend=_legend(drawn),
                 constant=[(group.label, [final[name] for name in group.names], group.unit) for group in still],
                 copies=[(group.label, original.label) for group, original in copies],
             )
@@ -69,26 +70,22 @@ def _in_order_of_unit(groups: list[SignalGroup]) -> list[SignalGroup]:
     return sorted(groups, key=lambda group: (not group.is_real, kinds.index((not group.is_real, group.unit))))
 
 
-def _figure(groups: list[SignalGroup], result: Result, name: str, title: str) -> Markup:
-    groups = _in_order_of_unit(groups)
-    rows = -(-len(groups) // COLUMNS)
-    columns = min(COLUMNS, len(groups))
-    elements = max(groups, key=lambda group: len(group.indices)).indices
-    with house_style():
-        figure = new_figure(0.25 + 1.65 * rows + (0.25 if elements else 0.0), WIDTH * columns / COLUMNS)
-        all_axes = figure.subplots(rows, columns, squeeze=False, sharex=True).flatten()
-        for axes, group in zip(all_axes, groups, strict=False):
-            draw_history(axes, group, result)
-        for axes in all_axes[len(groups) :]:
-            axes.remove()
-        for axes in all_axes[max(0, len(groups) - columns) : len(groups)]:
-            axes.tick_params(labelbottom=True)
-            axes.set_xlabel("time, s")
-        if elements:
-            lines = [Line2D([], [], color=look(i).colour, linestyle=look(i).dashes) for i in range(len(elements))]
-            labels = [f"[{index}]" for index in elements]
-            figure.legend(lines, labels, loc="outside upper left", ncols=12, handlelength=2.4, borderpad=0.1)
-        return inline_svg(figure, name, f"Time histories of {title}: {', '.join(group.variable for group in groups)}")
+def _panels(groups: list[SignalGroup], result: Result, name: str) -> list[Panel]:
+    def drawing(group: SignalGroup) -> Callable[[Axes], None]:
+        return lambda axes: draw_history(axes, group, result)
+
+    return [
+        panel(
+            labelled(group.variable, group.unit), f"{name}-{index}", f"{group.label} over time", drawing(group), HEIGHT
+        )
+        for index, group in enumerate(_in_order_of_unit(groups))
+    ]
+
+
+def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
+    """The looks of the elements of the longest vector."""
+    elements = max((group.indices for group in groups), key=len, default=())
+    return [(swatch(look(number_)), f"[{index}]") for number_, index in enumerate(elements)]
 
 
 def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
@@ -99,8 +96,7 @@ def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
         colour, dashes, _ = look(index)
         marker = "." if np.count_nonzero(np.isfinite(row)) == 1 else ""
         axes.plot(result.time, row, color=colour, linestyle=dashes, drawstyle=style, marker=marker)
-    unit = shown_unit(group.unit)
-    axes.set_title(f"{group.variable}, {unit}" if unit else group.variable, loc="left", pad=4)
+    axes.set_xlabel("time, s")
     plain_ticks(axes, x=5, y=4, whole_y=not group.is_real)
     if group.type == "Boolean":
         axes.set_yticks([0, 1], ["false", "true"])
@@ -126,5 +122,5 @@ def _cut_spikes(axes: Axes, values: np.ndarray) -> None:
     early = float(np.mean(outside)) < values.shape[1] / 2
     axes.text(
         0.98 if early else 0.02, 0.98, f"goes on to {' and '.join(beyond)}", transform=axes.transAxes,
-        ha="right" if early else "left", va="top", fontsize=7.5, color=FAINT,
+        ha="right" if early else "left", va="top", fontsize=8.0, color=FAINT,
     )  # fmt: skip

@@ -2,63 +2,86 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
-from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ...flight.results import Result
+from ..kit.panels import HALF_WIDTH, Panel, far, panel
 from ..kit.quantities import number
 from ..kit.signals import position_groups
 from ..kit.style import FAINT, INK, Look, house_style, look, new_figure, plain_ticks
-from ..kit.svg import inline_svg
 
+HEIGHT = 3.2  # in
 MAXIMUM_STRETCH = 4.0  # axes whose ranges differ by less are drawn to one scale
 
 
-def trajectory_figure(result: Result) -> Markup | None:
-    """The path as it stands on the page; None where nothing has a position."""
-    plot = trajectory_plot(result)
-    if plot is None:
-        return None
-    names = ", ".join(group.component for group in position_groups(result))
-    with house_style():
-        return inline_svg(plot, "trajectory", f"Path of {names}")
+class View(NamedTuple):
+    """One side from which paths are seen: heading, a word for it, what a screen reader says, and what draws it."""
+
+    title: str
+    name: str
+    description: str
+    draw: Callable[[Axes], None]
+
+
+def trajectory_panels(result: Result) -> list[Panel]:
+    """The path as it stands on the page; none where nothing has a position."""
+    return [
+        panel(view.title, f"trajectory-{view.name}", view.description, view.draw, HEIGHT, HALF_WIDTH)
+        for view in _views(result)
+    ]
 
 
 def trajectory_plot(result: Result) -> Figure | None:
-    """Plan (elements 1 and 2) and side view (3 over the wider of the two); None where nothing has a position."""
+    """The same in one figure; None where nothing has a position."""
+    views = _views(result)
+    if not views:
+        return None
+    with house_style():
+        figure = new_figure(HEIGHT, HALF_WIDTH * len(views))
+        for axes, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True):
+            view.draw(axes)
+            axes.set_title(view.title, loc="left")
+    return figure
+
+
+def _views(result: Result) -> list[View]:
+    """Plan (elements 1 and 2) and side view (3 over the wider of the two); none where nothing has a position."""
     groups = position_groups(result)
     if not groups or not result.time.size:
-        return None
+        return []
     paths = [group.values(result) for group in groups]
     everything = np.concatenate(paths, axis=1)
-    scale, unit = (1e-3, "km") if np.nanmax(np.abs(everything)) >= 1e4 else (1.0, "m")
+    scale, unit = far(everything)
     spans = np.ptp(everything, axis=1)
     across = 0 if spans[0] >= spans[1] else 1
     flat = spans[1 - across] == 0.0
-    views = [(across, 2)] if flat else [(across, 1 - across), (across, 2)]
     marks = _marked_rows(result.time)
-    with house_style():
-        figure = new_figure(3.4)
-        panels = np.atleast_1d(figure.subplots(1, len(views)))
-        for axes, (x, y) in zip(panels, views, strict=True):
+
+    def view(title: str, name: str, x: int, y: int) -> View:
+        def draw(axes: Axes) -> None:
             for index, (group, path) in enumerate(zip(groups, paths, strict=True)):
                 _draw_path(axes, scale * path[[x, y]], look(index), group.label, marks)
-            plain_ticks(axes, x=6, y=6)
+            plain_ticks(axes, x=5, y=6)
             axes.set_xlabel(f"position[{x + 1}], {unit}")
             axes.set_ylabel(f"position[{y + 1}], {unit}")
             _scale(axes, spans[x], spans[y])
             _label_times(axes, scale * paths[0][[x, y]], result.time, marks)
-        if len(groups) > 1:
-            panels[0].legend(loc="best")
-        if flat:
-            constant = f"position[{2 - across}] stays at {number(float(paths[0][1 - across][0]))} m"
-            panels[0].set_title(constant, loc="left", color=FAINT)
-        return figure
+            if len(groups) > 1:
+                axes.legend(loc="best")
+
+        words = f"{title} of the path of {', '.join(group.component for group in groups)}"
+        return View(title, name, words, draw)
+
+    if flat:
+        constant = number(float(paths[0][1 - across][0]))
+        return [view(f"Side view; position[{2 - across}] stays at {constant} m", "side", across, 2)]
+    return [view("Plan", "plan", across, 1 - across), view("Side view", "side", across, 2)]
 
 
 def _marked_rows(time: np.ndarray) -> np.ndarray:
@@ -96,7 +119,7 @@ def _label_times(axes: Axes, path: np.ndarray, time: np.ndarray, marks: np.ndarr
 def _write_time(axes: Axes, time: float, point: np.ndarray, offset: tuple[int, int], **style: Any) -> None:
     axes.annotate(
         f"{number(float(time), 4)} s", (point[0], point[1]), xytext=offset, textcoords="offset points",
-        ha="left" if offset[0] > 0 else "right", fontsize=7.5, **style,
+        ha="left" if offset[0] > 0 else "right", fontsize=8.0, **style,
     )  # fmt: skip
 
 
@@ -105,6 +128,6 @@ def _scale(axes: Axes, width: float, height: float) -> None:
     axes.margins(0.1, 0.12)
     if height > 0.0 and 1.0 / MAXIMUM_STRETCH <= width / height <= MAXIMUM_STRETCH:
         axes.set_aspect("equal", adjustable="datalim")
-        axes.set_title("axes to one scale", loc="right", fontsize=7.5, color=FAINT)
+        axes.set_title("axes to one scale", loc="right", fontsize=8.0, color=FAINT)
     else:
-        axes.set_title("axes to different scales", loc="right", fontsize=7.5, color=FAINT)
+        axes.set_title("axes to different scales", loc="right", fontsize=8.0, color=FAINT)

@@ -23,7 +23,7 @@ from .poles import crowded, draw_cloud, draw_poles, poles_of
 from .sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
-LOW = 2.4  # in; of histograms
+LOW = 2.4  # in; of histograms, sensitivities and joint margins
 
 
 def stacked(label: str, name: str, description: str, draw: Callable[[Axes, Axes], None]) -> Panel:
@@ -32,7 +32,7 @@ def stacked(label: str, name: str, description: str, draw: Callable[[Axes, Axes]
         figure = new_figure(HEIGHT, PANEL_WIDTH)
         upper, lower = figure.subplots(2, 1, sharex=True)
         draw(upper, lower)
-        return Panel(label, inline_svg(figure, name, description, fill=True))
+        return Panel(label, inline_svg(figure, name, description))
 
 
 def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
@@ -161,7 +161,7 @@ def joint_panel(joint: JointReport, name: str) -> Panel:
         words = f"Distance of {joint.name} from the critical point over frequency; the closed loop is unstable"
     elif math.isfinite(joint.disk_frequency):
         words += f" at {number(float(joint.disk_frequency))} rad/s"
-    return panel(f"{joint.name}, {joint.point}", name, words, lambda axes: draw_joint(joint, axes), HEIGHT)
+    return panel(f"{joint.name}, {joint.point}", name, words, lambda axes: draw_joint(joint, axes), LOW)
 
 
 def sweep_panel(sweep: SweepReport, report: StabilityReport, name: str) -> Panel:

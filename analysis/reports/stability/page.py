@@ -16,7 +16,9 @@ from ..kit.page import write_page
 from ..kit.panels import Panel
 from ..kit.quantities import labelled
 from .figures import joint_panel, loop_panels, part_panels, sweep_panel
+from .paper import Paper, paper_of
 from .parts import Part, parts, without
+from .shared import TOLERANCE, Panels, Shared, share
 from .tables import (
     Table,
     about,
@@ -27,6 +29,7 @@ from .tables import (
     joint_table,
     judged,
     limit_table,
+    link,
     point_table,
     summary_table,
     trim_table,
@@ -49,8 +52,11 @@ class Card:
     about: list[tuple[str, str]]
     summary: Table
     figures: list[Panel]
+    elsewhere: list[tuple[Markup, list[str]]]
     blocks: list[list[Part]]
     without: list[str]
+    screen: list[str]  # labels of figures that are not printed
+    screen_parts: list[str]  # and keys of parts
 
 
 @dataclass(frozen=True)
@@ -70,6 +76,8 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
     """
     rows = judged(report)
     summary = summary_table(report)
+    shared = share(report.loops, [_figures(loop, anchor(index)) for index, loop in enumerate(report.loops)])
+    paper = paper_of(shared)
     write_page(
         path,
         Path(__file__).with_name("stability.html"),
@@ -90,7 +98,9 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
             for point in report.points
             if point.settings
         },
-        cards=[_card(report, summary, index) for index in range(len(report.loops))],
+        cards=[_card(report, summary, index, shared[index], paper) for index in range(len(report.loops))],
+        paper=paper.words,
+        tolerance=TOLERANCE,
         sweeps=[_sweep(report, sweep, f"sweep-{index + 1}") for index, sweep in enumerate(report.sweeps)],
         limits=limit_table(report),
         raw_limits=[(name, numeral(value)) for name, value in report.limits.items()],
@@ -103,20 +113,28 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
     )
 
 
-def _card(report: StabilityReport, summary: Table, index: int) -> Card:
-    loop, name = report.loops[index], anchor(index)
-    figures = part_panels(loop, name)
+def _figures(loop: LoopReport, name: str) -> Panels:
+    """All figures of a loop, those that belong to no part by an empty key."""
+    return {"": loop_panels(loop, name)} | part_panels(loop, name)
+
+
+def _card(report: StabilityReport, summary: Table, index: int, shared: Shared, paper: Paper) -> Card:
+    loop = report.loops[index]
+    shown = [replace(part, figures=shared.panels.get(part.key, [])) for part in parts(loop)]
     return Card(
         loop=loop,
-        id=name,
+        id=anchor(index),
         open=len(report.loops) <= FEW or loop.verdict is Verdict.FAIL,
         verdict=verdict(loop.verdict),
         period=numeral(loop.sample_period),
         about=about(loop),
         summary=Table(summary.head[2:-1], summary.kinds[2:-1], [summary.rows[index][2:-1]]),
-        figures=loop_panels(loop, name),
-        blocks=_blocks([replace(part, figures=figures.get(part.key, [])) for part in parts(loop)]),
+        figures=shared.panels[""],
+        elsewhere=[(link(report, other), labels) for other, labels in shared.elsewhere.items()],
+        blocks=_blocks(shown),
         without=without(loop),
+        screen=paper.screen_only([panel for panels in shared.panels.values() for panel in panels]),
+        screen_parts=[part.key for part in shown if not paper.prints(part.key, shared)],
     )
 
 

@@ -40,7 +40,7 @@ def _grid(axes: Axes, *, named: bool) -> None:
         for damping in DAMPINGS:
             height = math.exp(-damping / math.sqrt(1.0 - damping**2) * 0.5 * math.pi)
             behind = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
-            axes.text(0.0, height, f"{damping:g}", fontsize=7, color=FAINT, ha="center", va="center", bbox=behind)
+            axes.text(0.0, height, f"{damping:g}", fontsize=8.0, color=FAINT, ha="center", va="center", bbox=behind)
 
 
 def _frame(axes: Axes, centre: float, half: float, shape: float = SHAPE) -> None:

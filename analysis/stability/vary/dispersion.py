@@ -27,13 +27,15 @@ def dispersed(
     limits: Limits,
     cells: Sequence[int],
     replay: Callable[[str, int], str],
+    tell: Callable[[int, int], None],
 ) -> dict[str, Dispersion]:
     """Margins of every channel over the trials of a campaign, each linearised on its own flight.
 
     The campaign's draws, seeds and streams are flown at the point.
     ``cells`` is the memory that matters at the point; ``replay`` gives the command that studies one trial of one loop
-    again. Raises InputError, StudyError.
+    again; ``tell`` is told how many trials are expected and done. Raises InputError, StudyError.
     """
+    tell(plan.campaign.trials, 0)
     flown = subject.changed(campaign=plan.campaign.layer)
     rows: dict[str, list[Margins]] = {}
     poles: dict[str, list[np.ndarray]] = {}
@@ -49,6 +51,7 @@ def dispersed(
                 model = model_of(linear, channel.name)
                 rows.setdefault(channel.name, []).append(margins_of(model))
                 poles.setdefault(channel.name, []).append(poles_of(model))
+            tell(0, 1)
         loop_of = {channel.name: channel.loop for channel in study.channels}
     return {
         name: _dispersion(plan, items, np.concatenate(poles[name]), limits, partial(replay, loop_of[name]))

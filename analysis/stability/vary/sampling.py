@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from ...errors import InputError
 from ..ask.declaration import Loop, Point
@@ -16,12 +16,20 @@ FACTORS = (0.5, 1.0, 2.0)  # of the communication step
 
 
 def sampled(
-    subject: Subject, point: Point, loops: Sequence[Loop], step: float, cells: Sequence[int], names: Sequence[str]
+    subject: Subject,
+    point: Point,
+    loops: Sequence[Loop],
+    step: float,
+    cells: Sequence[int],
+    names: Sequence[str],
+    tell: Callable[[int, int], None],
 ) -> dict[str, list[Sampled]]:
     """Margins of the channels ``names`` with half, the same and twice the communication step ``step`` (s).
 
-    ``cells`` is the memory that matters at this point. Where there are no margins the note says why.
+    ``cells`` is the memory that matters at this point. Where there are no margins the note says why. ``tell`` is told
+    how many steps are expected and done.
     """
+    tell(len(FACTORS), 0)
     found: dict[str, list[Sampled]] = {name: [] for name in names}
     for factor in FACTORS:
         try:
@@ -34,4 +42,5 @@ def sampled(
             rows = [Sampled(factor * step, None, str(error))] * len(names)
         for name, row in zip(names, rows, strict=True):
             found[name].append(row)
+        tell(0, 1)
     return found

@@ -33,10 +33,12 @@ def swept(
     sweep: Sweep,
     limits: Limits,
     cells: Sequence[int],
+    tell: Callable[[int, int], None],
 ) -> SweepReport:
     """Margins of a loop's first channel, at values in geometric order where they are positive.
 
-    ``cells`` is the memory that matters at the point. Raises StudyError where a flight breaks off.
+    ``cells`` is the memory that matters at the point; ``tell`` is told how many intervals between values are expected
+    and done. Raises StudyError where a flight breaks off.
     """
 
     @cache
@@ -55,8 +57,10 @@ def swept(
         Quantity.MODULUS: limits.modulus_margin,
     }
     crossings: list[SweepCrossing] = []
+    tell(len(values) - 1, 0)
     for low, high in itertools.pairwise(values):
         crossings += _crossings(at, low, high, wanted)
+        tell(0, 1)
     return SweepReport(
         name=sweep.name,
         loop=loop.name,

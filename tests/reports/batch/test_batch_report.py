@@ -8,7 +8,7 @@ import pytest
 
 from perilune.analysis.batch.statistics import STATISTICS
 from perilune.analysis.reports.batch.batch_report import write_batch_report
-from perilune.analysis.reports.batch.failures import failures_figure, telling_scores
+from perilune.analysis.reports.batch.failures import failure_panels, telling_scores
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.samples import DIGEST, DRAWS, METRICS, batch_result, grouped_batch, mixed_batch
 
@@ -107,10 +107,10 @@ def test_failures_at_both_ends_are_told_by_the_draw_that_causes_them(result):
 
 def test_scatter_counts_its_points(result):
     failed = sum(not good for good in result.trials["shaky"].success)
-    figure = failures_figure(result)
-    assert f"{failed} failures" in figure
-    assert f"{40 - failed} successes" in figure
-    assert "steady" not in figure
+    (panel,) = failure_panels(result)
+    assert panel.label == "shaky"
+    assert f"{failed} failures" in panel.figure
+    assert f"{40 - failed} successes" in panel.figure
 
 
 def test_no_failures(tmp_path):
@@ -130,7 +130,7 @@ def test_nothing_finite(tmp_path):
 def test_one_trial(tmp_path):
     page = write(batch_result({"only": [(True, 0.5, 0.1)]}), tmp_path / "page.html")
     assert_self_contained(page)
-    assert 'aria-label="Distributions of miss, tilt"' in page
+    assert all(f'aria-label="Distributions of {name}"' in page for name in ("miss", "tilt"))
     assert "2.50 to 100.00" in text_of(page)
 
 

@@ -49,7 +49,9 @@ def marks(figure):
 def test_every_finite_trial_has_its_mark():
     (found,) = scatter_figures(batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED))
     assert found.title == "Contact points"
-    assert marks(found.figure) == {"#9a9a9a": 2 + 4 + 2, "#d55e00": 1 + 2}  # a legend in each panel
+    near, far = (marks(panel.figure) for panel in found.panels)
+    assert near == {"#9a9a9a": 2 + 1, "#d55e00": 1 + 1}  # a legend in each panel
+    assert far == {"#9a9a9a": 4 + 1, "#d55e00": 1}
     words = [str(note) for note in found.notes]
     assert words[0] == 'Dashed: <data value="10.0">10</data> m around the origin.'
     assert words[1:] == ["near: 1 of 4 trials have no finite value and no mark."]
@@ -57,7 +59,7 @@ def test_every_finite_trial_has_its_mark():
 
 def test_the_circle_is_round_and_to_scale():
     (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + ASKED))
-    root = etree.fromstring(found.figure)
+    root = etree.fromstring(found.panels[0].figure)
     round_ones = [path.get("d") for path in root.xpath("//*[local-name()='path']") if path.get("d").count("C") == 8]
     points = [np.array(re.findall(r"-?\d+(?:\.\d+)?", path), dtype=float).reshape(-1, 2) for path in round_ones]
     width, height = max((np.ptp(found, axis=0) for found in points), key=max)  # the others are marks
@@ -76,12 +78,12 @@ def test_angles_are_in_degrees():
     (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + asked))
     assert found.title == "north over east"
     assert ">30</data> deg around the origin." in found.notes[0]
-    assert "east, deg" in found.figure
+    assert "east, deg" in found.panels[0].figure
 
 
 def test_units_that_differ_and_nothing_finite(tmp_path):
     (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + PLANE.format("m", "kg", "")))
-    assert "north, kg" in found.figure
+    assert "north, kg" in found.panels[0].figure
     nothing = batch_result({"lost": [(False, math.nan, math.inf)] * 3}, DRAWS + ASKED)
     write_batch_report(nothing, tmp_path / "page.html", "Lost")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")

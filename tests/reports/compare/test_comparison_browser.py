@@ -24,7 +24,7 @@ def page(tmp_path_factory):
     return folder / "page.html"
 
 
-@pytest.mark.parametrize(("width", "height"), either([(1100, 11000), (400, 22000)], [(1100, 11000)]))
+@pytest.mark.parametrize(("width", "height"), either([(1100, 14000), (400, 30000)], [(1100, 14000)]))
 def test_page_renders_wide_and_narrow(browser, page, tmp_path, width, height):
     size = f"--window-size={width},{height}"
     start(browser, page, tmp_path, size, f"--screenshot={tmp_path / 'page.png'}")
@@ -39,5 +39,5 @@ def test_page_renders_wide_and_narrow(browser, page, tmp_path, width, height):
 
 def test_every_figure_is_laid_out(browser, page, tmp_path):
     dom = start(browser, page, tmp_path, "--dump-dom")
-    assert dom.count('class="figure"') == page.read_text().count('class="figure"') == 37
+    assert dom.count('class="figure"') == page.read_text().count('class="figure"') == 46
     assert "3 variants on the same trials" in dom

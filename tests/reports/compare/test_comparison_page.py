@@ -191,8 +191,8 @@ def test_every_section_and_figure_is_there(page):
         "ship.mass", "pilot.status", "checker.x_error_ratio",
     ]  # fmt: skip
     panels = parse(page).xpath("//*[@class='panels']//figure")
-    # side, plan, end position, end velocity; metrics; quantities; errors over sigma
-    assert len(panels) == 3 * 4 + 3 + 3 * len(quantities) + 1
+    # side, plan, end position, end velocity; metrics; quantities; errors over sigma; all variants over time, at the end
+    assert len(panels) == 3 * 4 + 3 + 3 * len(quantities) + 1 + len(quantities) + 2
     assert len(parse(page).xpath("//p[@class='empty']")) == 0
     text = text_of(page)
     for name in ("downrange from the target, m", "miss <= 3", "Ships that go somewhere", DIGEST, DIGEST[::-1]):

@@ -11,15 +11,15 @@ from tests.support.pages.samples import mixed_batch, run_result
 
 
 @pytest.mark.parametrize(
-    ("write", "result", "figures"),
-    [(write_run_report, run_result, 4), (write_batch_report, mixed_batch, 3)],
+    ("write", "result"),
+    [(write_run_report, run_result), (write_batch_report, mixed_batch)],
     ids=["run", "batch"],
 )
-def test_pages_render(browser, tmp_path, write, result, figures):
+def test_pages_render(browser, tmp_path, write, result):
     page = tmp_path / "page.html"
     write(result(), page, "In a browser")
     dom = start(browser, page, tmp_path, "--dump-dom")
-    assert dom.count('class="figure"') == figures
+    assert dom.count('class="figure') == page.read_text(encoding="utf-8").count('class="figure') > 3
     assert "<h1>In a browser</h1>" in dom
     assert "SHA-256" in dom
     start(browser, page, tmp_path, f"--screenshot={tmp_path / 'page.png'}")

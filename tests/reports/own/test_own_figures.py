@@ -157,7 +157,7 @@ def test_a_bar_for_each_pulse():
     """81 ticks: x fires up in 8 and down in 8 of them, y in the first 4; the last row's tick never acts."""
     found = one(PULSES, flown(**pulses()))
     assert findings(found) == ["20 pulses, 2.4 s in all: x 16 pulses, 1.6 s; y 4 pulses, 0.8 s."]
-    drawn = bars(found.wide)
+    drawn = bars(found.drawn.wide)
     (x_up, y_up), (x_down,) = drawn["#0072b2"], drawn["#d55e00"]
     assert [len(part) for part in (x_up, x_down, y_up)] == [8, 8, 4]
     heights = {name: part[:, 0, 1] - part[:, 1, 1] for name, part in (("+", x_up), ("-", x_down), ("y", y_up))}
@@ -167,7 +167,7 @@ def test_a_bar_for_each_pulse():
     np.testing.assert_allclose(heights["-"], -0.15 * scale, atol=0.02)
     np.testing.assert_allclose(heights["y"], 0.2 * scale, atol=0.02)
     np.testing.assert_allclose(np.diff(y_up[:, 0, 0]), np.diff(x_up[:, 0, 0])[0] / 10.0, atol=0.02)  # 2.5 s and 25 s
-    assert {"x, s", "y, s", "ship.spent, s"} <= texts(found.wide)
+    assert {"x, s", "y, s", "ship.spent, s"} <= texts(found.drawn.wide)
     assert "thin line: ship.rest" in notes(found)[0]
 
 
@@ -178,13 +178,13 @@ def test_without_a_count_every_row_has_new_pulses():
     alone = replace(PULSES, lengths=signal, count=None, remainder=None, total=None, labels=("",))
     found = one(alone, flown(lengths=lengths))
     assert findings(found) == ["3 pulses, 0.7 s."]
-    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(found.wide).items()} == {
+    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(found.drawn.wide).items()} == {
         "#0072b2": [2],
         "#d55e00": [1],
     }
     still = one(alone, flown(lengths=0.0 * lengths))
     assert findings(still) == ["No pulse was fired."]
-    assert still.wide is None
+    assert still.drawn is None
 
 
 def test_many_pulses_stay_small():
@@ -194,8 +194,8 @@ def test_many_pulses_stay_small():
     signals = dict(zip(signal.names, lengths, strict=True))
     result = replace(run_result(), time=0.2 * np.arange(rows), signals=signals)
     found = one(Pulses("Jets", (), signal, None, None, None, ("x", "y", "z")), result)
-    assert count_of(found.wide) == 3 * (rows - 1)
-    assert len(found.wide) < 40 * 3 * rows  # a bar is two points of some ten letters each
+    assert count_of(found.drawn.wide) == 3 * (rows - 1)
+    assert len(found.drawn.wide) < 40 * 3 * rows  # a bar is two points of some ten letters each
 
 
 def test_an_error_within_its_sigma():
@@ -272,7 +272,7 @@ def test_a_flight_of_the_orbital_attitude(use, parameters):
         assert repr(settled(time, *conditions)) in values
     fired = np.array([result[f"pulses.pulse_lengths[{k}]"] for k in (1, 2, 3)])[:, :-1]
     fired[:, 1:] *= np.diff(result["pulses.pulse_count"])[:-1] != 0
-    assert count_of(sections[2].wide) == np.count_nonzero(fired) > 20
+    assert count_of(sections[2].drawn.wide) == np.count_nonzero(fired) > 20
     (told,) = re.findall(r'pulses, <data value="([^"]+)">[^<]+</data> s in all', sections[2].findings[0])
     assert float(told) == pytest.approx(result["plant.jet_seconds"][-1], abs=1e-9)  # what is drawn was fired
     later = (time >= 60.0) & (result["observer.yaw_sigma"] > 0.0)

@@ -84,7 +84,7 @@ def test_constants_copies_and_spikes_are_said(page):
 
 def test_figures_are_labelled(page):
     labels = parse(page).xpath("//*[local-name()='svg']/@aria-label")
-    assert labels[0].startswith("Path of ship")
+    assert labels[0].startswith("Plan of the path of ship")
     assert any("tilt" in label for label in labels)
     assert "tilt, deg" in text_of(page)
 

@@ -1,0 +1,106 @@
+"""Figures that are the same for several loops, as those of three identical axes, are drawn once.
+
+Two figures are the same if they say the same words, have the same lines and marks, and no point of one lies further
+than `TOLERANCE` from where it is in the other: less than half the width of a line.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from markupsafe import Markup
+
+from ...stability.results.loop import LoopReport
+from ..kit.panels import Panel
+
+TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide
+NAMES = re.compile(r'\b(?:id|aria-label)="[^"]*"|(?<=href=")#[^"]*|url\(#[^)]*\)')
+PLACES = re.compile(r'\b(d|x|y|width|height|transform|points)="([^"]*)"')
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+Panels = dict[str, list[Panel]]  # by the part of a loop's section that they belong to
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What is drawn: everything but names and places, and the places (pt)."""
+
+    strokes: str
+    places: np.ndarray
+
+
+@dataclass(frozen=True)
+class Shared:
+    """The figures of a loop that are drawn there, and by the number of another loop what is drawn there for it."""
+
+    panels: Panels
+    elsewhere: dict[int, list[str]]
+
+
+@dataclass
+class _Drawn:
+    panel: Panel
+    picture: Picture
+    loops: list[int]
+
+
+def picture_of(figure: Markup) -> Picture:
+    """A figure without the names of its elements, which differ between all figures of a page."""
+    places: list[str] = []
+
+    def keep(found: re.Match[str]) -> str:
+        places.extend(NUMBER.findall(found[2]))
+        return f'{found[1]}="{NUMBER.sub("", found[2])}"'
+
+    strokes = PLACES.sub(keep, NAMES.sub("", figure))
+    return Picture(strokes, np.array(places, dtype=float))
+
+
+def alike(one: Picture, other: Picture) -> bool:
+    """Whether nobody could tell two pictures apart."""
+    if one.strokes != other.strokes or one.places.size != other.places.size:
+        return False
+    return bool(np.max(np.abs(one.places - other.places), initial=0.0) <= TOLERANCE)
+
+
+def share(loops: Sequence[LoopReport], figures: Sequence[Panels]) -> list[Shared]:
+    """What each loop's section draws, ``figures`` being those of each: a figure stands with the first that has it."""
+    drawn: dict[str, list[_Drawn]] = {}
+    kept: list[dict[str, list[_Drawn]]] = []
+    elsewhere: list[dict[int, list[str]]] = [{} for _ in loops]
+    for index, parts in enumerate(figures):
+        kept.append({key: [] for key in parts})
+        for key, panels in parts.items():
+            for panel in panels:
+                picture = picture_of(panel.figure)
+                same = next((one for one in drawn.get(panel.label, []) if alike(one.picture, picture)), None)
+                if same is None:
+                    one = _Drawn(panel, picture, [index])
+                    drawn.setdefault(panel.label, []).append(one)
+                    kept[-1][key].append(one)
+                elif same.loops[0] != index:
+                    same.loops.append(index)
+                    elsewhere[index].setdefault(same.loops[0], []).append(panel.label)
+    return [
+        Shared({key: [_titled(one, loops) for one in found] for key, found in parts.items()}, away)
+        for parts, away in zip(kept, elsewhere, strict=True)
+    ]
+
+
+def _titled(one: _Drawn, loops: Sequence[LoopReport]) -> Panel:
+    """A panel whose label names its loops where there are several."""
+    if len(one.loops) == 1:
+        return one.panel
+    return Panel(f"{one.panel.label}: {together([loops[index] for index in one.loops])}", one.panel.figure)
+
+
+def together(loops: Sequence[LoopReport]) -> str:
+    """Names of loops, the elements of a vector brought together, with their operating points where these differ."""
+    points = len({loop.point for loop in loops}) > 1
+    stems: dict[tuple[str, str], list[str]] = {}
+    for loop in loops:
+        stem, bracket, index = loop.name.partition("[")
+        stems.setdefault((stem, f" at {loop.point}" if points else ""), []).append(bracket + index)
+    return ", ".join(f"{stem}{', '.join(indices)}{point}" for (stem, point), indices in stems.items())

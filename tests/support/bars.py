@@ -1,0 +1,39 @@
+"""Progress bars that are told to a test instead of shown on a terminal."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tqdm import tqdm
+
+
+class Bars:
+    """What every bar of a module came to: (steps done, steps expected), and how often each moved."""
+
+    def __init__(self) -> None:
+        self.ends: list[tuple[float, float]] = []
+        self.moves: list[int] = []
+
+
+def watched(monkeypatch: Any, module: Any) -> Bars:
+    """The bars that ``module`` makes from now on, as on a terminal."""
+    bars = Bars()
+
+    class Watched(tqdm):
+        def __init__(self, *arguments: Any, **options: Any) -> None:
+            assert options["disable"] is None  # silent unless standard error is a terminal
+            self.moved = 0
+            super().__init__(*arguments, **(options | {"disable": False, "mininterval": 0.0, "miniters": 1}))
+
+        def update(self, n: float | None = 1) -> Any:
+            self.moved += bool(n)
+            return super().update(n)
+
+        def close(self) -> None:
+            if not self.disable:  # which closing sets
+                bars.ends.append((self.n, self.total))
+                bars.moves.append(self.moved)
+            super().close()
+
+    monkeypatch.setattr(module, "tqdm", Watched)
+    return bars

@@ -1,0 +1,67 @@
+"""A page on a narrow screen, measured by a real browser: how small the text of its figures is, what runs out of it.
+
+Chromium's window is never narrower than 500 px, so the page stands in a frame of the width that is wanted.
+"""
+
+from __future__ import annotations
+
+import html
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.support.pages.browser import start
+
+PHONE = 390  # px
+SCRIPT = """<script>
+addEventListener("load", () => {
+  const frame = document.querySelector("iframe"), page = frame.contentDocument, view = frame.contentWindow;
+  const seen = [...page.querySelectorAll("svg.figure text")].filter(text => text.getClientRects().length);
+  const height = text => {
+    const matrix = text.getScreenCTM();
+    return parseFloat(view.getComputedStyle(text).fontSize) * Math.hypot(matrix.a, matrix.b);
+  };
+  const wide = [...page.querySelectorAll("body *")].filter(element => !element.closest(".scroll")
+    && !element.closest("svg") && element.getBoundingClientRect().right > view.innerWidth + 1);
+  document.body.dataset.measured = JSON.stringify({
+    width: view.innerWidth, texts: seen.length, smallest: Math.min(...seen.map(height)),
+    overflow: page.documentElement.scrollWidth - page.documentElement.clientWidth,
+    wide: wide.map(element => element.tagName + "." + element.className),
+  });
+});
+</script>"""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Of a page in a frame ``width`` px wide: how many ``texts`` of figures are seen, the height of the ``smallest``
+    (px), by how much the page is too wide (px), and the elements that are, those that scroll in themselves left out."""
+
+    width: int
+    texts: int
+    smallest: float
+    overflow: int
+    wide: list[str]
+
+
+def measure(browser: str, page: Path, folder: Path, width: int = PHONE) -> Measured:
+    """What the browser says of a page with all that is folded away unfolded."""
+    text = re.sub(r"<details(?! open)([^>]*)>", r"<details\1 open>", page.read_text(encoding="utf-8"))
+    frame = f'<iframe style="width: {width}px; height: 3000px; border: 0" srcdoc="{html.escape(text)}"></iframe>'
+    framed = folder / "framed.html"
+    document = f'<!DOCTYPE html><meta charset="utf-8"><body>{frame}{SCRIPT}</body>'
+    framed.write_text(document, encoding="utf-8")
+    dom = start(browser, framed, folder, "--dump-dom")
+    found = re.search(r'data-measured="([^"]*)"', dom)
+    assert found is not None, "the page did not load"
+    return Measured(**json.loads(html.unescape(found[1])))
+
+
+def assert_legible(browser: str, page: Path, folder: Path, smallest: float = 8.5) -> None:
+    """On a telephone no text of a figure is smaller (px), and nothing makes the page wider than the screen."""
+    found = measure(browser, page, folder)
+    assert found.width == PHONE
+    assert found.texts > 10
+    assert found.smallest >= smallest
+    assert (found.overflow, found.wide) == (0, [])
