@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from ..progress import progress_bar
 from .bounds import transfer_problem
 from .least_time import least_propellant
 from .path import PlanError, PlannedPath
 from .programme import Programme, find_programme, over_distance, over_duration
 from .true_optimum import find_true_optimum
-from ..progress import progress_bar
 from .vehicle import Margins, Transfer, Vehicle
 
 OPTIMUM_INTERVALS = 320

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-
+from ..progress import progress_bar
 from .bounds import Landing, landing_problem
 from .declared_bound import Inputs
 from .direct_method import direct_propellant
@@ -15,7 +15,6 @@ from .least_time import least_propellant
 from .path import PlannedPath
 from .point_mass import PointMassProblem
 from .stored_bound import StoredBound, digest
-from ..progress import progress_bar
 from .vehicle import Vehicle
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from perilune.analysis.planning import hover_study as hover_study_module
+from perilune.analysis import progress
 from perilune.analysis.planning.hover_study import hover_study
 from perilune.analysis.planning.path import PlanError
 from perilune.analysis.planning.programme import Programme, find_programme, over_distance, over_duration
@@ -174,6 +174,6 @@ def test_no_room_for_the_programme():
 
 
 def test_a_plan_of_several_parts_tells_how_far_it_is(monkeypatch):
-    bars = watched(monkeypatch, hover_study_module)
+    bars = watched(monkeypatch, progress)
     hover_study(VEHICLE, TRANSFER, curves=True)
     assert bars.ends == [(2, 2)]

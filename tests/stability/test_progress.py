@@ -9,8 +9,8 @@ from dataclasses import replace
 import pytest
 
 import perilune
+from perilune.analysis import progress as bar
 from perilune.analysis.cli import main
-from perilune.analysis.stability import progress
 from tests.support.bars import watched
 from tests.support.loops.studies import LATE, SWEEP, campaign, named
 
@@ -24,7 +24,7 @@ def late(exact_fmus, tmp_path):
 
 
 def test_every_step_is_counted(late, tmp_path, monkeypatch):
-    bars = watched(monkeypatch, progress)
+    bars = watched(monkeypatch, bar)
     report = perilune.stability(late, campaign=campaign(tmp_path, 0.5, 1.0), trials=TRIALS)
     expected = 1 + len(report.loops) + STEPS + TRIALS + INTERVALS
     assert bars.ends == [(expected, expected)]
@@ -32,7 +32,7 @@ def test_every_step_is_counted(late, tmp_path, monkeypatch):
 
 
 def test_other_processes_tell_their_steps(exact_fmus, tmp_path, monkeypatch):
-    bars = watched(monkeypatch, progress)
+    bars = watched(monkeypatch, bar)
     ssd = LATE.ssd.replace('<Point name="there" time="20.0"/>', f'<Point name="there" time="20.0"/>{EARLIER}')
     two = replace(LATE, ssd=ssd.replace('points="there"', 'points="there earlier"'))
     report = perilune.stability(str(two.packed(tmp_path, exact_fmus)), workers=2)
