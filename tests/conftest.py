@@ -12,11 +12,11 @@ from typing import Any
 import hypothesis
 import pytest
 
-from perilune import fmus_src
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.closure import closure_of
 from perilune.fmus_src.export.command import main as build_fmus
 from perilune.fmus_src.places import BUILD, built_fmu
+from tests.support.built import native_are_current
 from tests.support.lengths import LONG, either
 from tests.support.locks import one_process_at_a_time
 from tests.support.pages.browser import NO_BROWSER, find_browser
@@ -69,13 +69,6 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
         )
 
 
-def _native_are_current(names: list[str]) -> bool:
-    """Not older than any source: how a native FMU comes out depends on the translator, too."""
-    paths, sources = [built_fmu(name, "native") for name in names], Path(fmus_src.__file__).parent.rglob("*")
-    newest = max(source.stat().st_mtime for source in sources if source.suffix in (".py", ".c", ".h"))
-    return all(path.is_file() and path.stat().st_mtime >= newest for path in paths)
-
-
 def _is_current(name: str, package: str) -> bool:
     path = built_fmu(name, "python")
     if not path.is_file():
@@ -89,7 +82,7 @@ def fmus() -> Path:
     """The folder of this repository's Python FMUs, built with the native ones if missing or of older sources."""
     with one_process_at_a_time(BUILD / ".lock"):
         blocks = catalogue()
-        native = _native_are_current([name for name, block in blocks.items() if not block.python_only])
+        native = native_are_current([name for name, block in blocks.items() if not block.python_only])
         if not native or not all(_is_current(name, closure_of(block).package) for name, block in blocks.items()):
             assert build_fmus([]) == 0
     return built_fmu("x", "python").parent

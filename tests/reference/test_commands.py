@@ -21,8 +21,10 @@ from perilune.analysis.examples import EXAMPLES
 from perilune.fmus_src.places import ROOT
 from tests.support.documented import documented, page_text, saved_files
 from tests.support.lengths import LONG
+from tests.support.pages.system_page import write_system
 
 # Commands by how they begin, and where they are carried out instead.
+SYSTEM_BY_HAND = "docs/write_a_system.md"
 ELSEWHERE = {
     "make ": "the targets of the Makefile; those of README are what CI runs",
     "pip install": "tests/package/test_wheel.py installs the wheel",
@@ -89,6 +91,8 @@ def test_the_commands(place, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     for name, content in saved_files(page_text(place)):
         (tmp_path / name).write_text(content, encoding="utf-8")
+    if place == SYSTEM_BY_HAND:
+        write_system(tmp_path)
     here = tmp_path
     for command in PLACES[place]:
         if any(command.startswith(words) for words in ELSEWHERE):

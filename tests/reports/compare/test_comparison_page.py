@@ -332,14 +332,16 @@ def test_propellant_from_final_masses_where_no_metric_tells_it(tmp_path):
     "options",
     [
         {"trials": 1},
-        {"trials": 2, "traced": 1},
+        pytest.param({"trials": 2, "traced": 1}, marks=pytest.mark.slow),
         {"variants": ("default",)},
-        {"variants": tuple(f"guidance_{k}" for k in range(9)), "trials": 8, "traced": 3},
-        {"noise": 100.0},  # no trial succeeds
+        pytest.param(
+            {"variants": tuple(f"guidance_{k}" for k in range(9)), "trials": 8, "traced": 3}, marks=pytest.mark.slow
+        ),
+        pytest.param({"noise": 100.0}, marks=pytest.mark.slow),  # no trial succeeds
         {"noise": 0.0},  # no dispersion at all
-        {"targets": False},
+        pytest.param({"targets": False}, marks=pytest.mark.slow),
         {"variants": ("$x_1$ <b>&", "y/z")},
-        {"trials": 3000, "traced": 1, "variants": ("a", "b")},
+        pytest.param({"trials": 3000, "traced": 1, "variants": ("a", "b")}, marks=pytest.mark.slow),
     ],
     ids=["one trial", "two trials", "one variant", "many variants", "failures", "exact", "no target", "names", "many"],
 )

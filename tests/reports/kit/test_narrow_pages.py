@@ -5,9 +5,9 @@ Truth: the heights and widths that a browser lays out; 8.5 px is what a telephon
 
 import pytest
 
-from perilune.analysis.commands.plans.hover_transfer import TRANSFER, VEHICLE
 from perilune.analysis.compare.side_by_side import compare
 from perilune.analysis.planning.hover_study import hover_study
+from perilune.analysis.planning.vehicle import HOVER_TRANSFER, HOVER_VEHICLE
 from perilune.analysis.reports.batch.batch_report import write_batch_report
 from perilune.analysis.reports.compare.page import write_comparison_page
 from perilune.analysis.reports.plan.hover_page import write_hover_page
@@ -42,7 +42,7 @@ def write_comparison(page):
 
 
 def write_plan(page):
-    write_hover_page(hover_study(VEHICLE, TRANSFER, curves=True), page)
+    write_hover_page(hover_study(HOVER_VEHICLE, HOVER_TRANSFER, curves=True), page)
 
 
 PAGES = (write_flight, write_figures_of_its_own, write_mission, write_batch, write_comparison, write_plan)

@@ -30,7 +30,11 @@ def test_a_comparison_of_six_variants_is_short(browser, tmp_path):
         assert "The same over all trials: on the screen, not on paper" in words
 
 
-@pytest.mark.parametrize(("times", "full"), [(1, True), (9, False)], ids=["two loops", "eighteen loops"])
+@pytest.mark.parametrize(
+    ("times", "full"),
+    [(1, True), pytest.param(9, False, marks=pytest.mark.slow)],
+    ids=["two loops", "eighteen loops"],
+)
 def test_a_stability_study_is_short(browser, tmp_path, studies, times, full):
     """Eighteen loops are the two of the coupled pair nine times, with responses so large that none is another's."""
     page = tmp_path / "page.html"

@@ -8,12 +8,13 @@ import pytest
 from matplotlib import image
 
 from perilune.analysis.reports.run.run_report import write_run_report
+from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.mission_samples import FIGURES, mission
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses
 
 
-@pytest.mark.parametrize(("width", "height"), [(1100, 4200), (400, 9000)])
+@pytest.mark.parametrize(("width", "height"), either([(1100, 4200), (400, 9000)], [(1100, 4200)]))
 def test_page_renders_wide_and_narrow(browser, tmp_path, width, height):
     page = tmp_path / "page.html"
     write_run_report(flown(angles=angles(), **pulses(), **errors()), page, "Own", [ANGLES, PULSES, ERROR])
@@ -29,7 +30,7 @@ def test_page_renders_wide_and_narrow(browser, tmp_path, width, height):
     assert not inked[-40:].any()  # the whole page was seen
 
 
-@pytest.mark.parametrize(("width", "height"), [(1100, 5600), (400, 10000)])
+@pytest.mark.parametrize(("width", "height"), either([(1100, 5600), (400, 10000)], [(1100, 5600)]))
 def test_a_flight_through_phases_renders_wide_and_narrow(browser, tmp_path, width, height):
     page = tmp_path / "page.html"
     write_run_report(mission(), page, "Mission", FIGURES)

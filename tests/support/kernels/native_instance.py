@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import ctypes
 import tempfile
+import zipfile
 from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_uint, c_void_p
 from functools import cache
 from pathlib import Path
 
+from lxml import etree
+
 from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import PLATFORMS, local_platform, shared_library
 from perilune.fmus_src.export.native_fmu import native_sources
-from perilune.fmus_src.places import BUILD
+from perilune.fmus_src.places import BUILD, built_fmu
+from tests.support.built import native_are_current
 
 CACHE = BUILD / "cache"
 GUID = "{00000000-0000-0000-0000-000000000000}"
@@ -58,14 +63,28 @@ def library(block_class: type[Block]) -> ctypes.CDLL:
     return load(native_sources(block_class, GUID), f"{block_class.fmu_name}.c")
 
 
+@cache
+def built(block_class: type[Block]) -> tuple[ctypes.CDLL, str] | None:
+    """The library of a block's native FMU and its GUID; None where there is none of these sources."""
+    name, platform = block_class.fmu_name, local_platform()
+    if platform is None or catalogue().get(name) is not block_class or not native_are_current([name]):
+        return None
+    with zipfile.ZipFile(built_fmu(name, "native")) as archive, tempfile.TemporaryDirectory() as folder:
+        file = Path(archive.extract(f"binaries/{platform}/{name}{PLATFORMS[platform].extension}", folder))
+        guid = etree.fromstring(archive.read("modelDescription.xml")).get("guid", "")
+        return opened(file), guid
+
+
 class NativeInstance:
-    """One instance, by default of a library compiled here; errors leave their messages in ``log``."""
+    """One instance, by default of the built FMU, else of a library compiled here; errors leave messages in ``log``."""
 
     def __init__(
         self, block_class: type[Block], guid: str = GUID, name: str = "instance", dll: ctypes.CDLL | None = None
     ) -> None:
         self.log: list[str] = []
-        self.dll = dll or library(block_class)
+        if dll is None:
+            dll, guid = built(block_class) or (library(block_class), guid)
+        self.dll = dll
         self.logger = LOGGER(lambda *arguments: self.log.append(arguments[5].decode()))
         self.callbacks = Callbacks(self.logger)
         self.handle = c_void_p(

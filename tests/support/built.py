@@ -1,0 +1,23 @@
+"""Whether what lies in build/fmus was made of the sources as they are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+
+from perilune import fmus_src
+from perilune.fmus_src.places import built_fmu
+
+
+@cache
+def newest_source() -> float:
+    """When a source of the FMUs changed last: how a native one comes out depends on the translator, too."""
+    sources = Path(fmus_src.__file__).parent.rglob("*")
+    return max(source.stat().st_mtime for source in sources if source.suffix in (".py", ".c", ".h"))
+
+
+def native_are_current(names: Iterable[str]) -> bool:
+    """Whether these native FMUs are there, and not older than any source."""
+    paths = [built_fmu(name, "native") for name in names]
+    return all(path.is_file() and path.stat().st_mtime >= newest_source() for path in paths)
