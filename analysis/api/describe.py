@@ -34,6 +34,7 @@ def describe(
     variant: str | None = None,
     flavour: Literal["native", "python"] | None = None,
     allow_unmatched: bool = False,
+    open_inputs: Literal["refuse", "start"] = "refuse",
     no_feedthrough: Sequence[str] = (),
 ) -> dict[str, Any]:
     """What a system, an FMU or a slot has: `perilune describe`, as a dictionary.
@@ -44,7 +45,7 @@ def describe(
     """
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched,
+        flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
     )  # fmt: skip
     return described(os.fspath(what), component, options)
 

@@ -136,6 +136,7 @@ def stability(
     variant: str | None = None,
     flavour: Literal["native", "python"] | None = None,
     allow_unmatched: bool = False,
+    open_inputs: Literal["refuse", "start"] = "refuse",
     no_feedthrough: Sequence[str] = (),
 ) -> StabilityReport:
     """Margins, poles and robustness of a system's loops: `perilune stability`; see docs/stability.md.
@@ -148,7 +149,7 @@ def stability(
     check_list("loops", loops)
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched,
+        flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
     )  # fmt: skip
     request = read_request(
         Path(system),

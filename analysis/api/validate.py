@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from fmpy.validation import validate_fmu
 
@@ -22,24 +24,51 @@ from ..synthesis.synthesis_file import read_synthesis
 from ..system.archive import DEFAULT_VARIANT, open_system
 from ..system.fmu import load_fmu
 from ..system.options import SystemOptions
-from ..system.parameter_sets import read_parameter_file
+from ..system.parameter_sets import ParameterValue, read_parameter_file
 from ..system.prepared import prepare_system
-from .options import FilePath
+from .options import FilePath, system_options
+
+FILES = (".fmu", ".ssv", ".json", ".toml")  # that are no systems
 
 
-def validate(*paths: FilePath) -> list[dict[str, Any]]:
+def validate(
+    *paths: FilePath,
+    use: Mapping[str, FilePath] | None = None,
+    parameters: Sequence[FilePath] = (),
+    set: Mapping[str, ParameterValue] | None = None,
+    step: float | None = None,
+    stop_time: float | None = None,
+    algorithm: Literal["sequential", "jacobi"] = "sequential",
+    variant: str | None = None,
+    flavour: Literal["native", "python"] | None = None,
+    allow_unmatched: bool = False,
+    open_inputs: Literal["refuse", "start"] = "refuse",
+    no_feedthrough: Sequence[str] = (),
+) -> list[dict[str, Any]]:
     """Check systems, FMUs, parameter sets, campaigns, laws: `perilune validate`.
 
-    A row for each: ``path``, ``problems`` (lines, none where it is good) and ``notes``.
+    A row for each: ``path``, ``problems`` (lines, none where it is good) and ``notes``. Of a system all variants are
+    checked unless ``variant`` names one; the options are those of `simulate`, and are for systems only.
     """
-    return [_check(os.fspath(path)) for path in paths]
+    options = system_options(
+        use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
+        flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
+    )  # fmt: skip
+    return validated([os.fspath(path) for path in paths], options)
 
 
-def _check(path: str) -> dict[str, Any]:
+def validated(paths: Sequence[str], options: SystemOptions) -> list[dict[str, Any]]:
+    """Likewise, with the options of a command line."""
+    return [_check(path, options) for path in paths]
+
+
+def _check(path: str, options: SystemOptions) -> dict[str, Any]:
     """Problems and notes of one path."""
     notes: list[str] = []
     problems: list[str] = []
     try:
+        if path.endswith(FILES) and options != SystemOptions():
+            raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
         if path.endswith(".fmu"):
             load_fmu(_read(path), path)
             remedy = "mend the FMU's modelDescription.xml"
@@ -55,8 +84,8 @@ def _check(path: str) -> dict[str, Any]:
             (read_synthesis if is_search else read_campaign)(Path(path))
         else:
             variants = [None, *(name for name in open_system(path).variants() if name != DEFAULT_VARIANT)]
-            for variant in variants:
-                subject = Subject(path, SystemOptions(variant=variant))
+            for variant in variants if options.variant is None else [options.variant]:
+                subject = Subject(path, replace(options, variant=variant))
                 prepared = prepare_system(path, subject.options, subject.fmus)
                 _check_loops(subject, read_declaration(prepared.network.description))
                 read_figures(prepared)

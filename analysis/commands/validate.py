@@ -6,13 +6,13 @@ import argparse
 import sys
 from typing import Any
 
-from ..api.validate import validate
-from .common.options import check_json, tell
+from ..api.validate import validated
+from .common.options import check_json, system_options, tell
 
 
 def run(options: argparse.Namespace) -> int:
     check_json(options)
-    results = validate(*options.path)
+    results = validated(options.path, system_options(options))
     for result in results:
         for problem in result["problems"]:
             print(f"perilune: {problem}", file=sys.stderr)

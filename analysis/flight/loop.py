@@ -217,7 +217,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                 status = setup_experiment(address, instance, start, stop)
             elif code == MODE:
                 status = change_mode(address, instance)
-            if status > FMI_WARNING:
+            if status > FMI_WARNING or status < 0:
                 outcome[0] = FAILED
                 outcome[1] = instructions[k, COMPONENT]
                 outcome[2] = instructions[k, FUNCTION]

@@ -246,7 +246,9 @@ class Simulation:
         if code == loop.FAILED:
             component = list(self.instances)[subject]
             log = " | ".join(self.instances[component].messages) or "no message in its log"
-            call = f"{loop.FUNCTION_NAMES[function]} returned {FMI_STATUS[fmi_status]}"
+            known = 0 <= fmi_status < len(FMI_STATUS)
+            word = FMI_STATUS[fmi_status] if known else f"{fmi_status}, a status that FMI does not have"
+            call = f"{loop.FUNCTION_NAMES[function]} returned {word}"
             return STATUS[code], f"{component}: {call} at t = {time:g} s: {log}"
         return STATUS[code], ""
 

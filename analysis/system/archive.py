@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
+from urllib.parse import unquote
 
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
@@ -50,7 +51,12 @@ class SystemArchive:
 
     def read(self, name: str, element: str) -> bytes:
         """Content of a file the description refers to, at ``element``."""
-        return self._content(posixpath.normpath(name), element)
+        return self._content(self._place(name), element)
+
+    def _place(self, source: str) -> str:
+        """The archive name that a source means: a URI, so that %20 is a space unless a file has it in its name."""
+        name = posixpath.normpath(source)
+        return name if name in self.files else posixpath.normpath(unquote(source))
 
     def _content(self, name: str, element: str) -> bytes:
         if name not in self.files:
@@ -63,12 +69,12 @@ class SystemArchive:
 
         A folder without FMUs of its own takes those of this repository and of the working folder.
         """
-        name = posixpath.normpath(source)
+        name = self._place(source)
         if name in self.files or self.path.is_file():
             return partial(self._content, name, element), f"{self.label}!{name}"
-        path = fmu_file(Path(source).stem, flavour)
+        path = fmu_file(Path(name).stem, flavour)
         if path is None:
-            own = own_fmu(Path(source).stem, flavour)
+            own = own_fmu(Path(name).stem, flavour)
             problem = f"no file {name} in the system, no {flavour} FMU of this repository, and {own} is not built"
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
         return path.read_bytes, str(path)

@@ -10,6 +10,7 @@ from .archive import SystemArchive
 from .description import Binding, Component, System
 from .documents import read_document
 from .network import Link, Network, Node
+from .options import SystemOptions
 from .parameter_sets import (
     Assignment,
     ParameterValue,
@@ -36,14 +37,14 @@ class Settings:
 
 
 def collect_settings(
-    network: Network, archive: SystemArchive, assignments: Sequence[Assignment], allow_unmatched: bool
+    network: Network, archive: SystemArchive, assignments: Sequence[Assignment], options: SystemOptions
 ) -> Settings:
     """All values of a system: its bindings from the inside out, then ``assignments``; later ones win.
 
     Raises InputError for a name that matches nothing (unless allowed), a value that does not
-    fit its variable, and a declared input that has neither connection nor value.
+    fit its variable, and declared inputs that have neither connection nor value (unless they keep their starts).
     """
-    settings = Settings()
+    settings, allow_unmatched = Settings(), options.allow_unmatched
     # Deeper systems first: the binding of an outer one wins.
     for path, system in sorted(network.systems.items(), key=lambda item: -item[0].count(".")):
         for element in system.elements.values():
@@ -56,7 +57,8 @@ def collect_settings(
         _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
     _pass_parameters(network, settings)
-    _check_inputs(network, settings)
+    _settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start")
+    _check_signals(network, settings)
     return settings
 
 
@@ -276,17 +278,40 @@ def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
     return [(number(source, link.source), number(target, link.target)) for source, target in transformation.table]
 
 
-def _check_inputs(network: Network, settings: Settings) -> None:
-    for node in network.nodes.values():
-        given = node.name in settings.nodes or (node.component or "", node.variable) in settings.variables
-        if node.kind != "input" or node.name in network.driver or given:
-            continue
-        raise InputError(
-            network.file,
-            node.where,
-            "input is neither connected nor given a value",
-            f"connect it, or give a value: --set {node.name}=VALUE",
-        )
+def _settle_open_inputs(network: Network, settings: Settings, *, keep_starts: bool) -> None:
+    """Refuse all inputs that have neither a source nor a value, in one line, or leave them at their FMUs' starts."""
+    found = [
+        node
+        for node in network.nodes.values()
+        if node.kind == "input"
+        and node.name not in network.driver
+        and node.name not in settings.nodes
+        and (node.component or "", node.variable) not in settings.variables
+    ]
+    if not found:
+        return
+    if not keep_starts:
+        one = len(found) == 1
+        problem = f"{'input is' if one else f'{len(found)} inputs are'} neither connected nor given a value"
+        remedy = f"connect {'it' if one else 'them'}, give a value: --set {found[0].name}=VALUE, or --open-inputs start"
+        raise InputError(network.file, ", ".join(node.where for node in found), problem, remedy)
+    without = {node.name for node in found}
+    readers: dict[str, list[Link]] = {}
+    for link in network.driver.values():
+        readers.setdefault(link.source.name, []).append(link)
+    while found:
+        node = found.pop()
+        if node.component is not None:
+            start = network.fmus[node.component].variables[node.variable].start
+            network.notes.append(f"{node.name}: open input, keeps {start}")
+        for link in readers.get(node.name, ()):  # of a system's own input: what it leads to is open, too
+            del network.driver[link.target.name]
+            if link.target.name not in without:
+                without.add(link.target.name)
+                found.append(link.target)
+
+
+def _check_signals(network: Network, settings: Settings) -> None:
     for link in network.driver.values():
         source = link.source
         is_signal = source.component is None and source.kind in ("inout", "output")

@@ -187,8 +187,8 @@ class Reader:
         for item in children(child(element, "ssd:Connections"), "ssd:Connection"):
             system.connections.append(
                 Connection(
-                    (item.get("startElement"), item.get("startConnector", "")),
-                    (item.get("endElement"), item.get("endConnector", "")),
+                    (item.get("startElement") or None, item.get("startConnector", "")),  # "": the system itself
+                    (item.get("endElement") or None, item.get("endConnector", "")),
                     item.get("suppressUnitConversion") in ("true", "1"),
                     read_transformation(item),
                     item.sourceline,
@@ -209,12 +209,13 @@ class Reader:
         return Component(**self.common(element), source=source)
 
     def reference(self, element: etree._Element) -> DictionaryReference:
-        return DictionaryReference(**self.common(element), dictionary=element.get("dictionary", ""))
+        return DictionaryReference(**self.common(element, signals=True), dictionary=element.get("dictionary", ""))
 
-    def common(self, element: etree._Element) -> dict:
+    def common(self, element: etree._Element, *, signals: bool = False) -> dict:
+        """What all elements have; ``signals``: the connectors are a dictionary's, which have both directions."""
         connectors: dict[str, Connector] = {}
         for item in children(child(element, "ssd:Connectors"), "ssd:Connector"):
-            connector = self.connector(item)
+            connector = self.connector(item, signals)
             if connector.name in connectors:
                 raise self.refuse(item, connector.name, "declared twice", "remove one")
             connectors[connector.name] = connector
@@ -226,9 +227,9 @@ class Reader:
             "line": element.sourceline,
         }
 
-    def connector(self, item: etree._Element) -> Connector:
+    def connector(self, item: etree._Element, signal: bool) -> Connector:
         name, kind = item.get("name", ""), item.get("kind", "")
-        if kind == "inout":
+        if kind == "inout" and not signal:
             raise self.refuse(item, name, "inout connectors are not supported", "declare it input or output")
         return self.typed(item, name, kind)
 

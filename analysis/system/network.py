@@ -13,6 +13,7 @@ from .units import Unit
 
 SOURCES = ("output", "calculatedParameter")
 SINKS = ("input", "parameter")
+WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # types of source and target that fit though they differ
 
 
 @dataclass(slots=True)
@@ -224,13 +225,12 @@ def _signal(network: Network, path: str, reference: DictionaryReference, signal:
 def _connect(network: Network, path: str, system: System, connection: Connection) -> None:
     start = _end(network, path, system, connection.start, connection)
     end = _end(network, path, system, connection.end, connection)
-    # Seen from inside a system its own inputs are sources and its outputs are sinks.
-    starts = SINKS if connection.start[0] is None else SOURCES
-    ends = SOURCES if connection.end[0] is None else SINKS
-    for node, kinds, word in ((start, starts, "a start"), (end, ends, "an end")):
-        if node.kind not in (*kinds, "inout"):
-            problem = f"{node.name} is {node.kind} and cannot be {word}"
-            raise InputError(network.file, connection.where, problem, "swap the ends")
+    start_is_own, end_is_own = (point[0] is None for point in (connection.start, connection.end))
+    if not _leads(start, start_is_own, end, end_is_own):
+        if not _leads(end, end_is_own, start, start_is_own):
+            problem = f"{start.name} is {start.kind} and {end.name} is {end.kind}: neither gives what the other takes"
+            raise InputError(network.file, connection.where, problem, "connect an output with an input")
+        start, end = end, start  # the standard gives the ends of a connection no direction
     if "calculatedParameter" in (start.kind, end.kind):
         raise InputError(
             network.file,
@@ -266,6 +266,16 @@ def _connect(network: Network, path: str, system: System, connection: Connection
     network.driver[end.name] = Link(start, end, transformation, connection.line)
 
 
+def _leads(start: Node, start_is_own: bool, end: Node, end_is_own: bool) -> bool:
+    """Whether values can go from one node to another.
+
+    Seen from inside a system its own inputs are sources and its outputs are sinks.
+    """
+    starts = SINKS if start_is_own else SOURCES
+    ends = SOURCES if end_is_own else SINKS
+    return start.kind in (*starts, "inout") and end.kind in (*ends, "inout")
+
+
 def _settle_types(network: Network) -> None:
     """System connectors without a declared type take that of what drives or reads them."""
     changed = True
@@ -279,7 +289,7 @@ def _settle_types(network: Network) -> None:
 
 def _check_link(network: Network, link: Link) -> None:
     source, target = link.source, link.target
-    if source.type_name != target.type_name and (source.type_name, target.type_name) != ("Integer", "Real"):
+    if source.type_name != target.type_name and (source.type_name, target.type_name) not in WIDENED:
         raise InputError(
             network.file,
             link.where,

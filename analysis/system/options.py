@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from .parameter_sets import ParameterValue
 
 ALGORITHMS = ("sequential", "jacobi")
+OPEN_INPUTS = ("refuse", "start")
 
 
 # Who may ask something of a system, from the lowest to the highest: what a later one says wins. Below all of them
@@ -30,7 +31,8 @@ class Layer:
 class SystemOptions(Layer):
     """What the command line calls system options; see `perilune run --help`.
 
-    Times in s. ``flavour`` None takes native FMUs where they are built.
+    Times in s. ``flavour`` None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that
+    the SSD declares and nothing drives, ``start`` keeps the FMU's start values.
     """
 
     step: float | None = None
@@ -39,6 +41,7 @@ class SystemOptions(Layer):
     variant: str | None = None
     flavour: str | None = None
     allow_unmatched: bool = False
+    open_inputs: str = "refuse"
     no_feedthrough: tuple[str, ...] = ()
 
     def among(self, **layers: Layer) -> SystemOptions:

@@ -17,7 +17,7 @@ from .assignments import Settings, collect_settings, text_assignment
 from .description import Component, read_description
 from .fmu import Fmu, load_fmu
 from .network import Network, build_network
-from .options import ALGORITHMS, SystemOptions
+from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from .parameter_sets import Assignment, read_parameter_file
 from .schedule import Schedule, make_schedule
 
@@ -55,6 +55,7 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
     for name, value, known in (
         ("--algorithm", options.algorithm, ALGORITHMS),
         ("--flavour", options.flavour, FLAVOURS),
+        ("--open-inputs", options.open_inputs, OPEN_INPUTS),
     ):
         if value is not None and value not in known:
             raise InputError(name, str(value), "unknown", suggestion(str(value), known))
@@ -79,7 +80,7 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
     for slot in options.use:
         if slot not in network.fmus:
             raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
-    settings = collect_settings(network, archive, _assignments(archive, options), options.allow_unmatched)
+    settings = collect_settings(network, archive, _assignments(archive, options), options)
     schedule = make_schedule(network, options.no_feedthrough)
     start, step, steps = _times(network, options)
     return PreparedSystem(archive, options, network, settings, schedule, start, step, steps)
@@ -131,6 +132,12 @@ def _times(network: Network, options: SystemOptions) -> tuple[float, float, int]
     stop = options.stop_time if options.stop_time is not None else description.stop_time
     if stop is None:
         raise InputError(network.file, "DefaultExperiment", "no stopTime", "give --stop-time SECONDS")
+    if max(abs(stop), abs(description.start_time)) + step == max(abs(stop), abs(description.start_time)):
+        problem = f"a step of {step:g} s does not advance a time of {stop:g} s"
+        where = (network.file, "DefaultExperiment")
+        if options.step is not None or options.stop_time is not None:
+            where = ("--step", f"{step:g}") if options.step is not None else ("--stop-time", f"{stop:g}")
+        raise InputError(*where, problem, "give a longer --step or earlier times")
     duration = stop - description.start_time
     steps = round(duration / step) if 0.0 <= duration / step < float("inf") else -1
     if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):

@@ -16,9 +16,9 @@ CAMPAIGN_FOLDER = "extra/org.perilune/campaigns"
 
 
 def system_files(folder: Path) -> dict[str, Path]:
-    """Archive name -> file of a system folder, FMUs left out.
+    """Archive name -> file of a system folder, without the FMUs that are built elsewhere.
 
-    SSDs stay at the root, parameter sets, mappings and dictionaries go to resources/, campaigns
+    SSDs and FMUs beside them stay at the root, parameter sets, mappings and dictionaries go to resources/, campaigns
     below extra/, the README to documentation/; everything under the folder's resources/ as it is.
     """
     files: dict[str, Path] = {}
@@ -26,7 +26,7 @@ def system_files(folder: Path) -> dict[str, Path]:
         name = path.relative_to(folder).as_posix()
         if not path.is_file() or name.startswith("."):
             continue
-        if path.parent == folder and path.suffix == ".ssd":
+        if path.parent == folder and path.suffix in (".ssd", ".fmu"):
             files[name] = path
         elif path.parent == folder and path.suffix in RESOURCE_SUFFIXES:
             files[f"resources/{name}"] = path

@@ -14,7 +14,7 @@ from ....fmus_src.places import FLAVOURS
 from ...atomic import write_atomically
 from ...errors import InputError
 from ...system.faults import KINDS, Fault, parse_fault
-from ...system.options import ALGORITHMS, SystemOptions
+from ...system.options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from ...targets import Results, check_file
 from .completers import completed, parameter_sets, slots_with_fmus, systems
 
@@ -57,6 +57,9 @@ def add_system_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument("--variant", metavar="NAME", help="another SSD of the archive")
     group.add_argument("--flavour", choices=FLAVOURS, help="which FMUs of this repository; default: native if built")
+    group.add_argument(
+        "--open-inputs", choices=OPEN_INPUTS, default=OPEN_INPUTS[0], help="inputs that nothing drives; default: refuse"
+    )
     group.add_argument("--allow-unmatched", action="store_true", help="let parameters pass that match nothing")
     group.add_argument(
         "--no-feedthrough", action="append", default=[], metavar="COMPONENT", help="its outputs wait for no input"
@@ -124,6 +127,7 @@ def system_options(options: argparse.Namespace) -> SystemOptions:
         variant=options.variant,
         flavour=options.flavour,
         allow_unmatched=options.allow_unmatched,
+        open_inputs=options.open_inputs,
         no_feedthrough=tuple(options.no_feedthrough),
     )
 

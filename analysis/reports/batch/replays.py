@@ -101,5 +101,6 @@ def _options(options: SystemOptions) -> list[tuple[str, str]]:
         "--variant": options.variant,
         "--flavour": options.flavour,
         "--algorithm": options.algorithm if options.algorithm != SystemOptions.algorithm else None,
+        "--open-inputs": options.open_inputs if options.open_inputs != SystemOptions.open_inputs else None,
     }
     return found + [(option, value) for option, value in single.items() if value is not None]

@@ -16,7 +16,7 @@ TO_PLANT = (
 )
 
 FROM_MONITOR = TO_PLANT.replace("control", "monitor").replace('"thrust" endE', '"finished" endE')
-BACKWARDS = TO_PLANT.replace("control", "?").replace("plant", "control").replace("?", "plant")
+TWO_INPUTS = TO_PLANT.replace('startConnector="thrust"', 'startConnector="altitude"')
 BINDINGS = "    <ssd:ParameterBindings/>\n    <ssd:Connections>"
 
 # What the page's table says of a mistake: the file, what stands there, what a reader writes instead.
@@ -26,7 +26,7 @@ MISTAKES = {
     "a unit that nobody defines": (SSD, PLANT_ALTITUDE, PLANT_ALTITUDE.replace('"m"', '"ell"')),
     "an input that nothing drives": (SSD, TO_PLANT, ""),
     "an input with two sources": (SSD, TO_PLANT, TO_PLANT + FROM_MONITOR),
-    "a connection the wrong way round": (SSD, TO_PLANT, BACKWARDS),
+    "a connection of two inputs": (SSD, TO_PLANT, TWO_INPUTS),
     "a component with a typo": (SSD, 'startElement="control"', 'startElement="controll"'),
     "an FMU that is not built": (SSD, "vertical_lander.fmu", "vertical_landr.fmu"),
     "elements in another order than the schema's": (SSD, "    <ssd:Connections>", BINDINGS),

@@ -1,0 +1,153 @@
+"""What other tools write and the standard allows: it flies as if it had been written our way.
+
+Truth: the same system in our way of writing, sample by sample; pencil and paper for the tiny FMUs' answers.
+"""
+
+import numpy as np
+import pytest
+
+import perilune
+from perilune.analysis.cli import main
+from perilune.analysis.errors import InputError
+from tests.support.builders import MODES, component, connection, connectors, document, fly, pack, system
+
+RAMP = component("ramp", "ramp", "output y Real m; output count Integer")
+GAIN = component("gain", "gain", "input u Real m; output y Real m")
+WIRED = connection("ramp.y", "gain.u")
+ROOT = "output out Real m"
+
+
+@pytest.fixture
+def plain(tiny, tmp_path):
+    """The gain's output and the system's own, as we write the system."""
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    return fly(pack(tmp_path / "plain.ssp", tiny, document(root)))
+
+
+def same(result, plain):
+    for name in ("gain.y", "out"):
+        np.testing.assert_array_equal(result[name], plain[name])
+    assert plain["gain.y"].tolist() == [3.0 * (1.0 + 0.5 * n) for n in range(5)]
+
+
+def test_connections_have_no_direction(tiny, tmp_path, plain):
+    backwards = connection("gain.u", "ramp.y") + connection("out", "gain.y")
+    root = system(RAMP, GAIN, connections=backwards, declared=ROOT)
+    same(fly(pack(tmp_path / "s.ssp", tiny, document(root))), plain)
+
+
+def test_a_backward_connection_transforms_what_flows(tiny, tmp_path):
+    inner = '<ssc:LinearTransformation factor="2" offset="1"/>'
+    found = [
+        fly(
+            pack(
+                tmp_path / f"{start}.ssp", tiny, document(system(RAMP, GAIN, connections=connection(start, end, inner)))
+            )
+        )
+        for start, end in (("ramp.y", "gain.u"), ("gain.u", "ramp.y"))
+    ]
+    np.testing.assert_array_equal(found[0]["gain.u"], found[1]["gain.u"])
+    assert found[1]["gain.u"][0] == 2.0 * 1.0 + 1.0
+
+
+def test_two_of_a_kind_are_refused_either_way(tiny, tmp_path):
+    for start, end in (("ramp.y", "gain.y"), ("gain.y", "ramp.y")):
+        path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, connections=connection(start, end))))
+        with pytest.raises(InputError, match=r"neither gives what the other takes; connect an output with an input"):
+            fly(path)
+
+
+def test_an_empty_element_is_the_system_itself(tiny, tmp_path, plain):
+    wires = WIRED + connection("gain.y", "out").replace('endConnector="out"', 'endElement="" endConnector="out"')
+    assert 'endElement=""' in wires
+    same(fly(pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, connections=wires, declared=ROOT)))), plain)
+
+
+def test_fmus_beside_the_description(tiny, tmp_path, plain):
+    folder = tmp_path / "beside"
+    folder.mkdir()
+    for name in ("ramp", "gain"):
+        (folder / f"{name} one.fmu").write_bytes((tiny / f"{name}.fmu").read_bytes())
+    root = system(
+        component("ramp", "ramp%20one", "output y Real m"),
+        component("gain", "gain one", "input u Real m; output y Real m"),
+        connections=WIRED + connection("gain.y", "out"),
+        declared=ROOT,
+    )
+    text = document(root).replace("resources/ramp", "ramp").replace("resources/gain", "./x/../gain")
+    (folder / "SystemStructure.ssd").write_text(text)
+    same(fly(folder), plain)
+
+
+def test_encoded_sources_in_an_archive(tiny, tmp_path, plain):
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    text = document(root).replace("resources/gain.fmu", "resources/the%20gain.fmu")
+    fmu = {"resources/the gain.fmu": (tiny / "gain.fmu").read_bytes()}
+    same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmu)), plain)
+
+
+def test_a_signal_dictionary_with_inout(tiny, tmp_path, plain):
+    entry = '<ssb:DictionaryEntry name="length"><ssc:Real unit="m"/></ssb:DictionaryEntry>'
+    dictionary = f'<ssb:SignalDictionary version="1.0">{entry}</ssb:SignalDictionary>'
+    signals = (
+        f'<ssd:SignalDictionaries><ssd:SignalDictionary name="bus">{dictionary}</ssd:SignalDictionary>'
+        "</ssd:SignalDictionaries>"
+    )
+    reference = (
+        f'<ssd:SignalDictionaryReference name="signals" dictionary="bus">{connectors("inout length Real m")}'
+        "</ssd:SignalDictionaryReference>"
+    )
+    wires = (
+        connection("ramp.y", "signals.length") + connection("signals.length", "gain.u") + connection("gain.y", "out")
+    )
+    root = system(RAMP, GAIN, reference, connections=wires, declared=ROOT, extra=signals)
+    same(fly(pack(tmp_path / "s.ssp", tiny, document(root))), plain)
+
+
+def test_an_integer_is_an_enumeration_s_value(tiny, tmp_path):
+    enumeration = "".join(f'<ssc:Item name="{name}" value="{value}"/>' for name, value in MODES.items())
+    more = f'<ssd:Enumerations><ssc:Enumeration name="Mode">{enumeration}</ssc:Enumeration></ssd:Enumerations>'
+    mode = component("mode", "mode", "input n Enumeration Mode; output m Enumeration Mode")
+    root = system(RAMP, mode, connections=connection("ramp.count", "mode.n"))
+    result = fly(pack(tmp_path / "s.ssp", tiny, document(root, more=more)))
+    assert result["mode.m"].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
+
+
+def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys):
+    cross = component("cross", "cross", "input a Real m; input b Real m; output ya Real m; output yb Real m")
+    path = pack(
+        tmp_path / "s.ssp",
+        tiny,
+        document(system(cross, declared="input in Real m", connections=connection("in", "cross.b"))),
+    )
+    with pytest.raises(InputError, match=r"in \(line \d+\), cross\.a \(line \d+\): 2 inputs are neither connected nor"):
+        fly(path)
+    result = fly(path, open_inputs="start")
+    assert set(result["cross.ya"]) == {2.0 * 0.25}
+    assert set(result["cross.yb"]) == {0.5 + 1.0}
+    assert main(["validate", str(path)]) == 2
+    assert "--open-inputs start" in capsys.readouterr().err
+    assert main(["validate", str(path), "--open-inputs", "start"]) == 0
+    assert "cross.b: open input, keeps 0.5" in capsys.readouterr().out
+    assert perilune.validate(path, open_inputs="start")[0]["problems"] == []
+
+
+def test_system_options_are_for_systems(tiny, capsys):
+    assert main(["validate", str(tiny / "ramp.fmu"), "--step", "1"]) == 2
+    assert "it is no system, which they are for" in capsys.readouterr().err
+
+
+def test_a_campaign_may_name_the_file_of_its_system(tiny, tmp_path):
+    path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, connections=WIRED)))
+    campaign = tmp_path / "c.toml"
+    campaign.write_text(
+        'system = "s.ssp"\ntrials = 2\nseed = 1\n\n[success]\nexpression = "out > 0"\n\n'
+        '[metric.out]\nexpression = "gain.y"\n'
+    )
+    assert perilune.batch(path, campaign, workers=1).summary["default"]["success_rate"] == 1.0
+
+
+def test_a_step_that_does_not_advance_time(tiny, tmp_path):
+    path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, connections=WIRED)))
+    with pytest.raises(InputError, match=r"a step of 0\.25 s does not advance a time of 1e\+300 s"):
+        fly(path, stop_time=1e300)
