@@ -12,11 +12,16 @@ from nbclient import NotebookClient
 from perilune.fmus_src.places import ROOT
 
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.ipynb"))
+FIRST = "flight_and_guidance"  # which `make test` runs; the others `make long`
 SHOWN = ("image/svg+xml", "text/html")
 
 
 @pytest.mark.usefixtures("fmus")
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(path, marks=[] if path.stem == FIRST else [pytest.mark.slow]) for path in NOTEBOOKS],
+    ids=lambda path: path.stem,
+)
 def test_it_runs_to_its_end(path, tmp_path):
     book = nbformat.read(path, 4)
     nbformat.validate(book)

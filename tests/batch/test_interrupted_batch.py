@@ -34,7 +34,8 @@ def counted(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("flavour", "workers", "trials"), [("native", 1, 3000), ("native", 2, 3000), ("python", 2, 150)]
+    ("flavour", "workers", "trials"),
+    [("native", 1, 3000), ("native", 2, 3000), pytest.param("python", 2, 150, marks=pytest.mark.slow)],
 )
 def test_the_first_trials_are_those_of_the_whole(counted, tmp_path, capsys, flavour, workers, trials):
     out = tmp_path / "out"

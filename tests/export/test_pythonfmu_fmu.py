@@ -166,6 +166,7 @@ sys.stdout.write("flown"); sys.stdout.flush(); os._exit(0)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("fmus")
 def test_building_between_flights_harms_no_fmu_that_is_loaded(tmp_path):
     """The builder once took away the references that keep the scripts of loaded FMUs alive."""

@@ -200,6 +200,7 @@ def test_every_claim_holds_at_the_nominal_start(claim):
         assert not failed
 
 
+@pytest.mark.slow
 def test_the_claims_do_not_hold_together():
     """Uniform over all five ranges at once, a success rate of 99 % is out of the question."""
     rows = flown("robustness_joint", trials=300)

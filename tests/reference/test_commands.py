@@ -58,6 +58,8 @@ TAKES_LONG = {
     "--direct": "a direct method",
     "modal_comparison": "two minutes of random plants",
     "perilune benchmark": "importers that take a minute each",
+    "lunar_landing --parameters noisy.ssv --use": "320 s of flight with all sensors and a table of it",
+    "lunar_landing --report": "320 s of flight and its page",
 }
 FAILS = ("attitude_control.lead_time=",)  # the thin and the unstable loop: exit status 1
 # What begins the work of a verb, once all that it was given has been looked at.

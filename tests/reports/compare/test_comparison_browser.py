@@ -24,6 +24,7 @@ def page(tmp_path_factory):
     return folder / "page.html"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("width", "height"), either([(1100, 14000), (400, 30000)], [(1100, 14000)]))
 def test_page_renders_wide_and_narrow(browser, page, tmp_path, width, height):
     size = f"--window-size={width},{height}"

@@ -78,6 +78,7 @@ def test_stands_alone(page):
     assert "<script" not in page
 
 
+@pytest.mark.slow
 def test_same_batches_same_bytes(page, folder, tmp_path):
     assert write([folder], tmp_path / "again.html") == page
 
@@ -270,6 +271,7 @@ def test_a_batch_that_says_how_to_group_is_enough(tmp_path):
     assert "groups" not in compare([tmp_path / "plain"]).summary["beta"]
 
 
+@pytest.mark.slow
 def test_several_folders(folder, tmp_path):
     write_sample(tmp_path / "loud", noise=2.0)
     comparison = compare([folder, tmp_path / "loud"])
@@ -320,6 +322,7 @@ def test_of_what_goes_nowhere_no_path_and_no_propellant_are_missed(tmp_path):
     assert "pilot.status" in [part.text for part in parse(page).xpath("//h4")]
 
 
+@pytest.mark.slow
 def test_propellant_from_final_masses_where_no_metric_tells_it(tmp_path):
     text = CAMPAIGN[: CAMPAIGN.index("[metric.propellant]")] + CAMPAIGN[CAMPAIGN.index("[metric.tilt]") :]
     write_sample(tmp_path / "mass", text=text)
@@ -357,6 +360,7 @@ def test_extremes(tmp_path, options):
         assert "no parameter of the system is called target_position" in text_of(page)
 
 
+@pytest.mark.slow
 def test_metrics_that_are_not_finite(tmp_path):
     """A flight that fails has no metrics: it counts as a failure and drops out of the rest."""
     result = write_sample(tmp_path / "out")
@@ -375,6 +379,7 @@ def test_metrics_that_are_not_finite(tmp_path):
     assert "without an end" in page
 
 
+@pytest.mark.slow
 def test_traces_of_failures_only_are_called_biased(tmp_path):
     result = write_sample(tmp_path / "out")
     result.provenance["record"] = {"every": None, "signals": [], "trials": None, "traces": "failures"}

@@ -17,6 +17,7 @@ MOST_OF_A_COMPARISON, MOST_OF_A_STUDY = 8, 12
 SIX = ("alpha", "beta", "gamma", "delta", "epsilon", "zeta")
 
 
+@pytest.mark.slow
 def test_a_comparison_of_six_variants_is_short(browser, tmp_path):
     page = tmp_path / "page.html"
     write_sample(tmp_path / "out", variants=SIX)

@@ -41,6 +41,7 @@ def page(studies, tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("width", "height"), either([(1200, 14000), (400, 30000)], [(1200, 14000)]))
 def test_page_renders_wide_and_narrow(browser, page, tmp_path, width, height):
     size = f"--window-size={width},{height}"
