@@ -19,8 +19,8 @@ from ..reports.batch.batch_report import write_batch_report
 from ..reports.batch.distributions import sort_metrics
 from ..reports.batch.plots import metric_plot
 from ..reports.kit.quantities import number
+from ..ssp.parameter_sets import ParameterValue
 from ..system.faults import Fault
-from ..system.parameter_sets import ParameterValue
 from ..targets import check_folder
 from .notebook import Grid, metric_grid, notebook_view
 from .options import FilePath, system_options

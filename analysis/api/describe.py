@@ -13,10 +13,10 @@ from ..describe.fits import blocks_of_slot, slots
 from ..describe.system import describe_system
 from ..describe.variables import variables_of
 from ..errors import InputError, suggestion
-from ..system.archive import system_names
+from ..ssp.archive import system_names
+from ..ssp.parameter_sets import ParameterValue
 from ..system.fmu import load_fmu
 from ..system.options import SystemOptions
-from ..system.parameter_sets import ParameterValue
 from ..system.prepared import find_fmu, prepare_system
 from .options import FilePath, system_options
 

@@ -21,8 +21,8 @@ from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
 from ...fmus_src.places import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu
 from ..atomic import write_atomically
 from ..errors import InputError, suggestion
-from ..system.archive import SystemArchive, open_system, system_names
-from ..system.documents import parse_xml
+from ..ssp.archive import SystemArchive, open_system, system_names
+from ..ssp.documents import parse_xml
 from ..targets import check_file
 from .options import FilePath
 

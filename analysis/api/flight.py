@@ -20,8 +20,8 @@ from ..reports.own.limit_table import limit_rows
 from ..reports.run.plots import signal_plot
 from ..reports.run.run_report import key_values, write_run_report
 from ..reports.run.trajectory import trajectory_plot
+from ..ssp.parameter_sets import ParameterValue
 from ..system.faults import Fault
-from ..system.parameter_sets import ParameterValue
 from ..system.prepared import prepare_system
 from .notebook import Grid, notebook_view, value_text
 from .options import FilePath, system_options

@@ -12,9 +12,9 @@ from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 from ...fmus_src.places import LAWS, SEARCHES
+from ..ssp.archive import SystemArchive, open_system, system_names
+from ..ssp.reading import read_description
 from ..stability.ask.reading import read_declaration
-from ..system.archive import SystemArchive, open_system, system_names
-from ..system.description import read_description
 
 
 def inventory() -> dict[str, Any]:

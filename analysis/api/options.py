@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..errors import InputError
+from ..ssp.parameter_sets import ParameterValue
 from ..system.options import SystemOptions
-from ..system.parameter_sets import ParameterValue
 
 FilePath = str | os.PathLike[str]
 

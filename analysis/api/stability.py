@@ -13,13 +13,13 @@ from ..errors import suggestion
 from ..reports.stability.page import write_stability_page
 from ..reports.stability.plots import Diagram, loop_plot
 from ..reports.stability.words import gain_margin, phase_margin, size, verdict
+from ..ssp.parameter_sets import ParameterValue
 from ..stability.ask.request import read_request
 from ..stability.results import report
 from ..stability.results.document import KEYS, document
 from ..stability.results.loop import LoopReport
 from ..stability.results.requirement import Verdict
 from ..stability.study import study
-from ..system.parameter_sets import ParameterValue
 from .notebook import Grid, notebook_view
 from .options import FilePath, check_list, system_options
 

@@ -16,15 +16,15 @@ from ..errors import InputError
 from ..laws.law import read_law
 from ..planning.stored_bound import MissingBound, find_bound
 from ..reports.own.asked.reading import read_figures
+from ..ssp.archive import DEFAULT_VARIANT, open_system
+from ..ssp.parameter_sets import ParameterValue, read_parameter_file
 from ..stability.ask.channels import channels_of
 from ..stability.ask.declaration import Declaration
 from ..stability.ask.reading import read_declaration
 from ..stability.ask.subject import Subject
 from ..synthesis.synthesis_file import read_synthesis
-from ..system.archive import DEFAULT_VARIANT, open_system
 from ..system.fmu import load_fmu
 from ..system.options import SystemOptions
-from ..system.parameter_sets import ParameterValue, read_parameter_file
 from ..system.prepared import prepare_system
 from .options import FilePath, system_options
 

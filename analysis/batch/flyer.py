@@ -12,7 +12,7 @@ from ..campaign.plan import BatchPlan, VariantNames, variant_names
 from ..flight.library import LOADING
 from ..flight.results import Flight, Result
 from ..flight.simulation import Simulation
-from ..system.parameter_sets import ParameterValue
+from ..ssp.parameter_sets import ParameterValue
 from .status_texts import trial_status
 from .trials import Trials
 

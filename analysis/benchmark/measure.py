@@ -13,7 +13,7 @@ from ...fmus_src.export.ssp_package import named_fmus, pack_system
 from ...fmus_src.places import SYSTEMS, built_fmu
 from ..errors import InputError, suggestion
 from ..progress import progress_bar
-from ..system.archive import system_names
+from ..ssp.archive import system_names
 from .agreement import strangers
 from .contestants.all import CONTESTANTS, OURS
 from .contestants.contestant import Unavailable, Values

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError, suggestion
-from ..system.archive import open_system
+from ..ssp.archive import open_system
 from ..system.faults import Fault, check_fault
 from ..system.options import Layer, SystemOptions
 from ..system.prepared import PreparedSystem, prepare_system

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from ..ssp.parameter_sets import ParameterValue
+from ..ssp.transformations import IDENTITY
 from ..system.assignments import Settings, numbers
 from ..system.faults import connector_type
 from ..system.network import Link, Network, Node
-from ..system.parameter_sets import ParameterValue
 from ..system.schedule import Schedule, origin
-from ..system.transformations import IDENTITY
 from . import loop
 from .injections import Injection
 from .instance import Instance

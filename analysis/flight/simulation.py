@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..ssp.parameter_sets import ParameterValue, parse_value
 from ..system.faults import Fault, check_fault
-from ..system.parameter_sets import ParameterValue, parse_value
 from ..system.prepared import PreparedSystem, no_collection
 from . import loop
 from .injections import NEVER, of_excitation, of_fault

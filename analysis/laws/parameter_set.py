@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from ..system.documents import NAMESPACES
+from ..ssp.documents import NAMESPACES
 from .law import EXP_SATURATIONS, Law
 
 

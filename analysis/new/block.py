@@ -10,8 +10,9 @@ from ...fmus_src.export.ssp_package import DESCRIPTION
 from ..atomic import write_atomically
 from ..describe.fits import slots
 from ..errors import InputError, suggestion
-from ..system.archive import open_system, system_names
-from ..system.description import Component, read_description
+from ..ssp.archive import open_system, system_names
+from ..ssp.description import Component
+from ..ssp.reading import read_description
 from .names import check_free, check_name, class_name
 from .rendering import rendered, template_names
 

@@ -11,7 +11,7 @@ from ...fmus_src.block import snake_case
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.places import FLAVOURS, own_fmu
 from ..errors import InputError
-from ..system.archive import system_names
+from ..ssp.archive import system_names
 
 
 def class_name(name: str) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from lxml import etree
 
 from ..errors import InputError
-from ..system.annotations import AnnotationReader
+from ..ssp.annotations import AnnotationReader
 from ..system.names import parted
 from ..system.prepared import PreparedSystem, prepare_system
 from .bounds import Landing, landing_problem, transfer_problem

@@ -8,8 +8,9 @@ from functools import cache
 from pathlib import Path
 
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
-from ..system.archive import open_system, system_names
-from ..system.description import Component, System, read_description
+from ..ssp.archive import open_system, system_names
+from ..ssp.description import Component, System
+from ..ssp.reading import read_description
 
 
 @dataclass

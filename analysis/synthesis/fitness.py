@@ -14,7 +14,7 @@ from ..campaign.plan import BatchPlan
 from ..errors import InputError
 from ..laws.law import Law
 from ..laws.parameter_set import law_parameters
-from ..system.parameter_sets import ParameterValue
+from ..ssp.parameter_sets import ParameterValue
 from .candidate import Bar, Evaluation, Task
 
 VARIANT = "default"

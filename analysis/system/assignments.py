@@ -6,12 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ..errors import InputError, suggestion
-from .archive import SystemArchive
-from .description import Binding, Component, System
-from .documents import read_document
-from .network import Link, Network, Node
-from .options import SystemOptions
-from .parameter_sets import (
+from ..ssp.archive import SystemArchive
+from ..ssp.description import Binding, Component, System
+from ..ssp.documents import read_document
+from ..ssp.parameter_sets import (
     Assignment,
     ParameterValue,
     apply_mapping,
@@ -19,7 +17,9 @@ from .parameter_sets import (
     read_parameter_file,
     read_parameter_set,
 )
-from .transformations import VALUE_TYPES, Transformation
+from ..ssp.transformations import VALUE_TYPES, Transformation
+from .network import Link, Network, Node
+from .options import SystemOptions
 
 SETTABLE = ("parameter", "input")
 SINGLE = "--set"  # where single values come from

@@ -15,9 +15,9 @@ import fmpy
 from fmpy import read_model_description
 
 from ..errors import InputError
-from .archive import open_zip
-from .documents import parse_xml
-from .units import Unit, units_of_fmu
+from ..ssp.archive import open_zip
+from ..ssp.documents import parse_xml
+from ..ssp.units import Unit, units_of_fmu
 
 DESCRIPTION = "modelDescription.xml"
 

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from ..errors import InputError, suggestion
-from .description import Component, Connection, Connector, Description, DictionaryReference, Element, System
+from ..ssp.description import Component, Connection, Connector, Description, DictionaryReference, Element, System
+from ..ssp.transformations import IDENTITY, Transformation, check_type
+from ..ssp.units import Unit
 from .fmu import Fmu
-from .transformations import IDENTITY, Transformation, check_type
-from .units import Unit
 
 SOURCES = ("output", "calculatedParameter")
 SINKS = ("input", "parameter")

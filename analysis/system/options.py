@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from .parameter_sets import ParameterValue
+from ..ssp.parameter_sets import ParameterValue
 
 ALGORITHMS = ("sequential", "jacobi")
 OPEN_INPUTS = ("refuse", "start")

@@ -12,13 +12,14 @@ from pathlib import Path
 from ...fmus_src.export.available import fmu_file, fmu_flavours
 from ...fmus_src.places import FLAVOURS
 from ..errors import InputError, suggestion
-from .archive import HOW_TO_BUILD, SystemArchive, open_system
+from ..ssp.archive import HOW_TO_BUILD, SystemArchive, open_system
+from ..ssp.description import Component
+from ..ssp.parameter_sets import Assignment, read_parameter_file
+from ..ssp.reading import read_description
 from .assignments import Settings, collect_settings, text_assignment
-from .description import Component, read_description
 from .fmu import Fmu, load_fmu
 from .network import Network, build_network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
-from .parameter_sets import Assignment, read_parameter_file
 from .schedule import Schedule, make_schedule
 
 

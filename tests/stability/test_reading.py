@@ -7,9 +7,9 @@ import pytest
 
 import perilune
 from perilune.analysis.errors import InputError
+from perilune.analysis.ssp.reading import Reader
 from perilune.analysis.stability.ask.declaration import Declaration, Element, Limits, Loop, Point, Sweep
 from perilune.analysis.stability.ask.reading import read_declaration
-from perilune.analysis.system.description import Reader
 from perilune.analysis.system.options import Layer
 from tests.support.builders import component, document, pack, system
 from tests.support.loops.exact_systems import ring, with_stability

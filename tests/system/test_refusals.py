@@ -463,7 +463,7 @@ def test_fmus(tmp_path, tiny, refused, name):
 def test_an_fmu_whose_every_byte_may_be_wrong(tiny):
     """Damage anywhere is refused or harmless, never a traceback; 200 places."""
     from perilune.analysis.errors import InputError
-    from perilune.analysis.system.archive import open_zip
+    from perilune.analysis.ssp.archive import open_zip
 
     whole = (tiny / "ramp.fmu").read_bytes()
     refusals = 0

@@ -7,11 +7,11 @@ from functools import cached_property
 from pathlib import Path
 
 from ...errors import InputError
+from ...ssp.parameter_sets import ParameterValue
+from ...ssp.transformations import IDENTITY
 from ...system.network import Link
 from ...system.options import SystemOptions
-from ...system.parameter_sets import ParameterValue
 from ...system.prepared import PreparedSystem, prepare_system
-from ...system.transformations import IDENTITY
 
 
 @dataclass(frozen=True)

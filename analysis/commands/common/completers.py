@@ -12,8 +12,9 @@ from argcomplete.completers import FilesCompleter
 from ....fmus_src.export.available import fmu_flavours
 from ....fmus_src.places import LAWS, SEARCHES
 from ...errors import InputError
-from ...system.archive import SystemArchive, open_system, system_names
-from ...system.description import Component, read_description
+from ...ssp.archive import SystemArchive, open_system, system_names
+from ...ssp.description import Component
+from ...ssp.reading import read_description
 
 Completer = Callable[..., Iterable[str]]
 

@@ -8,8 +8,8 @@ from lxml import etree
 
 from ...errors import suggestion
 from ...loops.describing_function import ELEMENTS, complete_parameters
-from ...system.annotations import AnnotationReader
-from ...system.description import Description
+from ...ssp.annotations import AnnotationReader
+from ...ssp.description import Description
 from ...system.options import Layer
 from .declaration import Declaration, Element, Limits, Loop, Point, Sweep
 

@@ -10,8 +10,9 @@ from pathlib import Path
 
 from ...campaign.plan import BatchPlan, check_plan, read_plan
 from ...errors import InputError, suggestion
-from ...system.archive import open_system
-from ...system.description import Description, read_description
+from ...ssp.archive import open_system
+from ...ssp.description import Description
+from ...ssp.reading import read_description
 from ...system.options import Layer, SystemOptions
 from .declaration import Declaration, Loop, Point
 from .reading import read_declaration

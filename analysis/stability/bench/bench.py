@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import InputError, suggestion
 from ...flight.results import COMPLETE
 from ...flight.simulation import Simulation
-from ...system.parameter_sets import ParameterValue
+from ...ssp.parameter_sets import ParameterValue
 from ...system.prepared import PreparedSystem
 from ..ask.channels import Channel
 from ..ask.declaration import Point

@@ -8,7 +8,7 @@ import numpy as np
 from perilune.analysis.reports.own.asked.histories import Curve, Path, Point
 from perilune.analysis.reports.own.asked.stages import BoundValues, Budget, Item, Limit, Limits, Phase, Phases
 from perilune.analysis.reports.own.asked.values import Rows
-from perilune.analysis.system.units import Unit
+from perilune.analysis.ssp.units import Unit
 from tests.support.pages.own_samples import DEG, DEGREE, TIME, flown, scalar
 
 METRE = Unit("m", (0, 1, 0, 0, 0, 0, 0, 0))

@@ -7,7 +7,7 @@ import numpy as np
 
 from perilune.analysis.reports.own.asked.histories import Band, Error, Pulses
 from perilune.analysis.reports.own.asked.values import Signal
-from perilune.analysis.system.units import Unit
+from perilune.analysis.ssp.units import Unit
 from tests.support.pages.samples import run_result
 
 DEGREE = math.pi / 180.0

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 from lxml import etree
 
-from ....system.documents import tag
+from ....ssp.documents import tag
 from ....system.prepared import PreparedSystem
 from .declared import Figure
 from .history_readers import read_band, read_curve, read_error, read_path, read_pulses

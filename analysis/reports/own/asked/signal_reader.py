@@ -9,10 +9,10 @@ from lxml import etree
 
 from ....errors import suggestion
 from ....flight.program import layout_of
-from ....system.annotations import AnnotationReader
+from ....ssp.annotations import AnnotationReader
+from ....ssp.units import Unit
 from ....system.names import elements, parted
 from ....system.prepared import PreparedSystem
-from ....system.units import Unit
 from .values import Rows, Signal
 
 NUMBERS = ("Real", "Integer")

@@ -9,7 +9,7 @@ from lxml import etree
 from ....errors import suggestion
 from ....planning.declared_bound import read_inputs
 from ....planning.stored_bound import MissingBound, find_bound
-from ....system.documents import tag
+from ....ssp.documents import tag
 from ....system.prepared import PreparedSystem
 from .declared import Figure
 from .history_readers import SECOND

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....flight.results import Flight
-from ....system.units import Unit
+from ....ssp.units import Unit
 from ...kit.quantities import shown_factor
 
 

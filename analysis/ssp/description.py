@@ -1,0 +1,97 @@
+"""What a SystemStructureDescription says, as plain values: elements, connectors, connections, bindings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from lxml import etree
+
+from .transformations import Transformation
+from .units import Unit
+
+
+@dataclass(slots=True)
+class Connector:
+    """A declared connector; type and unit are None where the SSD does not state them."""
+
+    name: str
+    kind: str
+    type_name: str | None
+    unit: str | None
+    enumeration: str | None
+    line: int
+
+    def at(self, name: str) -> str:
+        """Where it is declared, by the name that it has in the flat network."""
+        return f"{name} (line {self.line})"
+
+
+@dataclass(slots=True)
+class Connection:
+    start: tuple[str | None, str]
+    end: tuple[str | None, str]
+    suppress_unit_conversion: bool
+    transformation: Transformation
+    line: int
+
+    def __str__(self) -> str:
+        start, end = (".".join(part for part in point if part) for point in (self.start, self.end))
+        return f"connection {start} -> {end}"
+
+    @property
+    def where(self) -> str:
+        return f"{self} (line {self.line})"
+
+
+@dataclass
+class Binding:
+    """A parameter binding: a source file, or the inline element; with mapping likewise."""
+
+    prefix: str
+    source: str | None
+    inline: etree._Element | None
+    mapping_source: str | None
+    mapping_inline: etree._Element | None
+    line: int
+
+
+@dataclass
+class Element:
+    """What all elements of a system have."""
+
+    name: str
+    connectors: dict[str, Connector]
+    bindings: list[Binding]
+    line: int
+
+
+@dataclass
+class Component(Element):
+    source: str
+
+
+@dataclass
+class DictionaryReference(Element):
+    dictionary: str
+
+
+@dataclass
+class System(Element):
+    elements: dict[str, Element] = field(default_factory=dict)
+    connections: list[Connection] = field(default_factory=list)
+    dictionaries: dict[str, dict[str, Connector]] = field(default_factory=dict)
+
+
+@dataclass
+class Description:
+    """One SSD document."""
+
+    file: str
+    name: str
+    system: System
+    units: dict[str, Unit]
+    enumerations: dict[str, dict[str, int]]
+    start_time: float
+    stop_time: float | None
+    step: float | None
+    annotations: dict[str, etree._Element] = field(default_factory=dict)  # of the whole document, by type
