@@ -38,7 +38,7 @@ def validate(
     set: Mapping[str, ParameterValue] | None = None,
     step: float | None = None,
     stop_time: float | None = None,
-    algorithm: Literal["sequential", "jacobi"] = "sequential",
+    algorithm: Literal["sequential", "jacobi"] | None = None,
     variant: str | None = None,
     flavour: Literal["native", "python"] | None = None,
     allow_unmatched: bool = False,

@@ -82,7 +82,7 @@ def provenance(plan: BatchPlan, systems: dict) -> dict[str, Any]:
         "trials": plan.campaign.trials,
         "seed": plan.campaign.seed,
         "step": first.step,
-        "algorithm": plan.options.algorithm,
+        "algorithm": first.algorithm,
         "fmus": {
             variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
             for variant, prepared in systems.items()

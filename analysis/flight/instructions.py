@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import math
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -93,8 +94,9 @@ class InstructionList:
                 self.call(code, component, function, piece)
                 self.inject(piece)
 
-    def step(self, component: int) -> None:
-        self.call(loop.STEP, component, FUNCTION["DoStep"])
+    def step(self, component: int, period: int = 1) -> None:
+        """A step that ends with this communication step and begins ``period`` of them earlier."""
+        self.call(loop.STEP, component, FUNCTION["DoStep"], (0, 0 if period == 1 else period))
 
     def reset(self) -> None:
         """Every FMU back to the state after instantiation."""
@@ -124,23 +126,18 @@ class InstructionList:
         for component in range(len(self.instances)):
             self.get(component)  # again: there are FMUs that compute outputs only when they leave initialisation
 
-    def sequential(self, sources_first: Sequence[int], followers: Sequence[int]) -> None:
-        """Sources, which have the inputs of t_n, all stepped, then all read; followers one by one at t_(n+1)."""
-        for component in sources_first:
-            self.step(component)
-        for component in sources_first:
-            self.get(component)
-        for component in followers:
-            self.set(component)
-            self.step(component)
+    def side_by_side(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
+        """All stepped, with the inputs that they have, then all read: Jacobi's way."""
+        for component in components:
+            self.step(component, periods.get(component, 1))
+        for component in components:
             self.get(component)
 
-    def jacobi(self) -> None:
-        """All stepped, then all read."""
-        components = range(len(self.instances))
+    def one_by_one(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
+        """Each with inputs of the end of its step."""
         for component in components:
-            self.step(component)
-        for component in components:
+            self.set(component)
+            self.step(component, periods.get(component, 1))
             self.get(component)
 
     def hand_over(self, components: Sequence[int]) -> None:
@@ -151,20 +148,28 @@ class InstructionList:
 
 
 def write_instructions(
-    instructions: InstructionList, names: Sequence[str], schedule: Schedule, algorithm: str
-) -> tuple[np.ndarray, int, int]:
-    """The instruction array, and where resetting and initialising end in it."""
+    instructions: InstructionList, names: Sequence[str], schedule: Schedule, algorithm: str, periods: Mapping[str, int]
+) -> tuple[np.ndarray, int, np.ndarray]:
+    """The instruction array, where resetting ends in it, and where the initialisation and each part end.
+
+    Step n works off part n modulo the parts' number: there is one for each communication step until all ``periods``
+    (of components, in communication steps, where longer than 1) have come round together.
+    """
     index = {name: position for position, name in enumerate(names)}
     instructions.reset()
     reset_end = len(instructions.rows)
     sources = [index[name] for name in schedule.sources_first]
-    set_ahead = range(len(names)) if algorithm == "jacobi" else sources
+    ahead = range(len(names)) if algorithm == "jacobi" else sources
+    behind = [] if algorithm == "jacobi" else [index[name] for name in schedule.followers]
     instructions.initialise([index[name] for name in schedule.initial_order])
-    instructions.hand_over(set_ahead)
-    initial_end = len(instructions.rows)
-    if algorithm == "jacobi":
-        instructions.jacobi()
-    else:
-        instructions.sequential(sources, [index[name] for name in schedule.followers])
-    instructions.hand_over(set_ahead)
-    return np.array(instructions.rows, dtype=np.uint64).reshape(-1, loop.COLUMNS), reset_end, initial_end
+    instructions.hand_over(ahead)
+    ends = [len(instructions.rows)]
+    lengths = {index[name]: period for name, period in periods.items()}
+    for part in range(math.lcm(*lengths.values())):
+        due = [component for component in ahead if (part + 1) % lengths.get(component, 1) == 0]
+        instructions.side_by_side(due, lengths)
+        instructions.one_by_one([n for n in behind if (part + 1) % lengths.get(n, 1) == 0], lengths)
+        instructions.hand_over(due)
+        ends.append(len(instructions.rows))
+    rows = np.array(instructions.rows, dtype=np.uint64).reshape(-1, loop.COLUMNS)
+    return rows, reset_end, np.array(ends, dtype=np.int64)

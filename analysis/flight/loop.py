@@ -23,9 +23,9 @@ from .fmi_calls import change_mode, do_step, exchange, setup_experiment
 # Instruction codes.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP = range(9)
 PARAMETERS, WHOLE_PARAMETERS, SETUP, MODE = range(9, 13)
-# Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; a COPY has its first
-# target slot in FIRST and its first source slot in ADDRESS; FUNCTION
-# numbers FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
+# Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; a COPY has its first target slot in
+# FIRST and its first source slot in ADDRESS, a STEP over several communication steps their number in COUNT (0 for one);
+# FUNCTION numbers FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
 FUNCTION_NAMES = (
@@ -53,7 +53,7 @@ class Program(NamedTuple):
 
     instructions: np.ndarray  # uint64 [i, 7]; unsigned, since numba would look out for negative indices
     reset_end: int  # instructions before this one reset the FMUs; a fresh instance skips them
-    initial_end: int  # instructions before this one initialise, the others make a step
+    phases: np.ndarray  # int64 [m + 1]: instructions before the first initialise; step n works off part n modulo m
     reference: np.ndarray  # uint32 [s], value references
     initial: np.ndarray  # float64 [s], before anything is exchanged: starts of inputs, NaN for what is yet to come
     parameter_reference: np.ndarray  # uint32 [p]
@@ -128,17 +128,19 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     halt = buffers.halt
     outcome[:] = 0
     rows = 0
+    phases, parts = program.phases, program.phases.size - 1
     n = first_point  # -1: the initialisation
+    phase = max(n, 0) % parts
     to_record = 0
     if n < 0:
         values[:] = program.initial
         frozen[:] = np.nan
         first_instruction = np.uint64(0 if span.reset else program.reset_end)
-        last_instruction = np.uint64(program.initial_end)
+        last_instruction = np.uint64(phases[0])
         after = start
     else:
-        first_instruction = np.uint64(program.initial_end)
-        last_instruction = np.uint64(instructions.shape[0])
+        first_instruction = np.uint64(phases[phase])
+        last_instruction = np.uint64(phases[phase + 1])
         after = start + n * step
     while True:
         time = after
@@ -168,7 +170,10 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                             outcome[1] = slot
                             return rows
             elif code == STEP:
-                status = do_step(address, instance, time, step)
+                if count == 0:
+                    status = do_step(address, instance, time, step)
+                else:
+                    status = do_step(address, instance, start + (n + 1 - np.int64(count)) * step, count * step)
             elif code == GET_WHOLE:
                 status = exchange(address, instance, reference, whole, first, count)
                 for slot in range(first, first + count):
@@ -237,8 +242,10 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
         if last:
             outcome[0] = FINISHED if finished else STOP_TIME if n == steps else INTERRUPTED
             return rows
-        first_instruction = np.uint64(program.initial_end)
-        last_instruction = np.uint64(instructions.shape[0])
+        if n > 0:
+            phase = phase + 1 if phase + 1 < parts else 0
+        first_instruction = np.uint64(phases[phase])
+        last_instruction = np.uint64(phases[phase + 1])
 
 
 def _under_another_name(function: Any, name: str) -> FunctionType:

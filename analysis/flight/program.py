@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -50,16 +50,17 @@ def build_program(
     settings: Settings,
     schedule: Schedule,
     algorithm: str,
+    periods: Mapping[str, int],
     instances: dict[str, Instance],
     wanted: Collection[str] | None,
     injections: Sequence[Injection] = (),
 ) -> tuple[loop.Program, Layout]:
     """Arrays for the loop. ``wanted`` names what is recorded (None: everything).
 
-    Only outputs that are connected or wanted are fetched.
+    ``periods``: communication steps that a component's step takes, where more than one. Only outputs that are connected or wanted are fetched.
     """
     builder = _Builder(network, settings, wanted, injections)
-    return builder.program(schedule, algorithm, instances), builder.layout()
+    return builder.program(schedule, algorithm, periods, instances), builder.layout()
 
 
 def layout_of(network: Network, settings: Settings) -> Layout:
@@ -178,7 +179,9 @@ class _Builder:
             self._chain(link.source.name, group)
         group[name] = link
 
-    def program(self, schedule: Schedule, algorithm: str, instances: dict[str, Instance]) -> loop.Program:
+    def program(
+        self, schedule: Schedule, algorithm: str, periods: Mapping[str, int], instances: dict[str, Instance]
+    ) -> loop.Program:
         groups = self._links()
         links = [link for group in groups for link in group]
         tables = [numbers(self.network, link) for link in links]
@@ -194,11 +197,11 @@ class _Builder:
             [[self._connection(link) for link in group] for group in groups],
             fault_slots,
         )
-        instructions, reset_end, initial_end = write_instructions(collected, self.names, schedule, algorithm)
+        instructions, reset_end, phases = write_instructions(collected, self.names, schedule, algorithm, periods)
         return loop.Program(
             instructions=instructions,
             reset_end=reset_end,
-            initial_end=initial_end,
+            phases=phases,
             reference=np.array(self.references, dtype=np.uint32),
             initial=np.array(self.initial, dtype=np.float64),
             parameter_reference=np.array(self.parameter_references, dtype=np.uint32),

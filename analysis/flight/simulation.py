@@ -97,7 +97,8 @@ class Simulation:
             prepared.network,
             self.settings,
             prepared.schedule,
-            prepared.options.algorithm,
+            prepared.algorithm,
+            prepared.periods,
             self.instances,
             self._wanted,
             [*faults, *self._excitations],
@@ -286,7 +287,7 @@ class Simulation:
             "variant": prepared.options.variant,
             "no_feedthrough": list(prepared.options.no_feedthrough),
             "faults": [str(fault) for fault in self._faults if fault is not None],
-            "algorithm": prepared.options.algorithm,
+            "algorithm": prepared.algorithm,
             "perilune": version("perilune"),
         }
 

@@ -23,6 +23,7 @@ from ..errors import InputError, suggestion
 HOW_TO_BUILD = (
     "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""
 ) + "perilune export FILE.py those of your own"
+OSP_DESCRIPTION = "OspSystemStructure.xml"
 DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 
 # what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
@@ -42,12 +43,13 @@ UNREADABLE = (
 
 @dataclass(frozen=True)
 class SystemArchive:
-    """Files of a system by archive name; ``label`` names it in messages."""
+    """Files of a system by archive name; ``label`` names it in messages, ``description`` is read without a variant."""
 
     name: str
     label: str
     path: Path
     files: Mapping[str, Path | bytes]
+    description: str = DESCRIPTION
 
     def read(self, name: str, element: str) -> bytes:
         """Content of a file the description refers to, at ``element``."""
@@ -56,12 +58,22 @@ class SystemArchive:
     def _place(self, source: str) -> str:
         """The archive name that a source means: a URI, so that %20 is a space unless a file has it in its name."""
         name = posixpath.normpath(source)
-        return name if name in self.files else posixpath.normpath(unquote(source))
+        return name if self._has(name) else posixpath.normpath(unquote(source))
+
+    def _has(self, name: str) -> bool:
+        return name in self.files or (self._inside(name) and (self.path / name).is_file())
+
+    def _inside(self, name: str) -> bool:
+        """Whether a name may be that of a file in the system's folder that `system_files` does not list."""
+        return self.path.is_dir() and not _leaves(name)
 
     def _content(self, name: str, element: str) -> bytes:
-        if name not in self.files:
+        if _leaves(name):
+            problem = f"{name} lies outside the system's {'folder' if self.path.is_dir() else 'archive'}"
+            raise InputError(self.label, element, problem, "put the file inside and correct the reference")
+        if not self._has(name):
             raise InputError(self.label, element, f"no file {name}", "add the file or correct the reference")
-        content = self.files[name]
+        content = self.files.get(name, self.path / name)
         return content if isinstance(content, bytes) else content.read_bytes()
 
     def fmu(self, source: str, element: str, flavour: str) -> tuple[Callable[[], bytes], str]:
@@ -70,11 +82,14 @@ class SystemArchive:
         A folder without FMUs of its own takes those of this repository and of the working folder.
         """
         name = self._place(source)
-        if name in self.files or self.path.is_file():
+        if self._has(name) or self.path.is_file() or not self._inside(name):
             return partial(self._content, name, element), f"{self.label}!{name}"
         path = fmu_file(Path(name).stem, flavour)
         if path is None:
             own = own_fmu(Path(name).stem, flavour)
+            if not self.path.is_relative_to(SYSTEMS.resolve()):
+                problem = f"no file {name} in the system's folder, and no FMU of this name is built ({own})"
+                raise InputError(self.label, element, problem, "add the file, or correct the source")
             problem = f"no file {name} in the system, no {flavour} FMU of this repository, and {own} is not built"
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
         return path.read_bytes, str(path)
@@ -85,13 +100,11 @@ class SystemArchive:
 
     def description_name(self, variant: str | None) -> str:
         """Archive name of the SSD: the default one or a variant's."""
-        name = DESCRIPTION if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
+        name = self.description if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
         if name not in self.files:
             variants = self.variants()
             if variant is None:
-                raise InputError(
-                    self.label, DESCRIPTION, "not found", f"add it (SSDs here: {', '.join(variants) or 'none'})"
-                )
+                raise InputError(self.label, name, "not found", f"add it (SSDs here: {', '.join(variants) or 'none'})")
             raise InputError(self.label, "--variant", f"no variant {variant}", suggestion(variant, variants))
         return name
 
@@ -148,6 +161,8 @@ def open_system(system: str | Path) -> SystemArchive:
     path = Path(text)
     if path.is_dir():
         return _folder(path)
+    if path.is_file() and (path.suffix == ".ssd" or path.name == OSP_DESCRIPTION):
+        return _folder(path.parent, path.name)
     if path.is_file():
         archive = open_zip(path.read_bytes(), text)
         files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
@@ -160,9 +175,20 @@ def system_names() -> list[str]:
     return sorted(entry.parent.name for entry in SYSTEMS.glob(f"*/{DESCRIPTION}"))
 
 
-def _folder(path: Path) -> SystemArchive:
+def _leaves(name: str) -> bool:
+    """Whether a normalised name leads out of the folder that it starts from."""
+    return name.startswith(("/", "..")) or ":" in name.partition("/")[0]
+
+
+def _folder(path: Path, description: str | None = None) -> SystemArchive:
     path = path.resolve()
     label = path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else str(path)
-    if not any(path.glob("*.ssd")):  # before the folder is searched, which may be a large one
-        raise InputError(label, DESCRIPTION, "not found", "give a folder with an SSD in it, or add one")
-    return SystemArchive(path.name, label, path, system_files(path))
+    if description is None:
+        has_ssd = any(path.glob("*.ssd"))  # before the folder is searched, which may be a large one
+        if not has_ssd and not (path / OSP_DESCRIPTION).is_file():
+            raise InputError(label, DESCRIPTION, "not found", "give a folder with an SSD in it, or add one")
+        description = DESCRIPTION if has_ssd else OSP_DESCRIPTION
+    files = system_files(path)
+    if description == OSP_DESCRIPTION:
+        files[OSP_DESCRIPTION] = path / OSP_DESCRIPTION
+    return SystemArchive(path.name, label, path, files, description)

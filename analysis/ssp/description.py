@@ -12,7 +12,7 @@ from .units import Unit
 
 @dataclass(slots=True)
 class Connector:
-    """A declared connector; type and unit are None where the SSD does not state them."""
+    """A declared connector; type and unit are None where the document does not state them, the kind is empty."""
 
     name: str
     kind: str
@@ -67,7 +67,10 @@ class Element:
 
 @dataclass
 class Component(Element):
+    """``step`` (s) is that of the component where it is another than the system's."""
+
     source: str
+    step: float | None = None
 
 
 @dataclass
@@ -77,6 +80,9 @@ class DictionaryReference(Element):
 
 @dataclass
 class System(Element):
+    """``step`` (s) is that of an inner system whose components exchange values more or less often."""
+
+    step: float | None = None
     elements: dict[str, Element] = field(default_factory=dict)
     connections: list[Connection] = field(default_factory=list)
     dictionaries: dict[str, dict[str, Connector]] = field(default_factory=dict)
@@ -84,7 +90,7 @@ class System(Element):
 
 @dataclass
 class Description:
-    """One SSD document."""
+    """One document. ``varies`` is the line of a master that varies its step."""
 
     file: str
     name: str
@@ -94,4 +100,6 @@ class Description:
     start_time: float
     stop_time: float | None
     step: float | None
+    algorithm: str | None = None
+    varies: int | None = None
     annotations: dict[str, etree._Element] = field(default_factory=dict)  # of the whole document, by type

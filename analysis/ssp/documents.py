@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
-import fmpy
 from lxml import etree
 
 from ..errors import InputError
+from .versions import SCHEMAS, in_version_1
 
-SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
 NAMESPACES = {
     "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
     "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
@@ -61,6 +59,7 @@ def check_schema(element: etree._Element, kind: str, file: str) -> None:
 def read_document(data: bytes, kind: str, file: str) -> etree._Element:
     """Root element of a valid SSP document of the given kind."""
     root = parse_xml(data, file)
+    in_version_1(root, file)
     check_schema(root, kind, file)
     return root
 

@@ -5,26 +5,33 @@ from __future__ import annotations
 from lxml import etree
 
 from ..errors import InputError
-from .archive import SystemArchive
+from .archive import OSP_DESCRIPTION, SystemArchive
 from .description import Binding, Component, Connection, Connector, Description, DictionaryReference, System
 from .documents import child, children, read_document, tag
+from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
+from .osp import Load, read_osp
 from .transformations import read_transformation
 from .units import Unit, units_of_document
 
 FMU_TYPE = "application/x-fmu-sharedlibrary"
-STEP_ANNOTATION = "org.perilune.step"  # our own: SSP 1.0 has no place for the communication step
 
 
 def read_description(archive: SystemArchive, variant: str | None = None) -> Description:
     """The SSD of an archive, the default one or a variant's; raises InputError."""
     name = archive.description_name(variant)
-    return Reader(f"{archive.label}/{name}", archive.read).read(archive.read(name, "SSD"))
+    read = read_osp if name == OSP_DESCRIPTION else read_ssd
+    return read(archive.read(name, "SSD"), f"{archive.label}/{name}", archive.read)
+
+
+def read_ssd(data: bytes, file: str, load: Load) -> Description:
+    """An SSD; ``load(name, element)`` returns the bytes of a file that it refers to. Raises InputError."""
+    return Reader(file, load).read(data)
 
 
 class Reader:
-    """Reads one SSD; ``load(name, element)`` returns the bytes of a file the SSD refers to."""
+    """Reads one SSD, see `read_ssd`."""
 
-    def __init__(self, file: str, load) -> None:  # type: ignore[no-untyped-def]
+    def __init__(self, file: str, load: Load) -> None:
         self.file = file
         self.load = load
         self.units: dict[str, Unit] = {}
@@ -35,8 +42,6 @@ class Reader:
     def read(self, data: bytes) -> Description:
         """The whole document; raises InputError."""
         root = read_document(data, "ssd", self.file)
-        if not root.get("version", "").startswith("1."):
-            raise self.refuse(root, "version", f"SSP version {root.get('version')} is not read", "write SSP 1.0")
         self.units = units_of_document(root, "ssd")
         system = child(root, "ssd:System")
         assert system is not None  # the schema requires it
@@ -44,6 +49,9 @@ class Reader:
         start = stop = None
         if experiment is not None:
             start, stop = experiment.get("startTime"), experiment.get("stopTime")
+        pace = pace_of_experiment(experiment, self.file)
+        if pace == Pace():
+            pace = pace_of_system(system, self.file)
         return Description(
             file=self.file,
             name=root.get("name", ""),
@@ -57,35 +65,17 @@ class Reader:
             },
             start_time=float(start) if start is not None else 0.0,
             stop_time=float(stop) if stop is not None else None,
-            step=self.step(experiment),
+            step=pace.step,
+            algorithm=pace.algorithm,
+            varies=pace.varies,
             annotations={
                 annotation.get("type", ""): annotation
                 for annotation in children(child(root, "ssd:Annotations"), "ssc:Annotation")
             },
         )
 
-    def step(self, experiment: etree._Element | None) -> float | None:
-        """The communication step (s) of our annotation in the default experiment."""
-        for annotation in children(
-            child(experiment, "ssd:Annotations") if experiment is not None else None, "ssc:Annotation"
-        ):
-            if annotation.get("type") == STEP_ANNOTATION:
-                for item in annotation:
-                    if tag(item) == "CommunicationStep":
-                        return self.positive(item)
-        return None
-
-    def positive(self, item: etree._Element) -> float:
-        try:
-            value = float(item.get("size", ""))
-        except ValueError:
-            value = 0.0
-        if not 0.0 < value < float("inf"):
-            raise self.refuse(item, "CommunicationStep", "size is not a positive number of seconds", 'write size="0.1"')
-        return value
-
     def system(self, element: etree._Element) -> System:
-        system = System(**self.common(element))
+        system = System(**self.common(element), step=pace_of_system(element, self.file).step)
         for dictionary in children(child(element, "ssd:SignalDictionaries"), "ssd:SignalDictionary"):
             system.dictionaries[dictionary.get("name", "")] = self.dictionary(dictionary)
         elements = child(element, "ssd:Elements")
@@ -118,7 +108,7 @@ class Reader:
         source = element.get("source", "")
         if not source.endswith(".fmu"):
             raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")
-        return Component(**self.common(element), source=source)
+        return Component(**self.common(element), source=source, step=step_of_component(element, self.file))
 
     def reference(self, element: etree._Element) -> DictionaryReference:
         return DictionaryReference(**self.common(element, signals=True), dictionary=element.get("dictionary", ""))

@@ -150,11 +150,12 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     if variable is None:
         remedy = f"correct the connector or use another FMU; {suggestion(connector.name, fmu.variables)}"
         raise InputError(network.file, connector.at(name), f"{fmu.label} has no variable of this name", remedy)
-    if variable.causality != connector.kind:
+    kind = connector.kind or variable.causality
+    if variable.causality != kind:
         raise InputError(
             network.file,
             connector.at(name),
-            f"is {variable.causality} in {fmu.label}, {connector.kind} here",
+            f"is {variable.causality} in {fmu.label}, {kind} here",
             "correct the connector's kind or use another FMU",
         )
     if connector.type_name not in (None, variable.type):
@@ -176,7 +177,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
     items = {}
     if variable.type == "Enumeration" and variable.declaredType is not None:
         items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
-    return Node(name, connector.kind, component, connector.name, variable.type, declared or own, connector.line, items)
+    return Node(name, kind, component, connector.name, variable.type, declared or own, connector.line, items)
 
 
 def _end(network: Network, path: str, system: System, point: tuple[str | None, str], connection: Connection) -> Node:

@@ -31,13 +31,14 @@ class Layer:
 class SystemOptions(Layer):
     """What the command line calls system options; see `perilune run --help`.
 
-    Times in s. ``flavour`` None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that
-    the SSD declares and nothing drives, ``start`` keeps the FMU's start values.
+    Times in s. ``algorithm`` None is what the system's description says, else the first of `ALGORITHMS`. ``flavour``
+    None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that the SSD declares and
+    nothing drives, ``start`` keeps the FMU's start values.
     """
 
     step: float | None = None
     stop_time: float | None = None
-    algorithm: str = "sequential"
+    algorithm: str | None = None
     variant: str | None = None
     flavour: str | None = None
     allow_unmatched: bool = False

@@ -21,6 +21,7 @@ from .fmu import Fmu, load_fmu
 from .network import Network, build_network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from .schedule import Schedule, make_schedule
+from .times import component_periods, flight_times
 
 
 @dataclass
@@ -32,9 +33,11 @@ class PreparedSystem:
     network: Network
     settings: Settings
     schedule: Schedule
+    algorithm: str
     start: float
     step: float
     steps: int
+    periods: dict[str, int]  # communication steps that one step of a component takes, where more than one
 
     @property
     def is_native(self) -> bool:
@@ -82,9 +85,21 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
         if slot not in network.fmus:
             raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
     settings = collect_settings(network, archive, _assignments(archive, options), options)
-    schedule = make_schedule(network, options.no_feedthrough)
-    start, step, steps = _times(network, options)
-    return PreparedSystem(archive, options, network, settings, schedule, start, step, steps)
+    algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
+    schedule = make_schedule(network, options.no_feedthrough, algorithm)
+    start, step, steps = flight_times(network, options)
+    return PreparedSystem(
+        archive,
+        options,
+        network,
+        settings,
+        schedule,
+        algorithm,
+        start,
+        step,
+        steps,
+        component_periods(network, options, step),
+    )
 
 
 def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:
@@ -115,40 +130,6 @@ def _assignments(archive: SystemArchive, options: SystemOptions) -> list[Assignm
         text = str(value).lower() if isinstance(value, bool) else str(value)
         found.append(text_assignment(f"{name}={text}"))
     return found
-
-
-def _times(network: Network, options: SystemOptions) -> tuple[float, float, int]:
-    """Start, step (s) and number of steps."""
-    description = network.description
-    proposed = [
-        float(fmu.description.defaultExperiment.stepSize)
-        for fmu in network.fmus.values()
-        if fmu.description.defaultExperiment is not None and fmu.description.defaultExperiment.stepSize
-    ]
-    step = next((value for value in (options.step, description.step) if value is not None), min(proposed, default=None))
-    if step is None:
-        raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give --step SECONDS")
-    if not 0.0 < step < float("inf"):
-        raise InputError("--step", str(step), "not a positive number of seconds", "give a positive step")
-    stop = options.stop_time if options.stop_time is not None else description.stop_time
-    if stop is None:
-        raise InputError(network.file, "DefaultExperiment", "no stopTime", "give --stop-time SECONDS")
-    if max(abs(stop), abs(description.start_time)) + step == max(abs(stop), abs(description.start_time)):
-        problem = f"a step of {step:g} s does not advance a time of {stop:g} s"
-        where = (network.file, "DefaultExperiment")
-        if options.step is not None or options.stop_time is not None:
-            where = ("--step", f"{step:g}") if options.step is not None else ("--stop-time", f"{stop:g}")
-        raise InputError(*where, problem, "give a longer --step or earlier times")
-    duration = stop - description.start_time
-    steps = round(duration / step) if 0.0 <= duration / step < float("inf") else -1
-    if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
-        raise InputError(
-            "--stop-time",
-            f"{stop:g}",
-            f"{duration:g} s from the start are not a whole number of steps of {step:g} s",
-            f"for instance --stop-time {description.start_time + max(1, steps) * step:.12g}",
-        )
-    return description.start_time, step, steps
 
 
 @contextmanager

@@ -28,10 +28,12 @@ class Schedule:
     late: list[str] = field(default_factory=list)
 
 
-def make_schedule(network: Network, no_feedthrough: Collection[str] = ()) -> Schedule:
+def make_schedule(network: Network, no_feedthrough: Collection[str] = (), algorithm: str = "sequential") -> Schedule:
     """Order the components; raises InputError for an algebraic loop, printing the cycle.
 
-    ``no_feedthrough`` names components whose outputs are taken not to depend directly on inputs.
+    ``no_feedthrough`` names components whose outputs are taken not to depend directly on inputs. Jacobi's algorithm
+    reads every connection a step late anyway: there a loop is cut at the start, too, where its values are passed on
+    along it once and not solved for.
     """
     for name in no_feedthrough:
         if name not in network.fmus:
@@ -41,7 +43,8 @@ def make_schedule(network: Network, no_feedthrough: Collection[str] = ()) -> Sch
     direct: dict[str, dict[str, set[str]]] = {
         name: {} if name in no_feedthrough else fmu.direct_dependencies() for name, fmu in network.fmus.items()
     }
-    _check_loops(network, direct)
+    if algorithm == "sequential":
+        _check_loops(network, direct)
     followers = [name for name in network.fmus if any(direct[name].values())]
     follows = set(followers)
     sources = [name for name in network.fmus if name not in follows]
@@ -59,6 +62,8 @@ def make_schedule(network: Network, no_feedthrough: Collection[str] = ()) -> Sch
             break
         except CycleError as error:
             broken = _breakable(error.args[1], edges, direct)
+            if broken is None and algorithm == "jacobi":
+                broken = _first(error.args[1], edges)
             if broken is None:
                 raise InputError(
                     network.file,
@@ -112,7 +117,8 @@ def _check_loops(network: Network, direct: dict[str, dict[str, set[str]]]) -> No
             network.file,
             "algebraic loop",
             " -> ".join(error.args[1]),
-            "break it with an FMU whose output does not depend directly on its input (or --no-feedthrough COMPONENT)",
+            "break it with an FMU whose output does not depend directly on its input (or --no-feedthrough COMPONENT), "
+            "or fly it a step late, --algorithm jacobi",
         ) from None
 
 
@@ -127,3 +133,8 @@ def _breakable(cycle: list[str], edges: Collection[Edge], direct: dict[str, dict
             if enters and not any(end.variable in direct[here].get(name, set()) for name in sent):
                 return start, end
     return None
+
+
+def _first(cycle: list[str], edges: Collection[Edge]) -> Edge:
+    """A connection along a cycle."""
+    return next((start, end) for start, end in edges if (start.component, end.component) == (cycle[0], cycle[1]))

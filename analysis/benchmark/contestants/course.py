@@ -10,7 +10,6 @@ from ...errors import InputError
 from ...ssp.parameter_sets import ParameterValue
 from ...ssp.transformations import IDENTITY
 from ...system.network import Link
-from ...system.options import SystemOptions
 from ...system.prepared import PreparedSystem, prepare_system
 
 
@@ -36,8 +35,7 @@ class Course:
 
     def flight(self, steps: int, algorithm: str = "sequential") -> PreparedSystem:
         """The system with another number of steps and the algorithm given."""
-        options = SystemOptions(algorithm=algorithm)
-        return replace(self.prepared, steps=steps, options=options)
+        return replace(self.prepared, steps=steps, algorithm=algorithm)
 
     @cached_property
     def links(self) -> list[Link]:

@@ -53,7 +53,7 @@ def add_system_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument("--step", type=_seconds, metavar="H", help="communication step, s")
     group.add_argument("--stop-time", type=_seconds, metavar="T", help="end of the flight, s")
     group.add_argument(
-        "--algorithm", choices=ALGORITHMS, default="sequential", help="how values are exchanged; default: sequential"
+        "--algorithm", choices=ALGORITHMS, help="how values are exchanged; default: as the system says, else sequential"
     )
     group.add_argument("--variant", metavar="NAME", help="another SSD of the archive")
     group.add_argument("--flavour", choices=FLAVOURS, help="which FMUs of this repository; default: native if built")

@@ -100,7 +100,7 @@ def _options(options: SystemOptions) -> list[tuple[str, str]]:
         "--stop-time": None if options.stop_time is None else repr(options.stop_time),
         "--variant": options.variant,
         "--flavour": options.flavour,
-        "--algorithm": options.algorithm if options.algorithm != SystemOptions.algorithm else None,
+        "--algorithm": options.algorithm,
         "--open-inputs": options.open_inputs if options.open_inputs != SystemOptions.open_inputs else None,
     }
     return found + [(option, value) for option, value in single.items() if value is not None]

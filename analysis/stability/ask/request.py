@@ -67,11 +67,10 @@ class Request:
             "--stop-time": options.stop_time,
             "--variant": options.variant,
             "--flavour": options.flavour,
+            "--algorithm": options.algorithm,
         }
         for option, choice in given.items():
             words += [] if choice is None else [option, str(choice)]
-        if options.algorithm != SystemOptions().algorithm:
-            words += ["--algorithm", options.algorithm]
         for name in options.no_feedthrough:
             words += ["--no-feedthrough", name]
         words += ["--allow-unmatched"] if options.allow_unmatched else []

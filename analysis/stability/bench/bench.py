@@ -85,7 +85,7 @@ class Bench:
     def _hyperperiod(self) -> int:
         """In communication points."""
         step = self.prepared.step
-        period = math.lcm(*(channel.period for channel in self.channels))
+        period = math.lcm(*(channel.period for channel in self.channels), *self.prepared.periods.values())
         for component, fmu in self.prepared.network.fmus.items():
             variable = fmu.variables.get("sample_period")
             if variable is None:
