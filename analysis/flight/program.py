@@ -57,7 +57,8 @@ def build_program(
 ) -> tuple[loop.Program, Layout]:
     """Arrays for the loop. ``wanted`` names what is recorded (None: everything).
 
-    ``periods``: communication steps that a component's step takes, where more than one. Only outputs that are connected or wanted are fetched.
+    ``periods``: communication steps that a component's step takes, where more than one. Only outputs that are
+    connected or wanted are fetched.
     """
     builder = _Builder(network, settings, wanted, injections)
     return builder.program(schedule, algorithm, periods, instances), builder.layout()

@@ -16,6 +16,7 @@ from ..errors import InputError
 
 SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
 STANDARD = "http://ssp-standard.org/"
+COMMON = f"{STANDARD}SSP1/SystemStructureCommon"
 WITHOUT_EFFECT = ("MetaData", "Signature")  # where a document comes from and who vouches for it
 ATTRIBUTES = {  # of 1.0's elements, with values that are new
     "kind": ("structuralParameter", "localClock", "inputClock", "outputClock"),
@@ -31,13 +32,14 @@ def in_version_1(root: etree._Element, file: str) -> None:
     if not version.startswith("2."):
         problem = f"SSP version {version or '(none)'} is not read"
         raise InputError(file, f"version (line {root.sourceline})", problem, 'write version="1.0"')
-    for element in list(root.iter(etree.Element)):
+    for name in WITHOUT_EFFECT:
+        for element in list(root.iter(f"{{{COMMON}}}{name}")):
+            element.getparent().remove(element)
+    for element in root.iter(etree.Element):
         name = etree.QName(element)
         if not (name.namespace or "").startswith(STANDARD):
             continue
-        if name.localname in WITHOUT_EFFECT:
-            element.getparent().remove(element)
-        elif name.localname not in _names():
+        if name.localname not in _names():
             raise _new(file, element, name.localname)
         for attribute, values in ATTRIBUTES.items():
             if element.get(attribute) in values:

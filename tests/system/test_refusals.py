@@ -502,11 +502,6 @@ def test_descriptions_that_are_none(tmp_path, tiny, refused, text):
     refused(ssp(tmp_path, tiny, files={"SystemStructure__ssd": text}), "SystemStructure.ssd: line 1: not ")
 
 
-def test_ssp_2(tmp_path, tiny, refused):
-    text = document(PLAIN).replace('Description version="1.0"', 'Description version="2.0"')
-    refused(ssp(tmp_path, tiny, files={"SystemStructure__ssd": text}), "SystemStructure.ssd: line 5: ", "'2.0' is not")
-
-
 TROUBLE = component("trouble", "trouble", "output y Real m")
 
 
