@@ -99,6 +99,7 @@ def batch(
     variant: str | None = None,
     flavour: Literal["native", "python"] | None = None,
     allow_unmatched: bool = False,
+    strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
     no_feedthrough: Sequence[str] = (),
 ) -> BatchResult:
@@ -112,7 +113,7 @@ def batch(
     check_folder("output", folder, overwrite=overwrite)
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
+        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     plan = read_plan(Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults)
     result = BatchResult(**vars(run_batch(plan, workers=workers, output=folder)))

@@ -34,6 +34,7 @@ def describe(
     variant: str | None = None,
     flavour: Literal["native", "python"] | None = None,
     allow_unmatched: bool = False,
+    strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
     no_feedthrough: Sequence[str] = (),
 ) -> dict[str, Any]:
@@ -45,7 +46,7 @@ def describe(
     """
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
+        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     return described(os.fspath(what), component, options)
 

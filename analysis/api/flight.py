@@ -88,6 +88,7 @@ def simulate(
     variant: str | None = None,
     flavour: Literal["native", "python"] | None = None,
     allow_unmatched: bool = False,
+    strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
     no_feedthrough: Sequence[str] = (),
 ) -> Result:
@@ -100,7 +101,7 @@ def simulate(
     """
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
+        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     prepared = prepare_system(Path(system), options)
     figures = tuple(read_figures(prepared))

@@ -136,6 +136,7 @@ def stability(
     variant: str | None = None,
     flavour: Literal["native", "python"] | None = None,
     allow_unmatched: bool = False,
+    strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
     no_feedthrough: Sequence[str] = (),
 ) -> StabilityReport:
@@ -149,7 +150,7 @@ def stability(
     check_list("loops", loops)
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
+        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     request = read_request(
         Path(system),

@@ -104,7 +104,8 @@ class Reader:
         if kind != FMU_TYPE:
             raise self.refuse(element, name, f"components of type {kind} are not supported", "use an FMU")
         if element.get("implementation", "any") == "ModelExchange":
-            raise self.refuse(element, name, "model exchange is not supported", "use a co-simulation FMU")
+            problem = 'implementation="ModelExchange" is not supported'
+            raise self.refuse(element, name, problem, 'use a co-simulation FMU and write implementation="CoSimulation"')
         source = element.get("source", "")
         if not source.endswith(".fmu"):
             raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")

@@ -7,12 +7,15 @@ import io
 import shutil
 import tempfile
 import weakref
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import fmpy
 from fmpy import read_model_description
+from fmpy.model_description import ModelDescription, ValidationError
 
 from ..errors import InputError
 from ..ssp.archive import open_zip
@@ -20,6 +23,7 @@ from ..ssp.documents import parse_xml
 from ..ssp.units import Unit, units_of_fmu
 
 DESCRIPTION = "modelDescription.xml"
+MOST_FLAWS = 3  # named in one line
 
 
 @dataclass
@@ -32,6 +36,7 @@ class Fmu:
     folder: Path  # unpacked; removed with the object
     variables: dict[str, Any] = field(default_factory=dict)  # fmpy ScalarVariable by name
     units: dict[str, Unit] = field(default_factory=dict)
+    flaws: list[str] = field(default_factory=list)  # rules of FMI that its description breaks, though it is readable
 
     @property
     def name(self) -> str:
@@ -57,8 +62,8 @@ class Fmu:
         return outputs
 
 
-def load_fmu(data: bytes, label: str) -> Fmu:
-    """Check and unpack an FMU; raises InputError naming file and element."""
+def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
+    """Check and unpack an FMU, ``strict``: refuse one with flaws. Raises InputError naming file and element."""
     archive = open_zip(data, label)
     if DESCRIPTION not in archive.namelist():
         raise InputError(label, DESCRIPTION, "not found", "give an FMU")
@@ -66,10 +71,9 @@ def load_fmu(data: bytes, label: str) -> Fmu:
     version = root.get("fmiVersion")
     if version != "2.0":
         raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
-    try:
-        description = read_model_description(io.BytesIO(data), validate=True)
-    except Exception as error:  # fmpy raises bare Exception and lxml's errors for invalid descriptions
-        raise InputError(label, DESCRIPTION, f"not valid: {error}", "mend the FMU") from error
+    description, flaws = _read_description(data, label)
+    if flaws and strict:
+        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU, or fly without --strict")
     if description.coSimulation is None:
         raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export it for co-simulation")
     if fmpy.architecture == "aarch64" and fmpy.system != "darwin":
@@ -83,8 +87,33 @@ def load_fmu(data: bytes, label: str) -> Fmu:
         raise InputError(label, binary, "no binary for this platform", remedy)
     folder = Path(tempfile.mkdtemp(prefix="perilune_"))
     archive.extractall(folder)
-    fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder)
+    fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder, flaws=flaws)
     fmu.variables = {variable.name: variable for variable in description.modelVariables}
     fmu.units = units_of_fmu(description)
     weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
     return fmu
+
+
+def _read_description(data: bytes, label: str) -> tuple[ModelDescription, list[str]]:
+    """What an FMU says of itself, and the rules that it breaks in saying so; raises InputError if it is unreadable."""
+    flaws: list[str] = []
+    try:
+        return read_model_description(io.BytesIO(data), validate=True), flaws
+    except ValidationError as error:
+        flaws = [" ".join(problem.split()) for problem in error.problems]
+    except Exception as error:  # fmpy raises bare Exception and lxml's errors
+        raise InputError(label, DESCRIPTION, f"not valid: {error}", "mend the FMU") from error
+    try:
+        description = read_model_description(io.BytesIO(data), validate=False)
+    except Exception as error:
+        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU") from error
+    names = Counter(variable.name for variable in description.modelVariables)
+    twice = [name for name, count in names.items() if count > 1]
+    if twice:
+        raise InputError(label, str(twice[0]), "two variables of this name", "mend the FMU's modelDescription.xml")
+    return description, flaws
+
+
+def _some(flaws: Sequence[str]) -> str:
+    more = f"; and {len(flaws) - MOST_FLAWS} more" if len(flaws) > MOST_FLAWS else ""
+    return "; ".join(flaws[:MOST_FLAWS]) + more

@@ -155,7 +155,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
         raise InputError(
             network.file,
             connector.at(name),
-            f"is {variable.causality} in {fmu.label}, {kind} here",
+            f"is {variable.causality} in {fmu.label}, {kind} here" + (f" ({fmu.flaws[0]})" if fmu.flaws else ""),
             "correct the connector's kind or use another FMU",
         )
     if connector.type_name not in (None, variable.type):

@@ -33,7 +33,8 @@ class SystemOptions(Layer):
 
     Times in s. ``algorithm`` None is what the system's description says, else the first of `ALGORITHMS`. ``flavour``
     None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that the SSD declares and
-    nothing drives, ``start`` keeps the FMU's start values.
+    nothing drives, ``start`` keeps the FMU's start values. ``strict``: FMUs whose descriptions break rules of FMI are
+    refused and not only remarked upon.
     """
 
     step: float | None = None
@@ -42,6 +43,7 @@ class SystemOptions(Layer):
     variant: str | None = None
     flavour: str | None = None
     allow_unmatched: bool = False
+    strict: bool = False
     open_inputs: str = "refuse"
     no_feedthrough: tuple[str, ...] = ()
 

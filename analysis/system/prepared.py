@@ -77,7 +77,7 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
             flavour = flavour_of(Path(component.source).stem)
             read, label = archive.fmu(component.source, f"{name} (line {component.line})", flavour)
         if label not in loaded:
-            loaded[label] = load_fmu(read(), label)
+            loaded[label] = load_fmu(read(), label, strict=options.strict)
         return loaded[label]
 
     network = build_network(description, load)
@@ -85,6 +85,8 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
         if slot not in network.fmus:
             raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
     settings = collect_settings(network, archive, _assignments(archive, options), options)
+    for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
+        network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
     schedule = make_schedule(network, options.no_feedthrough, algorithm)
     start, step, steps = flight_times(network, options)

@@ -29,24 +29,25 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     if not 0.0 < step < float("inf"):
         raise InputError("--step", str(step), "not a positive number of seconds", "give a positive step")
     stop = options.stop_time if options.stop_time is not None else description.stop_time
+    experiment = f"{network.file}: DefaultExperiment"
     if stop is None:
-        raise InputError(network.file, "DefaultExperiment", "no stopTime", "give --stop-time SECONDS")
-    if max(abs(stop), abs(description.start_time)) + step == max(abs(stop), abs(description.start_time)):
+        raise InputError(experiment, "stopTime", "there is none", "give --stop-time SECONDS")
+    start = description.start_time
+    step_asked = ("--step", f"{step:g}")
+    stop_asked = ("--stop-time", f"{stop:g}") if options.stop_time is not None else (experiment, f"stopTime {stop:g}")
+    duration = stop - start
+    if duration < 0.0:
+        raise InputError(*stop_asked, f"lies before the start, {start:g} s", "give a later stop time")
+    if max(abs(stop), abs(start)) + step == max(abs(stop), abs(start)):
         problem = f"a step of {step:g} s does not advance a time of {stop:g} s"
-        where = (network.file, "DefaultExperiment")
-        if options.step is not None or options.stop_time is not None:
-            where = ("--step", f"{step:g}") if options.step is not None else ("--stop-time", f"{stop:g}")
-        raise InputError(*where, problem, "give a longer --step or earlier times")
-    duration = stop - description.start_time
-    steps = round(duration / step) if 0.0 <= duration / step < float("inf") else -1
+        asked = step_asked if options.step is not None else stop_asked
+        raise InputError(*asked, problem, "give a longer --step or earlier times")
+    steps = round(duration / step) if duration / step < float("inf") else -1
     if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
-        raise InputError(
-            "--stop-time",
-            f"{stop:g}",
-            f"{duration:g} s from the start are not a whole number of steps of {step:g} s",
-            f"for instance --stop-time {description.start_time + max(1, steps) * step:.12g}",
-        )
-    return description.start_time, step, steps
+        problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"
+        remedy = f"for instance --stop-time {start + max(1, steps) * step:.12g}"
+        raise InputError(*stop_asked, problem, remedy)
+    return start, step, steps
 
 
 def component_periods(network: Network, options: SystemOptions, step: float) -> dict[str, int]:

@@ -3,13 +3,25 @@
 Truth: the same system in our way of writing, sample by sample; pencil and paper for the tiny FMUs' answers.
 """
 
+import re
+
 import numpy as np
 import pytest
 
 import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
-from tests.support.builders import MODES, component, connection, connectors, document, fly, pack, system
+from tests.support.builders import (
+    MODES,
+    component,
+    connection,
+    connectors,
+    document,
+    fly,
+    pack,
+    retouched,
+    system,
+)
 
 RAMP = component("ramp", "ramp", "output y Real m; output count Integer")
 GAIN = component("gain", "gain", "input u Real m; output y Real m")
@@ -151,3 +163,61 @@ def test_a_step_that_does_not_advance_time(tiny, tmp_path):
     path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, connections=WIRED)))
     with pytest.raises(InputError, match=r"a step of 0\.25 s does not advance a time of 1e\+300 s"):
         fly(path, stop_time=1e300)
+
+
+def test_flaws_are_remarks_unless_strict(tiny, tmp_path, capsys, plain):
+    """A Boolean output that says continuous, as stock pythonfmu FMUs of old do: FMPy dislikes it, it runs."""
+    flawed = retouched(
+        tiny / "ramp.fmu",
+        tmp_path / "ramp.fmu",
+        lambda text: re.sub(r'(name="flag"[^>]*) variability="\w+"', r'\1 variability="continuous"', text),
+    )
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    path = pack(tmp_path / "s.ssp", tiny, document(root), resources___ramp__fmu=flawed.read_bytes())
+    same(fly(path), plain)
+    for target in (path, flawed):
+        assert main(["validate", str(target)]) == 0
+        assert 'The variable "flag"' in capsys.readouterr().out
+        assert main(["validate", str(target), "--strict"]) == 2
+        assert re.search(r'ramp\.fmu.*modelDescription\.xml.*The variable "flag".*; mend', capsys.readouterr().err)
+
+
+def test_sources_that_go_up_and_stay_inside(tiny, tmp_path, plain):
+    folder = tmp_path / "system"
+    (folder / "models" / "deep").mkdir(parents=True)
+    (folder / "models" / "ramp.fmu").write_bytes((tiny / "ramp.fmu").read_bytes())
+    (folder / "models" / "gain.fmu").write_bytes((tiny / "gain.fmu").read_bytes())
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    text = document(root).replace("resources/ramp.fmu", "models/deep/../ramp.fmu")
+    text = text.replace("resources/gain.fmu", "./models/gain.fmu")
+    (folder / "SystemStructure.ssd").write_text(text)
+    same(fly(folder), plain)
+    same(fly(folder / "SystemStructure.ssd"), plain)
+
+
+@pytest.mark.parametrize("source", ["../ramp.fmu", "models/../../ramp.fmu", "/ramp.fmu", "file:///ramp.fmu"])
+def test_sources_that_leave_the_folder(tiny, tmp_path, source):
+    folder = tmp_path / "system"
+    folder.mkdir()
+    (tmp_path / "ramp.fmu").write_bytes((tiny / "ramp.fmu").read_bytes())
+    text = document(system(RAMP)).replace("resources/ramp.fmu", source)
+    (folder / "SystemStructure.ssd").write_text(text)
+    with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's folder; put"):
+        fly(folder)
+    with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's archive; put"):
+        fly(pack(tmp_path / "s.ssp", tiny, text))
+
+
+def test_messages_speak_of_the_file(tiny, tmp_path):
+    root = system(component("ramp", "rump", "output y Real m"))
+    folder = tmp_path / "system"
+    folder.mkdir()
+    (folder / "SystemStructure.ssd").write_text(document(root))
+    with pytest.raises(InputError, match=r"no file resources/rump\.fmu in the system") as refusal:
+        fly(folder)
+    assert "build_fmus" not in str(refusal.value)
+    path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, connections=WIRED), stop=1.1))
+    with pytest.raises(InputError, match=r"DefaultExperiment: stopTime 1\.1: 1\.1 s from the start"):
+        fly(path)
+    with pytest.raises(InputError, match=r"--stop-time: 1\.2: 1\.2 s from the start"):
+        fly(path, stop_time=1.2)

@@ -163,7 +163,7 @@ TABLE = {
     "Binary connector": (system(declared="input blob Binary"), ["blob", "Binary"]),
     "model exchange": (
         system(component("ramp", "ramp", attributes='implementation="ModelExchange"')),
-        ["ramp", "model exchange is not supported", "co-simulation"],
+        ["ramp", 'implementation="ModelExchange" is not supported', "co-simulation"],
     ),
     "a system description as a component": (
         system(component("inner", "inner.ssd", attributes='type="application/x-ssp-definition"')),
@@ -439,7 +439,10 @@ BROKEN_FMUS = {
         ["fmiVersion", "'3.0' is not supported", "FMI 2.0"],
     ),
     "FMI 1": (lambda tiny: described(tiny, lambda text: text.replace('n="2.0"', 'n="1.0"')), ["'1.0' is not"]),
-    "invalid": (lambda tiny: described(tiny, lambda text: text.replace("causality", "casualty")), ["not valid"]),
+    "no value references": (
+        lambda tiny: described(tiny, lambda text: re.sub(r' valueReference="\d+"', "", text)),
+        ["'valueReference' is required", "and 6 more; mend the FMU"],
+    ),
     "model exchange": (lambda tiny: described(tiny, model_exchange), ["CoSimulation", "not a co-simulation FMU"]),
     "other platform": (
         lambda tiny: zipped({key: value for key, value in fmu_files(tiny).items() if "linux" not in key}),
@@ -458,6 +461,12 @@ def test_fmus(tmp_path, tiny, refused, name):
     path = ssp(tmp_path, tiny, system(RAMP), files={"resources___ramp__fmu": make(tiny)})
     refused(path, "broken.ssp!resources/ramp.fmu", *words)
     assert not (tmp_path.parent / "evil").exists()
+
+
+def test_a_misspelt_description_is_named_where_it_decides(tmp_path, tiny, refused):
+    fmu = described(tiny, lambda text: text.replace("causality", "casualty"))
+    path = ssp(tmp_path, tiny, system(RAMP), files={"resources___ramp__fmu": fmu})
+    refused(path, "SystemStructure.ssd: ramp.y (line 6): is local in", "'casualty' is not allowed")
 
 
 def test_an_fmu_whose_every_byte_may_be_wrong(tiny):

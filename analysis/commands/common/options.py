@@ -61,6 +61,7 @@ def add_system_options(parser: argparse.ArgumentParser) -> None:
         "--open-inputs", choices=OPEN_INPUTS, default=OPEN_INPUTS[0], help="inputs that nothing drives; default: refuse"
     )
     group.add_argument("--allow-unmatched", action="store_true", help="let parameters pass that match nothing")
+    group.add_argument("--strict", action="store_true", help="refuse FMUs whose description breaks rules of FMI")
     group.add_argument(
         "--no-feedthrough", action="append", default=[], metavar="COMPONENT", help="its outputs wait for no input"
     )
@@ -127,6 +128,7 @@ def system_options(options: argparse.Namespace) -> SystemOptions:
         variant=options.variant,
         flavour=options.flavour,
         allow_unmatched=options.allow_unmatched,
+        strict=options.strict,
         open_inputs=options.open_inputs,
         no_feedthrough=tuple(options.no_feedthrough),
     )

@@ -74,6 +74,7 @@ class Request:
         for name in options.no_feedthrough:
             words += ["--no-feedthrough", name]
         words += ["--allow-unmatched"] if options.allow_unmatched else []
+        words += ["--strict"] if options.strict else []
         words += ["--open-inputs", options.open_inputs] if options.open_inputs != SystemOptions().open_inputs else []
         return shlex.join(words)
 
