@@ -13,6 +13,7 @@ from .mathlib.vector_types import vector
 # How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
+POINT_TOLERANCE = 1e-3  # of a step: communication points carry the rounding of whoever adds them up
 
 SCALAR, VECTOR, LIST = -1, -2, -3  # in place of an element's number: all of a variable
 Access = tuple[str, int, int, int]  # variable, element or one of the above, place of its values and their end
@@ -140,6 +141,14 @@ class Component:
         if self.unsettled:
             self.settle()
         self.initialising = False
+
+    def check_point(self, t: float, h: float, here: float) -> None:
+        """Refuse a step that begins at t (s) where the FMU is elsewhere, ``here`` (s)."""
+        if abs(t - here) > POINT_TOLERANCE * h + TIME_TOLERANCE * abs(here):
+            raise StepError(
+                f"the step begins at {t!r} s, and the FMU is at {here!r} s; "
+                "go on from there, or restore its state of then"
+            )
 
     def do_step(self, t: float, h: float) -> None:
         """Advance from t to t + h (s); a sampled block steps at its sample instants only."""

@@ -40,6 +40,7 @@ class BlockSlave(Fmi2Slave):
         keep_source(__package__.partition(".")[0])
         self.modelName = self.block_class.fmu_name
         self.component = Component(self.block_class)
+        self.time: float | None = None  # end of the last step; not known of a state put back
         self.get_real = self.get_integer = self.get_boolean = self.get_values
         self.set_real = self.set_integer = self.set_boolean = self.component.set
 
@@ -58,7 +59,7 @@ class BlockSlave(Fmi2Slave):
     def setup_experiment(self, start_time: float, *_: object) -> None:
         # All is imported by now; left on the path, this FMU's folder would answer for other FMUs' imports.
         sys.path[:] = [entry for entry in sys.path if entry != self.resources]
-        self.component.start_time = start_time
+        self.component.start_time = self.time = start_time
 
     def exit_initialization_mode(self) -> None:
         try:
@@ -69,7 +70,10 @@ class BlockSlave(Fmi2Slave):
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         try:
+            if self.time is not None:
+                self.component.check_point(current_time, step_size, self.time)
             self.component.do_step(current_time, step_size)
+            self.time = current_time + step_size
         except Exception:  # whatever a block raises ends the run with its traceback
             self.log_failure()
             return False
@@ -80,6 +84,7 @@ class BlockSlave(Fmi2Slave):
 
     def _set_fmu_state(self, state: dict[str, Any]) -> None:
         self.component.set_state(state)
+        self.time = None
 
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:

@@ -235,7 +235,24 @@ def test_calls_out_of_order_are_refused(walk: NativeInstance) -> None:
     assert walk.do_step(0.0, 0.1) == OK
     assert walk.call("fmi2Terminate") == OK
     assert walk.do_step(0.1, 0.1) == ERROR
+    assert walk.call("fmi2Terminate") == ERROR
     assert value_of(walk, "samples") == 1
+
+
+def test_steps_begin_where_the_last_one_ended(walk: NativeInstance) -> None:
+    walk.enter()
+    walk.start()
+    for n in range(3):
+        assert walk.do_step(0.1 * n, 0.1) == OK
+    state = walk.get_state()
+    for wrong in (0.0, 0.2, 0.4, 0.3002, 1e9, -0.3):
+        assert walk.do_step(wrong, 0.1) == ERROR
+        assert f"the step begins at {wrong!r} s, and the FMU is at 0.30000000000000004 s" in walk.log[-1]
+    assert walk.do_step(0.3 + 1e-12, 0.1) == OK
+    assert walk.set_state(state) == OK
+    assert walk.do_step(0.3, 0.1) == OK
+    assert value_of(walk, "samples") == 4
+    walk.free_state(state)
 
 
 def test_status_functions(walk: NativeInstance) -> None:

@@ -150,6 +150,15 @@ static COLD fmi2Status refuse_step(Component *component, double h, double period
         python_repr(h, h_text), python_repr(period, period_text));
 }
 
+static COLD fmi2Status refuse_point(Component *component, double point)
+{
+    char point_text[REPR_SIZE];
+    char here_text[REPR_SIZE];
+    return fail(component,
+        "StepError: the step begins at %s s, and the FMU is at %s s; go on from there, or restore its state of then",
+        python_repr(point, point_text), python_repr(component->now.time, here_text));
+}
+
 static COLD fmi2Status end_step_with_fault(Component *component, const Fault *fault, double t, double h)
 {
     char t_text[REPR_SIZE];

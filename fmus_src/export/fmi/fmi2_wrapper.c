@@ -133,6 +133,10 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real communication_point, fmi2Real st
     if (!isfinite(communication_point) || !isfinite(step_size) || step_size <= 0.0) {
         return fail(component, "fmi2DoStep: communication point and step size must be finite, the latter positive");
     }
+    const double here = component->now.time;
+    if (fabs(communication_point - here) > POINT_TOLERANCE * step_size + TIME_TOLERANCE * fabs(here)) {
+        return refuse_point(component, communication_point);
+    }
     component->last_step = advance(component, communication_point, step_size);
     if (component->last_step == fmi2OK) component->now.time = communication_point + step_size;
     return component->last_step;

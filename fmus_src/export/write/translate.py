@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ...block import Block, Variable
 from ...mathlib import vector_types
-from ...runtime import SAMPLE_TOLERANCE, TIME_TOLERANCE
+from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
 from ..judge.expressions import SCALARS, type_of_variable
 from ..judge.kernel import Function, Kernel, List, Several, Vector
 from ..judge.source import label
@@ -168,6 +168,7 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
             f'#define MODEL_GUID "{guid}"',
             f"#define SAMPLE_TOLERANCE {SAMPLE_TOLERANCE!r} /* of a sample period */",
             f"#define TIME_TOLERANCE {TIME_TOLERANCE!r} /* of the time */",
+            f"#define POINT_TOLERANCE {POINT_TOLERANCE!r} /* of a step */",
             "",
             "/* Declared start values. */",
             *starts.text,
