@@ -9,7 +9,7 @@ import numpy as np
 
 from ..campaign.metrics import evaluate_metrics, succeeded
 from ..campaign.plan import BatchPlan, VariantNames, variant_names
-from ..flight.library import LOADING
+from ..flight.instances.library import LOADING
 from ..flight.results import Flight, Result
 from ..flight.simulation import Simulation
 from ..ssp.parameter_sets import ParameterValue

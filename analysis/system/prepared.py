@@ -40,6 +40,11 @@ class PreparedSystem:
     def is_native(self) -> bool:
         return all(fmu.is_native for fmu in self.network.fmus.values())
 
+    @property
+    def is_alone(self) -> bool:
+        """Whether a process can fly it once at a time only, since an FMU of it allows no second instance."""
+        return any(fmu.is_alone for fmu in self.network.fmus.values())
+
 
 def prepare_system(
     system: str | Path, options: SystemOptions | None = None, loaded: dict[str, Fmu] | None = None
@@ -81,10 +86,22 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
     for slot in options.use:
         if slot not in network.fmus:
             raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
+    _refuse_seconds(network)
     settings = collect_settings(network, archive, _assignments(archive, options), options)
     schedule = make_schedule(network, options.no_feedthrough)
     start, step, steps = _times(network, options)
     return PreparedSystem(archive, options, network, settings, schedule, start, step, steps)
+
+
+def _refuse_seconds(network: Network) -> None:
+    """Refuse an FMU in two components where a process can hold one instance of it only."""
+    first: dict[str, str] = {}
+    for name, fmu in network.fmus.items():
+        if fmu.is_alone and fmu.digest in first:
+            problem = f"{fmu.label} can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess)"
+            remedy = "take one of them out, or export the FMU for more instances"
+            raise InputError(network.file, f"{first[fmu.digest]}, {name}", problem, remedy)
+        first.setdefault(fmu.digest, name)
 
 
 def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:
