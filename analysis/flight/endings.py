@@ -39,6 +39,11 @@ class Outcome(NamedTuple):
     instruction: int
 
     @property
+    def is_well(self) -> bool:
+        """Whether nothing has gone wrong."""
+        return self.code in (loop.STOP_TIME, loop.FINISHED, loop.INTERRUPTED)
+
+    @property
     def is_discarded_step(self) -> bool:
         return self._failed_with(FMI_DISCARD) and FUNCTION_NAMES[self.function] == "fmi2DoStep"
 
@@ -54,15 +59,16 @@ class Outcome(NamedTuple):
 
     def is_unreadable(self, program: loop.Program) -> bool:
         """Whether an FMU did not give a parameter back."""
-        code = int(program.instructions[self.instruction, loop.CODE])
-        return (self.is_error or self._failed_with(FMI_DISCARD)) and code in READ_BACKS
+        if not (self.is_error or self._failed_with(FMI_DISCARD)):
+            return False
+        return int(program.instructions[self.instruction, loop.CODE]) in READ_BACKS
 
     def _failed_with(self, status: int) -> bool:
         return self.code == loop.FAILED and self.fmi_status == status
 
 
 def outcome_of(buffers: loop.Buffers) -> Outcome:
-    return Outcome(*(int(value) for value in buffers.outcome))
+    return Outcome(*buffers.outcome.tolist())
 
 
 def asked_end(instance: Instance) -> float | None:
@@ -112,7 +118,7 @@ def in_words(
 def initialised(outcome: Outcome, program: loop.Program, count: int) -> list[bool]:
     """Which of ``count`` components a flight that began anew has brought through initialisation."""
     reached = [True] * count
-    if outcome.code in (loop.STOP_TIME, loop.FINISHED, loop.INTERRUPTED) or outcome.instruction >= program.initial_end:
+    if outcome.is_well or outcome.instruction >= program.initial_end:
         return reached
     exits = program.instructions[: program.initial_end, loop.FUNCTION] == np.uint64(
         FUNCTION_NAMES.index("fmi2ExitInitializationMode")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
 
 from fmpy.fmi1 import FMICallException
 
@@ -27,18 +28,21 @@ class LifeCycle:
         self._instructions = instructions
         self._are_own = all(instance.fmu.is_own for instance in instances.values())
         self._fresh = True
-        self._running: set[str] = set()  # initialised, so that they can be terminated
+        self._running: AbstractSet[str] = set()  # initialised, so that they can be terminated
         self._broken: set[str] = set()  # returned an error
 
     def note(self, outcome: Outcome, program: loop.Program) -> None:
         """Remember how the loop has left the instances."""
+        self._fresh = False
+        if outcome.is_well and not self._broken:
+            self._running = self._instances.keys()
+            return
         names = list(self._instances)
         reached = initialised(outcome, program, len(names))
-        self._fresh = False
         self._running = {name for name, running in zip(names, reached, strict=True) if running} - self._broken
         if outcome.is_error:
             self._broken.add(names[outcome.subject])
-            self._running.discard(names[outcome.subject])
+            self._running -= self._broken
 
     def make_ready(self) -> bool:
         """Get the instances ready for a start; returns whether the loop is to terminate and reset them.
@@ -53,7 +57,7 @@ class LifeCycle:
             if not self._is_reset(name, instance):
                 instance.renew()
                 self._readdress(index, instance)
-        self._running.clear()
+        self._running = set()
         self._broken.clear()
         self._fresh = True
         return False
@@ -77,7 +81,7 @@ class LifeCycle:
     def _terminate(self, name: str, instance: Instance) -> bool:
         """End an instance's flight, if it has one that can be ended; returns whether all went well."""
         if name in self._running:
-            self._running.discard(name)
+            self._running = self._running - {name}
             try:
                 instance.slave.terminate()
             except FMICallException:
