@@ -7,6 +7,7 @@ import importlib
 import os
 import sys
 import textwrap
+import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
 from types import ModuleType
@@ -117,6 +118,7 @@ def _module(name: str) -> ModuleType:
 
 def run() -> NoReturn:
     """The console script: `main`, then leave at once."""
+    warnings.formatwarning = lambda message, *_: f"perilune: {message}\n"
     try:
         status = main()
     except SystemExit as stop:  # argparse's --help and errors

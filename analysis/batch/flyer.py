@@ -44,6 +44,8 @@ class Flyer:
         if variant not in self._ready:
             with LOADING:
                 prepared = self.plan.prepare(self.variants[variant])
+                if prepared.is_alone:
+                    self.close()  # other variants may hold the one instance that the process can have
                 names = variant_names(self.plan, prepared)
                 everything = self.plan.campaign.record.traces != "none"
                 wanted = None if everything else {*names.signals, *names.statuses}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -32,7 +33,8 @@ class SystemOptions(Layer):
     """What the command line calls system options; see `perilune run --help`.
 
     Times in s. ``flavour`` None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that
-    the SSD declares and nothing drives, ``start`` keeps the FMU's start values.
+    the SSD declares and nothing drives, ``start`` keeps the FMU's start values. ``folder`` is what relative paths are
+    meant from: an FMU may change the process's working folder once it is loaded.
     """
 
     step: float | None = None
@@ -43,6 +45,7 @@ class SystemOptions(Layer):
     allow_unmatched: bool = False
     open_inputs: str = "refuse"
     no_feedthrough: tuple[str, ...] = ()
+    folder: str = field(default_factory=os.getcwd, compare=False, repr=False)
 
     def among(self, **layers: Layer) -> SystemOptions:
         """These options, the command line's, with what others ask, by the names of `LAYERS`."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -45,6 +45,11 @@ class PreparedSystem:
         """Whether a process can fly it once at a time only, since an FMU of it allows no second instance."""
         return any(fmu.is_alone for fmu in self.network.fmus.values())
 
+    @property
+    def flies_in_threads(self) -> bool:
+        """Whether several threads of a process can fly it side by side, and gain by it."""
+        return self.is_native and not self.is_alone
+
 
 def prepare_system(
     system: str | Path, options: SystemOptions | None = None, loaded: dict[str, Fmu] | None = None
@@ -53,8 +58,9 @@ def prepare_system(
 
     ``loaded`` keeps FMUs by their place, for a system that is prepared again and again: those in it are not read again.
     """
-    with no_collection():
-        return _prepared(system, options or SystemOptions(), {} if loaded is None else loaded)
+    options = options or SystemOptions()
+    with no_collection(), chdir(options.folder):
+        return _prepared(system, options, {} if loaded is None else loaded)
 
 
 def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]) -> PreparedSystem:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import threading
+from contextlib import chdir
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,7 @@ from fmpy.fmi1 import FMICallException
 
 from ...system.fmu import Fmu
 from .instance import Instance, instantiate
+from .library import LOADING
 
 STEPS = 10
 CALLS = {
@@ -54,7 +57,8 @@ def reset_verdict(fmu: Fmu) -> ResetVerdict:
     with _trying:
         verdict = known_verdict(fmu)
         if verdict is None:
-            verdict = _verdicts[fmu.digest] = _tried(fmu)
+            with LOADING, chdir(Path.cwd()):  # back, should the FMU have gone elsewhere
+                verdict = _verdicts[fmu.digest] = _tried(fmu)
         return verdict
 
 
