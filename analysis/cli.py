@@ -7,7 +7,6 @@ import importlib
 import os
 import sys
 import textwrap
-import warnings
 from collections.abc import Sequence
 from importlib.metadata import version
 from types import ModuleType
@@ -15,7 +14,7 @@ from typing import Any, NoReturn
 
 import argcomplete
 
-from .errors import InputError
+from .errors import InputError, warn_in_one_line
 from .examples import EXAMPLES
 from .process_end import leave
 
@@ -118,7 +117,7 @@ def _module(name: str) -> ModuleType:
 
 def run() -> NoReturn:
     """The console script: `main`, then leave at once."""
-    warnings.formatwarning = lambda message, *_: f"perilune: {message}\n"
+    warn_in_one_line()
     try:
         status = main()
     except SystemExit as stop:  # argparse's --help and errors

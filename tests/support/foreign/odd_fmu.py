@@ -51,7 +51,10 @@ def odd_fmu(
     ``tolerance`` is that of its default experiment, ``once`` whether it says canBeInstantiatedOnlyOncePerProcess.
     """
     library = folder / f"{name}{fmpy.sharedLibraryExtension}"
-    macros = [f"-D{macro}" if value is True else f"-D{macro}={value}" for macro, value in quirks.items()]
+    macros = [
+        f"-D{macro}" if value is True else f'-D{macro}="{value}"' if isinstance(value, str) else f"-D{macro}={value}"
+        for macro, value in quirks.items()
+    ]
     headers = Path(fmpy.__file__).parent / "c-code"
     command = [*compilers_for(fmpy.platform)[0], *FLAGS, *macros, f"-I{headers}", "-o", library, SOURCE]
     subprocess.run(command, check=True)
