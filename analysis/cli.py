@@ -14,7 +14,7 @@ from typing import Any, NoReturn
 
 import argcomplete
 
-from .errors import InputError
+from .errors import InputError, warn_in_one_line
 from .examples import EXAMPLES
 from .process_end import leave
 
@@ -117,6 +117,7 @@ def _module(name: str) -> ModuleType:
 
 def run() -> NoReturn:
     """The console script: `main`, then leave at once."""
+    warn_in_one_line()
     try:
         status = main()
     except SystemExit as stop:  # argparse's --help and errors

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import warnings
 from collections.abc import Iterable
 
 
@@ -26,6 +27,11 @@ class InputError(ValueError):
     def __str__(self) -> str:
         place = ": ".join(part for part in (self.file, self.element, self.problem) if part)
         return " ".join(f"{place}; {self.remedy}".split())
+
+
+def warn_in_one_line() -> None:
+    """Let warnings of this process be a line each, as errors are, without the place in the source."""
+    warnings.formatwarning = lambda message, *_: f"perilune: {message}\n"
 
 
 def suggestion(name: str, known: Iterable[str], most: int = 12) -> str:

@@ -50,9 +50,14 @@ def _check_folder(option: str, folder: Path) -> None:
 
 
 class Results:
-    """What a command writes: one that cannot be written keeps no other from it."""
+    """What a command writes: one that cannot be written keeps no other from it.
+
+    Made before an FMU is loaded, since one may change the process's working folder, from which relative paths are
+    meant.
+    """
 
     def __init__(self) -> None:
+        self.home = Path.cwd()
         self.written: list[Path] = []
         self.failed = False
 
@@ -61,7 +66,7 @@ class Results:
         if path is None:
             return
         try:
-            write(path)
+            write(self.home / path)
         except OSError as error:
             self.failed = True
             name = error.filename or path

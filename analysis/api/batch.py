@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -116,7 +117,8 @@ def batch(
         flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     plan = read_plan(Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults)
-    result = BatchResult(**vars(run_batch(plan, workers=workers, output=folder)))
+    with chdir(Path.cwd()):  # an FMU may change the folder
+        result = BatchResult(**vars(run_batch(plan, workers=workers, output=folder)))
     if folder is not None:
         result.write(folder)
     return result

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -105,5 +106,5 @@ def simulate(
     )  # fmt: skip
     prepared = prepare_system(Path(system), options)
     figures = tuple(read_figures(prepared))
-    with Simulation(prepared, faults=faults) as simulation:
+    with chdir(Path.cwd()), Simulation(prepared, faults=faults) as simulation:  # an FMU may change the folder
         return Result(**vars(fly(simulation)), system=prepared.archive.name, figures=figures)

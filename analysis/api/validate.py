@@ -13,6 +13,7 @@ from fmpy.validation import validate_fmu
 from ..campaign.file import SYNTHESIS, read_campaign
 from ..campaign.toml_table import read_toml
 from ..errors import InputError
+from ..flight.instances.reset_test import reset_verdict
 from ..laws.law import read_law
 from ..planning.stored_bound import MissingBound, find_bound
 from ..reports.own.asked.reading import read_figures
@@ -23,7 +24,7 @@ from ..stability.ask.declaration import Declaration
 from ..stability.ask.reading import read_declaration
 from ..stability.ask.subject import Subject
 from ..synthesis.synthesis_file import read_synthesis
-from ..system.fmu import load_fmu
+from ..system.fmu import Fmu, load_fmu
 from ..system.options import SystemOptions
 from ..system.prepared import prepare_system
 from .options import FilePath, system_options
@@ -71,7 +72,7 @@ def _check(path: str, options: SystemOptions) -> dict[str, Any]:
         if path.endswith(FILES) and replace(options, strict=False) != SystemOptions():
             raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
         if path.endswith(".fmu"):
-            load_fmu(_read(path), path)
+            notes += _reset_note(load_fmu(_read(path), path), path)
             flaws = [f"{path}: modelDescription.xml: {' '.join(text.split())}" for text in validate_fmu(path)]
             if options.strict:
                 problems += [f"{flaw}; mend the FMU's modelDescription.xml" for flaw in flaws]
@@ -95,9 +96,19 @@ def _check(path: str, options: SystemOptions) -> dict[str, Any]:
                 notes += [f"bound: {bound.reason}"] if isinstance(bound, MissingBound) else []
                 notes += prepared.network.notes
                 notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
+                for component, fmu in prepared.network.fmus.items():
+                    notes += _reset_note(fmu, component)
     except InputError as error:
         problems.append(str(error))
     return {"path": path, "problems": problems, "notes": notes}
+
+
+def _reset_note(fmu: Fmu, name: str) -> list[str]:
+    """What there is to say of an FMU's reset: it is tried, unless it is our own."""
+    verdict = reset_verdict(fmu)
+    return (
+        [] if verdict.resets else [f"{name}: instantiated anew for every flight, as its reset fails: {verdict.reason}"]
+    )
 
 
 def _check_loops(subject: Subject, declared: Declaration) -> None:

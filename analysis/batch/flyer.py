@@ -9,7 +9,7 @@ import numpy as np
 
 from ..campaign.metrics import evaluate_metrics, succeeded
 from ..campaign.plan import BatchPlan, VariantNames, variant_names
-from ..flight.library import LOADING
+from ..flight.instances.library import LOADING
 from ..flight.results import Flight, Result
 from ..flight.simulation import Simulation
 from ..ssp.parameter_sets import ParameterValue
@@ -44,6 +44,8 @@ class Flyer:
         if variant not in self._ready:
             with LOADING:
                 prepared = self.plan.prepare(self.variants[variant])
+                if prepared.is_alone:
+                    self.close()  # other variants may hold the one instance that the process can have
                 names = variant_names(self.plan, prepared)
                 everything = self.plan.campaign.record.traces != "none"
                 wanted = None if everything else {*names.signals, *names.statuses}

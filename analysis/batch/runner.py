@@ -23,9 +23,10 @@ def run_batch(plan: BatchPlan, *, workers: int | None = None, output: Path | Non
     written there first; the results are the caller's to write. Ctrl-C leaves a result of the first trials, as many as
     every variant has flown; without any it is raised again.
     """
+    output = None if output is None else output.absolute()  # FMUs may change the working folder
     count = worker_count(workers)
     systems = check_plan(plan)
-    native = all(prepared.is_native for prepared in systems.values())
+    native = all(prepared.flies_in_threads for prepared in systems.values())
     if output is not None:
         write_draws(plan, output)
     tasks = tasks_of(plan, count, native)

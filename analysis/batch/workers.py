@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 from loky import ProcessPoolExecutor, cpu_count
 
 from ..campaign.plan import BatchPlan
-from ..errors import InputError
+from ..errors import InputError, warn_in_one_line
 from ..flight.interruptible import PATIENCE, wait
 from ..process_end import leave
 from .flyer import Flyer
@@ -135,6 +135,7 @@ def _close_threads(plan: BatchPlan) -> None:
 def _start_process(plan: BatchPlan) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
     atexit.register(_leave)
+    warn_in_one_line()
     _start(plan)
 
 

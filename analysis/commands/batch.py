@@ -44,9 +44,9 @@ def run(options: argparse.Namespace) -> int:
             if getattr(options, name):
                 raise InputError("--replay", f"--{name}", "does not go with a replay", "leave one of them out")
         return _replay(plan, options)
+    files = Results()
     requirements = _requirements(plan, options.require)
     result = run_batch(plan, workers=options.workers, output=options.output)
-    files = Results()
     if not write_json(result.document(), options.json, files):
         print(result.text())
     files.write(options.output, result.write)
@@ -85,17 +85,18 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
     if not 0 <= trial < plan.campaign.trials:
         raise InputError("--replay", str(trial), "no such trial", f"give 0 to {plan.campaign.trials - 1}")
     check_plan(plan)
+    files = Results()
     flyer = Flyer(plan)
     document: dict[str, dict[str, Any]] = {}
     for variant in flyer.variants:
         result, found = flyer.replay(variant, trial)
         if options.output is not None:
-            result.write(options.output / f"{variant}_{trial:06d}.parquet")
+            result.write(files.home / options.output / f"{variant}_{trial:06d}.parquet")
         metrics = {name: json_number(value) for name, value in found.metrics.items()}
         document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
     flown = [str(fault) for fault in plan.faults_of(trial) if fault is not None]
     declared = {"faults": flown} if plan.fault_texts() else {}
-    if not write_json({"trial": trial, **declared, "variants": document}, options.json):
+    if not write_json({"trial": trial, **declared, "variants": document}, options.json, files):
         for variant, entry in document.items():
             numbers = [(name, "none" if value is None else f"{value:.6g}") for name, value in entry["metrics"].items()]
             metrics_text = ", ".join(f"{name} {number}" for name, number in numbers)

@@ -28,6 +28,7 @@ def run(options: argparse.Namespace) -> int:
     check_file("--output", options.output, OUTPUT_SUFFIXES)
     check_file("--report", options.report)
     check_json(options)
+    files = Results()
     prepared = prepare_system(options.system, system_options(options))
     figures = read_figures(prepared)
     injected = faults(options)
@@ -35,7 +36,6 @@ def run(options: argparse.Namespace) -> int:
         requirements = read_requirements(options.require, [*simulation.signal_names, "time"])
         result = fly(simulation)
     final = {name: json_number(value) for name, value in result.final().items()}
-    files = Results()
     if not write_json(result.summary() | {"final": final}, options.json, files):
         end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
         print(f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows")

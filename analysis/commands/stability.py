@@ -23,6 +23,7 @@ from .common.options import check_json, system_options, write_json
 def run(options: argparse.Namespace) -> int:
     check_file("--report", options.report)
     check_json(options)
+    files = Results()
     request = read_request(
         options.system,
         system_options(options),
@@ -38,7 +39,6 @@ def run(options: argparse.Namespace) -> int:
     except StudyError as error:
         print(f"perilune: {request.label}: {error}", file=sys.stderr)
         return 1
-    files = Results()
     files.write(options.report, lambda path: write_stability_page(report, path))
     if not write_json(document(report), options.json, files):
         for loop in report.loops:

@@ -14,6 +14,7 @@ from .common.options import check_json, tell
 def run(options: argparse.Namespace) -> int:
     check_folder("--output", options.output, overwrite=options.resume, otherwise="--resume to go on")
     check_json(options)
+    files = Results()
     result = run_synthesis(
         read_synthesis(named_search(options.file)),
         seed=options.seed,
@@ -22,7 +23,6 @@ def run(options: argparse.Namespace) -> int:
         resume=options.resume,
         evaluations=options.evaluations,
     )
-    files = Results()
     if options.output is not None:
         files.written.append(options.output)
     status = tell(result.document(), options, lambda: print(result.text()), files)

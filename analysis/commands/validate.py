@@ -7,16 +7,18 @@ import sys
 from typing import Any
 
 from ..api.validate import validated
+from ..targets import Results
 from .common.options import check_json, system_options, tell
 
 
 def run(options: argparse.Namespace) -> int:
     check_json(options)
+    files = Results()
     results = validated(options.path, system_options(options))
     for result in results:
         for problem in result["problems"]:
             print(f"perilune: {problem}", file=sys.stderr)
-    status = tell(results, options, lambda: _print(results))
+    status = tell(results, options, lambda: _print(results), files)
     return 2 if any(result["problems"] for result in results) else status
 
 

@@ -16,7 +16,6 @@ from numba.extending import intrinsic
 
 INT32 = ir.IntType(32)
 INT64 = ir.IntType(64)
-DOUBLE = ir.DoubleType()
 
 
 def _call(builder: Any, address: Any, values: list) -> Any:
@@ -74,12 +73,27 @@ def change_mode(typing: Any, address: Any, instance: Any) -> Any:
 
 
 @intrinsic
-def setup_experiment(typing: Any, address: Any, instance: Any, start: Any, stop: Any) -> Any:
-    """fmi2SetupExperiment without tolerance, with start and stop time."""
-    signature = types.int32(types.int64, types.int64, types.float64, types.float64)
+def setup_experiment(
+    typing: Any, address: Any, instance: Any, known: Any, tolerance: Any, start: Any, stop: Any
+) -> Any:
+    """fmi2SetupExperiment with start and stop time; ``known`` 1 where there is a tolerance, else 0."""
+    signature = types.int32(types.int64, types.int64, types.int32, types.float64, types.float64, types.float64)
 
     def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        address, instance, start, stop = arguments
-        return _call(builder, address, [instance, INT32(0), DOUBLE(0.0), start, INT32(1), stop])
+        address, instance, known, tolerance, start, stop = arguments
+        return _call(builder, address, [instance, known, tolerance, start, INT32(1), stop])
+
+    return signature, emit
+
+
+@intrinsic
+def compare_texts(typing: Any, first: Any, second: Any) -> Any:
+    """The C library's strcmp of the strings at two addresses: 0 where they are equal."""
+    signature = types.int32(types.int64, types.int64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        function_type = ir.FunctionType(INT32, [cgutils.voidptr_t, cgutils.voidptr_t])
+        function = cgutils.get_or_insert_function(builder.module, function_type, "strcmp")
+        return builder.call(function, [builder.inttoptr(value, cgutils.voidptr_t) for value in arguments])
 
     return signature, emit

@@ -9,20 +9,30 @@ import numpy as np
 
 from ..system.schedule import Schedule
 from . import loop
-from .instance import Instance
+from .instances.instance import Instance
+from .instances.library import FUNCTION_NAMES
 
-FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(loop.FUNCTION_NAMES)}
+FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES)}
+# Real, Integer (and Enumeration), Boolean, String: what sets parameters, what reads them back.
+PARAMETER_CALLS = (
+    ((loop.PARAMETERS, "SetReal"), (loop.READ_BACK, "GetReal")),
+    ((loop.WHOLE_PARAMETERS, "SetInteger"), (loop.WHOLE_READ_BACK, "GetInteger")),
+    ((loop.WHOLE_PARAMETERS, "SetBoolean"), (loop.WHOLE_READ_BACK, "GetBoolean")),
+    ((loop.TEXT_PARAMETERS, "SetString"), (loop.TEXT_READ_BACK, "GetString")),
+)
 
 
 class InstructionList:
     """Collects instructions.
 
-    ``ranges`` [component][get or set function 0..5] and ``parameter_ranges`` [component][type]
-    are (first, count) of slots and parameters. ``connections`` [component] lists, for each
+    ``ranges`` [component][get or set function 0..5] are (first, count) of slots, ``parameter_ranges``
+    [component][type] the first parameter and how many there are, how many of them, the first ones, are set again
+    in initialisation mode, and how many of those are read back. ``connections`` [component] lists, for each
     connection that feeds a component, in order, its instruction code, the component that its value
     comes from (-1: a system's constant input), source and target slot; the last entry is for
     system connectors.
-    Connections and ``fault_slots`` are numbered as in the program's arrays.
+    Connections and ``fault_slots`` are numbered as in the program's arrays; the parameters of ``one_by_one``
+    are read back each in a call of its own.
     """
 
     def __init__(
@@ -32,6 +42,7 @@ class InstructionList:
         parameter_ranges: np.ndarray,
         connections: Sequence[Sequence[tuple[int, int, int, int]]],
         fault_slots: Sequence[int],
+        one_by_one: Collection[int] = (),
     ) -> None:
         self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
         self.ranges = ranges
@@ -39,7 +50,12 @@ class InstructionList:
         self.connections = connections
         self.firsts = np.cumsum([0, *(len(group) for group in connections)]).tolist()
         self.fault_slots = fault_slots
+        self.one_by_one = one_by_one
         self.rows: list[list[int]] = []
+
+    def array(self) -> np.ndarray:
+        """What has been collected."""
+        return np.array(self.rows, dtype=np.uint64).reshape(-1, loop.COLUMNS)
 
     def call(self, code: int, component: int, function: int, piece: Sequence[int] = (0, 0)) -> None:
         """A call of an FMI function on a piece of slots or parameters."""
@@ -85,6 +101,12 @@ class InstructionList:
                 code = loop.SET_REAL if function == FUNCTION["SetReal"] else loop.SET_WHOLE
                 self.call(code, component, function, piece)
 
+    def carry(self, component: int) -> None:
+        """Values and faults to the inputs of a component, which is not given them."""
+        self.connect(component)
+        for function in (FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"]):
+            self.inject(self.ranges[component, function])
+
     def get(self, component: int) -> None:
         """Outputs of a component, at the end of the step."""
         for function in (FUNCTION["GetReal"], FUNCTION["GetInteger"], FUNCTION["GetBoolean"]):
@@ -99,9 +121,19 @@ class InstructionList:
         self.call(loop.STEP, component, FUNCTION["DoStep"], (0, 0 if period == 1 else period))
 
     def reset(self) -> None:
-        """Every FMU back to the state after instantiation."""
+        """Every FMU back to the state after instantiation, its flight ended."""
         for component in range(len(self.instances)):
+            self.call(loop.MODE, component, FUNCTION["Terminate"])
             self.call(loop.MODE, component, FUNCTION["Reset"])
+
+    def parameters(self, component: int, column: int) -> None:
+        """Parameters of a component: column 1 of its ranges sets them, 2 sets them again, 3 reads them back."""
+        for kind, (setter, getter) in enumerate(PARAMETER_CALLS):
+            first, count = self.parameter_ranges[component, kind, [0, column]]
+            code, function = getter if column == 3 else setter
+            size = 1 if column == 3 and component in self.one_by_one else max(1, count)
+            for start in range(first, first + count, size):
+                self.call(code, component, FUNCTION[function], (start, size))
 
     def initialise(self, order: Sequence[int]) -> None:
         """Parameters, initialisation mode, one exchange in ``order`` that settles the start.
@@ -110,12 +142,10 @@ class InstructionList:
         does not depend.
         """
         for component in range(len(self.instances)):
-            for kind, function in enumerate((FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"])):
-                if self.parameter_ranges[component, kind, 1]:
-                    code = loop.PARAMETERS if kind == 0 else loop.WHOLE_PARAMETERS
-                    self.call(code, component, function, self.parameter_ranges[component, kind])
+            self.parameters(component, 1)
             self.call(loop.SETUP, component, FUNCTION["SetupExperiment"])
             self.call(loop.MODE, component, FUNCTION["EnterInitializationMode"])
+            self.parameters(component, 2)  # again: there are FMUs that lose what they were given before
         known = {-1}
         for component in order:
             self.set(component, known)
@@ -123,6 +153,8 @@ class InstructionList:
             known.add(component)
         for component in range(len(self.instances)):
             self.call(loop.MODE, component, FUNCTION["ExitInitializationMode"])
+        for component in range(len(self.instances)):
+            self.parameters(component, 3)
         for component in range(len(self.instances)):
             self.get(component)  # again: there are FMUs that compute outputs only when they leave initialisation
 
@@ -133,7 +165,7 @@ class InstructionList:
         for component in components:
             self.get(component)
 
-    def one_by_one(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
+    def in_turn(self, components: Sequence[int], periods: Mapping[int, int]) -> None:
         """Each with inputs of the end of its step."""
         for component in components:
             self.set(component)
@@ -155,6 +187,7 @@ def write_instructions(
     Step n works off part n modulo the parts' number: there is one for each communication step until all ``periods``
     (of components, in communication steps, where longer than 1) have come round together.
     """
+    instructions.rows = []
     index = {name: position for position, name in enumerate(names)}
     instructions.reset()
     reset_end = len(instructions.rows)
@@ -168,8 +201,17 @@ def write_instructions(
     for part in range(math.lcm(*lengths.values())):
         due = [component for component in ahead if (part + 1) % lengths.get(component, 1) == 0]
         instructions.side_by_side(due, lengths)
-        instructions.one_by_one([n for n in behind if (part + 1) % lengths.get(n, 1) == 0], lengths)
+        instructions.in_turn([n for n in behind if (part + 1) % lengths.get(n, 1) == 0], lengths)
         instructions.hand_over(due)
         ends.append(len(instructions.rows))
-    rows = np.array(instructions.rows, dtype=np.uint64).reshape(-1, loop.COLUMNS)
-    return rows, reset_end, np.array(ends, dtype=np.int64)
+    return instructions.array(), reset_end, np.array(ends, dtype=np.int64)
+
+
+def write_ending(instructions: InstructionList, component: int) -> np.ndarray:
+    """The instructions of a last row: the outputs of the FMU that asks for the end, carried on to all connectors."""
+    instructions.rows = []
+    instructions.get(component)
+    for other in range(len(instructions.instances)):
+        instructions.carry(other)
+    instructions.connect(-1)
+    return instructions.array()

@@ -18,45 +18,36 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .compiled import compiled
-from .fmi_calls import change_mode, do_step, exchange, setup_experiment
+from .fmi_calls import change_mode, compare_texts, do_step, exchange, setup_experiment
 
 # Instruction codes.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP = range(9)
-PARAMETERS, WHOLE_PARAMETERS, SETUP, MODE = range(9, 13)
+PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE = range(9, 14)
+READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(14, 17)
 # Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; a COPY has its first target slot in
 # FIRST and its first source slot in ADDRESS, a STEP over several communication steps their number in COUNT (0 for one);
-# FUNCTION numbers FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
+# FUNCTION numbers library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the
+# start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
-FUNCTION_NAMES = (
-    "fmi2SetReal",
-    "fmi2GetReal",
-    "fmi2SetInteger",
-    "fmi2GetInteger",
-    "fmi2SetBoolean",
-    "fmi2GetBoolean",
-    "fmi2DoStep",
-    "fmi2Reset",
-    "fmi2SetupExperiment",
-    "fmi2EnterInitializationMode",
-    "fmi2ExitInitializationMode",
-)
 
 # How a run ends: Buffers.outcome[0].
-STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED = range(6)
+STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED, NOT_TAKEN = range(7)
 OVERRIDE, BIAS, FREEZE, EXCITE = range(4)
 FMI_WARNING = 1
+KEPT = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
 
 
 class Program(NamedTuple):
     """A system as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
 
     instructions: np.ndarray  # uint64 [i, 7]; unsigned, since numba would look out for negative indices
-    reset_end: int  # instructions before this one reset the FMUs; a fresh instance skips them
+    reset_end: int  # instructions before this one end a flight and reset the FMUs; a fresh instance skips them
     phases: np.ndarray  # int64 [m + 1]: instructions before the first initialise; step n works off part n modulo m
     reference: np.ndarray  # uint32 [s], value references
     initial: np.ndarray  # float64 [s], before anything is exchanged: starts of inputs, NaN for what is yet to come
     parameter_reference: np.ndarray  # uint32 [p]
+    tolerance: np.ndarray  # float64, of each component's own solver, NaN where its FMU states none
     source: np.ndarray  # int64 [c], slots
     target: np.ndarray  # int64 [c], slots
     factor: np.ndarray  # float64 [c]
@@ -76,6 +67,7 @@ class Settings(NamedTuple):
 
     real: np.ndarray  # float64 [p]
     whole: np.ndarray  # int32 [p]
+    text: np.ndarray  # uint64 [p], addresses of C strings
 
 
 class Span(NamedTuple):
@@ -104,7 +96,8 @@ class Buffers(NamedTuple):
     values: np.ndarray  # float64 [s]
     whole: np.ndarray  # int32 [s]
     frozen: np.ndarray  # float64 [f], NaN until a freeze begins
-    outcome: np.ndarray  # int64 [5]: code, component or slot, function, fmi2Status, communication point
+    read_back: Settings  # what the FMUs have of the parameters, once initialised
+    outcome: np.ndarray  # int64 [6]: code; component, slot or parameter; function, fmi2Status, point, instruction
     halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
 
 
@@ -122,7 +115,9 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     fault_slot, fault_kind = program.fault_slot, program.fault_kind
     fault_window, fault_value = program.fault_window, program.fault_value
     values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
-    parameters, whole_parameters = settings.real, settings.whole
+    parameters, whole_parameters, text_parameters = settings.real, settings.whole, settings.text
+    found, whole_found, text_found = buffers.read_back.real, buffers.read_back.whole, buffers.read_back.text
+    tolerance = program.tolerance
     start, step, stop, first_point, steps = span.start, span.step, span.stop, span.first, span.last
     recorded, stride, record, times = recording.slots, recording.stride, recording.rows, recording.times
     halt = buffers.halt
@@ -168,6 +163,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                         if not abs(values[slot]) < np.inf:
                             outcome[0] = NONFINITE
                             outcome[1] = slot
+                            outcome[5] = k
                             return rows
             elif code == STEP:
                 if count == 0:
@@ -196,6 +192,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     if not mapped:
                         outcome[0] = UNMAPPED
                         outcome[1] = source[c]
+                        outcome[5] = k
                         return rows
             elif code == INJECT:
                 for f in range(first, first + count):
@@ -218,15 +215,46 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                 status = exchange(address, instance, parameter_reference, parameters, first, count)
             elif code == WHOLE_PARAMETERS:
                 status = exchange(address, instance, parameter_reference, whole_parameters, first, count)
+            elif code == TEXT_PARAMETERS:
+                status = exchange(address, instance, parameter_reference, text_parameters, first, count)
             elif code == SETUP:
-                status = setup_experiment(address, instance, start, stop)
+                allowed = tolerance[instructions[k, COMPONENT]]
+                known = not np.isnan(allowed)
+                status = setup_experiment(address, instance, np.int32(known), allowed if known else 0.0, start, stop)
             elif code == MODE:
                 status = change_mode(address, instance)
+            elif code == READ_BACK:
+                status = exchange(address, instance, parameter_reference, found, first, count)
+                for p in range(first, first + count if 0 <= status <= FMI_WARNING else first):
+                    given = parameters[p]
+                    near = abs(found[p] - given) <= KEPT * abs(given)
+                    if not (near or found[p] == given or (np.isnan(found[p]) and np.isnan(given))):
+                        outcome[0] = NOT_TAKEN
+                        outcome[1] = p
+                        outcome[5] = k
+                        return rows
+            elif code == WHOLE_READ_BACK:
+                status = exchange(address, instance, parameter_reference, whole_found, first, count)
+                for p in range(first, first + count if 0 <= status <= FMI_WARNING else first):
+                    if whole_found[p] != whole_parameters[p]:
+                        outcome[0] = NOT_TAKEN
+                        outcome[1] = p
+                        outcome[5] = k
+                        return rows
+            elif code == TEXT_READ_BACK:
+                status = exchange(address, instance, parameter_reference, text_found, first, count)
+                for p in range(first, first + count if 0 <= status <= FMI_WARNING else first):
+                    if text_found[p] == 0 or compare_texts(text_found[p], text_parameters[p]) != 0:
+                        outcome[0] = NOT_TAKEN
+                        outcome[1] = p
+                        outcome[5] = k
+                        return rows
             if status > FMI_WARNING or status < 0:
                 outcome[0] = FAILED
                 outcome[1] = instructions[k, COMPONENT]
                 outcome[2] = instructions[k, FUNCTION]
                 outcome[3] = status
+                outcome[5] = k
                 return rows
         n += 1
         finished = program.finished_slot >= 0 and values[program.finished_slot] != 0.0

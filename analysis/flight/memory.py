@@ -13,7 +13,7 @@ from lxml import etree
 
 from ..errors import InputError
 from ..system.fmu import Fmu
-from .instance import Instance
+from .instances.instance import Instance
 from .simulation import Simulation
 
 STATE_ANNOTATION = "org.perilune.state"  # in modelDescription.xml of FMUs that tell how they serialise their memory
@@ -47,7 +47,7 @@ class Piece:
     """The real variables of one FMU, read in one call."""
 
     def __init__(self, instance: Instance, references: np.ndarray) -> None:
-        self._slave = instance.slave
+        self._instance = instance
         self._references = references
         self._values = np.zeros(references.size)
         self._pointers = (
@@ -59,7 +59,8 @@ class Piece:
         """Their values; the array is used again by the next call."""
         if self._references.size:
             references, values = self._pointers
-            self._slave.fmi2GetReal(self._slave.component, references, self._references.size, values)
+            slave = self._instance.slave
+            slave.fmi2GetReal(slave.component, references, self._references.size, values)
         return self._values
 
 

@@ -8,41 +8,30 @@ from typing import Any
 
 import numpy as np
 
-from ..ssp.parameter_sets import ParameterValue
 from ..ssp.transformations import IDENTITY
 from ..system.assignments import Settings, numbers
 from ..system.faults import connector_type
+from ..system.fmu import Fmu
 from ..system.network import Link, Network, Node
 from ..system.schedule import Schedule, origin
 from . import loop
 from .injections import Injection
-from .instance import Instance
+from .instances.instance import Instance
+from .instances.library import FUNCTION_NAMES
 from .instructions import InstructionList, write_instructions
+from .parameters import TYPE_KIND, Parameters
 
-EXCHANGES = loop.FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
-TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2}
+EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
 
 
 @dataclass
 class Layout:
-    """Where everything lies: slots by name, parameters by (component, variable)."""
+    """Where everything lies: slots by name, and the parameters."""
 
     slots: dict[str, int]
     types: dict[str, str]
     units: dict[str, str | None]
-    parameters: dict[tuple[str, str], int]
-    parameter_types: dict[tuple[str, str], str]
-    real_values: np.ndarray
-    whole_values: np.ndarray
-    strings: dict[str, dict[int, str]]  # String parameters by component and value reference
-
-    def set_parameter(self, key: tuple[str, str], value: float | int | bool) -> None:
-        """Put a value into the parameter arrays, by (component, variable)."""
-        position = self.parameters[key]
-        if self.parameter_types[key] == "Real":
-            self.real_values[position] = value
-        else:
-            self.whole_values[position] = value
+    parameters: Parameters
 
 
 def build_program(
@@ -54,14 +43,14 @@ def build_program(
     instances: dict[str, Instance],
     wanted: Collection[str] | None,
     injections: Sequence[Injection] = (),
-) -> tuple[loop.Program, Layout]:
-    """Arrays for the loop. ``wanted`` names what is recorded (None: everything).
+) -> tuple[loop.Program, InstructionList, Layout]:
+    """Arrays for the loop, and what writes instructions. ``wanted`` names what is recorded (None: everything).
 
     ``periods``: communication steps that a component's step takes, where more than one. Only outputs that are
     connected or wanted are fetched.
     """
     builder = _Builder(network, settings, wanted, injections)
-    return builder.program(schedule, algorithm, periods, instances), builder.layout()
+    return *builder.program(schedule, algorithm, periods, instances), builder.layout()
 
 
 def layout_of(network: Network, settings: Settings) -> Layout:
@@ -95,7 +84,7 @@ class _Builder:
             if node.component is None and not self._is_parameter(node) and known:
                 unit = node.unit.name if node.unit else None
                 self._place(node.name, 0, settings.nodes.get(node.name, np.nan), node.type_name or "Real", unit)
-        self._place_parameters()
+        self.parameters = Parameters(network, settings)
 
     @staticmethod
     def _is_parameter(node: Node) -> bool:
@@ -130,34 +119,6 @@ class _Builder:
         value = self.settings.variables.get((component, variable.name), variable.start)
         return float({"true": 1, "false": 0, "none": 0}.get(str(value).lower(), value))
 
-    def _place_parameters(self) -> None:
-        self.parameters: dict[tuple[str, str], int] = {}
-        self.parameter_types: dict[tuple[str, str], str] = {}
-        self.parameter_references: list[int] = []
-        values: list[float] = []
-        self.parameter_ranges = np.zeros((len(self.names), 3, 2), dtype=np.int64)
-        self.strings: dict[str, dict[int, str]] = {}
-        given: dict[str, dict[str, ParameterValue]] = {name: {} for name in self.names}
-        for (owner, name), value in self.settings.variables.items():
-            given[owner][name] = value
-        for index, (component, mine) in enumerate(given.items()):
-            fmu = self.network.fmus[component]
-            texts = {
-                fmu.variables[name].valueReference: value for name, value in mine.items() if isinstance(value, str)
-            }
-            if texts:
-                self.strings[component] = texts
-            for kind in range(3):
-                first = len(values)
-                for name, value in mine.items():
-                    if TYPE_KIND.get(fmu.variables[name].type) == kind:
-                        self.parameters[component, name] = len(values)
-                        self.parameter_types[component, name] = fmu.variables[name].type
-                        self.parameter_references.append(fmu.variables[name].valueReference)
-                        values.append(float(value))
-                self.parameter_ranges[index, kind] = first, len(values) - first
-        self.values = np.array(values, dtype=np.float64)
-
     def _links(self) -> list[list[Link]]:
         """Links grouped by the component they feed, upstream first; the last group feeds system connectors."""
         groups: dict[str | None, dict[str, Link]] = {name: {} for name in self.names}
@@ -182,7 +143,7 @@ class _Builder:
 
     def program(
         self, schedule: Schedule, algorithm: str, periods: Mapping[str, int], instances: dict[str, Instance]
-    ) -> loop.Program:
+    ) -> tuple[loop.Program, InstructionList]:
         groups = self._links()
         links = [link for group in groups for link in group]
         tables = [numbers(self.network, link) for link in links]
@@ -194,18 +155,20 @@ class _Builder:
         collected = InstructionList(
             [instances[name] for name in self.names],
             self.ranges,
-            self.parameter_ranges,
+            self.parameters.ranges,
             [[self._connection(link) for link in group] for group in groups],
             fault_slots,
+            {index for index, name in enumerate(self.names) if self.parameters.is_one_by_one(name)},
         )
         instructions, reset_end, phases = write_instructions(collected, self.names, schedule, algorithm, periods)
-        return loop.Program(
+        program = loop.Program(
             instructions=instructions,
             reset_end=reset_end,
             phases=phases,
             reference=np.array(self.references, dtype=np.uint32),
             initial=np.array(self.initial, dtype=np.float64),
-            parameter_reference=np.array(self.parameter_references, dtype=np.uint32),
+            parameter_reference=np.array(self.parameters.references, dtype=np.uint32),
+            tolerance=np.array([_tolerance(self.network.fmus[name]) for name in self.names], dtype=np.float64),
             source=np.array([self.slots[link.source.name] for link in links], dtype=np.int64),
             target=np.array([self.slots[link.target.name] for link in links], dtype=np.int64),
             factor=np.array([link.transformation.factor for link in links], dtype=np.float64),
@@ -221,6 +184,7 @@ class _Builder:
             fault_window=np.array([injection.window for injection in self.injections], dtype=np.float64).reshape(-1, 2),
             fault_value=np.array([injection.value for injection in self.injections], dtype=np.float64),
         )
+        return program, collected
 
     def _connection(self, link: Link) -> tuple[int, int, int, int]:
         """What `InstructionList` needs to know of a connection."""
@@ -233,20 +197,13 @@ class _Builder:
         return self.slots[injection.connector]
 
     def layout(self) -> Layout:
-        whole = np.zeros(self.values.size, dtype=np.int32)
-        for key, position in self.parameters.items():
-            if self.parameter_types[key] != "Real":
-                whole[position] = int(self.values[position])
-        return Layout(
-            slots=self.slots,
-            types=self.types,
-            units=self.units,
-            parameters=self.parameters,
-            parameter_types=self.parameter_types,
-            real_values=self.values.copy(),
-            whole_values=whole,
-            strings=self.strings,
-        )
+        return Layout(self.slots, self.types, self.units, self.parameters)
+
+
+def _tolerance(fmu: Fmu) -> float:
+    """The relative tolerance that an FMU proposes for its own solver, NaN where it proposes none."""
+    experiment = fmu.description.defaultExperiment
+    return float(experiment.tolerance) if experiment is not None and experiment.tolerance is not None else np.nan
 
 
 def _connection_code(link: Link) -> int:

@@ -16,16 +16,17 @@ from ..atomic import whole_file, write_atomically
 from ..errors import suggestion
 from ..system.names import elements, vectors
 
-COMPLETE = ("finished", "stop_time")
+COMPLETE = ("finished", "stop_time", "terminated")
 
 
 @dataclass(repr=False)
 class Flight:
     """One flight in memory. Row n of every signal is its value at ``time[n]`` (s).
 
-    ``status`` is ``finished`` (the system's own end), ``stop_time``, ``nonfinite`` (a component
-    gave NaN or infinity), ``failed`` (an FMU reported an error) or ``interrupted`` (by Ctrl-C); ``message`` explains
-    the last three. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
+    ``status`` is ``finished`` (the system's own end), ``stop_time``, ``terminated`` (an FMU asked for the end, at a
+    time of its own), ``nonfinite`` (a component gave NaN or infinity), ``failed`` (an FMU reported an error, or did
+    not take a parameter) or ``interrupted`` (by Ctrl-C); ``message`` explains the last
+    four. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
     """
 
     time: np.ndarray

@@ -15,21 +15,14 @@ from ..ssp.parameter_sets import ParameterValue, parse_value
 from ..system.faults import Fault, check_fault
 from ..system.prepared import PreparedSystem, no_collection
 from . import loop
+from .endings import TERMINATED, asked_end, in_words, outcome_of
 from .injections import NEVER, of_excitation, of_fault
-from .instance import Instance, instantiate
+from .instances.instance import Instance, instantiate
+from .instructions import write_ending
+from .life_cycle import LifeCycle
 from .program import build_program
 from .results import Flight, Result
 
-STATUS = {
-    loop.STOP_TIME: "stop_time",
-    loop.FINISHED: "finished",
-    loop.NONFINITE: "nonfinite",
-    loop.FAILED: "failed",
-    loop.UNMAPPED: "failed",
-    loop.INTERRUPTED: "interrupted",
-}
-FMI_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
-FMI_FATAL = 4
 NOTHING = np.zeros((0, 0))  # no excitation
 TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding
 
@@ -93,7 +86,7 @@ class Simulation:
         for name, fmu in prepared.network.fmus.items():
             self.instances[name] = instantiate(fmu, name)
         faults = [of_fault(fault, TIME_MARGIN * prepared.step) for fault in self._declared]
-        self.program, self.layout = build_program(
+        self.program, self._instructions, self.layout = build_program(
             prepared.network,
             self.settings,
             prepared.schedule,
@@ -116,11 +109,12 @@ class Simulation:
             values=np.zeros(len(self.layout.slots)),
             whole=np.zeros(len(self.layout.slots), dtype=np.int32),
             frozen=np.zeros(len(self._declared) + len(self._excitations)),
-            outcome=np.zeros(5, dtype=np.int64),
+            read_back=self.layout.parameters.blank(),
+            outcome=np.zeros(6, dtype=np.int64),
             halt=np.zeros(1, dtype=np.int64),
         )
         self._record = np.empty((0, 0))
-        self._fresh = True
+        self.life_cycle = LifeCycle(self.instances, self.program, self._instructions)
         self._under_way = threading.Lock()
 
     def fly(self, values: Mapping[str, ParameterValue] | None = None, *, every: int = 1) -> Result:
@@ -142,15 +136,12 @@ class Simulation:
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
         """The flight alone, for batches; see `fly`."""
         self.set(values)
-        reset = not self._fresh
-        if self.layout.strings:
-            reset = self._set_strings(reset)
-        return self._advance(-1, self.prepared.steps, every, reset, NOTHING)
+        return self._advance(-1, self.prepared.steps, every, NOTHING)
 
     def set(self, values: Mapping[str, ParameterValue]) -> None:
         """Give varied parameters other values, from the next start on."""
         for name, value in values.items():
-            self.layout.set_parameter(self._varied[name], value)  # type: ignore[arg-type]
+            self.layout.parameters[self._varied[name]] = value
 
     def set_faults(self, faults: Sequence[Fault | None]) -> None:
         """Give faults other values and windows, from the next start on.
@@ -173,13 +164,11 @@ class Simulation:
         -1 starts anew, which adds row 0. ``excitation`` [r, e] is added to the excited connectors at the r
         communication points behind ``first``. ``last`` may lie behind the stop time. Arrays as in `fly`.
         """
-        reset = first < 0 and not self._fresh
-        if first < 0 and self.layout.strings:
-            reset = self._set_strings(reset)
-        return self._advance(first, last, 1, reset, excitation)
+        return self._advance(first, last, 1, excitation)
 
-    def _advance(self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray) -> Flight:
+    def _advance(self, first: int, last: int, every: int, excitation: np.ndarray) -> Flight:
         prepared = self.prepared
+        reset = first < 0 and self.life_cycle.make_ready()
         rows = (last - max(first, 0)) // every + 2
         if self._record.shape[0] < rows:
             try:
@@ -191,26 +180,35 @@ class Simulation:
                 raise InputError("--step", f"{prepared.step:g}", problem, remedy) from error
         for instance in self.instances.values():
             instance.messages.clear()
-        function = loop.fly_unlocked if prepared.is_native else loop.fly_locked
-        self._under_way.acquire()
-        count = function(
-            self.program,
-            self.buffers,
-            loop.Settings(self.layout.real_values, self.layout.whole_values),
-            loop.Span(
-                reset=reset,
-                start=prepared.start,
-                step=prepared.step,
-                stop=prepared.start + max(prepared.steps, last) * prepared.step,
-                first=first,
-                last=last,
-            ),
-            loop.Recording(self._recorded, every, self._record, self._times),
-            excitation if excitation.size else np.zeros((0, len(self._excitations))),
+        span = loop.Span(
+            reset=reset,
+            start=prepared.start,
+            step=prepared.step,
+            stop=prepared.start + max(prepared.steps, last) * prepared.step,
+            first=first,
+            last=last,
         )
-        self._under_way.release()
-        self._fresh = False
-        status, message = self._end()
+        excitation = excitation if excitation.size else np.zeros((0, len(self._excitations)))
+        count = self._call(
+            self.program, span, loop.Recording(self._recorded, every, self._record, self._times), excitation
+        )
+        outcome = outcome_of(self.buffers)
+        if outcome.is_unreadable(self.program):
+            parameter, size = self.program.instructions[outcome.instruction, [loop.FIRST, loop.COUNT]]
+            self.layout.parameters.learn_unreadable(int(parameter), int(size))
+            self._replace_instances()
+            return self._advance(first, last, every, excitation)
+        self.life_cycle.note(outcome, self.program)
+        status, message = in_words(
+            outcome, prepared.start + outcome.point * prepared.step, self.layout, self.buffers, self.instances
+        )
+        if outcome.is_discarded_step:
+            component, instance = list(self.instances.items())[outcome.subject]
+            end = asked_end(instance)
+            if end is not None:
+                self._fly_last_row(outcome.subject, end, count)
+                count += 1
+                status, message = TERMINATED, f"{component} asked for the end at t = {end:g} s"
         flight = Flight(
             time=self._times[:count],
             signals={name: self._record[:count, index] for index, name in enumerate(self.signal_names)},
@@ -218,61 +216,39 @@ class Simulation:
             status=status,
             message=message,
         )
-        if self.buffers.outcome[0] == loop.FAILED and self.buffers.outcome[3] >= FMI_FATAL:
-            self._replace_instances()
+        if outcome.is_fatal:
+            self._replace_instances(list(self.instances.values())[outcome.subject].fmu.digest)
         return flight
 
-    def _set_strings(self, reset: bool) -> bool:
-        """Reset here and set String parameters, which the compiled loop does not know; returns False."""
-        for component, instance in self.instances.items():
-            if reset:
-                instance.slave.reset()
-            texts = self.layout.strings.get(component, {})
-            if texts:
-                instance.slave.setString(list(texts), list(texts.values()))
-        return False
+    def _call(self, program: loop.Program, span: loop.Span, recording: loop.Recording, excitation: np.ndarray) -> int:
+        """The compiled loop; returns the number of rows that it recorded."""
+        function = loop.fly_unlocked if self.prepared.is_native else loop.fly_locked
+        with self._under_way:
+            return function(program, self.buffers, self.layout.parameters.values, span, recording, excitation)
 
-    def _end(self) -> tuple[str, str]:
-        code, subject, function, fmi_status, row = (int(value) for value in self.buffers.outcome)
-        time = self.prepared.start + row * self.prepared.step
-        if code == loop.NONFINITE:
-            name = list(self.layout.slots)[subject]
-            return STATUS[code], f"{name} is {self.buffers.values[subject]} at t = {time:g} s"
-        if code == loop.UNMAPPED:
-            name = list(self.layout.slots)[subject]
-            value = self.buffers.values[subject]
-            return STATUS[code], f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
-        if code == loop.INTERRUPTED:
-            return STATUS[code], f"interrupted at t = {time:g} s"
-        if code == loop.FAILED:
-            component = list(self.instances)[subject]
-            log = " | ".join(self.instances[component].messages) or "no message in its log"
-            known = 0 <= fmi_status < len(FMI_STATUS)
-            word = FMI_STATUS[fmi_status] if known else f"{fmi_status}, a status that FMI does not have"
-            call = f"{loop.FUNCTION_NAMES[function]} returned {word}"
-            return STATUS[code], f"{component}: {call} at t = {time:g} s: {log}"
-        return STATUS[code], ""
+    def _fly_last_row(self, component: int, end: float, row: int) -> None:
+        """Record what there is at the time ``end`` (s) at which a component has ended the simulation."""
+        instructions = write_ending(self._instructions, component)
+        whole = np.array([0, len(instructions)], dtype=np.int64)
+        program = self.program._replace(instructions=instructions, phases=whole)
+        span = loop.Span(reset=False, start=end, step=0.0, stop=end, first=0, last=1)
+        recording = loop.Recording(self._recorded, 1, self._record[row:], self._times[row:])
+        self._call(program, span, recording, np.zeros((0, len(self._excitations))))
 
-    def _replace_instances(self) -> None:
-        """After a fatal error no instance may be used again, nor freed (FMI 2.0, fmi2Fatal)."""
-        kept = self.layout
+    def _replace_instances(self, fatal: str | None = None) -> None:
+        """Everything instantiated anew, with the values that parameters have; ``fatal`` as in `LifeCycle.close`."""
+        kept = self.layout.parameters
+        self.life_cycle.close(fatal)
         self.instances = {}
         self._instantiate()
-        self.layout.real_values[:] = kept.real_values
-        self.layout.whole_values[:] = kept.whole_values
+        self.layout.parameters.update({key: kept[key] for key in kept.keys})
 
     def provenance(self) -> dict[str, Any]:
         """Parameter values, hashes, options and version: what the result depends on."""
         prepared = self.prepared
         values: dict[str, ParameterValue] = {}
-        for (component, variable), value in self.settings.variables.items():
-            position = self.layout.parameters.get((component, variable))
-            if position is not None:
-                kind = self.layout.parameter_types[component, variable]
-                array = self.layout.real_values if kind == "Real" else self.layout.whole_values
-                value = array[position].item()
-                value = bool(value) if kind == "Boolean" else value
-            values[f"{component}.{variable}"] = value
+        for component, variable in self.settings.variables:
+            values[f"{component}.{variable}"] = self.layout.parameters[component, variable]
         return {
             "system": prepared.archive.name,
             "system_sha256": prepared.archive.digest,
@@ -294,8 +270,7 @@ class Simulation:
     def close(self) -> None:
         """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""
         if self._under_way.acquire(blocking=False):
-            for instance in self.instances.values():
-                instance.free()
+            self.life_cycle.close()
             self.instances = {}
             self._under_way.release()
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any
 
 from loky import ProcessPoolExecutor
@@ -47,7 +48,7 @@ def study(request: Request, workers: int | None = None) -> StabilityReport:
 
     The report does not depend on their number. Raises InputError, and StudyError where no flight reaches a point.
     """
-    with shown() as tell:
+    with chdir(Path.cwd()), shown() as tell:  # an FMU may change the folder
         return _study(request, worker_count(workers), tell)
 
 

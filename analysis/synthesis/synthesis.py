@@ -41,6 +41,7 @@ def run_synthesis(
     every generation, from which ``resume`` goes on, and the results at the end. The search ends
     with the generation in which ``evaluations`` laws have flown.
     """
+    output = None if output is None else output.absolute()  # FMUs may change the working folder
     count = worker_count(workers)
     if evaluations is not None and evaluations < 1:
         raise InputError("--evaluations", str(evaluations), "not a positive number", "give 1 or more")
@@ -63,7 +64,7 @@ def run_synthesis(
             synthesis.basic,
             objectives,
             workers=count,
-            native=prepared.is_native,
+            native=prepared.flies_in_threads,
             evaluated=progress.update,
         ) as evaluator,
     ):

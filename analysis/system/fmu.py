@@ -43,6 +43,16 @@ class Fmu:
         return self.description.modelName
 
     @property
+    def is_own(self) -> bool:
+        """Whether it was built by Perilune, whose reset and whose errors leave nothing behind."""
+        return (self.description.generationTool or "").startswith("Perilune ")
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether a process can hold one instance of it only."""
+        return bool(self.description.coSimulation.canBeInstantiatedOnlyOncePerProcess)
+
+    @property
     def is_native(self) -> bool:
         """Whether it runs without an execution tool such as a Python interpreter."""
         return not self.description.coSimulation.needsExecutionTool

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
@@ -34,7 +35,8 @@ class SystemOptions(Layer):
     Times in s. ``algorithm`` None is what the system's description says, else the first of `ALGORITHMS`. ``flavour``
     None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that the SSD declares and
     nothing drives, ``start`` keeps the FMU's start values. ``strict``: FMUs whose descriptions break rules of FMI are
-    refused and not only remarked upon.
+    refused and not only remarked upon. ``folder`` is what relative paths are meant from: an FMU may change the
+    process's working folder once it is loaded.
     """
 
     step: float | None = None
@@ -46,6 +48,7 @@ class SystemOptions(Layer):
     strict: bool = False
     open_inputs: str = "refuse"
     no_feedthrough: tuple[str, ...] = ()
+    folder: str = field(default_factory=os.getcwd, compare=False, repr=False)
 
     def among(self, **layers: Layer) -> SystemOptions:
         """These options, the command line's, with what others ask, by the names of `LAYERS`."""

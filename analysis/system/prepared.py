@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -43,6 +43,16 @@ class PreparedSystem:
     def is_native(self) -> bool:
         return all(fmu.is_native for fmu in self.network.fmus.values())
 
+    @property
+    def is_alone(self) -> bool:
+        """Whether a process can fly it once at a time only, since an FMU of it allows no second instance."""
+        return any(fmu.is_alone for fmu in self.network.fmus.values())
+
+    @property
+    def flies_in_threads(self) -> bool:
+        """Whether several threads of a process can fly it side by side, and gain by it."""
+        return self.is_native and not self.is_alone
+
 
 def prepare_system(
     system: str | Path, options: SystemOptions | None = None, loaded: dict[str, Fmu] | None = None
@@ -51,8 +61,9 @@ def prepare_system(
 
     ``loaded`` keeps FMUs by their place, for a system that is prepared again and again: those in it are not read again.
     """
-    with no_collection():
-        return _prepared(system, options or SystemOptions(), {} if loaded is None else loaded)
+    options = options or SystemOptions()
+    with no_collection(), chdir(options.folder):
+        return _prepared(system, options, {} if loaded is None else loaded)
 
 
 def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]) -> PreparedSystem:
@@ -84,6 +95,7 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
     for slot in options.use:
         if slot not in network.fmus:
             raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
+    _refuse_seconds(network)
     settings = collect_settings(network, archive, _assignments(archive, options), options)
     for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
@@ -102,6 +114,17 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
         steps,
         component_periods(network, options, step),
     )
+
+
+def _refuse_seconds(network: Network) -> None:
+    """Refuse an FMU in two components where a process can hold one instance of it only."""
+    first: dict[str, str] = {}
+    for name, fmu in network.fmus.items():
+        if fmu.is_alone and fmu.digest in first:
+            problem = f"{fmu.label} can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess)"
+            remedy = "take one of them out, or export the FMU for more instances"
+            raise InputError(network.file, f"{first[fmu.digest]}, {name}", problem, remedy)
+        first.setdefault(fmu.digest, name)
 
 
 def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:

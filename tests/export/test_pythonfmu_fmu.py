@@ -14,7 +14,7 @@ import sys
 import numpy as np
 import pytest
 
-from perilune.analysis.flight.instance import instantiate
+from perilune.analysis.flight.instances.instance import instantiate
 from perilune.analysis.system.fmu import load_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.own_blocks import build_own_blocks

@@ -19,8 +19,9 @@ from .trajectory import trajectory_panels
 STATUS_WORDS = {
     "finished": "Ended by itself: the system reported that it is finished.",
     "stop_time": "Ran to its stop time; the system did not end by itself.",
+    "terminated": "Ended by itself: an FMU asked for the end of the simulation.",
     "nonfinite": "Broke off: a component gave a value that is not a finite number.",
-    "failed": "Broke off: an FMU reported an error.",
+    "failed": "Broke off: an FMU reported an error, or did not take a parameter.",
     "interrupted": "Broke off: it was interrupted from the keyboard.",
 }
 KEY_VECTORS = ("position", "velocity")

@@ -10,9 +10,9 @@ from typing import Any
 from fmpy import fmi2
 from fmpy.logging import addLoggerProxy
 
-from ..errors import InputError
-from ..system.fmu import Fmu
-from .library import Library, acquire, release
+from ...errors import InputError
+from ...system.fmu import Fmu
+from .library import LOADING, Library, acquire, release
 
 
 @dataclass
@@ -20,9 +20,11 @@ class Instance:
     """One fmi2Component with its log; freed with `free`."""
 
     fmu: Fmu
+    name: str
     library: Library
     slave: fmi2.FMU2Slave
     messages: list[str]
+    is_there: bool = True
 
     @property
     def address(self) -> int:
@@ -30,18 +32,33 @@ class Instance:
         return int(self.slave.component)
 
     def function_addresses(self) -> list[int]:
-        """Addresses of the C functions in the order of loop.FUNCTION_NAMES."""
+        """Addresses of the C functions in the order of library.FUNCTION_NAMES."""
         return self.library.addresses
 
     def free(self) -> None:
-        _logs.pop(self.slave.instanceName, None)
-        self.slave.fmi2FreeInstance(self.slave.component)
-        release(self.fmu)
+        if self.is_there:
+            self.is_there = False
+            _logs.pop(self.slave.instanceName, None)
+            self.slave.fmi2FreeInstance(self.slave.component)
+            _alone.discard(self.fmu.digest)
+            release(self.fmu)
+
+    def abandon(self) -> None:
+        """Never use it again, nor free it."""
+        self.is_there = False
+        _alone.discard(self.fmu.digest)
+
+    def renew(self) -> None:
+        """Another fmi2Component in the place of this one, which is freed; raises InputError."""
+        self.free()
+        fresh = instantiate(self.fmu, self.name)
+        self.library, self.slave, self.messages, self.is_there = fresh.library, fresh.slave, fresh.messages, True
 
 
 # fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
 _logs: dict[str, list[str]] = {}
 _instances = itertools.count(1)
+_alone: set[str] = set()  # digests of FMUs that are instantiated, and may be only once in a process
 
 
 def _log(_environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
@@ -59,6 +76,14 @@ addLoggerProxy(ctypes.byref(_callbacks))
 
 def instantiate(fmu: Fmu, name: str) -> Instance:
     """Instantiate an FMU; ``name`` is the component's, made unique in the process."""
+    if fmu.is_alone:
+        with LOADING:
+            if fmu.digest in _alone:
+                problem = (
+                    "can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess), which it is"
+                )
+                raise InputError(fmu.label, name, problem, "fly it once at a time, or export it for more instances")
+            _alone.add(fmu.digest)
     unique = f"{name}#{next(_instances)}"
     _logs[unique] = []
     library = None
@@ -67,8 +92,9 @@ def instantiate(fmu: Fmu, name: str) -> Instance:
         slave = library.slave(unique)
         slave.instantiate(callbacks=_callbacks, loggingOn=True)
     except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate
+        _alone.discard(fmu.digest)
         if library is not None:
             release(fmu)
         log = " | ".join([str(error), *_logs.pop(unique)])
         raise InputError(fmu.label, name, f"cannot be instantiated: {log}", "see the FMU's log") from error
-    return Instance(fmu, library, slave, _logs[unique])
+    return Instance(fmu, name, library, slave, _logs[unique])

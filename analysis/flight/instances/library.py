@@ -10,8 +10,24 @@ from pathlib import Path
 
 from fmpy import fmi2
 
-from ..system.fmu import Fmu
-from .loop import FUNCTION_NAMES
+from ...system.fmu import Fmu
+
+FUNCTION_NAMES = (
+    "fmi2SetReal",
+    "fmi2GetReal",
+    "fmi2SetInteger",
+    "fmi2GetInteger",
+    "fmi2SetBoolean",
+    "fmi2GetBoolean",
+    "fmi2DoStep",
+    "fmi2Reset",
+    "fmi2SetupExperiment",
+    "fmi2EnterInitializationMode",
+    "fmi2ExitInitializationMode",
+    "fmi2Terminate",
+    "fmi2SetString",
+    "fmi2GetString",
+)
 
 # fmpy changes the process's working directory while it loads a library: whoever does so, or reads
 # files by relative path beside threads that do, holds this.

@@ -1,0 +1,128 @@
+"""How a flight ended: what the compiled loop leaves of it, as a status and words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+from fmpy import fmi2
+
+from . import loop
+from .instances.instance import Instance
+from .instances.library import FUNCTION_NAMES
+from .program import Layout
+
+STATUS = {
+    loop.STOP_TIME: "stop_time",
+    loop.FINISHED: "finished",
+    loop.NONFINITE: "nonfinite",
+    loop.FAILED: "failed",
+    loop.UNMAPPED: "failed",
+    loop.INTERRUPTED: "interrupted",
+    loop.NOT_TAKEN: "failed",
+}
+TERMINATED = "terminated"  # an FMU asked for the end
+FMI_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
+FMI_DISCARD, FMI_ERROR, FMI_FATAL = 2, 3, 4
+READ_BACKS = (loop.READ_BACK, loop.WHOLE_READ_BACK, loop.TEXT_READ_BACK)
+
+
+class Outcome(NamedTuple):
+    """`loop.Buffers.outcome`: how it ended; at which component, slot or parameter; the rest of failures only."""
+
+    code: int
+    subject: int
+    function: int
+    fmi_status: int
+    point: int
+    instruction: int
+
+    @property
+    def is_well(self) -> bool:
+        """Whether nothing has gone wrong."""
+        return self.code in (loop.STOP_TIME, loop.FINISHED, loop.INTERRUPTED)
+
+    @property
+    def is_discarded_step(self) -> bool:
+        return self._failed_with(FMI_DISCARD) and FUNCTION_NAMES[self.function] == "fmi2DoStep"
+
+    @property
+    def is_fatal(self) -> bool:
+        """Whether no instance of the FMU may be used again (FMI 2.0, fmi2Fatal), or its status is none of FMI's."""
+        return self.code == loop.FAILED and not 0 <= self.fmi_status < FMI_FATAL
+
+    @property
+    def is_error(self) -> bool:
+        """Whether the instance may only be reset or freed (FMI 2.0, fmi2Error)."""
+        return self._failed_with(FMI_ERROR)
+
+    def is_unreadable(self, program: loop.Program) -> bool:
+        """Whether an FMU did not give a parameter back."""
+        if not (self.is_error or self._failed_with(FMI_DISCARD)):
+            return False
+        return int(program.instructions[self.instruction, loop.CODE]) in READ_BACKS
+
+    def _failed_with(self, status: int) -> bool:
+        return self.code == loop.FAILED and self.fmi_status == status
+
+
+def outcome_of(buffers: loop.Buffers) -> Outcome:
+    return Outcome(*buffers.outcome.tolist())
+
+
+def asked_end(instance: Instance) -> float | None:
+    """When (s) an FMU that discarded a step wants the simulation to end; None where it does not say that it does.
+
+    Our own never does: a step that a block refuses is a failure, of which pythonfmu makes such a wish.
+    """
+    if instance.fmu.is_own:
+        return None
+    try:
+        if instance.slave.getBooleanStatus(fmi2.fmi2Terminated):
+            return float(instance.slave.getRealStatus(fmi2.fmi2LastSuccessfulTime))
+    except Exception:  # fmpy raises bare Exception where the FMU does not answer either
+        return None
+    return None
+
+
+def in_words(
+    outcome: Outcome, time: float, layout: Layout, buffers: loop.Buffers, instances: Mapping[str, Instance]
+) -> tuple[str, str]:
+    """Status and message of a flight; ``time`` (s) is that of its last communication point."""
+    code, subject = outcome.code, outcome.subject
+    status = STATUS[code]
+    if code == loop.NONFINITE:
+        return status, f"{list(layout.slots)[subject]} is {buffers.values[subject]} at t = {time:g} s"
+    if code == loop.UNMAPPED:
+        name, value = list(layout.slots)[subject], buffers.values[subject]
+        return status, f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
+    if code == loop.INTERRUPTED:
+        return status, f"interrupted at t = {time:g} s"
+    if code == loop.NOT_TAKEN:
+        parameters = layout.parameters
+        name = ".".join(parameters.keys[subject])
+        given, found = (parameters.value_in(values, subject) for values in (parameters.values, buffers.read_back))
+        return status, f"{name}: was set to {given}, and its FMU has {found} after initialisation: it did not take it"
+    if code == loop.FAILED:
+        component = list(instances)[subject]
+        log = " | ".join(instances[component].messages) or "no message in its log"
+        known = 0 <= outcome.fmi_status < len(FMI_STATUS)
+        word = FMI_STATUS[outcome.fmi_status] if known else f"{outcome.fmi_status}, a status that FMI does not have"
+        if outcome.is_discarded_step:
+            word += ", which is no wish to end,"
+        return status, f"{component}: {FUNCTION_NAMES[outcome.function]} returned {word} at t = {time:g} s: {log}"
+    return status, ""
+
+
+def initialised(outcome: Outcome, program: loop.Program, count: int) -> list[bool]:
+    """Which of ``count`` components a flight that began anew has brought through initialisation."""
+    reached = [True] * count
+    if outcome.is_well or outcome.instruction >= program.phases[0]:
+        return reached
+    exits = program.instructions[: program.phases[0], loop.FUNCTION] == np.uint64(
+        FUNCTION_NAMES.index("fmi2ExitInitializationMode")
+    )
+    for row in np.flatnonzero(exits):
+        reached[int(program.instructions[row, loop.COMPONENT])] = bool(row < outcome.instruction)
+    return reached

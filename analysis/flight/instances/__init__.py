@@ -1,0 +1,1 @@
+"""One FMU at run time: its library, its instances, whether its reset can be trusted."""

@@ -1,0 +1,122 @@
+"""The parameters that a flight is given: where they lie in the loop's arrays, and which of them are read back."""
+
+from __future__ import annotations
+
+import ctypes
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..ssp.parameter_sets import ParameterValue
+from ..system.assignments import Settings
+from ..system.fmu import Fmu
+from ..system.network import Network
+from . import loop
+
+TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
+Key = tuple[str, str]  # (component, variable)
+
+# By the digests of FMUs, found out in flight: variables that they do not give back, and who is asked for one at a time.
+_unreadable: dict[str, set[str]] = {}
+_one_by_one: set[str] = set()
+
+
+class Parameters:
+    """Values by (component, variable); those of a component and type are contiguous.
+
+    ``ranges`` [component, type of TYPE_KIND, 4] are the first one, how many there are, how many of them, the first
+    ones, are set again in initialisation mode, and how many of those are read back after it.
+    """
+
+    def __init__(self, network: Network, settings: Settings) -> None:
+        self._network = network
+        self.keys: list[Key] = []
+        self.types: dict[Key, str] = {}
+        self.references: list[int] = []
+        self.ranges = np.zeros((len(network.fmus), 4, 4), dtype=np.int64)
+        given: dict[str, list[str]] = {name: [] for name in network.fmus}
+        for component, name in settings.variables:
+            given[component].append(name)
+        for index, (component, fmu) in enumerate(network.fmus.items()):
+            grades = {
+                name: _grade(fmu, fmu.variables[name], connected=f"{component}.{name}" in network.driver)
+                for name in given[component]
+            }
+            for kind in range(4):
+                mine = [name for name in grades if TYPE_KIND[fmu.variables[name].type] == kind]
+                mine.sort(key=grades.__getitem__)
+                counts = [sum(grades[name] <= grade for name in mine) for grade in (2, 1, 0)]
+                self.ranges[index, kind] = len(self.keys), *counts
+                for name in mine:
+                    self.keys.append((component, name))
+                    self.types[component, name] = fmu.variables[name].type
+                    self.references.append(fmu.variables[name].valueReference)
+        self.positions = {key: position for position, key in enumerate(self.keys)}
+        count = len(self.keys)
+        self._texts: dict[int, Any] = {}  # kept alive while the loop has their addresses
+        self.values = loop.Settings(np.zeros(count), np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.uint64))
+        self.update({key: settings.variables[key] for key in self.keys})
+
+    def __contains__(self, key: Key) -> bool:
+        return key in self.positions
+
+    def __getitem__(self, key: Key) -> ParameterValue:
+        """A parameter's value, of its own type."""
+        return self.value_in(self.values, self.positions[key])
+
+    def __setitem__(self, key: Key, value: ParameterValue) -> None:
+        position, kind = self.positions[key], self.types[key]
+        if kind == "String":
+            self._texts[position] = ctypes.create_string_buffer(str(value).encode())
+            self.values.text[position] = ctypes.addressof(self._texts[position])
+        elif kind == "Real":
+            self.values.real[position] = value
+        else:
+            self.values.whole[position] = value
+
+    def update(self, values: Mapping[Key, ParameterValue]) -> None:
+        for key, value in values.items():
+            self[key] = value
+
+    def value_in(self, values: loop.Settings, position: int) -> ParameterValue:
+        """What arrays of the same layout, those read back, hold in a place."""
+        kind = self.types[self.keys[position]]
+        if kind == "String":
+            address = int(values.text[position])
+            return ctypes.string_at(address).decode(errors="replace") if address else ""
+        if kind == "Real":
+            return float(values.real[position])
+        return bool(values.whole[position]) if kind == "Boolean" else int(values.whole[position])
+
+    def is_one_by_one(self, component: str) -> bool:
+        """Whether a component's parameters are read back one by one, since it does not give all of them."""
+        return self._network.fmus[component].digest in _one_by_one
+
+    def learn_unreadable(self, first: int, count: int) -> None:
+        """Not to read back what an FMU does not give: a parameter, or one of ``count`` that is to be found yet."""
+        component, name = self.keys[first]
+        fmu = self._network.fmus[component]
+        if count > 1:
+            _one_by_one.add(fmu.digest)
+        elif name not in _unreadable.setdefault(fmu.digest, set()):
+            _unreadable[fmu.digest].add(name)
+            text = f"{fmu.label}: {name} cannot be read back: whether {component} takes its value is not known"
+            warnings.warn(text, stacklevel=2)
+
+    def blank(self) -> loop.Settings:
+        """Arrays of the same layout, to read into."""
+        return loop.Settings(*(np.zeros_like(array) for array in self.values))
+
+
+def _grade(fmu: Fmu, variable: Any, *, connected: bool) -> int:
+    """0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode only.
+
+    FMI 2.0 lets inputs and what has initial="exact" be set in that mode; other values the FMU calculates itself from
+    then on, and what is connected is given anew.
+    """
+    settled = variable.causality in ("input", "parameter") or variable.initial == "exact"
+    if connected or not settled:
+        return 2
+    return 1 if variable.name in _unreadable.get(fmu.digest, ()) else 0

@@ -1,0 +1,76 @@
+"""Builds the odd FMU of this folder with the quirks that a test asks for."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import fmpy
+
+from perilune.fmus_src.export.compilers import FLAGS, compilers_for
+from tests.support.builders import component, document, pack, system, write_zip
+
+DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="2.0" modelName="{name}" guid="by hand">
+<CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true"{once}/>
+<TypeDefinitions><SimpleType name="Mode"><Enumeration><Item name="idle" value="1"/><Item name="hover" value="7"/>
+</Enumeration></SimpleType></TypeDefinitions>
+<DefaultExperiment stepSize="0.25"{tolerance}/>
+<ModelVariables>
+<ScalarVariable name="gain" valueReference="0" causality="parameter" variability="tunable"><Real start="2"/>
+</ScalarVariable>
+<ScalarVariable name="u" valueReference="1" causality="input"><Real start="0.5"/></ScalarVariable>
+<ScalarVariable name="y" valueReference="2" causality="output" initial="exact"><Real start="0"/></ScalarVariable>
+<ScalarVariable name="twice" valueReference="3" causality="calculatedParameter" variability="fixed" initial="approx">
+<Real start="4"/></ScalarVariable>
+<ScalarVariable name="tolerance" valueReference="4" causality="output"><Real/></ScalarVariable>
+<ScalarVariable name="length" valueReference="5" causality="output"><Real/></ScalarVariable>
+<ScalarVariable name="count" valueReference="0" causality="parameter" variability="fixed"><Integer start="1"/>
+</ScalarVariable>
+<ScalarVariable name="mode" valueReference="1" causality="parameter" variability="fixed">
+<Enumeration declaredType="Mode" start="1"/></ScalarVariable>
+<ScalarVariable name="on" valueReference="0" causality="parameter" variability="fixed"><Boolean start="false"/>
+</ScalarVariable>
+<ScalarVariable name="word" valueReference="0" causality="parameter" variability="fixed"><String start="one"/>
+</ScalarVariable>
+</ModelVariables>
+<ModelStructure><Outputs><Unknown index="3" dependencies=""/><Unknown index="5" dependencies=""/>
+<Unknown index="6" dependencies=""/></Outputs>
+<InitialUnknowns><Unknown index="4"/><Unknown index="5"/><Unknown index="6"/></InitialUnknowns></ModelStructure>
+</fmiModelDescription>
+"""
+SOURCE = Path(__file__).with_name("odd.c")
+ENDS = "input u Real; output y Real; output tolerance Real; output length Real"
+
+
+def odd_fmu(
+    folder: Path, name: str = "odd", *, tolerance: float | None = None, once: bool = False, **quirks: object
+) -> Path:
+    """``folder``/name.fmu; ``quirks`` are the macros of odd.c, True for those without a value.
+
+    ``tolerance`` is that of its default experiment, ``once`` whether it says canBeInstantiatedOnlyOncePerProcess.
+    """
+    library = folder / f"{name}{fmpy.sharedLibraryExtension}"
+    macros = [
+        f"-D{macro}" if value is True else f'-D{macro}="{value}"' if isinstance(value, str) else f"-D{macro}={value}"
+        for macro, value in quirks.items()
+    ]
+    headers = Path(fmpy.__file__).parent / "c-code"
+    command = [*compilers_for(fmpy.platform)[0], *FLAGS, *macros, f"-I{headers}", "-o", library, SOURCE]
+    subprocess.run(command, check=True)
+    description = DESCRIPTION.format(
+        name=name,
+        tolerance="" if tolerance is None else f' tolerance="{tolerance}"',
+        once=' canBeInstantiatedOnlyOncePerProcess="true"' if once else "",
+    )
+    binary = f"binaries/{fmpy.platform}/{library.name}"
+    path = folder / f"{name}.fmu"
+    write_zip(path, {"modelDescription.xml": description, binary: library.read_bytes()})
+    return path
+
+
+def odd_system(folder: Path, stop: float = 1.0, **quirks: object) -> Path:
+    """An .ssp of one such FMU, its input open at 0.5, with steps of 0.25 s."""
+    odd_fmu(folder, **quirks)
+    root = system(component("odd", "odd", "output y Real; output tolerance Real; output length Real"))
+    return pack(folder / "odd.ssp", folder, document(root, stop=stop))
