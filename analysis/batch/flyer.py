@@ -113,7 +113,7 @@ class Flyer:
             success = succeeded(campaign.success, metrics)
         return TrialResult(
             status=trial_status(result, names.statuses),
-            message=result.message,
+            message="" if result.complete else result.message,
             success=success,
             end_time=float(result.time[-1]) if result.time.size else float("nan"),
             metrics=metrics,

@@ -49,7 +49,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json != "-":
         files.say()
     if not result.complete:
-        remedy = REMEDIES.get(result.status, "see the FMU's message")
+        remedy = REMEDIES.get(result.status, "see the FMU's message and its documentation")
         print(f"perilune: {prepared.network.file}: {' '.join(result.message.split())}; {remedy}", file=sys.stderr)
     last = {"time": result.time[-1:].tolist(), **{name: [value] for name, value in result.final().items()}}
     met = check_requirements(requirements, {name: float(value[0]) for name, value in last.items() if value})

@@ -101,9 +101,10 @@ def in_words(
         return status, f"interrupted at t = {time:g} s"
     if code == loop.NOT_TAKEN:
         parameters = layout.parameters
-        name = ".".join(parameters.keys[subject])
+        component, variable = parameters.keys[subject]
         given, found = (parameters.value_in(values, subject) for values in (parameters.values, buffers.read_back))
-        return status, f"{name}: was set to {given}, and its FMU has {found} after initialisation: it did not take it"
+        words = f"{component}.{variable}: was set to {given}, and its FMU has {found} after initialisation"
+        return status, " | ".join([f"{words}: it did not take it", *instances[component].messages])
     if code == loop.FAILED:
         component = list(instances)[subject]
         log = " | ".join(instances[component].messages) or "no message in its log"

@@ -41,7 +41,7 @@ class Parameters:
             given[component].append(name)
         for index, (component, fmu) in enumerate(network.fmus.items()):
             grades = {
-                name: _grade(fmu, fmu.variables[name], connected=f"{component}.{name}" in network.driver)
+                name: _grade(fmu, fmu.variables[name], driven=f"{component}.{name}" in network.driver)
                 for name in given[component]
             }
             for kind in range(4):
@@ -110,13 +110,13 @@ class Parameters:
         return loop.Settings(*(np.zeros_like(array) for array in self.values))
 
 
-def _grade(fmu: Fmu, variable: Any, *, connected: bool) -> int:
+def _grade(fmu: Fmu, variable: Any, *, driven: bool) -> int:
     """0: set in initialisation mode too, and read back; 1: not read back; 2: set before initialisation mode only.
 
     FMI 2.0 lets inputs and what has initial="exact" be set in that mode; other values the FMU calculates itself from
-    then on, and what is connected is given anew.
+    then on, and an input that is connected is given anew.
     """
-    settled = variable.causality in ("input", "parameter") or variable.initial == "exact"
-    if connected or not settled:
+    settable = variable.causality in ("input", "parameter") or variable.initial == "exact"
+    if not settable or (driven and variable.causality == "input"):
         return 2
     return 1 if variable.name in _unreadable.get(fmu.digest, ()) else 0

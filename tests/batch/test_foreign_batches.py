@@ -87,3 +87,4 @@ def test_an_end_that_an_fmu_asks_for_is_a_good_one(tmp_path):
     gains = result.plan.draws.columns["odd.gain"]
     np.testing.assert_allclose(result.trials["default"].metrics["last"], 0.6 * (gains * 0.5 + 2.0), rtol=1e-13)
     assert set(result.trials["default"].end_time) == {0.6}
+    assert result.trials["default"].messages == {}

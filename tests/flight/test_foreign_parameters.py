@@ -13,7 +13,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.flight.simulation import Simulation
 from perilune.analysis.system.options import SystemOptions
 from perilune.analysis.system.prepared import prepare_system
-from tests.support.builders import component, connection, document, fly, pack, system
+from tests.support.builders import component, connection, document, fly, inline, pack, system
 from tests.support.foreign.odd_fmu import odd_fmu, odd_system
 
 GIVEN = {"odd.gain": 3.3, "odd.count": 4, "odd.mode": "hover", "odd.on": True, "odd.word": "three"}
@@ -83,6 +83,18 @@ def test_calculated_values_and_connected_inputs_are_not_asked_for(tiny_folder, t
     result = fly(path, parameters=(str(tmp_path / "u.ssv"),))
     assert result.status == "stop_time"
     assert result["odd.u"].tolist() == [1.0, 1.5, 2.0, 2.5, 3.0]
+
+
+def test_parameters_of_the_system_are_read_back_too(tmp_path):
+    parts = component("odd", "odd", "parameter gain Real; output y Real")
+    root = system(
+        parts, connections=connection("g", "odd.gain"), declared="parameter g Real", bindings=inline("g=Real:4")
+    )
+    for quirk in ("LOSES_EARLY", "IGNORES_GAIN"):
+        odd_fmu(tmp_path, **{quirk: True})
+        result = fly(pack(tmp_path / "s.ssp", tmp_path, document(root)))
+        assert quirk == "LOSES_EARLY" or "odd.gain: was set to 4.0, and its FMU has 2.0" in result.message
+        assert quirk == "IGNORES_GAIN" or closed_form(result, 4.0 * 0.5 + 2.0)
 
 
 @pytest.mark.parametrize("status", [2, 3])

@@ -99,6 +99,8 @@ def _free(instance: Instance, error: FMICallException | None = None) -> None:
     """Free an instance, but not after a fatal error (FMI 2.0, fmi2Fatal)."""
     if error is None or 0 <= error.status < FMI_FATAL:
         instance.free()
+    else:
+        instance.abandon()
 
 
 def _changes(fmu: Fmu) -> list[dict[str, Any]]:
