@@ -28,7 +28,7 @@ from ..system.options import SystemOptions
 from ..system.prepared import prepare_system
 from .options import FilePath, system_options
 
-FILES = (".fmu", ".ssv", ".json", ".toml")  # that are no systems
+FILES = (".ssv", ".json", ".toml")  # that are no systems
 
 
 def validate(
@@ -70,11 +70,12 @@ def _check(path: str, options: SystemOptions) -> dict[str, Any]:
         if path.endswith(FILES) and options != SystemOptions():
             raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
         if path.endswith(".fmu"):
-            load_fmu(_read(path), path)
+            fmu = load_fmu(_read(path), path)
             remedy = "mend the FMU's modelDescription.xml"
             problems += [
                 f"{path}: modelDescription.xml: {' '.join(text.split())}; {remedy}" for text in validate_fmu(path)
             ]
+            notes += prepare_system(path, options, {path: fmu}).network.notes
         elif path.endswith(".ssv"):
             read_parameter_file(_read(path), path)
         elif path.endswith(".json"):

@@ -117,7 +117,7 @@ def read_plan(
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
     read = parse_campaign(table)
-    if read.system.removesuffix(".ssp") != archive.name:
+    if read.system.removesuffix(".ssp").removesuffix(".fmu") != archive.name:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
     changes: dict = {}
     if trials is not None:

@@ -57,7 +57,7 @@ def collect_settings(
         _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
     _pass_parameters(network, settings)
-    _settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start")
+    _settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
     _check_signals(network, settings)
     return settings
 

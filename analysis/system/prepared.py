@@ -16,6 +16,7 @@ from ..ssp.archive import HOW_TO_BUILD, SystemArchive, open_system
 from ..ssp.description import Component
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
+from .alone import describe_alone
 from .assignments import Settings, collect_settings, text_assignment
 from .fmu import Fmu, load_fmu
 from .network import Network, build_network
@@ -25,7 +26,7 @@ from .schedule import Schedule, make_schedule
 
 @dataclass
 class PreparedSystem:
-    """A checked system; pass it to `Simulation`. Times in s."""
+    """A checked system; pass it to `Simulation`. Times in s; ``remarks`` say what an FMU alone left open."""
 
     archive: SystemArchive
     options: SystemOptions
@@ -35,6 +36,7 @@ class PreparedSystem:
     start: float
     step: float
     steps: int
+    remarks: tuple[str, ...] = ()
 
     @property
     def is_native(self) -> bool:
@@ -61,7 +63,6 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
         if value is not None and value not in known:
             raise InputError(name, str(value), "unknown", suggestion(str(value), known))
     archive = open_system(system)
-    description = read_description(archive, options.variant)
 
     @cache
     def flavour_of(block: str) -> str:
@@ -73,18 +74,28 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
         else:
             flavour = flavour_of(Path(component.source).stem)
             read, label = archive.fmu(component.source, f"{name} (line {component.line})", flavour)
+        return opened(read, label)
+
+    def opened(read: Callable[[], bytes], label: str) -> Fmu:
         if label not in loaded:
             loaded[label] = load_fmu(read(), label)
         return loaded[label]
 
+    remarks: list[str] = []
+    if archive.is_fmu:
+        description, remarks = describe_alone(opened(archive.path.read_bytes, archive.label), options)
+    else:
+        description = read_description(archive, options.variant)
     network = build_network(description, load)
+    network.notes += remarks
     for slot in options.use:
         if slot not in network.fmus:
             raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
     settings = collect_settings(network, archive, _assignments(archive, options), options)
-    schedule = make_schedule(network, options.no_feedthrough)
+    # An FMU alone is given the inputs of t_n for the step to t_(n+1), as FMPy does it, whatever its outputs depend on.
+    schedule = make_schedule(network, [*options.no_feedthrough, *(network.fmus if archive.is_fmu else ())])
     start, step, steps = _times(network, options)
-    return PreparedSystem(archive, options, network, settings, schedule, start, step, steps)
+    return PreparedSystem(archive, options, network, settings, schedule, start, step, steps, tuple(remarks))
 
 
 def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:

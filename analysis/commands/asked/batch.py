@@ -11,7 +11,7 @@ from ..common.requirements import add_requirements
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    add_system(parser)
+    add_system(parser, alone=True)
     add_faults(parser)
     campaign = parser.add_argument(
         "--campaign", required=True, metavar="NAME", help="a campaign of the system, or a .toml file"

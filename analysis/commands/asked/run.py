@@ -10,7 +10,7 @@ from ..common.requirements import add_requirements
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    add_system(parser)
+    add_system(parser, alone=True)
     add_faults(parser)
     parser.add_argument("--output", type=Path, metavar="F", help="write all signals to F.csv or F.parquet")
     parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
