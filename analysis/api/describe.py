@@ -42,7 +42,8 @@ def describe(
 
     ``what`` is a system, an FMU by name or file, or an interface by name; ``component`` one of a system, with all its
     variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, loops; of an FMU
-    or a component ``variables``, and how an FMU flies ``alone`` (s); of a slot ``fmus`` too. The rest is as in `simulate`. Raises InputError.
+    or a component ``variables``, and how an FMU flies ``alone`` (s); of a slot ``fmus`` too. The rest is as in
+    `simulate`. Raises InputError.
     """
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,

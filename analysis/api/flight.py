@@ -23,6 +23,7 @@ from ..reports.run.trajectory import trajectory_plot
 from ..ssp.parameter_sets import ParameterValue
 from ..system.faults import Fault
 from ..system.prepared import prepare_system
+from ..system.series import Given, read_series
 from .notebook import Grid, notebook_view, value_text
 from .options import FilePath, system_options
 
@@ -82,6 +83,7 @@ def simulate(
     parameters: Sequence[FilePath] = (),
     set: Mapping[str, ParameterValue] | None = None,
     faults: Sequence[Fault] = (),
+    input: Given | None = None,
     step: float | None = None,
     stop_time: float | None = None,
     algorithm: Literal["sequential", "jacobi"] = "sequential",
@@ -91,18 +93,19 @@ def simulate(
     open_inputs: Literal["refuse", "start"] = "refuse",
     no_feedthrough: Sequence[str] = (),
 ) -> Result:
-    """Fly a system once: `perilune run`.
+    """Fly a system, or an FMU alone, once: `perilune run`.
 
-    ``system`` is a name under ssp_systems, a folder or an .ssp; ``use`` maps components to FMUs (block names or
+    ``system`` is a name under ssp_systems, a folder, an .ssp or .fmu; ``use`` maps components to FMUs (block names or
     paths), ``parameters`` lists parameter sets (names of the system's, or paths), ``set`` maps ``component.variable``
-    to values in SI units; ``step`` and ``stop_time`` are in s. Raises InputError; a flight that fails comes back with
-    its ``status``.
+    to values in SI units; ``step`` and ``stop_time`` are in s. ``input`` are inputs over time: the path of a CSV file,
+    a structured array or columns by name, ``time`` (s) and inputs that nothing is connected to. Raises InputError; a
+    flight that fails comes back with its ``status``.
     """
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
     )  # fmt: skip
-    prepared = prepare_system(Path(system), options)
+    prepared = prepare_system(Path(system), options, series=None if input is None else read_series(input))
     figures = tuple(read_figures(prepared))
     with Simulation(prepared, faults=faults) as simulation:
         return Result(**vars(fly(simulation)), system=prepared.archive.name, figures=figures)

@@ -18,6 +18,7 @@ from ..campaign.plan import BatchPlan, check_plan, read_plan
 from ..errors import InputError
 from ..reports.batch.batch_report import write_batch_report
 from ..targets import Results, check_file, check_folder
+from .common.in_flight import series
 from .common.options import check_json, faults, json_number, pairs, system_options, write_json
 from .common.requirements import check_requirements, read_requirements
 
@@ -38,6 +39,7 @@ def run(options: argparse.Namespace) -> int:
         seed=options.seed,
         compare=compare,
         faults=faults(options),
+        series=series(options),
     )
     if options.replay is not None:
         for name in ("require", "report"):

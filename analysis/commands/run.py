@@ -14,6 +14,7 @@ from ..reports.own.limit_table import limit_lines
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
 from ..targets import Results, check_file
+from .common.in_flight import series
 from .common.options import check_json, faults, json_number, system_options, write_json
 from .common.requirements import check_requirements, read_requirements
 
@@ -28,7 +29,7 @@ def run(options: argparse.Namespace) -> int:
     check_file("--output", options.output, OUTPUT_SUFFIXES)
     check_file("--report", options.report)
     check_json(options)
-    prepared = prepare_system(options.system, system_options(options))
+    prepared = prepare_system(options.system, system_options(options), series=series(options))
     figures = read_figures(prepared)
     injected = faults(options)
     with Simulation(prepared, faults=injected) as simulation:

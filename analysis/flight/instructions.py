@@ -21,7 +21,8 @@ class InstructionList:
     connection that feeds a component, in order, its instruction code, the component that its value
     comes from (-1: a system's constant input), source and target slot; the last entry is for
     system connectors.
-    Connections and ``fault_slots`` are numbered as in the program's arrays.
+    Connections and ``fault_slots`` are numbered as in the program's arrays; ``drives`` [component] are (first, count)
+    of the inputs driven over time, the last entry of those of system connectors.
     """
 
     def __init__(
@@ -31,6 +32,7 @@ class InstructionList:
         parameter_ranges: np.ndarray,
         connections: Sequence[Sequence[tuple[int, int, int, int]]],
         fault_slots: Sequence[int],
+        drives: Sequence[tuple[int, int]],
     ) -> None:
         self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
         self.ranges = ranges
@@ -38,6 +40,7 @@ class InstructionList:
         self.connections = connections
         self.firsts = np.cumsum([0, *(len(group) for group in connections)]).tolist()
         self.fault_slots = fault_slots
+        self.drives = drives
         self.rows: list[list[int]] = []
 
     def call(self, code: int, component: int, function: int, piece: Sequence[int] = (0, 0)) -> None:
@@ -68,6 +71,15 @@ class InstructionList:
                 run = [code, 0, 0, number, 1, group, 0]
                 self.rows.append(run)
 
+    def drive(self, group: int, *, started: bool) -> None:
+        """The values over time of a component's driven inputs; group -1: of system connectors.
+
+        Before all has ``started`` they are the initialisation's, then those of the communication point.
+        """
+        first, count = self.drives[group]
+        if count:
+            self.rows.append([loop.DRIVE, int(started), 0, first, count, 0, 0])
+
     def inject(self, piece: Sequence[int]) -> None:
         """The faults on a piece of slots."""
         for number, slot in enumerate(self.fault_slots):
@@ -75,7 +87,8 @@ class InstructionList:
                 self.rows.append([loop.INJECT, 0, 0, number, 1, 0, 0])
 
     def set(self, component: int, known: Collection[int] | None = None) -> None:
-        """Inputs of a component; those whose source is not ``known`` keep their start values."""
+        """Inputs of a component; in the initialisation those whose source is not ``known`` keep their start values."""
+        self.drive(component, started=known is None)
         self.connect(component, known)
         for function in (FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"]):
             piece = self.ranges[component, function]
@@ -114,6 +127,7 @@ class InstructionList:
                     self.call(code, component, function, self.parameter_ranges[component, kind])
             self.call(loop.SETUP, component, FUNCTION["SetupExperiment"])
             self.call(loop.MODE, component, FUNCTION["EnterInitializationMode"])
+        self.drive(-1, started=False)
         known = {-1}
         for component in order:
             self.set(component, known)
@@ -160,8 +174,10 @@ def write_instructions(
     sources = [index[name] for name in schedule.sources_first]
     set_ahead = range(len(names)) if algorithm == "jacobi" else sources
     instructions.initialise([index[name] for name in schedule.initial_order])
+    instructions.drive(-1, started=True)
     instructions.hand_over(set_ahead)
     initial_end = len(instructions.rows)
+    instructions.drive(-1, started=True)
     if algorithm == "jacobi":
         instructions.jacobi()
     else:

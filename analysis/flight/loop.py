@@ -22,10 +22,11 @@ from .fmi_calls import change_mode, do_step, exchange, setup_experiment
 
 # Instruction codes.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP = range(9)
-PARAMETERS, WHOLE_PARAMETERS, SETUP, MODE = range(9, 13)
-# Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; a COPY has its first
-# target slot in FIRST and its first source slot in ADDRESS; FUNCTION
-# numbers FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
+PARAMETERS, WHOLE_PARAMETERS, SETUP, MODE, DRIVE = range(9, 14)
+# Instruction columns. FIRST and COUNT are connections, faults, slots, parameters or driven inputs; a COPY has its
+# first target slot in FIRST and its first source slot in ADDRESS; a DRIVE has 0 in ADDRESS while the FMUs initialise,
+# then 1; FUNCTION numbers FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the
+# start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
 FUNCTION_NAMES = (
@@ -69,6 +70,8 @@ class Program(NamedTuple):
     fault_kind: np.ndarray  # int64 [f], OVERRIDE, BIAS, FREEZE or EXCITE
     fault_window: np.ndarray  # float64 [f, 2], from and until (s)
     fault_value: np.ndarray  # float64 [f]; of EXCITE the column of the excitation
+    drive_slot: np.ndarray  # int64 [d], inputs driven over time
+    drive_table: np.ndarray  # float64 [n, d]: values for the initialisation, then for every communication point
 
 
 class Settings(NamedTuple):
@@ -121,6 +124,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     table, table_from, table_to = program.table, program.table_from, program.table_to
     fault_slot, fault_kind = program.fault_slot, program.fault_kind
     fault_window, fault_value = program.fault_window, program.fault_value
+    drive_slot, drive_table = program.drive_slot, program.drive_table
     values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
     parameters, whole_parameters = settings.real, settings.whole
     start, step, stop, first_point, steps = span.start, span.step, span.stop, span.first, span.last
@@ -209,6 +213,10 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                         if np.isnan(frozen[f]):
                             frozen[f] = values[faulty]
                         values[faulty] = frozen[f]
+            elif code == DRIVE:
+                driven_row = min(n + 1 + np.int64(address), drive_table.shape[0] - 1)
+                for d in range(first, first + count):
+                    values[drive_slot[d]] = drive_table[driven_row, d]
             elif code == PARAMETERS:
                 status = exchange(address, instance, parameter_reference, parameters, first, count)
             elif code == WHOLE_PARAMETERS:

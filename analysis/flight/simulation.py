@@ -101,6 +101,7 @@ class Simulation:
             self.instances,
             self._wanted,
             [*faults, *self._excitations],
+            prepared.drive,
         )
         self.set_faults(self._faults)
         self.signal_names = [name for name in self.layout.slots if self._wanted is None or name in self._wanted]
@@ -287,6 +288,7 @@ class Simulation:
             "no_feedthrough": list(prepared.options.no_feedthrough),
             "faults": [str(fault) for fault in self._faults if fault is not None],
             "algorithm": prepared.options.algorithm,
+            **(prepared.drive.facts() if prepared.drive is not None else {}),
             "perilune": version("perilune"),
         }
 

@@ -18,15 +18,20 @@ from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .alone import describe_alone
 from .assignments import Settings, collect_settings, text_assignment
+from .drive import Drive, drive_inputs, driven_inputs
 from .fmu import Fmu, load_fmu
 from .network import Network, build_network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from .schedule import Schedule, make_schedule
+from .series import InputSeries
 
 
 @dataclass
 class PreparedSystem:
-    """A checked system; pass it to `Simulation`. Times in s; ``remarks`` say what an FMU alone left open."""
+    """A checked system; pass it to `Simulation`. Times in s; ``remarks`` say what an FMU alone left open.
+
+    ``drive`` are its inputs over time, if it has them.
+    """
 
     archive: SystemArchive
     options: SystemOptions
@@ -37,6 +42,7 @@ class PreparedSystem:
     step: float
     steps: int
     remarks: tuple[str, ...] = ()
+    drive: Drive | None = None
 
     @property
     def is_native(self) -> bool:
@@ -44,17 +50,22 @@ class PreparedSystem:
 
 
 def prepare_system(
-    system: str | Path, options: SystemOptions | None = None, loaded: dict[str, Fmu] | None = None
+    system: str | Path,
+    options: SystemOptions | None = None,
+    loaded: dict[str, Fmu] | None = None,
+    series: InputSeries | None = None,
 ) -> PreparedSystem:
-    """Read and check a system with its options. Raises InputError.
+    """Read and check a system with its options, and with inputs over time if it is to have them. Raises InputError.
 
     ``loaded`` keeps FMUs by their place, for a system that is prepared again and again: those in it are not read again.
     """
     with no_collection():
-        return _prepared(system, options or SystemOptions(), {} if loaded is None else loaded)
+        return _prepared(system, options or SystemOptions(), {} if loaded is None else loaded, series)
 
 
-def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]) -> PreparedSystem:
+def _prepared(
+    system: str | Path, options: SystemOptions, loaded: dict[str, Fmu], series: InputSeries | None
+) -> PreparedSystem:
     for name, value, known in (
         ("--algorithm", options.algorithm, ALGORITHMS),
         ("--flavour", options.flavour, FLAVOURS),
@@ -91,11 +102,14 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
     for slot in options.use:
         if slot not in network.fmus:
             raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
+    if series is not None:
+        network.driven = driven_inputs(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     settings = collect_settings(network, archive, _assignments(archive, options), options)
     # An FMU alone is given the inputs of t_n for the step to t_(n+1), as FMPy does it, whatever its outputs depend on.
     schedule = make_schedule(network, [*options.no_feedthrough, *(network.fmus if archive.is_fmu else ())])
     start, step, steps = _times(network, options)
-    return PreparedSystem(archive, options, network, settings, schedule, start, step, steps, tuple(remarks))
+    drive = None if series is None else drive_inputs(network, series, network.driven, start, step, steps)
+    return PreparedSystem(archive, options, network, settings, schedule, start, step, steps, tuple(remarks), drive)
 
 
 def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:
