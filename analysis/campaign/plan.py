@@ -17,6 +17,7 @@ from ..system.faults import Fault, check_fault
 from ..system.options import Layer, SystemOptions
 from ..system.prepared import PreparedSystem, prepare_system
 from ..system.series import InputSeries
+from ..system.watch import UNWATCHED, Watch
 from .campaign import Campaign, Variant
 from .draws import DrawTable, draw_table, stream_numbers
 from .faults import DrawnFault, check_drawn, drawn_fault
@@ -33,7 +34,8 @@ class BatchPlan:
     ``options`` are the user's system options, which come after the campaign's own and win; draws
     win over parameter sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names
     parameters that whoever flies the plan gives anew with every flight. ``faults`` are the user's, which fly in
-    every trial after the campaign's own, ``series`` the inputs over time that all trials have.
+    every trial after the campaign's own, ``series`` the inputs over time that all trials have; ``watch`` is how each
+    is watched.
     """
 
     system: str
@@ -43,6 +45,7 @@ class BatchPlan:
     overlaid: tuple[str, ...] = ()
     faults: tuple[Fault, ...] = ()
     series: InputSeries | None = None
+    watch: Watch = UNWATCHED
 
     @cached_property
     def draws(self) -> DrawTable:
@@ -108,6 +111,7 @@ def read_plan(
     compare: Mapping[str, Sequence[str]] | None = None,
     faults: Sequence[Fault] = (),
     series: InputSeries | None = None,
+    watch: Watch | None = None,
 ) -> BatchPlan:
     """Read a campaign by name or path, with the command line's changes. Raises InputError.
 
@@ -133,7 +137,9 @@ def read_plan(
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
     changed = replace(read, **changes)
     digest = hashlib.sha256(data).hexdigest()
-    return BatchPlan(str(system), changed, options, digest, faults=tuple(faults), series=series)
+    return BatchPlan(
+        str(system), changed, options, digest, faults=tuple(faults), series=series, watch=watch or UNWATCHED
+    )
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ctypes
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from fmpy import fmi2
@@ -13,6 +15,7 @@ from fmpy.logging import addLoggerProxy
 from ..errors import InputError
 from ..system.fmu import Fmu
 from .library import Library, acquire, release
+from .log import Log
 
 
 @dataclass
@@ -22,12 +25,17 @@ class Instance:
     fmu: Fmu
     library: Library
     slave: fmi2.FMU2Slave
-    messages: list[str]
+    said: list[bytes]
 
     @property
     def address(self) -> int:
         """The fmi2Component."""
         return int(self.slave.component)
+
+    @property
+    def messages(self) -> list[str]:
+        """What the FMU has said since the flight began."""
+        return [_text(message) for message in self.said]
 
     def function_addresses(self) -> list[int]:
         """Addresses of the C functions in the order of loop.FUNCTION_NAMES."""
@@ -39,15 +47,30 @@ class Instance:
         release(self.fmu)
 
 
+Listener = Callable[[int, str, str], None]  # fmi2Status, category, message
+
+
+class _Heard(list[bytes]):
+    """Messages as they come from an FMU, and who else is to have them."""
+
+    listener: Listener | None = None
+
+
 # fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
-_logs: dict[str, list[str]] = {}
+_logs: dict[str, _Heard] = {}
 _instances = itertools.count(1)
 
 
 def _log(_environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
     log = _logs.get((instance or b"").decode(errors="replace"))
     if log is not None and message:
-        log.append(message.decode(errors="replace").strip())
+        log.append(message)
+        if log.listener is not None:
+            log.listener(status, _text(category or b""), _text(message))
+
+
+def _text(message: bytes) -> str:
+    return message.decode(errors="replace").strip()
 
 
 _callbacks = fmi2.fmi2CallbackFunctions()
@@ -57,18 +80,22 @@ _callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
 addLoggerProxy(ctypes.byref(_callbacks))
 
 
-def instantiate(fmu: Fmu, name: str) -> Instance:
-    """Instantiate an FMU; ``name`` is the component's, made unique in the process."""
+def instantiate(fmu: Fmu, name: str, log: Log | None = None) -> Instance:
+    """Instantiate an FMU; ``name`` is the component's, made unique in the process. ``log`` has all that it says."""
     unique = f"{name}#{next(_instances)}"
-    _logs[unique] = []
+    _logs[unique] = _Heard()
+    if log is not None:
+        _logs[unique].listener = partial(log.write, name)
     library = None
     try:
         library = acquire(fmu)
         slave = library.slave(unique)
         slave.instantiate(callbacks=_callbacks, loggingOn=True)
+        if log is not None and log.everything:
+            slave.setDebugLogging(True, [])  # no categories named: all of them
     except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate
         if library is not None:
             release(fmu)
-        log = " | ".join([str(error), *_logs.pop(unique)])
-        raise InputError(fmu.label, name, f"cannot be instantiated: {log}", "see the FMU's log") from error
+        said = " | ".join([str(error), *map(_text, _logs.pop(unique))])
+        raise InputError(fmu.label, name, f"cannot be instantiated: {said}", "see the FMU's log") from error
     return Instance(fmu, library, slave, _logs[unique])

@@ -107,7 +107,8 @@ class Buffers(NamedTuple):
     values: np.ndarray  # float64 [s]
     whole: np.ndarray  # int32 [s]
     frozen: np.ndarray  # float64 [f], NaN until a freeze begins
-    outcome: np.ndarray  # int64 [5]: code, component or slot, function, fmi2Status, communication point
+    outcome: np.ndarray  # int64 [5]: code, component or slot, function, fmi2Status, communication point; in flight the
+    # component that steps and the point it steps to
     halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
 
 
@@ -172,6 +173,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                             outcome[1] = slot
                             return rows
             elif code == STEP:
+                outcome[1] = instructions[k, COMPONENT]
                 status = do_step(address, instance, time, step)
             elif code == GET_WHOLE:
                 status = exchange(address, instance, reference, whole, first, count)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow
@@ -16,6 +18,14 @@ from ..atomic import whole_file, write_atomically
 from ..errors import suggestion
 from ..system.names import elements, vectors
 
+if TYPE_CHECKING:
+    from ..ssp.parameter_sets import ParameterValue
+    from ..system.assignments import Settings
+    from ..system.faults import Fault
+    from ..system.prepared import PreparedSystem
+    from .program import Layout
+
+TIMED_OUT = "timed_out"
 COMPLETE = ("finished", "stop_time")
 
 
@@ -24,8 +34,9 @@ class Flight:
     """One flight in memory. Row n of every signal is its value at ``time[n]`` (s).
 
     ``status`` is ``finished`` (the system's own end), ``stop_time``, ``nonfinite`` (a component
-    gave NaN or infinity), ``failed`` (an FMU reported an error) or ``interrupted`` (by Ctrl-C); ``message`` explains
-    the last three. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
+    gave NaN or infinity), ``failed`` (an FMU reported an error), ``interrupted`` (by Ctrl-C) or ``timed_out`` (it took
+    longer than it may); ``message`` explains the last four. ``signals`` are float64, Integer and Boolean values
+    included; ``types`` are FMI's.
     """
 
     time: np.ndarray
@@ -107,3 +118,36 @@ class Result(Flight):
             units = {"time": "s"} | {name: unit for name, unit in self.units.items() if unit}
             text = json.dumps(self.summary() | {"units": units}, indent=1)
             write_atomically(path.with_name(f"{path.name}.json"), f"{text}\n".encode())
+
+
+def provenance_of(
+    prepared: PreparedSystem, settings: Settings, layout: Layout, faults: Sequence[Fault | None]
+) -> dict[str, Any]:
+    """Parameter values, hashes, options and version: what a flight depends on."""
+    values: dict[str, ParameterValue] = {}
+    for (component, variable), value in settings.variables.items():
+        position = layout.parameters.get((component, variable))
+        if position is not None:
+            kind = layout.parameter_types[component, variable]
+            array = layout.real_values if kind == "Real" else layout.whole_values
+            value = array[position].item()
+            value = bool(value) if kind == "Boolean" else value
+        values[f"{component}.{variable}"] = value
+    return {
+        "system": prepared.archive.name,
+        "system_sha256": prepared.archive.digest,
+        "fmus": {
+            name: {"fmu": fmu.name, "sha256": fmu.digest, "guid": fmu.description.guid}
+            for name, fmu in prepared.network.fmus.items()
+        },
+        "parameters": values,
+        "start_time": prepared.start,
+        "step": prepared.step,
+        "stop_time": prepared.start + prepared.steps * prepared.step,
+        "variant": prepared.options.variant,
+        "no_feedthrough": list(prepared.options.no_feedthrough),
+        "faults": [str(fault) for fault in faults if fault is not None],
+        "algorithm": prepared.options.algorithm,
+        **(prepared.drive.facts() if prepared.drive is not None else {}),
+        "perilune": version("perilune"),
+    }

@@ -5,10 +5,10 @@ from __future__ import annotations
 import threading
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
+from numba import typeof
 
 from ..errors import InputError
 from ..ssp.parameter_sets import ParameterValue, parse_value
@@ -17,8 +17,9 @@ from ..system.prepared import PreparedSystem, no_collection
 from . import loop
 from .injections import NEVER, of_excitation, of_fault
 from .instance import Instance, instantiate
+from .log import Log, status_word
 from .program import build_program
-from .results import Flight, Result
+from .results import Flight, Result, provenance_of
 
 STATUS = {
     loop.STOP_TIME: "stop_time",
@@ -28,7 +29,6 @@ STATUS = {
     loop.UNMAPPED: "failed",
     loop.INTERRUPTED: "interrupted",
 }
-FMI_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
 FMI_FATAL = 4
 NOTHING = np.zeros((0, 0))  # no excitation
 TIME_MARGIN = 1e-6  # of a step: communication points, start + n h, carry rounding
@@ -40,7 +40,8 @@ class Simulation:
     ``varied`` names the parameters (``component.variable``) that `fly` may be given anew;
     ``wanted`` the signals to record (None: all outputs, connected inputs and system connectors);
     ``faults`` those that fly unless `set_faults` says otherwise; ``excited`` the connectors that `advance` may
-    add signals to. Use it as a context manager: it frees the instances. Not shared between threads.
+    add signals to; ``log`` is told what the FMUs say. Use it as a context manager: it frees the instances. Not
+    shared between threads.
     """
 
     def __init__(
@@ -51,6 +52,7 @@ class Simulation:
         wanted: Collection[str] | None = None,
         faults: Sequence[Fault] = (),
         excited: Sequence[str] = (),
+        log: Log | None = None,
     ) -> None:
         self.prepared = prepared
         self.settings = prepared.settings
@@ -63,6 +65,7 @@ class Simulation:
         self._declared = faults
         self._faults: Sequence[Fault | None] = faults
         self._excitations = [of_excitation(name, column) for column, name in enumerate(excited)]
+        self._log = log
         with no_collection():
             self._instantiate()
 
@@ -91,7 +94,7 @@ class Simulation:
     def _instantiate(self) -> None:
         prepared = self.prepared
         for name, fmu in prepared.network.fmus.items():
-            self.instances[name] = instantiate(fmu, name)
+            self.instances[name] = instantiate(fmu, name, self._log)
         faults = [of_fault(fault, TIME_MARGIN * prepared.step) for fault in self._declared]
         self.program, self.layout = build_program(
             prepared.network,
@@ -119,7 +122,10 @@ class Simulation:
             outcome=np.zeros(5, dtype=np.int64),
             halt=np.zeros(1, dtype=np.int64),
         )
-        self._record = np.empty((0, 0))
+        self._record, self._times = np.empty((0, 0)), np.empty(0)
+        self._unlocked = False
+        if self._log is not None:
+            self._log.follow(self.buffers.outcome, prepared.start, prepared.step)
         self._fresh = True
         self._under_way = threading.Lock()
 
@@ -135,9 +141,17 @@ class Simulation:
             provenance=self.provenance(),
         )
 
-    def interrupt(self) -> None:
+    def interrupt(self, halt: bool = True) -> None:
         """End the flight that is under way in another thread at its next communication point, and all later ones."""
-        self.buffers.halt[0] = 1
+        self.buffers.halt[0] = halt
+
+    def unlock(self) -> None:
+        """Have the loop compiled, and flying without the interpreter lock, which Python FMUs take themselves.
+
+        So that other threads run whatever a step does, and a clock measures flights alone.
+        """
+        self._unlocked = True
+        self._function().compile(tuple(typeof(part) for part in self._arguments(-1, 0, 1, False, NOTHING)))
 
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
         """The flight alone, for batches; see `fly`."""
@@ -190,10 +204,29 @@ class Simulation:
                 remedy = "give a longer step or an earlier --stop-time"
                 raise InputError("--step", f"{prepared.step:g}", problem, remedy) from error
         for instance in self.instances.values():
-            instance.messages.clear()
-        function = loop.fly_unlocked if prepared.is_native else loop.fly_locked
+            instance.said.clear()
         self._under_way.acquire()
-        count = function(
+        count = self._function()(*self._arguments(first, last, every, reset, excitation))
+        self._under_way.release()
+        self._fresh = False
+        status, message = self._end()
+        flight = Flight(
+            time=self._times[:count],
+            signals={name: self._record[:count, index] for index, name in enumerate(self.signal_names)},
+            types=self._types,
+            status=status,
+            message=message,
+        )
+        if self.buffers.outcome[0] == loop.FAILED and self.buffers.outcome[3] >= FMI_FATAL:
+            self._replace_instances()
+        return flight
+
+    def _function(self) -> Any:
+        return loop.fly_unlocked if self.prepared.is_native or self._unlocked else loop.fly_locked
+
+    def _arguments(self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray) -> tuple:
+        prepared = self.prepared
+        return (
             self.program,
             self.buffers,
             loop.Settings(self.layout.real_values, self.layout.whole_values),
@@ -208,19 +241,6 @@ class Simulation:
             loop.Recording(self._recorded, every, self._record, self._times),
             excitation if excitation.size else np.zeros((0, len(self._excitations))),
         )
-        self._under_way.release()
-        self._fresh = False
-        status, message = self._end()
-        flight = Flight(
-            time=self._times[:count],
-            signals={name: self._record[:count, index] for index, name in enumerate(self.signal_names)},
-            types=self._types,
-            status=status,
-            message=message,
-        )
-        if self.buffers.outcome[0] == loop.FAILED and self.buffers.outcome[3] >= FMI_FATAL:
-            self._replace_instances()
-        return flight
 
     def _set_strings(self, reset: bool) -> bool:
         """Reset here and set String parameters, which the compiled loop does not know; returns False."""
@@ -247,9 +267,7 @@ class Simulation:
         if code == loop.FAILED:
             component = list(self.instances)[subject]
             log = " | ".join(self.instances[component].messages) or "no message in its log"
-            known = 0 <= fmi_status < len(FMI_STATUS)
-            word = FMI_STATUS[fmi_status] if known else f"{fmi_status}, a status that FMI does not have"
-            call = f"{loop.FUNCTION_NAMES[function]} returned {word}"
+            call = f"{loop.FUNCTION_NAMES[function]} returned {status_word(fmi_status)}"
             return STATUS[code], f"{component}: {call} at t = {time:g} s: {log}"
         return STATUS[code], ""
 
@@ -263,34 +281,7 @@ class Simulation:
 
     def provenance(self) -> dict[str, Any]:
         """Parameter values, hashes, options and version: what the result depends on."""
-        prepared = self.prepared
-        values: dict[str, ParameterValue] = {}
-        for (component, variable), value in self.settings.variables.items():
-            position = self.layout.parameters.get((component, variable))
-            if position is not None:
-                kind = self.layout.parameter_types[component, variable]
-                array = self.layout.real_values if kind == "Real" else self.layout.whole_values
-                value = array[position].item()
-                value = bool(value) if kind == "Boolean" else value
-            values[f"{component}.{variable}"] = value
-        return {
-            "system": prepared.archive.name,
-            "system_sha256": prepared.archive.digest,
-            "fmus": {
-                name: {"fmu": fmu.name, "sha256": fmu.digest, "guid": fmu.description.guid}
-                for name, fmu in prepared.network.fmus.items()
-            },
-            "parameters": values,
-            "start_time": prepared.start,
-            "step": prepared.step,
-            "stop_time": prepared.start + prepared.steps * prepared.step,
-            "variant": prepared.options.variant,
-            "no_feedthrough": list(prepared.options.no_feedthrough),
-            "faults": [str(fault) for fault in self._faults if fault is not None],
-            "algorithm": prepared.options.algorithm,
-            **(prepared.drive.facts() if prepared.drive is not None else {}),
-            "perilune": version("perilune"),
-        }
+        return provenance_of(self.prepared, self.settings, self.layout, self._faults)
 
     def close(self) -> None:
         """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""

@@ -21,6 +21,7 @@ STATUS_WORDS = {
     "stop_time": "Ran to its stop time; the system did not end by itself.",
     "nonfinite": "Broke off: a component gave a value that is not a finite number.",
     "failed": "Broke off: an FMU reported an error.",
+    "timed_out": "Broke off: it took longer than --timeout lets it.",
     "interrupted": "Broke off: it was interrupted from the keyboard.",
 }
 KEY_VECTORS = ("position", "velocity")
