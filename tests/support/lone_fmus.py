@@ -1,4 +1,4 @@
-"""FMUs to fly alone, by pythonfmu: one that is dynamic, one whose outputs follow inputs at once, one that hangs."""
+"""FMUs to fly alone, by pythonfmu: dynamic, with outputs that follow inputs at once, one that hangs, one that talks."""
 
 from __future__ import annotations
 
@@ -84,8 +84,36 @@ class Hanging(Fmi2Slave):
         return True
 """
 
+TALKING = """
+from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
+from pythonfmu.enums import Fmi2Status
+
+
+class Talking(Fmi2Slave):
+    def __init__(self, **keywords):
+        super().__init__(**keywords)
+        self.y, self.fails_at = 0.0, 1e9
+        self.register_variable(Real("y", causality=Fmi2Causality.output))
+        self.register_variable(
+            Real("fails_at", causality=Fmi2Causality.parameter, variability=Fmi2Variability.tunable)
+        )
+
+    def exit_initialization_mode(self):
+        self.log("ready", Fmi2Status.ok, "logAll")
+
+    def do_step(self, current_time, step_size):
+        self.y = current_time + step_size
+        self.log(f"stepped to {self.y}", Fmi2Status.ok, "logAll")
+        if abs(self.y - 0.5) < 1e-9:
+            self.log("half way", Fmi2Status.warning)
+        if self.y >= self.fails_at:
+            self.log("too far\\nthat is", Fmi2Status.error)
+            return False
+        return True
+"""
+
 VARIABLE_STEPS = "canHandleVariableCommunicationStepSize"
-SOURCES = {"Dynamic": DYNAMIC, "Follower": FOLLOWER, "Hanging": HANGING}
+SOURCES = {"Dynamic": DYNAMIC, "Follower": FOLLOWER, "Hanging": HANGING, "Talking": TALKING}
 
 
 def build_lone_fmu(name: str, folder: Path, experiment: str = "") -> Path:
