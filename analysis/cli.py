@@ -38,7 +38,7 @@ VERBS = {
 FAILURES = {
     "plan": "there is no such plan, or less propellant on board than it takes",
     "run": "the flight failed, or a requirement is not met",
-    "batch": "a requirement is not met",
+    "batch": "a requirement is not met, or a flight took longer than --timeout",
     "synthesize": "no law was found with every trial a success",
     "stability": "a requirement is not met, or a point could not be studied",
 }

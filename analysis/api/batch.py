@@ -22,6 +22,8 @@ from ..reports.batch.plots import metric_plot
 from ..reports.kit.quantities import number
 from ..ssp.parameter_sets import ParameterValue
 from ..system.faults import Fault
+from ..system.series import Given, read_series
+from ..system.watch import Watch
 from ..targets import check_folder
 from .notebook import Grid, metric_grid, notebook_view
 from .options import FilePath, system_options
@@ -94,6 +96,9 @@ def batch(
     parameters: Sequence[FilePath] = (),
     set: Mapping[str, ParameterValue] | None = None,
     faults: Sequence[Fault] = (),
+    input: Given | None = None,
+    log: Literal["error", "warning", "info", "all"] | None = None,
+    timeout: float | None = None,
     step: float | None = None,
     stop_time: float | None = None,
     algorithm: Literal["sequential", "jacobi"] | None = None,
@@ -108,7 +113,8 @@ def batch(
 
     ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for trials.parquet,
     draws.parquet and summary.json, refused if it holds results unless ``overwrite``; ``faults`` fly in every trial,
-    after the campaign's own. The rest is as in `simulate`. Raises InputError.
+    after the campaign's own, and every trial has the same ``input``; one that takes longer than ``timeout`` (s, wall
+    clock) ends ``timed_out``, is no success, and the next one flies. The rest is as in `simulate`. Raises InputError.
     """
     folder = Path(output) if output is not None else None
     check_folder("output", folder, overwrite=overwrite)
@@ -116,7 +122,10 @@ def batch(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
-    plan = read_plan(Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults)
+    plan = read_plan(
+        Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults,
+        series=None if input is None else read_series(input), watch=Watch(timeout, log),
+    )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder
         result = BatchResult(**vars(run_batch(plan, workers=workers, output=folder)))
     if folder is not None:

@@ -15,6 +15,7 @@ from ..describe.variables import variables_of
 from ..errors import InputError, suggestion
 from ..ssp.archive import system_names
 from ..ssp.parameter_sets import ParameterValue
+from ..system.alone import describe_alone
 from ..system.fmu import load_fmu
 from ..system.options import SystemOptions
 from ..system.prepared import find_fmu, prepare_system
@@ -42,7 +43,8 @@ def describe(
 
     ``what`` is a system, an FMU by name or file, or an interface by name; ``component`` one of a system, with all its
     variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, loops; of an FMU
-    or a component ``variables``; of a slot ``fmus`` too. The rest is as in `simulate`. Raises InputError.
+    or a component ``variables``, and how an FMU flies ``alone`` (s); of a slot ``fmus`` too. The rest is as in
+    `simulate`. Raises InputError.
     """
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
@@ -56,7 +58,7 @@ def described(what: str, component: str | None, options: SystemOptions) -> dict[
     if what.endswith(".fmu") or what in catalogue() or what in fmu_flavours():
         if component is not None:
             raise InputError("describe", component, "an FMU has no components", "name a system before it")
-        return _fmu(what, options.flavour)
+        return _fmu(what, options)
     if what in slots():
         return _slot(what)
     if what in system_names() or Path(what).exists():
@@ -65,14 +67,21 @@ def described(what: str, component: str | None, options: SystemOptions) -> dict[
     raise InputError("describe", what, "no system, FMU or slot of this name", suggestion(what, known))
 
 
-def _fmu(what: str, flavour: str | None) -> dict[str, Any]:
-    data, label = find_fmu(what, flavour, "describe")
+def _fmu(what: str, options: SystemOptions) -> dict[str, Any]:
+    data, label = find_fmu(what, options.flavour, "describe")
     fmu = load_fmu(data, label)
+    alone, _ = describe_alone(fmu, options)
     return {
         "fmu": fmu.name,
         "file": label,
         "description": fmu.description.description or "",
         "native": fmu.is_native,
+        "alone": {
+            "component": alone.system.name,
+            "start_time": alone.start_time,
+            "stop_time": alone.stop_time if options.stop_time is None else options.stop_time,
+            "step": alone.step if options.step is None else options.step,
+        },
         "variables": variables_of(fmu),
     }
 

@@ -11,6 +11,7 @@ from typing import Literal
 from matplotlib.figure import Figure as Plot
 
 from ..flight import results
+from ..flight.instances.log import Log
 from ..flight.interruptible import fly
 from ..flight.simulation import Simulation
 from ..reports.own.asked.declared import Figure
@@ -24,6 +25,8 @@ from ..reports.run.trajectory import trajectory_plot
 from ..ssp.parameter_sets import ParameterValue
 from ..system.faults import Fault
 from ..system.prepared import prepare_system
+from ..system.series import Given, read_series
+from ..system.watch import Watch
 from .notebook import Grid, notebook_view, value_text
 from .options import FilePath, system_options
 
@@ -83,6 +86,9 @@ def simulate(
     parameters: Sequence[FilePath] = (),
     set: Mapping[str, ParameterValue] | None = None,
     faults: Sequence[Fault] = (),
+    input: Given | None = None,
+    log: Literal["error", "warning", "info", "all"] | None = None,
+    timeout: float | None = None,
     step: float | None = None,
     stop_time: float | None = None,
     algorithm: Literal["sequential", "jacobi"] | None = None,
@@ -93,18 +99,25 @@ def simulate(
     open_inputs: Literal["refuse", "start"] = "refuse",
     no_feedthrough: Sequence[str] = (),
 ) -> Result:
-    """Fly a system once: `perilune run`.
+    """Fly a system, or an FMU alone, once: `perilune run`.
 
-    ``system`` is a name under ssp_systems, a folder or an .ssp; ``use`` maps components to FMUs (block names or
+    ``system`` is a name under ssp_systems, a folder, an .ssp or .fmu; ``use`` maps components to FMUs (block names or
     paths), ``parameters`` lists parameter sets (names of the system's, or paths), ``set`` maps ``component.variable``
-    to values in SI units; ``step`` and ``stop_time`` are in s. Raises InputError; a flight that fails comes back with
-    its ``status``.
+    to values in SI units; ``step`` and ``stop_time`` are in s. ``input`` are inputs over time: the path of a CSV file,
+    a structured array or columns by name, ``time`` (s) and inputs that nothing is connected to. ``log``
+    writes what FMUs say to standard error, from this level on; ``timeout`` (s, wall clock) ends the flight at its next
+    communication point. Raises InputError, and TimeoutError where a step of an FMU does not return; a flight that
+    fails comes back with its ``status``.
     """
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
-    prepared = prepare_system(Path(system), options)
+    prepared = prepare_system(Path(system), options, series=None if input is None else read_series(input))
     figures = tuple(read_figures(prepared))
-    with chdir(Path.cwd()), Simulation(prepared, faults=faults) as simulation:  # an FMU may change the folder
-        return Result(**vars(fly(simulation)), system=prepared.archive.name, figures=figures)
+    watch, lines = Watch(timeout, log), None if log is None else Log(log)
+    with (
+        chdir(Path.cwd()),
+        Simulation(prepared, faults=faults, log=lines) as simulation,
+    ):  # an FMU may change the folder
+        return Result(**vars(fly(simulation, watch.timeout)), system=prepared.archive.name, figures=figures)

@@ -29,7 +29,7 @@ from ..system.options import SystemOptions
 from ..system.prepared import prepare_system
 from .options import FilePath, system_options
 
-FILES = (".fmu", ".ssv", ".json", ".toml")  # that are no systems
+FILES = (".ssv", ".json", ".toml")  # that are no systems
 
 
 def validate(
@@ -72,12 +72,14 @@ def _check(path: str, options: SystemOptions) -> dict[str, Any]:
         if path.endswith(FILES) and replace(options, strict=False) != SystemOptions():
             raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
         if path.endswith(".fmu"):
-            notes += _reset_note(load_fmu(_read(path), path), path)
+            fmu = load_fmu(_read(path), path)
             flaws = [f"{path}: modelDescription.xml: {' '.join(text.split())}" for text in validate_fmu(path)]
             if options.strict:
                 problems += [f"{flaw}; mend the FMU's modelDescription.xml" for flaw in flaws]
             else:
                 notes += flaws
+            notes += prepare_system(path, options, {path: fmu}).remarks
+            notes += _reset_note(fmu, path)
         elif path.endswith(".ssv"):
             read_parameter_file(_read(path), path)
         elif path.endswith(".json"):

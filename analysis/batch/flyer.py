@@ -10,6 +10,8 @@ import numpy as np
 from ..campaign.metrics import evaluate_metrics, succeeded
 from ..campaign.plan import BatchPlan, VariantNames, variant_names
 from ..flight.instances.library import LOADING
+from ..flight.instances.log import Log
+from ..flight.interruptible import StuckError, fly, nothing_flown, run
 from ..flight.results import Flight, Result
 from ..flight.simulation import Simulation
 from ..ssp.parameter_sets import ParameterValue
@@ -37,6 +39,7 @@ class Flyer:
         self.plan = plan
         self.variants = {variant.name: variant for variant in plan.campaign.variants()}
         self._ready: dict[str, tuple[Simulation, VariantNames]] = {}
+        self._logs: dict[str, Log] = {}
         self.halted = False
 
     def simulation(self, variant: str) -> tuple[Simulation, VariantNames]:
@@ -50,8 +53,18 @@ class Flyer:
                 everything = self.plan.campaign.record.traces != "none"
                 wanted = None if everything else {*names.signals, *names.statuses}
                 faults = self.plan.declared_faults()
-                self._ready[variant] = Simulation(prepared, varied=names.varied, wanted=wanted, faults=faults), names
+                log = self._log_of(variant)
+                simulation = Simulation(prepared, varied=names.varied, wanted=wanted, faults=faults, log=log)
+                self._ready[variant] = simulation, names
         return self._ready[variant]
+
+    def _log_of(self, variant: str) -> Log | None:
+        """Where the FMUs of a variant write, if they are asked to."""
+        if self.plan.watch.log is None:
+            return None
+        self._logs[variant] = Log(self.plan.watch.log)
+        self._logs[variant].place = f"{variant}: "
+        return self._logs[variant]
 
     def interrupt(self) -> None:
         """End what flies in another thread at its next communication point."""
@@ -89,17 +102,26 @@ class Flyer:
         the variant's last flight.
         """
         simulation, names = self.simulation(variant)
+        if variant in self._logs:
+            self._logs[variant].place = f"{variant}: trial {trial}: "
         simulation.set_faults(self.plan.faults_of(trial))
         parameters = {**self.plan.parameters(simulation.prepared, trial), **(overlay or {})}
-        return self._judge(simulation.run(parameters), names, trial)
+        try:
+            flight = run(simulation, parameters, self.plan.watch.timeout)
+        except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
+            del self._ready[variant]
+            flight = nothing_flown(simulation, str(error))
+        return self._judge(flight, names, trial)
 
     def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
         """Fly one trial with every signal recorded; same bits as in the batch."""
         prepared = self.plan.prepare(self.variants[variant])
         names = variant_names(self.plan, prepared)
-        with Simulation(prepared, varied=names.varied, faults=self.plan.declared_faults()) as simulation:
+        faults, log = self.plan.declared_faults(), self._log_of(variant)
+        with Simulation(prepared, varied=names.varied, faults=faults, log=log) as simulation:
             simulation.set_faults(self.plan.faults_of(trial))
-            result = simulation.fly(self.plan.parameters(prepared, trial))
+            simulation.set(self.plan.parameters(prepared, trial))
+            result = fly(simulation, self.plan.watch.timeout)
         return result, self._judge(result, names, trial)
 
     def _judge(self, result: Flight, names: VariantNames, trial: int) -> TrialResult:

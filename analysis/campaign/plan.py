@@ -16,6 +16,8 @@ from ..ssp.archive import open_system
 from ..system.faults import Fault, check_fault
 from ..system.options import Layer, SystemOptions
 from ..system.prepared import PreparedSystem, prepare_system
+from ..system.series import InputSeries
+from ..system.watch import UNWATCHED, Watch
 from .campaign import Campaign, Variant
 from .draws import DrawTable, draw_table, stream_numbers
 from .faults import DrawnFault, check_drawn, drawn_fault
@@ -32,7 +34,8 @@ class BatchPlan:
     ``options`` are the user's system options, which come after the campaign's own and win; draws
     win over parameter sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names
     parameters that whoever flies the plan gives anew with every flight. ``faults`` are the user's, which fly in
-    every trial after the campaign's own.
+    every trial after the campaign's own, ``series`` the inputs over time that all trials have; ``watch`` is how each
+    is watched.
     """
 
     system: str
@@ -41,6 +44,8 @@ class BatchPlan:
     campaign_sha256: str = ""
     overlaid: tuple[str, ...] = ()
     faults: tuple[Fault, ...] = ()
+    series: InputSeries | None = None
+    watch: Watch = UNWATCHED
 
     @cached_property
     def draws(self) -> DrawTable:
@@ -84,7 +89,7 @@ class BatchPlan:
     def prepare(self, variant: Variant) -> PreparedSystem:
         """The system as one variant flies it. Raises InputError."""
         options = self.options.among(campaign=self.campaign.layer, study=Layer(use=variant.use))
-        return prepare_system(self.system, options)
+        return prepare_system(self.system, options, series=self.series)
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of one trial: draws, and seed and stream of every component that has them."""
@@ -105,10 +110,12 @@ def read_plan(
     seed: int | None = None,
     compare: Mapping[str, Sequence[str]] | None = None,
     faults: Sequence[Fault] = (),
+    series: InputSeries | None = None,
+    watch: Watch | None = None,
 ) -> BatchPlan:
     """Read a campaign by name or path, with the command line's changes. Raises InputError.
 
-    ``compare`` replaces the campaign's own comparison, ``faults`` come after its own.
+    ``compare`` replaces the campaign's own comparison, ``faults`` come after its own, ``series`` are inputs over time.
     """
     archive = open_system(system)
     data, label = archive.campaign(campaign)
@@ -117,7 +124,7 @@ def read_plan(
     except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
     read = parse_campaign(table)
-    if read.system.removesuffix(".ssp") != archive.name:
+    if read.system.removesuffix(".ssp").removesuffix(".fmu") != archive.name:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
     changes: dict = {}
     if trials is not None:
@@ -129,7 +136,10 @@ def read_plan(
     if compare is not None:
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
     changed = replace(read, **changes)
-    return BatchPlan(str(system), changed, options, hashlib.sha256(data).hexdigest(), faults=tuple(faults))
+    digest = hashlib.sha256(data).hexdigest()
+    return BatchPlan(
+        str(system), changed, options, digest, faults=tuple(faults), series=series, watch=watch or UNWATCHED
+    )
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
@@ -166,6 +176,9 @@ def _check_varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> None:
         ]
     if name not in known:
         raise InputError(plan.campaign.file, name, "no such parameter in the system", suggestion(name, known))
+    if name in prepared.network.driven:
+        problem = f"is driven by column {prepared.network.driven[name]} of the inputs over time"
+        raise InputError(plan.campaign.file, name, problem, "leave out the column or the draw")
     if name not in plan.draws.columns:  # seed, stream or overlaid
         return
     values = np.asarray(plan.draws.columns[name], dtype=float)
@@ -216,6 +229,8 @@ def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
 
 def _is_signal(prepared: PreparedSystem, name: str) -> bool:
     """Whether a connector's value comes from a connection or is a system's input."""
+    if name in prepared.network.driven:
+        return True
     node = prepared.network.nodes.get(name)
     if node is None or node.kind in ("parameter", "calculatedParameter"):
         return False

@@ -10,14 +10,18 @@ from typing import Any
 import numpy as np
 
 from ..batch.flyer import Flyer
+from ..batch.results import BatchResult
 from ..batch.runner import run_batch
 from ..batch.summary import TrialColumns, requirement_values, summarise
 from ..batch.tables import faults_line
 from ..campaign.expressions import Expression
 from ..campaign.plan import BatchPlan, check_plan, read_plan
 from ..errors import InputError
+from ..flight.interruptible import StuckError
+from ..flight.results import TIMED_OUT
 from ..reports.batch.batch_report import write_batch_report
 from ..targets import Results, check_file, check_folder
+from .common.in_flight import series, watch
 from .common.options import check_json, faults, json_number, pairs, system_options, write_json
 from .common.requirements import check_requirements, read_requirements
 
@@ -38,6 +42,8 @@ def run(options: argparse.Namespace) -> int:
         seed=options.seed,
         compare=compare,
         faults=faults(options),
+        series=series(options),
+        watch=watch(options),
     )
     if options.replay is not None:
         for name in ("require", "report"):
@@ -58,6 +64,10 @@ def run(options: argparse.Namespace) -> int:
             print(
                 f"perilune: {variant}: {len(trials.messages)} flights failed; trial {trial}: {message}", file=sys.stderr
             )
+    late = timed_out(result)
+    for variant, count in late.items():
+        limit = f"{plan.watch.timeout:g} s of --timeout"
+        print(f"perilune: {variant}: {count} flights took longer than the {limit}; give them longer", file=sys.stderr)
     values = requirement_values(result.summary)
     # a status that no trial had is not in the summary: it counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
@@ -65,7 +75,7 @@ def run(options: argparse.Namespace) -> int:
     if result.interrupted:
         flown, planned = result.plan.campaign.trials, plan.campaign.trials
         print(f"perilune: interrupted: the first {flown} of {planned} trials were flown", file=sys.stderr)
-    return 2 if files.failed else 0 if met and not result.interrupted else 1
+    return 2 if files.failed else 0 if met and not result.interrupted and not late else 1
 
 
 def _requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
@@ -79,6 +89,15 @@ def _requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
     return read_requirements(texts, known, statuses)
 
 
+def timed_out(result: BatchResult) -> dict[str, int]:
+    """How many flights of each variant took longer than they may; those without any are left out."""
+    counts = {
+        variant: sum(status.startswith(TIMED_OUT) for status in trials.statuses)
+        for variant, trials in result.trials.items()
+    }
+    return {variant: count for variant, count in counts.items() if count}
+
+
 def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
     """Fly one trial of every variant again, every signal recorded."""
     trial = options.replay
@@ -89,7 +108,11 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
     flyer = Flyer(plan)
     document: dict[str, dict[str, Any]] = {}
     for variant in flyer.variants:
-        result, found = flyer.replay(variant, trial)
+        try:
+            result, found = flyer.replay(variant, trial)
+        except StuckError as error:
+            print(f"perilune: {variant}: trial {trial}: {error}; nothing of it is written", file=sys.stderr)
+            return 1
         if options.output is not None:
             result.write(files.home / options.output / f"{variant}_{trial:06d}.parquet")
         metrics = {name: json_number(value) for name, value in found.metrics.items()}

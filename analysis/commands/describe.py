@@ -34,6 +34,9 @@ def _print(document: dict[str, Any]) -> None:
         _print_connections(document)
     else:
         print(f"{document['fmu']}: {document['description']}")
+        alone = document["alone"]
+        times = f"{alone['start_time']:g} s to {alone['stop_time']:g} s in steps of {alone['step']:g} s"
+        print(f"flies alone as {alone['component']}, {times}: perilune run {document['file']}")
     _print_variables(document["variables"])
 
 

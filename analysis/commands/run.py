@@ -6,7 +6,8 @@ import argparse
 import sys
 
 from ..batch.tables import faults_line
-from ..flight.interruptible import fly
+from ..flight.instances.log import Log
+from ..flight.interruptible import StuckError, fly
 from ..flight.simulation import Simulation
 from ..reports.own.asked.reading import read_figures
 from ..reports.own.asked.stages import Limits
@@ -14,6 +15,7 @@ from ..reports.own.limit_table import limit_lines
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
 from ..targets import Results, check_file
+from .common.in_flight import series, watch
 from .common.options import check_json, faults, json_number, system_options, write_json
 from .common.requirements import check_requirements, read_requirements
 
@@ -21,7 +23,9 @@ OUTPUT_SUFFIXES = (".csv", ".parquet")
 REMEDIES = {
     "nonfinite": "see what drives it with --output F.csv",
     "interrupted": "what was flown until then is in the files",
+    "timed_out": "what was flown until then is in the files; give it longer, or see what takes so long with --log",
 }
+STUCK = "nothing is written; see what it says with --log all, or give it longer"
 
 
 def run(options: argparse.Namespace) -> int:
@@ -29,16 +33,24 @@ def run(options: argparse.Namespace) -> int:
     check_file("--report", options.report)
     check_json(options)
     files = Results()
-    prepared = prepare_system(options.system, system_options(options))
+    prepared = prepare_system(options.system, system_options(options), series=series(options))
     figures = read_figures(prepared)
     injected = faults(options)
-    with Simulation(prepared, faults=injected) as simulation:
+    asked = watch(options)
+    log = None if asked.log is None else Log(asked.log)
+    with Simulation(prepared, faults=injected, log=log) as simulation:
         requirements = read_requirements(options.require, [*simulation.signal_names, "time"])
-        result = fly(simulation)
+        try:
+            result = fly(simulation, asked.timeout)
+        except StuckError as error:
+            print(f"perilune: {prepared.network.file}: {error}; {STUCK}", file=sys.stderr)
+            return 1
     final = {name: json_number(value) for name, value in result.final().items()}
     if not write_json(result.summary() | {"final": final}, options.json, files):
         end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
         print(f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows")
+        for remark in prepared.remarks:
+            print(f"note: {remark}")
         for limits in figures if result.time.size else ():
             if isinstance(limits, Limits):
                 print("\n".join(limit_lines(limits, result)))

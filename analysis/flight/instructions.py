@@ -31,7 +31,8 @@ class InstructionList:
     connection that feeds a component, in order, its instruction code, the component that its value
     comes from (-1: a system's constant input), source and target slot; the last entry is for
     system connectors.
-    Connections and ``fault_slots`` are numbered as in the program's arrays; the parameters of ``one_by_one``
+    Connections and ``fault_slots`` are numbered as in the program's arrays; ``drives`` [component] are (first, count)
+    of the inputs driven over time, the last entry of those of system connectors; the parameters of ``one_by_one``
     are read back each in a call of its own.
     """
 
@@ -42,6 +43,7 @@ class InstructionList:
         parameter_ranges: np.ndarray,
         connections: Sequence[Sequence[tuple[int, int, int, int]]],
         fault_slots: Sequence[int],
+        drives: Sequence[tuple[int, int]],
         one_by_one: Collection[int] = (),
     ) -> None:
         self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
@@ -51,6 +53,7 @@ class InstructionList:
         self.firsts = np.cumsum([0, *(len(group) for group in connections)]).tolist()
         self.fault_slots = fault_slots
         self.one_by_one = one_by_one
+        self.drives = drives
         self.rows: list[list[int]] = []
 
     def array(self) -> np.ndarray:
@@ -85,6 +88,15 @@ class InstructionList:
                 run = [code, 0, 0, number, 1, group, 0]
                 self.rows.append(run)
 
+    def drive(self, group: int, *, started: bool) -> None:
+        """The values over time of a component's driven inputs; group -1: of system connectors.
+
+        Before all has ``started`` they are the initialisation's, then those of the communication point.
+        """
+        first, count = self.drives[group]
+        if count:
+            self.rows.append([loop.DRIVE, int(started), 0, first, count, 0, 0])
+
     def inject(self, piece: Sequence[int]) -> None:
         """The faults on a piece of slots."""
         for number, slot in enumerate(self.fault_slots):
@@ -92,7 +104,8 @@ class InstructionList:
                 self.rows.append([loop.INJECT, 0, 0, number, 1, 0, 0])
 
     def set(self, component: int, known: Collection[int] | None = None) -> None:
-        """Inputs of a component; those whose source is not ``known`` keep their start values."""
+        """Inputs of a component; in the initialisation those whose source is not ``known`` keep their start values."""
+        self.drive(component, started=known is None)
         self.connect(component, known)
         for function in (FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"]):
             piece = self.ranges[component, function]
@@ -146,6 +159,7 @@ class InstructionList:
             self.call(loop.SETUP, component, FUNCTION["SetupExperiment"])
             self.call(loop.MODE, component, FUNCTION["EnterInitializationMode"])
             self.parameters(component, 2)  # again: there are FMUs that lose what they were given before
+        self.drive(-1, started=False)
         known = {-1}
         for component in order:
             self.set(component, known)
@@ -195,11 +209,13 @@ def write_instructions(
     ahead = range(len(names)) if algorithm == "jacobi" else sources
     behind = [] if algorithm == "jacobi" else [index[name] for name in schedule.followers]
     instructions.initialise([index[name] for name in schedule.initial_order])
+    instructions.drive(-1, started=True)
     instructions.hand_over(ahead)
     ends = [len(instructions.rows)]
     lengths = {index[name]: period for name, period in periods.items()}
     for part in range(math.lcm(*lengths.values())):
         due = [component for component in ahead if (part + 1) % lengths.get(component, 1) == 0]
+        instructions.drive(-1, started=True)
         instructions.side_by_side(due, lengths)
         instructions.in_turn([n for n in behind if (part + 1) % lengths.get(n, 1) == 0], lengths)
         instructions.hand_over(due)

@@ -1,25 +1,79 @@
-"""Flights off the main thread, which stays free to hear Ctrl-C."""
+"""Flights off the caller's thread, which stays free to hear Ctrl-C and to look at the clock."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from dataclasses import replace
+from functools import partial
 from typing import TypeVar
 
-from .results import Result
+import numpy as np
+
+from ..ssp.parameter_sets import ParameterValue
+from .results import TIMED_OUT, Flight, Result
 from .simulation import Simulation
 
 Found = TypeVar("Found")
+Flown = TypeVar("Flown", bound=Flight)
 PATIENCE = 1.5  # s that a flight has to reach its next communication point
 
 
-def fly(simulation: Simulation) -> Result:
+class StuckError(TimeoutError):
+    """A step of an FMU that does not return; the flight's thread and instances are lost. The message says when."""
+
+
+def fly(simulation: Simulation, timeout: float | None = None) -> Result:
     """One flight. Ctrl-C ends it at its next communication point: what was flown comes back, ``interrupted``.
 
-    Raises KeyboardInterrupt where no point is reached within PATIENCE: a step of an FMU cannot be cut.
+    So does a ``timeout`` (s of the wall clock): ``timed_out``. Raises KeyboardInterrupt or StuckError where no point is
+    reached within PATIENCE: a step of an FMU cannot be cut.
     """
-    return wait(simulation.fly, simulation.interrupt)
+    return wait(partial(_within, simulation, timeout, simulation.fly), simulation.interrupt)
+
+
+def run(simulation: Simulation, values: Mapping[str, ParameterValue], timeout: float | None = None) -> Flight:
+    """A flight of a batch, likewise, in a thread in which Ctrl-C is not heard."""
+    return _within(simulation, timeout, partial(simulation.run, values))
+
+
+def nothing_flown(simulation: Simulation, message: str) -> Flight:
+    """The flight of a step that did not return: its rows are lost with it."""
+    nothing = np.empty(0)
+    types = {name: simulation.layout.types[name] for name in simulation.signal_names}
+    return Flight(nothing, dict.fromkeys(types, nothing), types, TIMED_OUT, message)
+
+
+def _within(simulation: Simulation, timeout: float | None, work: Callable[[], Flown]) -> Flown:
+    """A flight with so many seconds; what it takes to compile the loop is not among them."""
+    if timeout is None:
+        return work()
+    simulation.unlock()
+    future = _started(work)
+    try:
+        return future.result(timeout=timeout)
+    except TimeoutError:
+        simulation.interrupt()
+    try:
+        flight = future.result(timeout=PATIENCE)
+    except TimeoutError:
+        point = int(simulation.buffers.outcome[4])
+        stepped = f"the last to step was {list(simulation.instances)[int(simulation.buffers.outcome[1])]}"
+        where = f"on the way to t = {_point(simulation):g} s, {stepped}" if point else "in the initialisation"
+        raise StuckError(
+            f"an FMU did not return {PATIENCE:g} s after the {timeout:g} s of --timeout, {where}"
+        ) from None
+    if flight.status != "interrupted":
+        return flight  # the last point was reached in the meantime
+    simulation.interrupt(False)
+    message = f"took longer than the {timeout:g} s of --timeout: ended at t = {_point(simulation):g} s"
+    return replace(flight, status=TIMED_OUT, message=message)
+
+
+def _point(simulation: Simulation) -> float:
+    """The time (s) of the communication point that is being computed, or of the last one."""
+    return simulation.prepared.start + int(simulation.buffers.outcome[4]) * simulation.prepared.step
 
 
 def wait(work: Callable[[], Found], interrupt: Callable[[], None]) -> Found:
@@ -30,15 +84,8 @@ def wait(work: Callable[[], Found], interrupt: Callable[[], None]) -> Found:
     if threading.current_thread() is not threading.main_thread():
         return work()
     future: Future[Found] = Future()
-
-    def run() -> None:
-        try:
-            future.set_result(work())
-        except BaseException as error:  # whatever it is, it is raised where the work is waited for
-            future.set_exception(error)
-
     try:  # Ctrl-C may come as soon as the thread runs, before its start returns
-        threading.Thread(target=run, daemon=True).start()
+        _start(work, future)
         return future.result()
     except KeyboardInterrupt:
         interrupt()
@@ -46,3 +93,21 @@ def wait(work: Callable[[], Found], interrupt: Callable[[], None]) -> Found:
             return future.result(timeout=PATIENCE)
         except TimeoutError:
             raise KeyboardInterrupt from None
+
+
+def _started(work: Callable[[], Found]) -> Future[Found]:
+    future: Future[Found] = Future()
+    _start(work, future)
+    return future
+
+
+def _start(work: Callable[[], Found], future: Future[Found]) -> None:
+    """Do the work in a thread that does not keep the process from ending."""
+
+    def run() -> None:
+        try:
+            future.set_result(work())
+        except BaseException as error:  # whatever it is, it is raised where the work is waited for
+            future.set_exception(error)
+
+    threading.Thread(target=run, daemon=True).start()

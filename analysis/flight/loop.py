@@ -22,11 +22,12 @@ from .fmi_calls import change_mode, compare_texts, do_step, exchange, setup_expe
 
 # Instruction codes.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP = range(9)
-PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE = range(9, 14)
-READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(14, 17)
-# Instruction columns. FIRST and COUNT are connections, faults, slots or parameters; a COPY has its first target slot in
-# FIRST and its first source slot in ADDRESS, a STEP over several communication steps their number in COUNT (0 for one);
-# FUNCTION numbers library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the
+PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, DRIVE = range(9, 15)
+READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(15, 18)
+# Instruction columns. FIRST and COUNT are connections, faults, slots, parameters or driven inputs; a COPY has its first
+# target slot in FIRST and its first source slot in ADDRESS; a STEP over several communication steps their number in
+# COUNT (0 for one); a DRIVE has 0 in ADDRESS while the FMUs initialise, then 1; FUNCTION numbers
+# library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the
 # start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
@@ -60,6 +61,8 @@ class Program(NamedTuple):
     fault_kind: np.ndarray  # int64 [f], OVERRIDE, BIAS, FREEZE or EXCITE
     fault_window: np.ndarray  # float64 [f, 2], from and until (s)
     fault_value: np.ndarray  # float64 [f]; of EXCITE the column of the excitation
+    drive_slot: np.ndarray  # int64 [d], inputs driven over time
+    drive_table: np.ndarray  # float64 [n, d]: values for the initialisation, then for every communication point
 
 
 class Settings(NamedTuple):
@@ -97,7 +100,8 @@ class Buffers(NamedTuple):
     whole: np.ndarray  # int32 [s]
     frozen: np.ndarray  # float64 [f], NaN until a freeze begins
     read_back: Settings  # what the FMUs have of the parameters, once initialised
-    outcome: np.ndarray  # int64 [6]: code; component, slot or parameter; function, fmi2Status, point, instruction
+    outcome: np.ndarray  # int64 [6]: code; component, slot or parameter; function, fmi2Status, point, instruction; in
+    # flight the component that steps and the point it steps to
     halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
 
 
@@ -114,6 +118,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     table, table_from, table_to = program.table, program.table_from, program.table_to
     fault_slot, fault_kind = program.fault_slot, program.fault_kind
     fault_window, fault_value = program.fault_window, program.fault_value
+    drive_slot, drive_table = program.drive_slot, program.drive_table
     values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
     parameters, whole_parameters, text_parameters = settings.real, settings.whole, settings.text
     found, whole_found, text_found = buffers.read_back.real, buffers.read_back.whole, buffers.read_back.text
@@ -166,6 +171,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                             outcome[5] = k
                             return rows
             elif code == STEP:
+                outcome[1] = instructions[k, COMPONENT]
                 if count == 0:
                     status = do_step(address, instance, time, step)
                 else:
@@ -211,6 +217,10 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                         if np.isnan(frozen[f]):
                             frozen[f] = values[faulty]
                         values[faulty] = frozen[f]
+            elif code == DRIVE:
+                driven_row = min(n + 1 + np.int64(address), drive_table.shape[0] - 1)
+                for d in range(first, first + count):
+                    values[drive_slot[d]] = drive_table[driven_row, d]
             elif code == PARAMETERS:
                 status = exchange(address, instance, parameter_reference, parameters, first, count)
             elif code == WHOLE_PARAMETERS:

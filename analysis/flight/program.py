@@ -10,8 +10,10 @@ import numpy as np
 
 from ..ssp.transformations import IDENTITY
 from ..system.assignments import Settings, numbers
+from ..system.drive import Drive
 from ..system.faults import connector_type
 from ..system.fmu import Fmu
+from ..system.names import parted
 from ..system.network import Link, Network, Node
 from ..system.schedule import Schedule, origin
 from . import loop
@@ -43,14 +45,17 @@ def build_program(
     instances: dict[str, Instance],
     wanted: Collection[str] | None,
     injections: Sequence[Injection] = (),
+    drive: Drive | None = None,
 ) -> tuple[loop.Program, InstructionList, Layout]:
     """Arrays for the loop, and what writes instructions. ``wanted`` names what is recorded (None: everything).
+
+    ``drive`` are inputs over time.
 
     ``periods``: communication steps that a component's step takes, where more than one. Only outputs that are
     connected or wanted are fetched.
     """
     builder = _Builder(network, settings, wanted, injections)
-    return *builder.program(schedule, algorithm, periods, instances), builder.layout()
+    return *builder.program(schedule, algorithm, periods, instances, drive), builder.layout()
 
 
 def layout_of(network: Network, settings: Settings) -> Layout:
@@ -80,7 +85,7 @@ class _Builder:
         for index, name in enumerate(self.names):
             self._place_component(index, name)
         for node in network.nodes.values():
-            known = node.name in network.driver or node.name in settings.nodes
+            known = node.name in network.driver or node.name in settings.nodes or node.name in network.driven
             if node.component is None and not self._is_parameter(node) and known:
                 unit = node.unit.name if node.unit else None
                 self._place(node.name, 0, settings.nodes.get(node.name, np.nan), node.type_name or "Real", unit)
@@ -106,7 +111,7 @@ class _Builder:
                 if variable.causality != causality or TYPE_KIND.get(variable.type) != function // 2:
                     continue
                 name = f"{component}.{variable.name}"
-                if causality == "input" and name not in self.network.driver:
+                if causality == "input" and name not in self.network.driver and name not in self.network.driven:
                     continue
                 if causality == "output" and self.fetched is not None and name not in self.fetched:
                     continue
@@ -141,9 +146,24 @@ class _Builder:
             self._chain(link.source.name, group)
         group[name] = link
 
+    def _drives(self) -> tuple[list[str], list[tuple[int, int]]]:
+        """The inputs driven over time by component, those of system connectors last; first and count of each group."""
+        groups: dict[str, list[str]] = {name: [] for name in (*self.names, "")}
+        for name in self.network.driven:
+            groups[parted(name, self.names)[0]].append(name)
+        firsts = np.cumsum([0, *(len(group) for group in groups.values())]).tolist()
+        ranges = [(first, len(group)) for first, group in zip(firsts, groups.values(), strict=False)]
+        return [name for group in groups.values() for name in group], ranges
+
     def program(
-        self, schedule: Schedule, algorithm: str, periods: Mapping[str, int], instances: dict[str, Instance]
+        self,
+        schedule: Schedule,
+        algorithm: str,
+        periods: Mapping[str, int],
+        instances: dict[str, Instance],
+        drive: Drive | None,
     ) -> tuple[loop.Program, InstructionList]:
+        driven, drives = self._drives()
         groups = self._links()
         links = [link for group in groups for link in group]
         tables = [numbers(self.network, link) for link in links]
@@ -158,6 +178,7 @@ class _Builder:
             self.parameters.ranges,
             [[self._connection(link) for link in group] for group in groups],
             fault_slots,
+            drives,
             {index for index, name in enumerate(self.names) if self.parameters.is_one_by_one(name)},
         )
         instructions, reset_end, phases = write_instructions(collected, self.names, schedule, algorithm, periods)
@@ -183,6 +204,8 @@ class _Builder:
             fault_kind=np.array([injection.kind for injection in self.injections], dtype=np.int64),
             fault_window=np.array([injection.window for injection in self.injections], dtype=np.float64).reshape(-1, 2),
             fault_value=np.array([injection.value for injection in self.injections], dtype=np.float64),
+            drive_slot=np.array([self.slots[name] for name in driven], dtype=np.int64),
+            drive_table=_columns(drive, driven),
         )
         return program, collected
 
@@ -204,6 +227,14 @@ def _tolerance(fmu: Fmu) -> float:
     """The relative tolerance that an FMU proposes for its own solver, NaN where it proposes none."""
     experiment = fmu.description.defaultExperiment
     return float(experiment.tolerance) if experiment is not None and experiment.tolerance is not None else np.nan
+
+
+def _columns(drive: Drive | None, names: Sequence[str]) -> np.ndarray:
+    """The table of inputs over time with its columns in the order of ``names``."""
+    if drive is None:
+        return np.zeros((0, 0))
+    places = {name: place for place, name in enumerate(drive.names)}
+    return np.ascontiguousarray(drive.table[:, [places[name] for name in names]])
 
 
 def _connection_code(link: Link) -> int:

@@ -16,6 +16,7 @@ from ..atomic import whole_file, write_atomically
 from ..errors import suggestion
 from ..system.names import elements, vectors
 
+TIMED_OUT = "timed_out"
 COMPLETE = ("finished", "stop_time", "terminated")
 
 
@@ -25,8 +26,8 @@ class Flight:
 
     ``status`` is ``finished`` (the system's own end), ``stop_time``, ``terminated`` (an FMU asked for the end, at a
     time of its own), ``nonfinite`` (a component gave NaN or infinity), ``failed`` (an FMU reported an error, or did
-    not take a parameter) or ``interrupted`` (by Ctrl-C); ``message`` explains the last
-    four. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
+    not take a parameter), ``interrupted`` (by Ctrl-C) or ``timed_out`` (it took longer than it may); ``message``
+    explains the last five. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
     """
 
     time: np.ndarray

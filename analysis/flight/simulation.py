@@ -5,10 +5,10 @@ from __future__ import annotations
 import threading
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
+from numba import typeof
 
 from ..errors import InputError
 from ..ssp.parameter_sets import ParameterValue, parse_value
@@ -18,9 +18,11 @@ from . import loop
 from .endings import TERMINATED, asked_end, in_words, outcome_of
 from .injections import NEVER, of_excitation, of_fault
 from .instances.instance import Instance, instantiate
+from .instances.log import Log
 from .instructions import write_ending
 from .life_cycle import LifeCycle
 from .program import build_program
+from .provenance import provenance_of
 from .results import Flight, Result
 
 NOTHING = np.zeros((0, 0))  # no excitation
@@ -33,7 +35,8 @@ class Simulation:
     ``varied`` names the parameters (``component.variable``) that `fly` may be given anew;
     ``wanted`` the signals to record (None: all outputs, connected inputs and system connectors);
     ``faults`` those that fly unless `set_faults` says otherwise; ``excited`` the connectors that `advance` may
-    add signals to. Use it as a context manager: it frees the instances. Not shared between threads.
+    add signals to; ``log`` is told what the FMUs say. Use it as a context manager: it frees the instances. Not
+    shared between threads.
     """
 
     def __init__(
@@ -44,6 +47,7 @@ class Simulation:
         wanted: Collection[str] | None = None,
         faults: Sequence[Fault] = (),
         excited: Sequence[str] = (),
+        log: Log | None = None,
     ) -> None:
         self.prepared = prepared
         self.settings = prepared.settings
@@ -56,6 +60,7 @@ class Simulation:
         self._declared = faults
         self._faults: Sequence[Fault | None] = faults
         self._excitations = [of_excitation(name, column) for column, name in enumerate(excited)]
+        self._log = log
         with no_collection():
             self._instantiate()
 
@@ -84,7 +89,7 @@ class Simulation:
     def _instantiate(self) -> None:
         prepared = self.prepared
         for name, fmu in prepared.network.fmus.items():
-            self.instances[name] = instantiate(fmu, name)
+            self.instances[name] = instantiate(fmu, name, self._log)
         faults = [of_fault(fault, TIME_MARGIN * prepared.step) for fault in self._declared]
         self.program, self._instructions, self.layout = build_program(
             prepared.network,
@@ -95,6 +100,7 @@ class Simulation:
             self.instances,
             self._wanted,
             [*faults, *self._excitations],
+            prepared.drive,
         )
         self.set_faults(self._faults)
         self.signal_names = [name for name in self.layout.slots if self._wanted is None or name in self._wanted]
@@ -113,7 +119,10 @@ class Simulation:
             outcome=np.zeros(6, dtype=np.int64),
             halt=np.zeros(1, dtype=np.int64),
         )
-        self._record = np.empty((0, 0))
+        self._record, self._times = np.empty((0, 0)), np.empty(0)
+        self._unlocked = False
+        if self._log is not None:
+            self._log.follow(self.buffers.outcome, prepared.start, prepared.step)
         self.life_cycle = LifeCycle(self.instances, self.program, self._instructions)
         self._under_way = threading.Lock()
 
@@ -129,9 +138,19 @@ class Simulation:
             provenance=self.provenance(),
         )
 
-    def interrupt(self) -> None:
+    def interrupt(self, halt: bool = True) -> None:
         """End the flight that is under way in another thread at its next communication point, and all later ones."""
-        self.buffers.halt[0] = 1
+        self.buffers.halt[0] = halt
+
+    def unlock(self) -> None:
+        """Have the loop compiled, and flying without the interpreter lock, which Python FMUs take themselves.
+
+        So that other threads run whatever a step does, and a clock measures flights alone.
+        """
+        self._unlocked = True
+        span, recording, excitation = self._asked(-1, 0, 1, False, NOTHING)
+        arguments = (self.program, self.buffers, self.layout.parameters.values, span, recording, excitation)
+        self._function().compile(tuple(typeof(part) for part in arguments))
 
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
         """The flight alone, for batches; see `fly`."""
@@ -179,19 +198,8 @@ class Simulation:
                 remedy = "give a longer step or an earlier --stop-time"
                 raise InputError("--step", f"{prepared.step:g}", problem, remedy) from error
         for instance in self.instances.values():
-            instance.messages.clear()
-        span = loop.Span(
-            reset=reset,
-            start=prepared.start,
-            step=prepared.step,
-            stop=prepared.start + max(prepared.steps, last) * prepared.step,
-            first=first,
-            last=last,
-        )
-        excitation = excitation if excitation.size else np.zeros((0, len(self._excitations)))
-        count = self._call(
-            self.program, span, loop.Recording(self._recorded, every, self._record, self._times), excitation
-        )
+            instance.said.clear()
+        count = self._call(self.program, *self._asked(first, last, every, reset, excitation))
         outcome = outcome_of(self.buffers)
         if outcome.is_unreadable(self.program):
             parameter, size = self.program.instructions[outcome.instruction, [loop.FIRST, loop.COUNT]]
@@ -220,11 +228,29 @@ class Simulation:
             self._replace_instances(list(self.instances.values())[outcome.subject].fmu.digest)
         return flight
 
+    def _asked(
+        self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray
+    ) -> tuple[loop.Span, loop.Recording, np.ndarray]:
+        """What the loop is to fly, to keep and to add."""
+        prepared = self.prepared
+        span = loop.Span(
+            reset=reset,
+            start=prepared.start,
+            step=prepared.step,
+            stop=prepared.start + max(prepared.steps, last) * prepared.step,
+            first=first,
+            last=last,
+        )
+        recording = loop.Recording(self._recorded, every, self._record, self._times)
+        return span, recording, excitation if excitation.size else np.zeros((0, len(self._excitations)))
+
+    def _function(self) -> Any:
+        return loop.fly_unlocked if self.prepared.is_native or self._unlocked else loop.fly_locked
+
     def _call(self, program: loop.Program, span: loop.Span, recording: loop.Recording, excitation: np.ndarray) -> int:
         """The compiled loop; returns the number of rows that it recorded."""
-        function = loop.fly_unlocked if self.prepared.is_native else loop.fly_locked
         with self._under_way:
-            return function(program, self.buffers, self.layout.parameters.values, span, recording, excitation)
+            return self._function()(program, self.buffers, self.layout.parameters.values, span, recording, excitation)
 
     def _fly_last_row(self, component: int, end: float, row: int) -> None:
         """Record what there is at the time ``end`` (s) at which a component has ended the simulation."""
@@ -245,27 +271,7 @@ class Simulation:
 
     def provenance(self) -> dict[str, Any]:
         """Parameter values, hashes, options and version: what the result depends on."""
-        prepared = self.prepared
-        values: dict[str, ParameterValue] = {}
-        for component, variable in self.settings.variables:
-            values[f"{component}.{variable}"] = self.layout.parameters[component, variable]
-        return {
-            "system": prepared.archive.name,
-            "system_sha256": prepared.archive.digest,
-            "fmus": {
-                name: {"fmu": fmu.name, "sha256": fmu.digest, "guid": fmu.description.guid}
-                for name, fmu in prepared.network.fmus.items()
-            },
-            "parameters": values,
-            "start_time": prepared.start,
-            "step": prepared.step,
-            "stop_time": prepared.start + prepared.steps * prepared.step,
-            "variant": prepared.options.variant,
-            "no_feedthrough": list(prepared.options.no_feedthrough),
-            "faults": [str(fault) for fault in self._faults if fault is not None],
-            "algorithm": prepared.algorithm,
-            "perilune": version("perilune"),
-        }
+        return provenance_of(self.prepared, self.settings, self.layout.parameters, self._faults)
 
     def close(self) -> None:
         """Free the instances; those of a flight that still goes on in a thread, given up, end with the process."""

@@ -24,6 +24,7 @@ HOW_TO_BUILD = (
     "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""
 ) + "perilune export FILE.py those of your own"
 OSP_DESCRIPTION = "OspSystemStructure.xml"
+FMU = ".fmu"
 DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
 
 # what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
@@ -50,6 +51,11 @@ class SystemArchive:
     path: Path
     files: Mapping[str, Path | bytes]
     description: str = DESCRIPTION
+
+    @property
+    def is_fmu(self) -> bool:
+        """Whether it is an FMU alone, which no SSD describes."""
+        return self.path.suffix == FMU and self.path.is_file()
 
     def read(self, name: str, element: str) -> bytes:
         """Content of a file the description refers to, at ``element``."""
@@ -81,6 +87,8 @@ class SystemArchive:
 
         A folder without FMUs of its own takes those of this repository and of the working folder.
         """
+        if self.is_fmu:
+            return self.path.read_bytes, self.label
         name = self._place(source)
         if self._has(name) or self.path.is_file() or not self._inside(name):
             return partial(self._content, name, element), f"{self.label}!{name}"
@@ -100,6 +108,8 @@ class SystemArchive:
 
     def description_name(self, variant: str | None) -> str:
         """Archive name of the SSD: the default one or a variant's."""
+        if self.is_fmu:
+            raise InputError(self.label, DESCRIPTION, "an FMU alone has none", "give a system here")
         name = self.description if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
         if name not in self.files:
             variants = self.variants()
@@ -154,7 +164,7 @@ def open_zip(data: bytes, label: str) -> zipfile.ZipFile:
 
 
 def open_system(system: str | Path) -> SystemArchive:
-    """A system by name under ssp_systems, by folder or by .ssp file."""
+    """A system by name under ssp_systems, by folder or by .ssp file; an .fmu is one of a single component."""
     text = str(system)
     if (SYSTEMS / text).is_dir() and "/" not in text and text not in ("", ".", ".."):
         return _folder(SYSTEMS / text)
@@ -163,6 +173,10 @@ def open_system(system: str | Path) -> SystemArchive:
         return _folder(path)
     if path.is_file() and (path.suffix == ".ssd" or path.name == OSP_DESCRIPTION):
         return _folder(path.parent, path.name)
+    if path.suffix == FMU:
+        if not path.is_file():
+            raise InputError(text, "file", "not found", "give the path of an .fmu")
+        return SystemArchive(path.stem, text, path, {path.name: path})
     if path.is_file():
         archive = open_zip(path.read_bytes(), text)
         files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}

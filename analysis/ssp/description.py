@@ -23,7 +23,7 @@ class Connector:
 
     def at(self, name: str) -> str:
         """Where it is declared, by the name that it has in the flat network."""
-        return f"{name} (line {self.line})"
+        return f"{name} (line {self.line})" if self.line else name
 
 
 @dataclass(slots=True)

@@ -57,7 +57,7 @@ def collect_settings(
         _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
     _pass_parameters(network, settings)
-    _settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start")
+    _settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
     _check_signals(network, settings)
     return settings
 
@@ -158,6 +158,9 @@ def _apply(
 def _check_driven(network: Network, assignment: Assignment) -> None:
     """Refuse a single value for a connected input, which would be lost before the first step."""
     link = network.driver.get(assignment.name)
+    if assignment.file == SINGLE and assignment.name in network.driven:
+        problem = f"is driven by column {network.driven[assignment.name]} of the inputs over time"
+        raise InputError(SINGLE, assignment.name, problem, "leave out the column or the value")
     if assignment.file == SINGLE and link is not None and link.target.kind == "input":
         problem = f"is connected to {link.source.name}, which would overwrite the value"
         remedy = f"set a parameter, or override it: --fault {assignment.name}=override:{assignment.value}@0"
@@ -285,6 +288,7 @@ def _settle_open_inputs(network: Network, settings: Settings, *, keep_starts: bo
         for node in network.nodes.values()
         if node.kind == "input"
         and node.name not in network.driver
+        and node.name not in network.driven
         and node.name not in settings.nodes
         and (node.component or "", node.variable) not in settings.variables
     ]
@@ -322,6 +326,7 @@ def _check_signals(network: Network, settings: Settings) -> None:
             network.notes.append(f"{node.name}: output without a source, not recorded")
     for component, fmu in network.fmus.items():
         for name, variable in fmu.variables.items():
-            if variable.causality == "input" and f"{component}.{name}" not in network.nodes:
+            full = f"{component}.{name}"
+            if variable.causality == "input" and full not in network.nodes and full not in network.driven:
                 start = settings.variables.get((component, name), variable.start)
                 network.notes.append(f"{component}.{name}: input not declared in the SSD, keeps {start}")

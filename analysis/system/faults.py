@@ -87,14 +87,14 @@ def _value(text: str) -> float | bool:
 def connector_type(network: Network, name: str, where: tuple[str, str]) -> str:
     """The FMI type of a component's connector, ``component.connector``, whose value can be changed on its way.
 
-    These are outputs, and inputs that something is connected to. ``where`` (file, element) is what errors point to.
-    Raises InputError.
+    These are outputs, and inputs that something is connected to or a series drives. ``where`` (file, element) is what
+    errors point to. Raises InputError.
     """
     known: dict[str, str] = {}
     for component, fmu in network.fmus.items():
         for variable in fmu.variables.values():
             full = f"{component}.{variable.name}"
-            fed = variable.causality == "input" and full in network.driver
+            fed = variable.causality == "input" and (full in network.driver or full in network.driven)
             if (fed or variable.causality == "output") and variable.type != "String":
                 known[full] = variable.type
     if name in known:

@@ -20,8 +20,7 @@ WIDENED = (("Integer", "Real"), ("Integer", "Enumeration"))  # types of source a
 class Node:
     """A connector of the flat network: of a component, of a system, or a dictionary's signal.
 
-    ``kind`` is the connector's (input, output, parameter, calculatedParameter, inout for
-    dictionary signals); ``component`` is None where no FMU stands behind it.
+    ``kind`` is the connector's (inout for dictionary signals); ``component`` is None where no FMU stands behind it.
     """
 
     name: str
@@ -66,6 +65,7 @@ class Network:
     driver: dict[str, Link] = field(default_factory=dict)  # by name of the target node
     systems: dict[str, System] = field(default_factory=dict)  # by path with trailing dot, "" for the root
     notes: list[str] = field(default_factory=list)
+    driven: dict[str, str] = field(default_factory=dict)  # inputs that a series drives, with its columns
 
     @property
     def file(self) -> str:

@@ -16,17 +16,23 @@ from ..ssp.archive import HOW_TO_BUILD, SystemArchive, open_system
 from ..ssp.description import Component
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
+from .alone import describe_alone
 from .assignments import Settings, collect_settings, text_assignment
+from .drive import Drive, drive_inputs, driven_inputs
 from .fmu import Fmu, load_fmu
 from .network import Network, build_network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from .schedule import Schedule, make_schedule
+from .series import InputSeries
 from .times import component_periods, flight_times
 
 
 @dataclass
 class PreparedSystem:
-    """A checked system; pass it to `Simulation`. Times in s."""
+    """A checked system; pass it to `Simulation`. Times in s; ``remarks`` say what an FMU alone left open.
+
+    ``drive`` are its inputs over time, if it has them.
+    """
 
     archive: SystemArchive
     options: SystemOptions
@@ -38,6 +44,8 @@ class PreparedSystem:
     step: float
     steps: int
     periods: dict[str, int]  # communication steps that one step of a component takes, where more than one
+    remarks: tuple[str, ...] = ()
+    drive: Drive | None = None
 
     @property
     def is_native(self) -> bool:
@@ -55,18 +63,23 @@ class PreparedSystem:
 
 
 def prepare_system(
-    system: str | Path, options: SystemOptions | None = None, loaded: dict[str, Fmu] | None = None
+    system: str | Path,
+    options: SystemOptions | None = None,
+    loaded: dict[str, Fmu] | None = None,
+    series: InputSeries | None = None,
 ) -> PreparedSystem:
-    """Read and check a system with its options. Raises InputError.
+    """Read and check a system with its options, and with inputs over time if it is to have them. Raises InputError.
 
     ``loaded`` keeps FMUs by their place, for a system that is prepared again and again: those in it are not read again.
     """
     options = options or SystemOptions()
     with no_collection(), chdir(options.folder):
-        return _prepared(system, options, {} if loaded is None else loaded)
+        return _prepared(system, options, {} if loaded is None else loaded, series)
 
 
-def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]) -> PreparedSystem:
+def _prepared(
+    system: str | Path, options: SystemOptions, loaded: dict[str, Fmu], series: InputSeries | None
+) -> PreparedSystem:
     for name, value, known in (
         ("--algorithm", options.algorithm, ALGORITHMS),
         ("--flavour", options.flavour, FLAVOURS),
@@ -75,7 +88,6 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
         if value is not None and value not in known:
             raise InputError(name, str(value), "unknown", suggestion(str(value), known))
     archive = open_system(system)
-    description = read_description(archive, options.variant)
 
     @cache
     def flavour_of(block: str) -> str:
@@ -87,32 +99,47 @@ def _prepared(system: str | Path, options: SystemOptions, loaded: dict[str, Fmu]
         else:
             flavour = flavour_of(Path(component.source).stem)
             read, label = archive.fmu(component.source, f"{name} (line {component.line})", flavour)
+        return opened(read, label)
+
+    def opened(read: Callable[[], bytes], label: str) -> Fmu:
         if label not in loaded:
             loaded[label] = load_fmu(read(), label, strict=options.strict)
         return loaded[label]
 
+    remarks: list[str] = []
+    if archive.is_fmu:
+        description, remarks = describe_alone(opened(archive.path.read_bytes, archive.label), options)
+    else:
+        description = read_description(archive, options.variant)
     network = build_network(description, load)
+    network.notes += remarks
     for slot in options.use:
         if slot not in network.fmus:
             raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
     _refuse_seconds(network)
+    if series is not None:
+        network.driven = driven_inputs(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     settings = collect_settings(network, archive, _assignments(archive, options), options)
     for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
-    schedule = make_schedule(network, options.no_feedthrough, algorithm)
+    # An FMU alone is given the inputs of t_n for the step to t_(n+1), as FMPy does it, whatever its outputs depend on.
+    no_feedthrough = [*options.no_feedthrough, *(network.fmus if archive.is_fmu else ())]
+    schedule = make_schedule(network, no_feedthrough, algorithm)
     start, step, steps = flight_times(network, options)
     return PreparedSystem(
-        archive,
-        options,
-        network,
-        settings,
-        schedule,
-        algorithm,
-        start,
-        step,
-        steps,
-        component_periods(network, options, step),
+        archive=archive,
+        options=options,
+        network=network,
+        settings=settings,
+        schedule=schedule,
+        algorithm=algorithm,
+        start=start,
+        step=step,
+        steps=steps,
+        periods=component_periods(network, options, step),
+        remarks=tuple(remarks),
+        drive=None if series is None else drive_inputs(network, series, network.driven, start, step, steps),
     )
 
 

@@ -6,13 +6,16 @@ import argparse
 from pathlib import Path
 
 from ..common.completers import campaigns, completed
+from ..common.in_flight import add_input, add_watch
 from ..common.options import add_faults, add_json, add_system
 from ..common.requirements import add_requirements
 
 
 def add(parser: argparse.ArgumentParser) -> None:
-    add_system(parser)
+    add_system(parser, alone=True)
     add_faults(parser)
+    add_input(parser)
+    add_watch(parser)
     campaign = parser.add_argument(
         "--campaign", required=True, metavar="NAME", help="a campaign of the system, or a .toml file"
     )

@@ -28,6 +28,10 @@ def systems(prefix: str, **_: Any) -> list[str]:
     return [*system_names(), *_paths(prefix, "ssp")]
 
 
+def systems_and_fmu_files(prefix: str, **_: Any) -> list[str]:
+    return [*system_names(), *_paths(prefix, "ssp", "fmu")]
+
+
 def systems_and_files(prefix: str, **_: Any) -> list[str]:
     return [*system_names(), *_paths(prefix)]
 

@@ -16,7 +16,7 @@ from ...errors import InputError
 from ...system.faults import KINDS, Fault, parse_fault
 from ...system.options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from ...targets import Results, check_file
-from .completers import completed, parameter_sets, slots_with_fmus, systems
+from .completers import completed, parameter_sets, slots_with_fmus, systems, systems_and_fmu_files
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -25,15 +25,18 @@ def add_json(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_system(parser: argparse.ArgumentParser, needed: bool = True) -> None:
-    """The system and its options, as in docs/command_line.md; one that is not ``needed`` and not given is None."""
+def add_system(parser: argparse.ArgumentParser, needed: bool = True, alone: bool = False) -> None:
+    """The system and its options, as in docs/command_line.md; one that is not ``needed`` and not given is None.
+
+    ``alone``: an FMU by itself does, too.
+    """
     system = parser.add_argument(
         "system",
         metavar="SYSTEM",
         nargs=None if needed else "?",
-        help="a name under ssp_systems, a folder or an .ssp file",
+        help=f"a name under ssp_systems, a folder or an .ssp file{', or an .fmu, which flies alone' if alone else ''}",
     )
-    completed(system, systems)
+    completed(system, systems_and_fmu_files if alone else systems)
     add_system_options(parser)
 
 

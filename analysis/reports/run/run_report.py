@@ -22,6 +22,7 @@ STATUS_WORDS = {
     "terminated": "Ended by itself: an FMU asked for the end of the simulation.",
     "nonfinite": "Broke off: a component gave a value that is not a finite number.",
     "failed": "Broke off: an FMU reported an error, or did not take a parameter.",
+    "timed_out": "Broke off: it took longer than --timeout lets it.",
     "interrupted": "Broke off: it was interrupted from the keyboard.",
 }
 KEY_VECTORS = ("position", "velocity")
