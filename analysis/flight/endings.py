@@ -11,6 +11,7 @@ from fmpy import fmi2
 from . import loop
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
+from .instances.log import status_word
 from .program import Layout
 
 STATUS = {
@@ -23,7 +24,6 @@ STATUS = {
     loop.NOT_TAKEN: "failed",
 }
 TERMINATED = "terminated"  # an FMU asked for the end
-FMI_STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
 FMI_DISCARD, FMI_ERROR, FMI_FATAL = 2, 3, 4
 READ_BACKS = (loop.READ_BACK, loop.WHOLE_READ_BACK, loop.TEXT_READ_BACK)
 
@@ -108,8 +108,7 @@ def in_words(
     if code == loop.FAILED:
         component = list(instances)[subject]
         log = " | ".join(instances[component].messages) or "no message in its log"
-        known = 0 <= outcome.fmi_status < len(FMI_STATUS)
-        word = FMI_STATUS[outcome.fmi_status] if known else f"{outcome.fmi_status}, a status that FMI does not have"
+        word = status_word(outcome.fmi_status)
         if outcome.is_discarded_step:
             word += ", which is no wish to end,"
         return status, f"{component}: {FUNCTION_NAMES[outcome.function]} returned {word} at t = {time:g} s: {log}"

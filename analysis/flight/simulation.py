@@ -216,7 +216,8 @@ class Simulation:
             if end is not None:
                 self._fly_last_row(outcome.subject, end, count)
                 count += 1
-                status, message = TERMINATED, f"{component} asked for the end at t = {end:g} s"
+                said = f": {' | '.join(instance.messages)}" if instance.messages else ""
+                status, message = TERMINATED, f"{component} asked for the end at t = {end:g} s{said}"
         flight = Flight(
             time=self._times[:count],
             signals={name: self._record[:count, index] for index, name in enumerate(self.signal_names)},

@@ -106,7 +106,7 @@ def test_an_fmu_that_does_not_reset(tmp_path, calls, quirks, reason):
     assert calls() == ""  # tried once
     notes = perilune.validate(path)[0]["notes"]
     assert f"odd: instantiated anew for every flight, as its reset fails: {reason}" in notes
-    assert perilune.validate(tmp_path / "odd.fmu")[0]["notes"][0].endswith(reason)
+    assert any(note.endswith(reason) for note in perilune.validate(tmp_path / "odd.fmu")[0]["notes"])
 
 
 @pytest.mark.parametrize("quirks", [{}, {"KEEPS_STATE": True}, {"KEEPS_PARAMETERS": True}, {"RESET": 3}], ids=str)
