@@ -25,6 +25,8 @@ STATUS = {
 }
 TERMINATED = "terminated"  # an FMU asked for the end
 FMI_DISCARD, FMI_ERROR, FMI_FATAL = 2, 3, 4
+ENTER = FUNCTION_NAMES.index("fmi2EnterInitializationMode")
+SETTERS = (loop.PARAMETERS, loop.WHOLE_PARAMETERS, loop.TEXT_PARAMETERS)
 READ_BACKS = (loop.READ_BACK, loop.WHOLE_READ_BACK, loop.TEXT_READ_BACK)
 
 
@@ -62,6 +64,15 @@ class Outcome(NamedTuple):
         if not (self.is_error or self._failed_with(FMI_DISCARD)):
             return False
         return int(program.instructions[self.instruction, loop.CODE]) in READ_BACKS
+
+    def is_refused_again(self, program: loop.Program) -> bool:
+        """Whether an FMU refused to be given parameters in initialisation mode."""
+        if not (self.is_error or self._failed_with(FMI_DISCARD)):
+            return False
+        row = program.instructions[self.instruction]
+        before = program.instructions[: self.instruction]
+        enters = before[before[:, loop.COMPONENT] == row[loop.COMPONENT], loop.FUNCTION] == np.uint64(ENTER)
+        return int(row[loop.CODE]) in SETTERS and bool(enters.any())
 
     def _failed_with(self, status: int) -> bool:
         return self.code == loop.FAILED and self.fmi_status == status

@@ -26,8 +26,8 @@ class InstructionList:
     """Collects instructions.
 
     ``ranges`` [component][get or set function 0..5] are (first, count) of slots, ``parameter_ranges``
-    [component][type] the first parameter and how many there are, how many of them, the first ones, are set again
-    in initialisation mode, and how many of those are read back. ``connections`` [component] lists, for each
+    [component][type] the first parameter, how many there are, and how many of them, the first ones, are set again
+    in initialisation mode and read back. ``connections`` [component] lists, for each
     connection that feeds a component, in order, its instruction code, the component that its value
     comes from (-1: a system's constant input), source and target slot; the last entry is for
     system connectors.

@@ -52,6 +52,7 @@ class LifeCycle:
         if self._fresh:
             return False
         if self._are_own and len(self._running) == len(self._instances):
+            self._running = set()
             return True
         for index, (name, instance) in enumerate(self._instances.items()):
             if not self._is_reset(name, instance):

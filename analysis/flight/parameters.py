@@ -18,16 +18,18 @@ from . import loop
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
 Key = tuple[str, str]  # (component, variable)
 
-# By the digests of FMUs, found out in flight: variables that they do not give back, and who is asked for one at a time.
+# By the digests of FMUs, found out in flight: variables that they do not give back; who is asked for one at a time; who
+# refuses to be set in initialisation mode.
 _unreadable: dict[str, set[str]] = {}
 _one_by_one: set[str] = set()
+_set_once: set[str] = set()
 
 
 class Parameters:
     """Values by (component, variable); those of a component and type are contiguous.
 
-    ``ranges`` [component, type of TYPE_KIND, 4] are the first one, how many there are, how many of them, the first
-    ones, are set again in initialisation mode, and how many of those are read back after it.
+    ``ranges`` [component, type of TYPE_KIND, 4] are the first one, how many there are, and how many of them, the first
+    ones, are set again in initialisation mode and read back after it.
     """
 
     def __init__(self, network: Network, settings: Settings) -> None:
@@ -48,6 +50,8 @@ class Parameters:
                 mine = [name for name in grades if TYPE_KIND[fmu.variables[name].type] == kind]
                 mine.sort(key=grades.__getitem__)
                 counts = [sum(grades[name] <= grade for name in mine) for grade in (2, 1, 0)]
+                if fmu.digest in _set_once:
+                    counts[1] = 0
                 self.ranges[index, kind] = len(self.keys), *counts
                 for name in mine:
                     self.keys.append((component, name))
@@ -104,6 +108,10 @@ class Parameters:
             _unreadable[fmu.digest].add(name)
             text = f"{fmu.label}: {name} cannot be read back: whether {component} takes its value is not known"
             warnings.warn(text, stacklevel=2)
+
+    def learn_set_once(self, component: str) -> None:
+        """Not to set an FMU's parameters in initialisation mode, which it has refused; they are read back."""
+        _set_once.add(self._network.fmus[component].digest)
 
     def blank(self) -> loop.Settings:
         """Arrays of the same layout, to read into."""

@@ -15,7 +15,7 @@ from ..ssp.parameter_sets import ParameterValue, parse_value
 from ..system.faults import Fault, check_fault
 from ..system.prepared import PreparedSystem, no_collection
 from . import loop
-from .endings import TERMINATED, asked_end, in_words, outcome_of
+from .endings import TERMINATED, Outcome, asked_end, in_words, outcome_of
 from .injections import NEVER, of_excitation, of_fault
 from .instances.instance import Instance, instantiate
 from .instances.log import Log
@@ -201,9 +201,7 @@ class Simulation:
             instance.said.clear()
         count = self._call(self.program, *self._asked(first, last, every, reset, excitation))
         outcome = outcome_of(self.buffers)
-        if outcome.is_unreadable(self.program):
-            parameter, size = self.program.instructions[outcome.instruction, [loop.FIRST, loop.COUNT]]
-            self.layout.parameters.learn_unreadable(int(parameter), int(size))
+        if self._has_learned(outcome):
             self._replace_instances()
             return self._advance(first, last, every, excitation)
         self.life_cycle.note(outcome, self.program)
@@ -247,6 +245,18 @@ class Simulation:
 
     def _function(self) -> Any:
         return loop.fly_unlocked if self.prepared.is_native or self._unlocked else loop.fly_locked
+
+    def _has_learned(self, outcome: Outcome) -> bool:
+        """Whether an FMU has shown what not to ask of it, so that the flight is to begin anew."""
+        parameters = self.layout.parameters
+        if outcome.is_unreadable(self.program):
+            first, count = self.program.instructions[outcome.instruction, [loop.FIRST, loop.COUNT]]
+            parameters.learn_unreadable(int(first), int(count))
+        elif outcome.is_refused_again(self.program):
+            parameters.learn_set_once(list(self.instances)[outcome.subject])
+        else:
+            return False
+        return True
 
     def _call(self, program: loop.Program, span: loop.Span, recording: loop.Recording, excitation: np.ndarray) -> int:
         """The compiled loop; returns the number of rows that it recorded."""

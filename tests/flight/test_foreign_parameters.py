@@ -41,6 +41,14 @@ def test_what_is_lost_before_initialisation_mode_is_set_again(tmp_path):
     assert closed_form(fly(odd_system(tmp_path, LOSES_EARLY=True), set=GIVEN), RATE)
 
 
+def test_who_refuses_to_be_set_again_is_not_asked_to(tmp_path):
+    path = odd_system(tmp_path, REFUSES_AGAIN=True)
+    for _ in range(2):
+        assert closed_form(fly(path, set=GIVEN), RATE)
+    result = fly(odd_system(tmp_path, REFUSES_AGAIN=True, IGNORES_GAIN=True), set=GIVEN)
+    assert "odd.gain: was set to 3.3, and its FMU has 2.0" in result.message
+
+
 def test_single_precision_is_no_loss(tmp_path):
     rate = float(np.float32(3.3)) * 0.5 + 1 + 1
     assert rate != 3.3 * 0.5 + 1 + 1

@@ -5,6 +5,7 @@
  * f free, and ! before one that its state does not allow.
  *
  * LOSES_EARLY      values set before initialisation mode are lost
+ * REFUSES_AGAIN    setting Reals in initialisation mode returns fmi2Error
  * IGNORES_GAIN     gain cannot be set, which it does not say
  * IGNORES_WORD     likewise word
  * FLOAT32          gain is kept in single precision
@@ -164,6 +165,9 @@ fmi2Status fmi2GetReal(fmi2Component c, References r, size_t n, fmi2Real v[])
 fmi2Status fmi2SetReal(fmi2Component c, References r, size_t n, const fmi2Real v[])
 {
     Odd *odd = c;
+#ifdef REFUSES_AGAIN
+    if (odd->state == INITIALISING) return fmi2Error;
+#endif
     for (size_t i = 0; i < n; i++) {
 #ifdef IGNORES_GAIN
         if (r[i] == GAIN) continue;
