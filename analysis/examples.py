@@ -23,6 +23,11 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
             "another guidance, with sensor errors; all signals to a file",
         ),
         ("perilune run lunar_terminal_guidance --require 'time < 300'", "exit status 1 if it takes longer"),
+        ("perilune export flat_moon_lander", "an FMU, as any other tool writes them"),
+        (
+            "perilune run flat_moon_lander.fmu --stop-time 20 --log warning --timeout 60 --output lander.csv",
+            "it flies alone, with what it says on standard error, for a minute of yours at most",
+        ),
     ),
     "batch": (
         (

@@ -50,7 +50,7 @@ def validate(
     """Check systems, FMUs, parameter sets, campaigns, laws: `perilune validate`.
 
     A row for each: ``path``, ``problems`` (lines, none where it is good) and ``notes``. Of a system all variants are
-    checked unless ``variant`` names one; the options are those of `simulate`, and are for systems only.
+    checked unless ``variant`` names one; the options are those of `simulate`, for systems and FMUs alone.
     """
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,

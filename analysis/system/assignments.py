@@ -19,6 +19,7 @@ from ..ssp.parameter_sets import (
 )
 from ..ssp.transformations import VALUE_TYPES, Transformation
 from .network import Link, Network, Node
+from .open_inputs import check_signals, settle_open_inputs
 from .options import SystemOptions
 
 SETTABLE = ("parameter", "input")
@@ -57,8 +58,8 @@ def collect_settings(
         _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
     _pass_parameters(network, settings)
-    _settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
-    _check_signals(network, settings)
+    settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
+    check_signals(network, settings)
     return settings
 
 
@@ -146,6 +147,13 @@ def _apply(
             problem += f": it is of causality {variable.causality}"
     if not allow_unmatched:
         candidates = known or [f"{component}." for component in network.fmus]
+        if len(network.fmus) == 1:
+            candidates = [
+                f"{component}.{key}"
+                for component, fmu in network.fmus.items()
+                for key, value in fmu.variables.items()
+                if value.causality in SETTABLE
+            ]
         raise InputError(
             assignment.file,
             assignment.where,
@@ -279,54 +287,3 @@ def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
         return float(node.enumeration[text])
 
     return [(number(source, link.source), number(target, link.target)) for source, target in transformation.table]
-
-
-def _settle_open_inputs(network: Network, settings: Settings, *, keep_starts: bool) -> None:
-    """Refuse all inputs that have neither a source nor a value, in one line, or leave them at their FMUs' starts."""
-    found = [
-        node
-        for node in network.nodes.values()
-        if node.kind == "input"
-        and node.name not in network.driver
-        and node.name not in network.driven
-        and node.name not in settings.nodes
-        and (node.component or "", node.variable) not in settings.variables
-    ]
-    if not found:
-        return
-    if not keep_starts:
-        one = len(found) == 1
-        problem = f"{'input is' if one else f'{len(found)} inputs are'} neither connected nor given a value"
-        remedy = f"connect {'it' if one else 'them'}, give a value: --set {found[0].name}=VALUE, or --open-inputs start"
-        raise InputError(network.file, ", ".join(node.where for node in found), problem, remedy)
-    without = {node.name for node in found}
-    readers: dict[str, list[Link]] = {}
-    for link in network.driver.values():
-        readers.setdefault(link.source.name, []).append(link)
-    while found:
-        node = found.pop()
-        if node.component is not None:
-            start = network.fmus[node.component].variables[node.variable].start
-            network.notes.append(f"{node.name}: open input, keeps {start}")
-        for link in readers.get(node.name, ()):  # of a system's own input: what it leads to is open, too
-            del network.driver[link.target.name]
-            if link.target.name not in without:
-                without.add(link.target.name)
-                found.append(link.target)
-
-
-def _check_signals(network: Network, settings: Settings) -> None:
-    for link in network.driver.values():
-        source = link.source
-        is_signal = source.component is None and source.kind in ("inout", "output")
-        if is_signal and source.name not in network.driver:
-            raise InputError(network.file, source.where, "signal is read but never driven", "connect a source to it")
-    for node in network.nodes.values():
-        if node.component is None and node.kind == "output" and node.name not in network.driver:
-            network.notes.append(f"{node.name}: output without a source, not recorded")
-    for component, fmu in network.fmus.items():
-        for name, variable in fmu.variables.items():
-            full = f"{component}.{name}"
-            if variable.causality == "input" and full not in network.nodes and full not in network.driven:
-                start = settings.variables.get((component, name), variable.start)
-                network.notes.append(f"{component}.{name}: input not declared in the SSD, keeps {start}")

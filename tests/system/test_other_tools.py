@@ -19,6 +19,7 @@ from tests.support.builders import (
     document,
     fly,
     pack,
+    parameter_set,
     retouched,
     system,
 )
@@ -144,9 +145,13 @@ def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys):
     assert perilune.validate(path, open_inputs="start")[0]["problems"] == []
 
 
-def test_system_options_are_for_systems(tiny, capsys):
-    assert main(["validate", str(tiny / "ramp.fmu"), "--step", "1"]) == 2
+def test_system_options_are_for_systems_and_fmus_alone(tiny, tmp_path, capsys):
+    (tmp_path / "set.ssv").write_text(parameter_set("ramp.start=Real:2"))
+    assert main(["validate", str(tmp_path / "set.ssv"), "--step", "1"]) == 2
     assert "it is no system, which they are for" in capsys.readouterr().err
+    assert main(["validate", str(tiny / "ramp.fmu"), "--step", "1", "--set", "ramp.start=2"]) == 0
+    assert main(["validate", str(tiny / "ramp.fmu"), "--set", "ramp.star=2"]) == 2
+    assert "use one of ramp.first_count, ramp.flag_at" in capsys.readouterr().err
 
 
 def test_a_campaign_may_name_the_file_of_its_system(tiny, tmp_path):
