@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from fmpy import fmi2
 
-from . import loop
+from . import arrays, loop
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
 from .instances.log import status_word
 from .program import Layout
+from .texts import LONGEST
 
 STATUS = {
     loop.STOP_TIME: "stop_time",
@@ -22,6 +23,7 @@ STATUS = {
     loop.UNMAPPED: "failed",
     loop.INTERRUPTED: "interrupted",
     loop.NOT_TAKEN: "failed",
+    loop.TOO_LONG: "failed",
 }
 TERMINATED = "terminated"  # an FMU asked for the end
 FMI_DISCARD, FMI_ERROR, FMI_FATAL = 2, 3, 4
@@ -31,7 +33,7 @@ READ_BACKS = (loop.READ_BACK, loop.WHOLE_READ_BACK, loop.TEXT_READ_BACK)
 
 
 class Outcome(NamedTuple):
-    """`loop.Buffers.outcome`: how it ended; at which component, slot or parameter; the rest of failures only."""
+    """`arrays.Buffers.outcome`: how it ended; at which component, slot or parameter; the rest of failures only."""
 
     code: int
     subject: int
@@ -59,13 +61,13 @@ class Outcome(NamedTuple):
         """Whether the instance may only be reset or freed (FMI 2.0, fmi2Error)."""
         return self._failed_with(FMI_ERROR)
 
-    def is_unreadable(self, program: loop.Program) -> bool:
+    def is_unreadable(self, program: arrays.Program) -> bool:
         """Whether an FMU did not give a parameter back."""
         if not (self.is_error or self._failed_with(FMI_DISCARD)):
             return False
         return int(program.instructions[self.instruction, loop.CODE]) in READ_BACKS
 
-    def is_refused_again(self, program: loop.Program) -> bool:
+    def is_refused_again(self, program: arrays.Program) -> bool:
         """Whether an FMU refused to be given parameters in initialisation mode."""
         if not (self.is_error or self._failed_with(FMI_DISCARD)):
             return False
@@ -78,7 +80,7 @@ class Outcome(NamedTuple):
         return self.code == loop.FAILED and self.fmi_status == status
 
 
-def outcome_of(buffers: loop.Buffers) -> Outcome:
+def outcome_of(buffers: arrays.Buffers) -> Outcome:
     return Outcome(*buffers.outcome.tolist())
 
 
@@ -98,7 +100,7 @@ def asked_end(instance: Instance) -> float | None:
 
 
 def in_words(
-    outcome: Outcome, time: float, layout: Layout, buffers: loop.Buffers, instances: Mapping[str, Instance]
+    outcome: Outcome, time: float, layout: Layout, buffers: arrays.Buffers, instances: Mapping[str, Instance]
 ) -> tuple[str, str]:
     """Status and message of a flight; ``time`` (s) is that of its last communication point."""
     code, subject = outcome.code, outcome.subject
@@ -110,6 +112,8 @@ def in_words(
         return status, f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
     if code == loop.INTERRUPTED:
         return status, f"interrupted at t = {time:g} s"
+    if code == loop.TOO_LONG:
+        return status, f"{list(layout.texts.slots)[subject]} gave a string of {LONGEST} bytes or more at t = {time:g} s"
     if code == loop.NOT_TAKEN:
         parameters = layout.parameters
         component, variable = parameters.keys[subject]
@@ -126,7 +130,7 @@ def in_words(
     return status, ""
 
 
-def initialised(outcome: Outcome, program: loop.Program, count: int) -> list[bool]:
+def initialised(outcome: Outcome, program: arrays.Program, count: int) -> list[bool]:
     """Which of ``count`` components a flight that began anew has brought through initialisation."""
     reached = [True] * count
     if outcome.is_well or outcome.instruction >= program.phases[0]:

@@ -97,3 +97,18 @@ def compare_texts(typing: Any, first: Any, second: Any) -> Any:
         return builder.call(function, [builder.inttoptr(value, cgutils.voidptr_t) for value in arguments])
 
     return signature, emit
+
+
+@intrinsic
+def copy_text(typing: Any, target: Any, source: Any, size: Any) -> Any:
+    """The C library's strncpy: at most ``size`` bytes from one address to another, filled up with zeros."""
+    signature = types.int64(types.int64, types.int64, types.int64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        function_type = ir.FunctionType(cgutils.voidptr_t, [cgutils.voidptr_t, cgutils.voidptr_t, INT64])
+        function = cgutils.get_or_insert_function(builder.module, function_type, "strncpy")
+        target, source, size = arguments
+        pointers = [builder.inttoptr(value, cgutils.voidptr_t) for value in (target, source)]
+        return builder.ptrtoint(builder.call(function, [*pointers, size]), INT64)
+
+    return signature, emit

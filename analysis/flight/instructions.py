@@ -11,6 +11,7 @@ from ..system.schedule import Schedule
 from . import loop
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
+from .texts import Texts
 
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES)}
 # Real, Integer (and Enumeration), Boolean, String: what sets parameters, what reads them back.
@@ -32,8 +33,8 @@ class InstructionList:
     comes from (-1: a system's constant input), source and target slot; the last entry is for
     system connectors.
     Connections and ``fault_slots`` are numbered as in the program's arrays; ``drives`` [component] are (first, count)
-    of the inputs driven over time, the last entry of those of system connectors; the parameters of ``one_by_one``
-    are read back each in a call of its own.
+    of the inputs driven over time, the last entry of those of system connectors; ``texts`` has the places of Strings;
+    the parameters of ``one_by_one`` are read back each in a call of its own.
     """
 
     def __init__(
@@ -44,6 +45,7 @@ class InstructionList:
         connections: Sequence[Sequence[tuple[int, int, int, int]]],
         fault_slots: Sequence[int],
         drives: Sequence[tuple[int, int]],
+        texts: Texts,
         one_by_one: Collection[int] = (),
     ) -> None:
         self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
@@ -53,6 +55,7 @@ class InstructionList:
         self.firsts = np.cumsum([0, *(len(group) for group in connections)]).tolist()
         self.fault_slots = fault_slots
         self.one_by_one = one_by_one
+        self.texts = texts
         self.drives = drives
         self.rows: list[list[int]] = []
 
@@ -114,6 +117,12 @@ class InstructionList:
                 code = loop.SET_REAL if function == FUNCTION["SetReal"] else loop.SET_WHOLE
                 self.call(code, component, function, piece)
 
+        for start, source, target in self.texts.connections[component]:
+            if known is None or start in known:
+                self.rows.append([loop.COPY_TEXT, source, 0, target, 1, component, 0])
+        if self.texts.ranges[component, 0, 1]:
+            self.call(loop.SET_TEXT, component, FUNCTION["SetString"], self.texts.ranges[component, 0])
+
     def carry(self, component: int) -> None:
         """Values and faults to the inputs of a component, which is not given them."""
         self.connect(component)
@@ -128,6 +137,8 @@ class InstructionList:
                 code = loop.GET_REAL if function == FUNCTION["GetReal"] else loop.GET_WHOLE
                 self.call(code, component, function, piece)
                 self.inject(piece)
+        if self.texts.ranges[component, 1, 1]:
+            self.call(loop.GET_TEXT, component, FUNCTION["GetString"], self.texts.ranges[component, 1])
 
     def step(self, component: int, period: int = 1) -> None:
         """A step that ends with this communication step and begins ``period`` of them earlier."""

@@ -7,7 +7,7 @@ from collections.abc import Set as AbstractSet
 
 from fmpy.fmi1 import FMICallException
 
-from . import loop
+from . import arrays, loop
 from .endings import Outcome, initialised
 from .instances.instance import Instance
 from .instances.reset_test import ResetVerdict, judge, known_verdict, reset_verdict
@@ -22,7 +22,9 @@ class LifeCycle:
     begins, since until then it can go on.
     """
 
-    def __init__(self, instances: Mapping[str, Instance], program: loop.Program, instructions: InstructionList) -> None:
+    def __init__(
+        self, instances: Mapping[str, Instance], program: arrays.Program, instructions: InstructionList
+    ) -> None:
         self._instances = instances
         self._program = program
         self._instructions = instructions
@@ -31,7 +33,7 @@ class LifeCycle:
         self._running: AbstractSet[str] = set()  # initialised, so that they can be terminated
         self._broken: set[str] = set()  # returned an error
 
-    def note(self, outcome: Outcome, program: loop.Program) -> None:
+    def note(self, outcome: Outcome, program: arrays.Program) -> None:
         """Remember how the loop has left the instances."""
         self._fresh = False
         if outcome.is_well and not self._broken:

@@ -13,96 +13,30 @@ crosses a call, which costs more than the FMI calls themselves.
 from __future__ import annotations
 
 from types import FunctionType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from .compiled import compiled
-from .fmi_calls import change_mode, compare_texts, do_step, exchange, setup_experiment
+from .fmi_calls import change_mode, compare_texts, copy_text, do_step, exchange, setup_experiment
 
 # Instruction codes.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP = range(9)
 PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, DRIVE = range(9, 15)
 READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(15, 18)
-# Instruction columns. FIRST and COUNT are connections, faults, slots, parameters or driven inputs; a COPY has its first
-# target slot in FIRST and its first source slot in ADDRESS; a STEP over several communication steps their number in
-# COUNT (0 for one); a DRIVE has 0 in ADDRESS while the FMUs initialise, then 1; FUNCTION numbers
-# library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the
-# start.
+SET_TEXT, GET_TEXT, COPY_TEXT = range(18, 21)
+# Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY and
+# a COPY_TEXT have the first target in FIRST and the first source in ADDRESS; a STEP over several communication steps
+# their number in COUNT (0 for one); a DRIVE has 0 in ADDRESS while the FMUs initialise, then 1; FUNCTION numbers
+# library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
 
 # How a run ends: Buffers.outcome[0].
-STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED, NOT_TAKEN = range(7)
+STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED, NOT_TAKEN, TOO_LONG = range(8)
 OVERRIDE, BIAS, FREEZE, EXCITE = range(4)
 FMI_WARNING = 1
 KEPT = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
-
-
-class Program(NamedTuple):
-    """A system as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
-
-    instructions: np.ndarray  # uint64 [i, 7]; unsigned, since numba would look out for negative indices
-    reset_end: int  # instructions before this one end a flight and reset the FMUs; a fresh instance skips them
-    phases: np.ndarray  # int64 [m + 1]: instructions before the first initialise; step n works off part n modulo m
-    reference: np.ndarray  # uint32 [s], value references
-    initial: np.ndarray  # float64 [s], before anything is exchanged: starts of inputs, NaN for what is yet to come
-    parameter_reference: np.ndarray  # uint32 [p]
-    tolerance: np.ndarray  # float64, of each component's own solver, NaN where its FMU states none
-    source: np.ndarray  # int64 [c], slots
-    target: np.ndarray  # int64 [c], slots
-    factor: np.ndarray  # float64 [c]
-    offset: np.ndarray  # float64 [c]
-    table: np.ndarray  # int64 [c, 2], first and count in table_from, table_to
-    table_from: np.ndarray  # float64
-    table_to: np.ndarray  # float64
-    finished_slot: int  # -1: no `finished` connector
-    fault_slot: np.ndarray  # int64 [f]
-    fault_kind: np.ndarray  # int64 [f], OVERRIDE, BIAS, FREEZE or EXCITE
-    fault_window: np.ndarray  # float64 [f, 2], from and until (s)
-    fault_value: np.ndarray  # float64 [f]; of EXCITE the column of the excitation
-    drive_slot: np.ndarray  # int64 [d], inputs driven over time
-    drive_table: np.ndarray  # float64 [n, d]: values for the initialisation, then for every communication point
-
-
-class Settings(NamedTuple):
-    """Parameter values of one run."""
-
-    real: np.ndarray  # float64 [p]
-    whole: np.ndarray  # int32 [p]
-    text: np.ndarray  # uint64 [p], addresses of C strings
-
-
-class Span(NamedTuple):
-    """What of a flight is flown. Times in s."""
-
-    reset: bool  # whether the FMUs have flown before
-    start: float
-    step: float
-    stop: float  # what FMUs are told of the end
-    first: int  # communication point to go on from, with buffers and FMUs as they are; -1 initialises
-    last: int  # communication point to fly to
-
-
-class Recording(NamedTuple):
-    """What is kept: the slots ``slots`` of every ``stride``-th communication point, and always of the last one."""
-
-    slots: np.ndarray  # int64 [k]
-    stride: int
-    rows: np.ndarray  # float64 [r, k]
-    times: np.ndarray  # float64 [r], s
-
-
-class Buffers(NamedTuple):
-    """Memory of one run in flight."""
-
-    values: np.ndarray  # float64 [s]
-    whole: np.ndarray  # int32 [s]
-    frozen: np.ndarray  # float64 [f], NaN until a freeze begins
-    read_back: Settings  # what the FMUs have of the parameters, once initialised
-    outcome: np.ndarray  # int64 [6]: code; component, slot or parameter; function, fmi2Status, point, instruction; in
-    # flight the component that steps and the point it steps to
-    halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
 
 
 def _fly(program, buffers, settings, span, recording, excitation):  # type: ignore[no-untyped-def]
@@ -122,7 +56,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
     parameters, whole_parameters, text_parameters = settings.real, settings.whole, settings.text
     found, whole_found, text_found = buffers.read_back.real, buffers.read_back.whole, buffers.read_back.text
-    tolerance = program.tolerance
+    tolerance, texts = program.tolerance, buffers.texts
     start, step, stop, first_point, steps = span.start, span.step, span.stop, span.first, span.last
     recorded, stride, record, times = recording.slots, recording.stride, recording.rows, recording.times
     halt = buffers.halt
@@ -135,6 +69,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     if n < 0:
         values[:] = program.initial
         frozen[:] = np.nan
+        texts.rows[:] = texts.initial
         first_instruction = np.uint64(0 if span.reset else program.reset_end)
         last_instruction = np.uint64(phases[0])
         after = start
@@ -259,6 +194,22 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                         outcome[1] = p
                         outcome[5] = k
                         return rows
+            elif code == SET_TEXT:
+                status = exchange(address, instance, texts.reference, texts.address, first, count)
+            elif code == GET_TEXT:
+                status = exchange(address, instance, texts.reference, texts.given, first, count)
+                for t in range(first, first + count if 0 <= status <= FMI_WARNING else first):
+                    if texts.given[t] == 0:
+                        texts.rows[t, 0] = 0
+                    else:
+                        copy_text(texts.address[t], texts.given[t], texts.rows.shape[1])
+                    if texts.rows[t, -1] != 0:
+                        outcome[0] = TOO_LONG
+                        outcome[1] = t
+                        outcome[5] = k
+                        return rows
+            elif code == COPY_TEXT:
+                texts.rows[first] = texts.rows[address]
             if status > FMI_WARNING or status < 0:
                 outcome[0] = FAILED
                 outcome[1] = instructions[k, COMPONENT]

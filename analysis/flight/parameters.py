@@ -13,7 +13,7 @@ from ..ssp.parameter_sets import ParameterValue
 from ..system.assignments import Settings
 from ..system.fmu import Fmu
 from ..system.network import Network
-from . import loop
+from . import arrays
 
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
 Key = tuple[str, str]  # (component, variable)
@@ -60,7 +60,9 @@ class Parameters:
         self.positions = {key: position for position, key in enumerate(self.keys)}
         count = len(self.keys)
         self._texts: dict[int, Any] = {}  # kept alive while the loop has their addresses
-        self.values = loop.Settings(np.zeros(count), np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.uint64))
+        self.values = arrays.Settings(
+            np.zeros(count), np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.uint64)
+        )
         self.update({key: settings.variables[key] for key in self.keys})
 
     def __contains__(self, key: Key) -> bool:
@@ -84,7 +86,7 @@ class Parameters:
         for key, value in values.items():
             self[key] = value
 
-    def value_in(self, values: loop.Settings, position: int) -> ParameterValue:
+    def value_in(self, values: arrays.Settings, position: int) -> ParameterValue:
         """What arrays of the same layout, those read back, hold in a place."""
         kind = self.types[self.keys[position]]
         if kind == "String":
@@ -113,9 +115,9 @@ class Parameters:
         """Not to set an FMU's parameters in initialisation mode, which it has refused; they are read back."""
         _set_once.add(self._network.fmus[component].digest)
 
-    def blank(self) -> loop.Settings:
+    def blank(self) -> arrays.Settings:
         """Arrays of the same layout, to read into."""
-        return loop.Settings(*(np.zeros_like(array) for array in self.values))
+        return arrays.Settings(*(np.zeros_like(array) for array in self.values))
 
 
 def _grade(fmu: Fmu, variable: Any, *, driven: bool) -> int:

@@ -16,24 +16,26 @@ from ..system.fmu import Fmu
 from ..system.names import parted
 from ..system.network import Link, Network, Node
 from ..system.schedule import Schedule, origin
-from . import loop
+from . import arrays, loop
 from .injections import Injection
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
 from .instructions import InstructionList, write_instructions
 from .parameters import TYPE_KIND, Parameters
+from .texts import Texts
 
 EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
 
 
 @dataclass
 class Layout:
-    """Where everything lies: slots by name, and the parameters."""
+    """Where everything lies: slots by name, the parameters, the Strings that are exchanged."""
 
     slots: dict[str, int]
     types: dict[str, str]
     units: dict[str, str | None]
     parameters: Parameters
+    texts: Texts
 
 
 def build_program(
@@ -46,7 +48,7 @@ def build_program(
     wanted: Collection[str] | None,
     injections: Sequence[Injection] = (),
     drive: Drive | None = None,
-) -> tuple[loop.Program, InstructionList, Layout]:
+) -> tuple[arrays.Program, InstructionList, Layout]:
     """Arrays for the loop, and what writes instructions. ``wanted`` names what is recorded (None: everything).
 
     ``drive`` are inputs over time.
@@ -86,10 +88,11 @@ class _Builder:
             self._place_component(index, name)
         for node in network.nodes.values():
             known = node.name in network.driver or node.name in settings.nodes or node.name in network.driven
-            if node.component is None and not self._is_parameter(node) and known:
+            if node.component is None and not self._is_parameter(node) and known and node.type_name != "String":
                 unit = node.unit.name if node.unit else None
-                self._place(node.name, 0, settings.nodes.get(node.name, np.nan), node.type_name or "Real", unit)
+                self._place(node.name, 0, float(settings.nodes.get(node.name, np.nan)), node.type_name or "Real", unit)
         self.parameters = Parameters(network, settings)
+        self.texts = Texts(network, settings)
 
     @staticmethod
     def _is_parameter(node: Node) -> bool:
@@ -162,7 +165,7 @@ class _Builder:
         periods: Mapping[str, int],
         instances: dict[str, Instance],
         drive: Drive | None,
-    ) -> tuple[loop.Program, InstructionList]:
+    ) -> tuple[arrays.Program, InstructionList]:
         driven, drives = self._drives()
         groups = self._links()
         links = [link for group in groups for link in group]
@@ -179,10 +182,11 @@ class _Builder:
             [[self._connection(link) for link in group] for group in groups],
             fault_slots,
             drives,
+            self.texts,
             {index for index, name in enumerate(self.names) if self.parameters.is_one_by_one(name)},
         )
         instructions, reset_end, phases = write_instructions(collected, self.names, schedule, algorithm, periods)
-        program = loop.Program(
+        program = arrays.Program(
             instructions=instructions,
             reset_end=reset_end,
             phases=phases,
@@ -220,7 +224,7 @@ class _Builder:
         return self.slots[injection.connector]
 
     def layout(self) -> Layout:
-        return Layout(self.slots, self.types, self.units, self.parameters)
+        return Layout(self.slots, self.types, self.units, self.parameters, self.texts)
 
 
 def _tolerance(fmu: Fmu) -> float:

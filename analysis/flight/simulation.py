@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..ssp.parameter_sets import ParameterValue, parse_value
 from ..system.faults import Fault, check_fault
 from ..system.prepared import PreparedSystem, no_collection
-from . import loop
+from . import arrays, loop
 from .endings import TERMINATED, Outcome, asked_end, in_words, outcome_of
 from .injections import NEVER, of_excitation, of_fault
 from .instances.instance import Instance, instantiate
@@ -111,11 +111,12 @@ class Simulation:
                 )
         self._types = {name: self.layout.types[name] for name in self.signal_names}
         self._recorded = np.array([self.layout.slots[name] for name in self.signal_names], dtype=np.int64)
-        self.buffers = loop.Buffers(
+        self.buffers = arrays.Buffers(
             values=np.zeros(len(self.layout.slots)),
             whole=np.zeros(len(self.layout.slots), dtype=np.int32),
             frozen=np.zeros(len(self._declared) + len(self._excitations)),
             read_back=self.layout.parameters.blank(),
+            texts=self.layout.texts.memory(),
             outcome=np.zeros(6, dtype=np.int64),
             halt=np.zeros(1, dtype=np.int64),
         )
@@ -229,10 +230,10 @@ class Simulation:
 
     def _asked(
         self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray
-    ) -> tuple[loop.Span, loop.Recording, np.ndarray]:
+    ) -> tuple[arrays.Span, arrays.Recording, np.ndarray]:
         """What the loop is to fly, to keep and to add."""
         prepared = self.prepared
-        span = loop.Span(
+        span = arrays.Span(
             reset=reset,
             start=prepared.start,
             step=prepared.step,
@@ -240,7 +241,7 @@ class Simulation:
             first=first,
             last=last,
         )
-        recording = loop.Recording(self._recorded, every, self._record, self._times)
+        recording = arrays.Recording(self._recorded, every, self._record, self._times)
         return span, recording, excitation if excitation.size else np.zeros((0, len(self._excitations)))
 
     def _function(self) -> Any:
@@ -258,7 +259,9 @@ class Simulation:
             return False
         return True
 
-    def _call(self, program: loop.Program, span: loop.Span, recording: loop.Recording, excitation: np.ndarray) -> int:
+    def _call(
+        self, program: arrays.Program, span: arrays.Span, recording: arrays.Recording, excitation: np.ndarray
+    ) -> int:
         """The compiled loop; returns the number of rows that it recorded."""
         with self._under_way:
             return self._function()(program, self.buffers, self.layout.parameters.values, span, recording, excitation)
@@ -268,8 +271,8 @@ class Simulation:
         instructions = write_ending(self._instructions, component)
         whole = np.array([0, len(instructions)], dtype=np.int64)
         program = self.program._replace(instructions=instructions, phases=whole)
-        span = loop.Span(reset=False, start=end, step=0.0, stop=end, first=0, last=1)
-        recording = loop.Recording(self._recorded, 1, self._record[row:], self._times[row:])
+        span = arrays.Span(reset=False, start=end, step=0.0, stop=end, first=0, last=1)
+        recording = arrays.Recording(self._recorded, 1, self._record[row:], self._times[row:])
         self._call(program, span, recording, np.zeros((0, len(self._excitations))))
 
     def _replace_instances(self, fatal: str | None = None) -> None:

@@ -141,8 +141,6 @@ class Reader:
         for inner in item:
             if tag(inner) == "Binary":
                 raise self.refuse(item, name, "Binary connectors are not supported", "remove the connector")
-            if tag(inner) == "String" and kind not in ("parameter", "calculatedParameter"):
-                raise self.refuse(item, name, "String signals are not supported yet", "remove the connector")
             if tag(inner) in ("Real", "Integer", "Boolean", "String", "Enumeration"):
                 type_name, unit, enumeration = tag(inner), inner.get("unit"), inner.get("name")
         return Connector(name, kind, type_name, unit, enumeration, item.sourceline)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from ..errors import InputError, suggestion
 from ..ssp.archive import SystemArchive
@@ -33,7 +34,7 @@ class Settings:
     variables: dict[tuple[str, str], ParameterValue] = field(default_factory=dict)
     origins: dict[tuple[str, str], str] = field(default_factory=dict)
     node_origins: dict[str, str] = field(default_factory=dict)
-    nodes: dict[str, float] = field(default_factory=dict)
+    nodes: dict[str, float | str] = field(default_factory=dict)
     unmatched: list[str] = field(default_factory=list)
 
 
@@ -121,10 +122,8 @@ def _apply(
     if isinstance(target, Node):
         if target.kind in SETTABLE:
             number = _fit(assignment, target.type_name or "Real", target)
-            if isinstance(number, str):
-                raise InputError(assignment.file, assignment.where, "String signals are not supported yet", "remove it")
             _check_bounds(assignment, None, number)
-            settings.nodes[target.name] = float(number)
+            settings.nodes[target.name] = number if isinstance(number, str) else float(number)
             settings.node_origins[target.name] = assignment.origin
             return
     elif target is not None:
@@ -255,14 +254,16 @@ def _pass_parameters(network: Network, settings: Settings) -> None:
             value = settings.nodes[outermost]
             for link in reversed(chain[: given[-1] + 1]):
                 value = _passed(network, link, value)
-            kind = {"Real": float, "Boolean": bool}.get(node.type_name or "", int)
+            kind: Any = {"Real": float, "Boolean": bool, "String": str}.get(node.type_name or "", int)
             target = node.component or "", node.variable
             settings.variables[target] = kind(value)
             settings.origins[target] = f"{outermost} of {settings.node_origins[outermost]}"
 
 
-def _passed(network: Network, link: Link, value: float) -> float:
+def _passed(network: Network, link: Link, value: float | str) -> float | str:
     """A parameter's value behind a connection."""
+    if isinstance(value, str):
+        return value
     if not link.transformation.table:
         return value * link.transformation.factor + link.transformation.offset
     table = dict(numbers(network, link))

@@ -7,6 +7,7 @@ import io
 import shutil
 import tempfile
 import weakref
+import zipfile
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -16,6 +17,7 @@ from typing import Any
 import fmpy
 from fmpy import read_model_description
 from fmpy.model_description import ModelDescription, ValidationError
+from lxml import etree
 
 from ..errors import InputError
 from ..ssp.archive import open_zip
@@ -81,7 +83,7 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     version = root.get("fmiVersion")
     if version != "2.0":
         raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
-    description, flaws = _read_description(data, label)
+    description, flaws = _read_description(data, root, label)
     if flaws and strict:
         raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU, or fly without --strict")
     if description.coSimulation is None:
@@ -104,17 +106,20 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     return fmu
 
 
-def _read_description(data: bytes, label: str) -> tuple[ModelDescription, list[str]]:
-    """What an FMU says of itself, and the rules that it breaks in saying so; raises InputError if it is unreadable."""
+def _read_description(data: bytes, root: etree._Element, label: str) -> tuple[ModelDescription, list[str]]:
+    """What an FMU says of itself, and the rules that it breaks in saying so; raises InputError if it is unreadable.
+
+    ``root`` is its modelDescription.xml.
+    """
     flaws: list[str] = []
     try:
         return read_model_description(io.BytesIO(data), validate=True), flaws
     except ValidationError as error:
         flaws = [" ".join(problem.split()) for problem in error.problems]
     except Exception as error:  # fmpy raises bare Exception and lxml's errors
-        raise InputError(label, DESCRIPTION, f"not valid: {error}", "mend the FMU") from error
+        flaws = [" ".join(str(error).split())]
     try:
-        description = read_model_description(io.BytesIO(data), validate=False)
+        description = read_model_description(io.BytesIO(_with_fixed_parameters(root)), validate=False)
     except Exception as error:
         raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU") from error
     names = Counter(variable.name for variable in description.modelVariables)
@@ -122,6 +127,20 @@ def _read_description(data: bytes, label: str) -> tuple[ModelDescription, list[s
     if twice:
         raise InputError(label, str(twice[0]), "two variables of this name", "mend the FMU's modelDescription.xml")
     return description, flaws
+
+
+def _with_fixed_parameters(root: etree._Element) -> bytes:
+    """The description, zipped, with parameters that vary, as stock pythonfmu writes them, declared fixed.
+
+    fmpy does not read them otherwise, and they are set before a flight begins only.
+    """
+    for variable in root.iterfind("ModelVariables/ScalarVariable[@causality='parameter']"):
+        if variable.get("variability", "continuous") not in ("fixed", "tunable"):
+            variable.set("variability", "fixed")
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
+        archive.writestr(DESCRIPTION, etree.tostring(root))
+    return content.getvalue()
 
 
 def _some(flaws: Sequence[str]) -> str:

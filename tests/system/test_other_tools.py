@@ -226,3 +226,18 @@ def test_messages_speak_of_the_file(tiny, tmp_path):
         fly(path)
     with pytest.raises(InputError, match=r"--stop-time: 1\.2: 1\.2 s from the start"):
         fly(path, stop_time=1.2)
+
+
+def test_parameters_that_stock_pythonfmu_lets_vary(tiny, tmp_path, plain, capsys):
+    """A parameter without a variability, continuous by default, which FMI forbids and fmpy does not even read."""
+    flawed = retouched(
+        tiny / "ramp.fmu",
+        tmp_path / "ramp.fmu",
+        lambda text: re.sub(r'(name="slope"[^>]*) variability="\w+"', r"\1", text),
+    )
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    path = pack(tmp_path / "s.ssp", tiny, document(root), resources___ramp__fmu=flawed.read_bytes())
+    same(fly(path), plain)
+    assert fly(path, set={"ramp.slope": 4.0})["ramp.y"].tolist() == [1.0 + 4.0 * 0.25 * n for n in range(5)]
+    assert main(["validate", str(path)]) == 0
+    assert 'ariable "slope" (line' in capsys.readouterr().out

@@ -156,10 +156,6 @@ TABLE = {
         system(component("ramp", "ramp", "inout y Real m")),
         ["y (line", "inout connectors are not supported", "declare it input or output"],
     ),
-    "String connector": (
-        system(declared="input word String"),
-        ["word", "String signals are not supported", "remove the connector"],
-    ),
     "Binary connector": (system(declared="input blob Binary"), ["blob", "Binary"]),
     "model exchange": (
         system(component("ramp", "ramp", attributes='implementation="ModelExchange"')),

@@ -1,0 +1,84 @@
+"""What the compiled loop works on, as named arrays: program, parameters, memory, what is flown and kept."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Program(NamedTuple):
+    """A system as arrays: i instructions, s slots, p parameter values, c connections, f faults."""
+
+    instructions: np.ndarray  # uint64 [i, 7]; unsigned, since numba would look out for negative indices
+    reset_end: int  # instructions before this one end a flight and reset the FMUs; a fresh instance skips them
+    phases: np.ndarray  # int64 [m + 1]: instructions before the first initialise; step n works off part n modulo m
+    reference: np.ndarray  # uint32 [s], value references
+    initial: np.ndarray  # float64 [s], before anything is exchanged: starts of inputs, NaN for what is yet to come
+    parameter_reference: np.ndarray  # uint32 [p]
+    tolerance: np.ndarray  # float64, of each component's own solver, NaN where its FMU states none
+    source: np.ndarray  # int64 [c], slots
+    target: np.ndarray  # int64 [c], slots
+    factor: np.ndarray  # float64 [c]
+    offset: np.ndarray  # float64 [c]
+    table: np.ndarray  # int64 [c, 2], first and count in table_from, table_to
+    table_from: np.ndarray  # float64
+    table_to: np.ndarray  # float64
+    finished_slot: int  # -1: no `finished` connector
+    fault_slot: np.ndarray  # int64 [f]
+    fault_kind: np.ndarray  # int64 [f], OVERRIDE, BIAS, FREEZE or EXCITE
+    fault_window: np.ndarray  # float64 [f, 2], from and until (s)
+    fault_value: np.ndarray  # float64 [f]; of EXCITE the column of the excitation
+    drive_slot: np.ndarray  # int64 [d], inputs driven over time
+    drive_table: np.ndarray  # float64 [n, d]: values for the initialisation, then for every communication point
+
+
+class Settings(NamedTuple):
+    """Parameter values of one run."""
+
+    real: np.ndarray  # float64 [p]
+    whole: np.ndarray  # int32 [p]
+    text: np.ndarray  # uint64 [p], addresses of C strings
+
+
+class Span(NamedTuple):
+    """What of a flight is flown. Times in s."""
+
+    reset: bool  # whether the FMUs have flown before
+    start: float
+    step: float
+    stop: float  # what FMUs are told of the end
+    first: int  # communication point to go on from, with buffers and FMUs as they are; -1 initialises
+    last: int  # communication point to fly to
+
+
+class Recording(NamedTuple):
+    """What is kept: the slots ``slots`` of every ``stride``-th communication point, and always of the last one."""
+
+    slots: np.ndarray  # int64 [k]
+    stride: int
+    rows: np.ndarray  # float64 [r, k]
+    times: np.ndarray  # float64 [r], s
+
+
+class Texts(NamedTuple):
+    """Strings that are exchanged: t places of so many bytes."""
+
+    reference: np.ndarray  # uint32 [t], value references
+    initial: np.ndarray  # uint8 [t, bytes], before anything is exchanged
+    rows: np.ndarray  # uint8 [t, bytes], zero-terminated
+    address: np.ndarray  # uint64 [t], of the rows
+    given: np.ndarray  # uint64 [t], addresses that FMUs gave
+
+
+class Buffers(NamedTuple):
+    """Memory of one run in flight."""
+
+    values: np.ndarray  # float64 [s]
+    whole: np.ndarray  # int32 [s]
+    frozen: np.ndarray  # float64 [f], NaN until a freeze begins
+    read_back: Settings  # what the FMUs have of the parameters, once initialised
+    outcome: np.ndarray  # int64 [6]: code; component, slot or parameter; function, fmi2Status, point, instruction; in
+    # flight the component that steps and the point it steps to
+    texts: Texts
+    halt: np.ndarray  # int64 [1]; another thread makes it other than 0 to end the flight at its next point
