@@ -1,8 +1,9 @@
 """perilune.analysis.errors"""
 
 import pickle
+import warnings
 
-from perilune.analysis.errors import InputError, suggestion
+from perilune.analysis.errors import InputError, suggestion, warn_in_one_line
 
 
 def test_is_one_line_with_place_problem_and_remedy():
@@ -25,3 +26,9 @@ def test_suggestion_is_nearest_first_among_many():
     many = [f"plant.position[{i}]" for i in range(50)] + ["guidance.status"]
     assert suggestion("guidance.statu", many).split(": ")[1].startswith("guidance.status")
     assert "none to choose" in suggestion("x", [])
+
+
+def test_warnings_are_a_line_without_their_place(monkeypatch):
+    monkeypatch.setattr(warnings, "formatwarning", warnings.formatwarning)  # put back in the end
+    warn_in_one_line()
+    assert warnings.formatwarning("a.fmu: odd", UserWarning, "place.py", 7) == "perilune: a.fmu: odd\n"

@@ -26,7 +26,6 @@ STATUS = {
     loop.TOO_LONG: "failed",
 }
 TERMINATED = "terminated"  # an FMU asked for the end
-FMI_DISCARD, FMI_ERROR, FMI_FATAL = 2, 3, 4
 ENTER = FUNCTION_NAMES.index("fmi2EnterInitializationMode")
 SETTERS = (loop.PARAMETERS, loop.WHOLE_PARAMETERS, loop.TEXT_PARAMETERS)
 READ_BACKS = (loop.READ_BACK, loop.WHOLE_READ_BACK, loop.TEXT_READ_BACK)
@@ -49,27 +48,27 @@ class Outcome(NamedTuple):
 
     @property
     def is_discarded_step(self) -> bool:
-        return self._failed_with(FMI_DISCARD) and FUNCTION_NAMES[self.function] == "fmi2DoStep"
+        return self._failed_with(fmi2.fmi2Discard) and FUNCTION_NAMES[self.function] == "fmi2DoStep"
 
     @property
     def is_fatal(self) -> bool:
         """Whether no instance of the FMU may be used again (FMI 2.0, fmi2Fatal), or its status is none of FMI's."""
-        return self.code == loop.FAILED and not 0 <= self.fmi_status < FMI_FATAL
+        return self.code == loop.FAILED and not 0 <= self.fmi_status < fmi2.fmi2Fatal
 
     @property
     def is_error(self) -> bool:
         """Whether the instance may only be reset or freed (FMI 2.0, fmi2Error)."""
-        return self._failed_with(FMI_ERROR)
+        return self._failed_with(fmi2.fmi2Error)
 
     def is_unreadable(self, program: arrays.Program) -> bool:
         """Whether an FMU did not give a parameter back."""
-        if not (self.is_error or self._failed_with(FMI_DISCARD)):
+        if not (self.is_error or self._failed_with(fmi2.fmi2Discard)):
             return False
         return int(program.instructions[self.instruction, loop.CODE]) in READ_BACKS
 
     def is_refused_again(self, program: arrays.Program) -> bool:
         """Whether an FMU refused to be given parameters in initialisation mode."""
-        if not (self.is_error or self._failed_with(FMI_DISCARD)):
+        if not (self.is_error or self._failed_with(fmi2.fmi2Discard)):
             return False
         row = program.instructions[self.instruction]
         before = program.instructions[: self.instruction]

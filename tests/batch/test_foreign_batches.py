@@ -68,7 +68,10 @@ def test_a_parameter_that_is_not_taken_is_a_failed_trial(tmp_path):
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_one_instance_in_each_process(tmp_path, workers):
-    """Variants in turn, each with an FMU that a process can hold one instance of: workers are processes."""
+    """Variants in turn, each with an FMU that a process can hold one instance of: workers are processes.
+
+    The first one's reset does not work, which every process finds out.
+    """
     other = odd_fmu(tmp_path, "other", once=True, ONE_AT_A_TIME=True)
     result = flown(
         tmp_path,
@@ -76,6 +79,7 @@ def test_one_instance_in_each_process(tmp_path, workers):
         compare={"odd": [str(tmp_path / "odd.fmu"), str(other)]},
         once=True,
         ONE_AT_A_TIME=True,
+        KEEPS_STATE=True,
     )
     assert len(result.trials) == 2
     check(result)

@@ -23,7 +23,6 @@ CALLS = {
     "Enumeration": ("setInteger", "getInteger", int),
     "Boolean": ("setBoolean", "getBoolean", bool),
 }
-FMI_FATAL = 4
 
 
 @dataclass(frozen=True)
@@ -97,7 +96,7 @@ def _words(error: FMICallException) -> str:
 
 def _free(instance: Instance, error: FMICallException | None = None) -> None:
     """Free an instance, but not after a fatal error (FMI 2.0, fmi2Fatal)."""
-    if error is None or 0 <= error.status < FMI_FATAL:
+    if error is None or 0 <= error.status < fmi2.fmi2Fatal:
         instance.free()
     else:
         instance.abandon()

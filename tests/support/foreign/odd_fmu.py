@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import subprocess
+import tempfile
+from functools import cache
 from pathlib import Path
 
 import fmpy
@@ -50,23 +52,30 @@ def odd_fmu(
 
     ``tolerance`` is that of its default experiment, ``once`` whether it says canBeInstantiatedOnlyOncePerProcess.
     """
-    library = folder / f"{name}{fmpy.sharedLibraryExtension}"
-    macros = [
+    macros = tuple(
         f"-D{macro}" if value is True else f'-D{macro}="{value}"' if isinstance(value, str) else f"-D{macro}={value}"
         for macro, value in quirks.items()
-    ]
-    headers = Path(fmpy.__file__).parent / "c-code"
-    command = [*compilers_for(fmpy.platform)[0], *FLAGS, *macros, f"-I{headers}", "-o", library, SOURCE]
-    subprocess.run(command, check=True)
+    )
     description = DESCRIPTION.format(
         name=name,
         tolerance="" if tolerance is None else f' tolerance="{tolerance}"',
         once=' canBeInstantiatedOnlyOncePerProcess="true"' if once else "",
     )
-    binary = f"binaries/{fmpy.platform}/{library.name}"
+    binary = f"binaries/{fmpy.platform}/{name}{fmpy.sharedLibraryExtension}"
     path = folder / f"{name}.fmu"
-    write_zip(path, {"modelDescription.xml": description, binary: library.read_bytes()})
+    write_zip(path, {"modelDescription.xml": description, binary: _library(macros)})
     return path
+
+
+@cache
+def _library(macros: tuple[str, ...]) -> bytes:
+    """The shared library, compiled once for each choice of quirks."""
+    headers = Path(fmpy.__file__).parent / "c-code"
+    with tempfile.TemporaryDirectory() as folder:
+        library = Path(folder) / "odd"
+        command = [*compilers_for(fmpy.platform)[0], *FLAGS, *macros, f"-I{headers}", "-o", library, SOURCE]
+        subprocess.run(command, check=True)
+        return library.read_bytes()
 
 
 def odd_system(folder: Path, stop: float = 1.0, **quirks: object) -> Path:
