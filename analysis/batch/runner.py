@@ -85,6 +85,7 @@ def provenance(plan: BatchPlan, systems: dict) -> dict[str, Any]:
         "step": first.step,
         "algorithm": first.algorithm,
         **(first.drive.facts() if first.drive is not None else {}),
+        **({"timeout": plan.watch.timeout} if plan.watch.timeout is not None else {}),
         "fmus": {
             variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
             for variant, prepared in systems.items()

@@ -64,9 +64,9 @@ def _within(simulation: Simulation, timeout: float | None, work: Callable[[], Fl
         raise StuckError(
             f"an FMU did not return {PATIENCE:g} s after the {timeout:g} s of --timeout, {where}"
         ) from None
+    simulation.interrupt(False)  # the next flight is not to end at once
     if flight.status != "interrupted":
         return flight  # the last point was reached in the meantime
-    simulation.interrupt(False)
     message = f"took longer than the {timeout:g} s of --timeout: ended at t = {_point(simulation):g} s"
     return replace(flight, status=TIMED_OUT, message=message)
 

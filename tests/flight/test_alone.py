@@ -63,6 +63,14 @@ def test_as_fmpy_flies_it(fmus, name, case, algorithm):
         assert np.array_equal(ours[f"{name.title()}.{output}"], theirs[output]), output
 
 
+@pytest.mark.parametrize(("fmu", "output"), [("gain", "y"), ("delay", "y")])
+def test_own_fmus_as_fmpy_flies_them(tiny, fmu, output):
+    series = series_of(time=[0.0, 0.5, 0.5, 2.0], u=[0.3, 1.0, -2.0, 0.1])
+    theirs = fmpy_flight(tiny / f"{fmu}.fmu", series, [output])
+    ours = perilune.simulate(tiny / f"{fmu}.fmu", input=series, step=STEP, stop_time=STOP)
+    assert np.array_equal(ours[f"{fmu}.{output}"], theirs[output])
+
+
 def test_another_step_differs_by_how_fmpy_rounds_it(fmus):
     series = SERIES["dynamic"]["event"]
     theirs = fmpy.simulate_fmu(
