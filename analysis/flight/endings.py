@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from fmpy import fmi2
 
-from . import arrays, loop
+from .compiled import arrays, loop
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
 from .instances.log import status_word

@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from ..system.faults import Fault
-from . import loop
+from .compiled import loop
 
 KIND_NUMBERS = {"override": loop.OVERRIDE, "bias": loop.BIAS, "freeze": loop.FREEZE}
 NEVER = (math.inf, math.inf)  # the window of a fault that does not fly

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from ..system.schedule import Schedule
-from . import loop
+from .compiled import loop
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
 from .texts import Texts

@@ -7,7 +7,7 @@ from collections.abc import Set as AbstractSet
 
 from fmpy.fmi1 import FMICallException
 
-from . import arrays, loop
+from .compiled import arrays, loop
 from .endings import Outcome, initialised
 from .instances.instance import Instance
 from .instances.reset_test import ResetVerdict, judge, known_verdict, reset_verdict

@@ -13,7 +13,7 @@ from ..ssp.parameter_sets import ParameterValue
 from ..system.assignments import Settings
 from ..system.fmu import Fmu
 from ..system.network import Network
-from . import arrays
+from .compiled import arrays
 
 TYPE_KIND = {"Real": 0, "Integer": 1, "Enumeration": 1, "Boolean": 2, "String": 3}
 Key = tuple[str, str]  # (component, variable)

@@ -16,7 +16,7 @@ from ..system.fmu import Fmu
 from ..system.names import parted
 from ..system.network import Link, Network, Node
 from ..system.schedule import Schedule, origin
-from . import arrays, loop
+from .compiled import arrays, loop
 from .injections import Injection
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES

@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..ssp.parameter_sets import ParameterValue, parse_value
 from ..system.faults import Fault, check_fault
 from ..system.prepared import PreparedSystem, no_collection
-from . import arrays, loop
+from .compiled import arrays, loop
 from .endings import TERMINATED, Outcome, asked_end, in_words, outcome_of
 from .injections import NEVER, of_excitation, of_fault
 from .instances.instance import Instance, instantiate

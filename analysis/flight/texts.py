@@ -11,7 +11,7 @@ from ..errors import InputError
 from ..system.assignments import Settings
 from ..system.network import Network
 from ..system.schedule import origin
-from . import arrays
+from .compiled import arrays
 
 LONGEST = 4096  # bytes of a string, with its end
 

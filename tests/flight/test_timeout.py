@@ -16,7 +16,7 @@ from perilune.analysis.batch.runner import run_batch
 from perilune.analysis.campaign.plan import read_plan
 from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
-from perilune.analysis.flight import loop
+from perilune.analysis.flight.compiled import loop
 from perilune.analysis.flight.interruptible import StuckError, fly, run
 from perilune.analysis.flight.simulation import Simulation
 from perilune.analysis.system.options import SystemOptions

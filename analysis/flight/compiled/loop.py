@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from .compiled import compiled
+from .compiler import compiled
 from .fmi_calls import change_mode, compare_texts, copy_text, do_step, exchange, setup_experiment
 
 # Instruction codes.

@@ -9,7 +9,7 @@ from typing import Any
 
 from numba import config, njit
 
-from ...fmus_src.places import CACHE
+from ....fmus_src.places import CACHE
 
 
 def compiled(function: Any, **options: Any) -> Any:

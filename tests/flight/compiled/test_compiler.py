@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from numba import config
 
-from perilune.analysis.flight import compiled
-from perilune.analysis.flight.loop import fly_locked, fly_unlocked
+from perilune.analysis.flight.compiled import compiler
+from perilune.analysis.flight.compiled.loop import fly_locked, fly_unlocked
 from perilune.fmus_src.places import CACHE
 
 
@@ -25,28 +25,28 @@ def test_the_loop_is_kept_in_the_cache_folder():
 
 
 def test_a_function_is_kept_and_found_again(tmp_path, monkeypatch):
-    monkeypatch.setattr(compiled, "CACHE", tmp_path)
+    monkeypatch.setattr(compiler, "CACHE", tmp_path)
     monkeypatch.setattr(config, "CACHE_DIR", "")
-    assert compiled.compiled(doubled)(21) == 42
+    assert compiler.compiled(doubled)(21) == 42
     assert list((tmp_path / "numba").rglob("*doubled*.nbc"))
     assert config.CACHE_DIR == ""
-    again = compiled.compiled(doubled)
+    again = compiler.compiled(doubled)
     assert again(21) == 42
     assert sum(again.stats.cache_hits.values()) == 1
 
 
 def test_the_folder_that_numba_is_told_of_wins(tmp_path, monkeypatch):
-    monkeypatch.setattr(compiled, "CACHE", tmp_path / "ours")
+    monkeypatch.setattr(compiler, "CACHE", tmp_path / "ours")
     monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path / "theirs"))
-    assert compiled.compiled(doubled)(21) == 42
+    assert compiler.compiled(doubled)(21) == 42
     assert [path.name for path in tmp_path.iterdir()] == ["theirs"]
 
 
 def test_a_folder_that_cannot_be_written_is_said(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
-    monkeypatch.setattr(compiled, "CACHE", tmp_path / "file")
+    monkeypatch.setattr(compiler, "CACHE", tmp_path / "file")
     monkeypatch.setattr(config, "CACHE_DIR", "")
     with pytest.warns(UserWarning, match="cannot be written: compiled anew; set NUMBA_CACHE_DIR"):
-        function = compiled.compiled(doubled)
+        function = compiler.compiled(doubled)
     assert function(21) == 42
     assert not list(Path(__file__).parent.rglob("*doubled*.nb*"))
