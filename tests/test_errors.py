@@ -25,3 +25,13 @@ def test_suggestion_is_nearest_first_among_many():
     many = [f"plant.position[{i}]" for i in range(50)] + ["guidance.status"]
     assert suggestion("guidance.statu", many).split(": ")[1].startswith("guidance.status")
     assert "none to choose" in suggestion("x", [])
+
+
+def test_suggestions_are_few_nearest_first_and_in_natural_order():
+    known = [f"guidance.target_position[{i}]" for i in (10, 3, 1, 2)] + [f"plant.{name}" for name in "abcdefghi"]
+    found = suggestion("guidance.target_position[9]", known)
+    assert found.endswith(": " + ", ".join(f"guidance.target_position[{i}]" for i in (1, 2, 3, 10)))
+    few = ["guidance", "plant", "control"]
+    assert suggestion("contrl", few) == "use one of control, guidance, plant"
+    many = [f"block_{chr(97 + i)}" for i in range(20)]
+    assert suggestion("f.html", many) == "use one of block_a, block_b, block_c, block_d and 16 more"

@@ -62,12 +62,22 @@ def export(
     check_file("--output", target)
     try:
         if text.endswith(".py"):
+            _check_there(Path(text))
             return _export_file(Path(text), platforms, flavour, target)
         return _export_named(text, platforms, flavour or "native", target)
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
     except CompilationFailed as error:
         raise InputError("export", text, "the compiler refused it", " ".join(str(error).split())) from error
+
+
+def _check_there(file: Path) -> None:
+    """Refuse a Python file that is not there, with the names of those that are."""
+    if file.is_file():
+        return
+    beside = [path.name for path in file.parent.glob("*.py")] if file.parent.is_dir() else []
+    remedy = "give the .py file that defines the blocks"
+    raise InputError(str(file), "", "no such file", f"{remedy}: {suggestion(file.name, beside)}" if beside else remedy)
 
 
 def _export_named(name: str, asked: Sequence[str] | None, flavour: Flavour, output: Path | None) -> Exported:

@@ -49,6 +49,9 @@ class Mine({base}):
 '''
 
 
+PARAMETER = "from perilune import Parameter\n"
+
+
 def block(
     body="self.y = self.u", declared="", base="Block", method="step(self, t: float, h: float) -> None", imports=""
 ):
@@ -89,6 +92,19 @@ def working(tmp_path, monkeypatch):
         "uses_numpy.py": block("self.y = float(np.sin(self.u))", imports="import numpy as np\n"),
         "no_unit.py": block(declared='    w = Input(0.0, unit="furlong", description="in")\n'),
         "no_words.py": block(declared="    w = Input(0.0)\n"),
+        "no_import.py": block("self.y = math.sqrt(self.u)"),
+        "no_import_of_ours.py": block("self.y = norm(self.v)"),
+        "above.py": block(declared='    w = Parameter(90.0, maximum=14.0, description="in")\n', imports=PARAMETER),
+        "below.py": block(declared='    w = Input([1.0, -1.0], minimum=0.0, description="in")\n'),
+        "other_causality.py": block(
+            base="TerminalGuidance",
+            method="solve(self) -> None",
+            body="self.status = 0",
+            declared='    mass = Parameter(1.0, unit="kg", description="mine")\n',
+            imports=PARAMETER,
+        ),
+        "twice.py": block() + block().partition("import Block")[2].partition("\n")[2],
+        "two_cases.py": block().replace("Mine", "AxisMine") + '\n\nclass Axis_Mine(AxisMine):\n    """Two."""\n',
         "taken_name.py": block().replace("Mine", "AstarGuidance"),
         "here.py": "mine\n",
         "file": "mine",
@@ -112,7 +128,7 @@ CASES = {
     # names
     "a verb with a typo": (["rn", SYSTEM], ["'rn'", "run"]),
     "no verb": ([], ["VERB", "perilune --help"]),
-    "a system with a typo": (["run", "lunar_landings"], ["lunar_landings", "use one of", "lunar_landing,"]),
+    "a system with a typo": (["run", "lunar_landings"], ["lunar_landings", "nearest of", ": lunar_landing"]),
     "a system that is an FMU": (["run", "astar_guidance"], ["astar_guidance", "neither a system"]),
     "an FMU with a typo": ([*RUN, "--use", "guidance=astar_guidence"], ["--use", "astar_guidence", "astar_guidance"]),
     "a slot with a typo": ([*RUN, "--use", "guidence=astar_guidance"], ["--use", "guidence", "use one of", "guidance"]),
@@ -240,6 +256,18 @@ CASES = {
     "what is not declared": (["export", "undeclared.py"], ["undeclared.py", "self.gain", "State"]),
     "a vector of another size": (["export", "wrong_size.py"], ["wrong_size.py", "v", "3"]),
     "a library in a kernel": (["export", "uses_numpy.py"], ["uses_numpy.py", "np.sin", "python_only"]),
+    "a forgotten import": (["export", "no_import.py"], ["no_import.py:", "math is not imported", "write import math"]),
+    "a forgotten import of ours": (["export", "no_import_of_ours.py"], ["norm is not", "from perilune import norm"]),
+    "a start above its maximum": (["export", "above.py"], ["Mine.w", "starts at 90.0", "above its maximum 14.0"]),
+    "an element below its minimum": (["export", "below.py"], ["Mine.w", "starts at -1.0", "below its minimum 0.0"]),
+    "a slot's input as a parameter": (
+        ["export", "other_causality.py"],
+        ["Mine.mass", "a parameter here, of causality input", "give it another name"],
+    ),
+    "two classes of one name": (["export", "twice.py"], ["lines 6 and", "two classes Mine", "rename one"]),
+    "two classes of one FMU": (["export", "two_cases.py"], ["AxisMine and Axis_Mine", "axis_mine", "rename one"]),
+    "a file with a typo": (["export", "no_blocks.py"], ["no_blocks.py: no such file", ".py file", "no_block.py"]),
+    "something to export that is nothing near": (["export", "f.html"], ["f.html", "and", "more"]),
     "a unit that is none": (["export", "no_unit.py"], ["no_unit.py", "Mine.w", "furlong", "write it of m, kg"]),
     "a variable without words": (["export", "no_words.py"], ["no_words.py", "Mine.w", "give a description"]),
     "a name of ours": (["export", "taken_name.py"], ["taken_name.py", "astar_guidance", "rename the class"]),
@@ -270,3 +298,13 @@ def test_a_mistake(name, working, capfd):
     assert status == 2
     assert captured.out == ""
     assert snapshot(working) == before
+
+
+def test_every_violation_has_a_line_of_its_own(working, capfd):
+    Path("worse.py").write_text(block("self.y = math.sqrt(self.u)\n        self.gain = self.u"), encoding="utf-8")
+    assert main(["export", "worse.py"]) == 2
+    first, second = capfd.readouterr().err.splitlines()
+    assert first.startswith("perilune: Mine: ")
+    assert "worse.py:14: math is not imported; write import math at the top of the file" in first
+    assert "worse.py:15: self.gain" in second
+    assert not Path("build").exists()
