@@ -15,15 +15,16 @@ from ..batch.summary import CONFIDENCE, summary_rows
 from ..batch.tables import who_cells, who_heads
 from ..campaign.plan import read_plan
 from ..errors import suggestion
+from ..flight.results import require_pandas
 from ..reports.batch.batch_report import write_batch_report
 from ..reports.batch.distributions import sort_metrics
 from ..reports.batch.plots import metric_plot
 from ..reports.kit.quantities import number
-from ..ssp.parameter_sets import ParameterValue
-from ..system.faults import Fault
+from ..ssp.parameter_sets import SetValue
+from ..system.faults import Fault, faults_of
 from ..targets import check_folder
 from .notebook import Grid, metric_grid, notebook_view
-from .options import FilePath, system_options
+from .options import FilePath, check_list, system_options
 
 MOST_PLOTTED = 6  # metrics, in a notebook
 
@@ -38,6 +39,7 @@ class BatchResult(results.BatchResult):
 
     def to_pandas(self) -> Any:
         """`table` as a pandas.DataFrame, a row per variant and trial; needs pandas."""
+        require_pandas()
         return self.table().to_pandas()
 
     def report(self, path: FilePath) -> None:
@@ -91,8 +93,8 @@ def batch(
     overwrite: bool = False,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
-    set: Mapping[str, ParameterValue] | None = None,
-    faults: Sequence[Fault] = (),
+    set: Mapping[str, SetValue] | None = None,
+    faults: Sequence[Fault | str] = (),
     step: float | None = None,
     stop_time: float | None = None,
     algorithm: Literal["sequential", "jacobi"] | None = None,
@@ -114,7 +116,9 @@ def batch(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
     )  # fmt: skip
-    plan = read_plan(Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults)
+    check_list("faults", faults)
+    given = faults_of(faults)
+    plan = read_plan(Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=given)
     result = BatchResult(**vars(run_batch(plan, workers=workers, output=folder)))
     if folder is not None:
         result.write(folder)

@@ -20,11 +20,11 @@ from ..reports.own.limit_table import limit_rows
 from ..reports.run.plots import signal_plot
 from ..reports.run.run_report import key_values, write_run_report
 from ..reports.run.trajectory import trajectory_plot
-from ..ssp.parameter_sets import ParameterValue
-from ..system.faults import Fault
+from ..ssp.parameter_sets import SetValue
+from ..system.faults import Fault, faults_of
 from ..system.prepared import prepare_system
 from .notebook import Grid, notebook_view, value_text
-from .options import FilePath, system_options
+from .options import FilePath, check_list, system_options
 
 MOST_PLOTTED = 3  # signals of a flight without a path, in a notebook
 
@@ -58,7 +58,7 @@ class Result(results.Result):
         end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
         words = f"{self.status}{end}, {self.time.size} rows, {len(self.signals)} signals"
         grids = [
-            Grid((figure.title, "at the end", "limit", "unit", ""), limit_rows(figure, self))
+            Grid((figure.title, "value", "limit", "unit", ""), limit_rows(figure, self))
             for figure in self.figures
             if isinstance(figure, Limits) and self.time.size
         ]
@@ -80,8 +80,8 @@ def simulate(
     *,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
-    set: Mapping[str, ParameterValue] | None = None,
-    faults: Sequence[Fault] = (),
+    set: Mapping[str, SetValue] | None = None,
+    faults: Sequence[Fault | str] = (),
     step: float | None = None,
     stop_time: float | None = None,
     algorithm: Literal["sequential", "jacobi"] | None = None,
@@ -95,14 +95,17 @@ def simulate(
 
     ``system`` is a name under ssp_systems, a folder or an .ssp; ``use`` maps components to FMUs (block names or
     paths), ``parameters`` lists parameter sets (names of the system's, or paths), ``set`` maps ``component.variable``
-    to values in SI units; ``step`` and ``stop_time`` are in s. Raises InputError; a flight that fails comes back with
+    to values in SI units, and ``component.vector`` to lists of them; ``faults`` are `Fault` or texts as --fault takes
+    them; ``step`` and ``stop_time`` are in s. Raises InputError; a flight that fails comes back with
     its ``status``.
     """
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, open_inputs=open_inputs,
     )  # fmt: skip
+    check_list("faults", faults)
+    given = faults_of(faults)
     prepared = prepare_system(Path(system), options)
     figures = tuple(read_figures(prepared))
-    with Simulation(prepared, faults=faults) as simulation:
+    with Simulation(prepared, faults=given) as simulation:
         return Result(**vars(fly(simulation)), system=prepared.archive.name, figures=figures)

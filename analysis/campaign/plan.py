@@ -41,6 +41,7 @@ class BatchPlan:
     campaign_sha256: str = ""
     overlaid: tuple[str, ...] = ()
     faults: tuple[Fault, ...] = ()
+    compared_by: str = ""  # what errors name for the compared FMUs: --compare, or the campaign's file
 
     @cached_property
     def draws(self) -> DrawTable:
@@ -84,7 +85,13 @@ class BatchPlan:
     def prepare(self, variant: Variant) -> PreparedSystem:
         """The system as one variant flies it. Raises InputError."""
         options = self.options.among(campaign=self.campaign.layer, study=Layer(use=variant.use))
-        return prepare_system(self.system, options)
+        try:
+            return prepare_system(self.system, options)
+        except InputError as error:
+            compared = {*variant.use, *variant.use.values(), *(f"{slot}={fmu}" for slot, fmu in variant.use.items())}
+            if error.file == "--use" and error.element in compared:
+                raise InputError(self.compared_by or "compare", error.element, error.problem, error.remedy) from error
+            raise
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of one trial: draws, and seed and stream of every component that has them."""
@@ -129,7 +136,8 @@ def read_plan(
     if compare is not None:
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
     changed = replace(read, **changes)
-    return BatchPlan(str(system), changed, options, hashlib.sha256(data).hexdigest(), faults=tuple(faults))
+    digest, compared_by = hashlib.sha256(data).hexdigest(), f"{label}: compare" if compare is None else "--compare"
+    return BatchPlan(str(system), changed, options, digest, faults=tuple(faults), compared_by=compared_by)
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
@@ -153,7 +161,8 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
         if slot in plan.options.use:
             raise InputError("--use", slot, "the campaign compares FMUs in this slot", f"give --compare {slot}=A,B")
     for name in plan.options.set:
-        if name in plan.draws.columns or name.endswith((".seed", ".stream")):
+        drawn = any(column == name or column.startswith(f"{name}[") for column in plan.draws.columns)
+        if drawn or name.endswith((".seed", ".stream")):
             raise InputError("--set", name, "the campaign draws it in every trial", "change the campaign, or --seed")
 
 

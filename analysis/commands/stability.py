@@ -16,12 +16,13 @@ from ..stability.results.loop import JointReport, LoopReport
 from ..stability.results.requirement import Requirement, Verdict
 from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
-from ..targets import Results, check_file
+from ..targets import PAGES, Results, check_file
 from .common.options import check_json, system_options, write_json
+from .common.remarks import say_stale
 
 
 def run(options: argparse.Namespace) -> int:
-    check_file("--report", options.report)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     request = read_request(
         options.system,
@@ -33,6 +34,7 @@ def run(options: argparse.Namespace) -> int:
         seed=options.seed,
         trial=options.trial,
     )
+    say_stale(options)
     try:
         report = study(request, options.workers)
     except StudyError as error:

@@ -38,6 +38,10 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
             where = ("--step", f"{step:g}") if options.step is not None else ("--stop-time", f"{stop:g}")
         raise InputError(*where, problem, "give a longer --step or earlier times")
     duration = stop - description.start_time
+    if duration < 0.0:
+        option = "--stop-time" if options.stop_time is not None else f"{network.file}: stopTime"
+        problem = f"is before the start at {description.start_time:g} s"
+        raise InputError(option, f"{stop:g}", problem, "give the time at which the flight ends, later than that")
     steps = round(duration / step) if 0.0 <= duration / step < float("inf") else -1
     if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
         raise InputError(

@@ -59,7 +59,7 @@ def test_what_a_kernel_may_use(pages):
         (row,) = re.findall(rf"^\| `{name}\(.*$", page, re.MULTILINE)
         cells = re.split(r"(?<!\\)\|", row)
         assert len(cells) == 4
-        assert len(cells[2]) > 20
+        assert len(cells[2]) > 10
     for name in REFUSED_FUNCTIONS:
         assert f"| `{name}` |" in page
     assert LANGUAGE_PAGE in OTHER_FUNCTION
