@@ -27,7 +27,7 @@ class Layer:
     use: Mapping[str, str] = field(default_factory=dict)
     parameters: tuple[str, ...] = ()
     set: Mapping[str, SetValue] = field(default_factory=dict)
-    places: Mapping[str, tuple[str, int]] = field(default_factory=dict)
+    places: Mapping[str, tuple[str, int]] = field(default_factory=dict, compare=False)
 
 
 @dataclass(frozen=True)
