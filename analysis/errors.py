@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import re
 import warnings
 from collections.abc import Iterable
 
@@ -34,14 +35,27 @@ def warn_in_one_line() -> None:
     warnings.formatwarning = lambda message, *_: f"perilune: {message}\n"
 
 
-def suggestion(name: str, known: Iterable[str], most: int = 12) -> str:
-    """A remedy for an unknown name: the known ones, the ``most`` nearest when there are many."""
-    names = sorted(known)
+FEW, NEAREST, ALL = 6, 4, 12  # names: so many are all shown, so many nearest of more, so many where none is near
+NEAR = 0.6  # of difflib's ratio, 1 for the same
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """A remedy for an unknown name: the nearest of the known ones first, or all where there are few or none is near."""
+    names = sorted(set(known), key=_natural)
     if not names:
         return "there is none to choose from here"
-    if len(names) <= most:
-        return f"use one of {', '.join(names)}"
-    near = difflib.get_close_matches(name, names, n=most, cutoff=0.3)
-    if not near:
-        return f"use one of {', '.join(names[:most])} and {len(names) - most} more"
-    return f"the nearest of {len(names)} known names: {', '.join(near)}"
+    likeness = {other: difflib.SequenceMatcher(None, other, name).ratio() for other in names}
+    ranked = sorted(names, key=lambda other: -likeness[other])  # which keeps the order of those that are as near
+    near = [other for other in ranked if likeness[other] >= NEAR][:NEAREST]
+    if len(names) <= FEW:
+        return f"use one of {', '.join(near + [other for other in names if other not in near])}"
+    if near:
+        return f"the nearest of {len(names)} known names: {', '.join(near)}"
+    shown = names if len(names) <= ALL else names[:NEAREST]
+    more = f" and {len(names) - len(shown)} more" if len(shown) < len(names) else ""
+    return f"use one of {', '.join(shown)}{more}"
+
+
+def _natural(name: str) -> list[tuple[int, str]]:
+    """What names are ordered by: x[2] before x[10]."""
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)]

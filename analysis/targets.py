@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .errors import InputError
 
+PAGES = (".html", ".htm")
 RESULTS = ("trials.parquet", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json")
 
 
@@ -16,11 +17,12 @@ def check_file(option: str, path: Path | None, suffixes: Collection[str] = ()) -
     """Refuse a file that cannot be written, before anything flies. Raises InputError."""
     if path is None:
         return
+    if path.is_dir():
+        ending = f", ending with {' or '.join(suffixes)}" if suffixes else ""
+        raise InputError(option, str(path), "is a folder", f"give the name of a file in it{ending}")
     if suffixes and path.suffix not in suffixes:
         problem = f"{'neither' if len(suffixes) > 1 else 'not'} {' nor '.join(suffixes)}"
         raise InputError(option, str(path), problem, f"end the name with {' or '.join(suffixes)}")
-    if path.is_dir():
-        raise InputError(option, str(path), "is a folder", "give the name of a file in it")
     _check_folder(option, path.parent)
     if path.exists() and not os.access(path, os.W_OK):
         raise InputError(option, str(path), "cannot be written", "give another file, or change its permissions")

@@ -88,6 +88,13 @@ class Variable:
             raise DeclarationError(f"{where}: unit {self.unit!r} is not understood; {remedy}")
         if not self.description:
             raise DeclarationError(f"{where}: give a description")
+        for value in self.elements:
+            if self.minimum is not None and value < self.minimum:
+                problem = f"starts at {value}, below its minimum {self.minimum}"
+                raise DeclarationError(f"{where}: {problem}; give a larger start, or a smaller minimum")
+            if self.maximum is not None and value > self.maximum:
+                problem = f"starts at {value}, above its maximum {self.maximum}"
+                raise DeclarationError(f"{where}: {problem}; give a smaller start, or a larger maximum")
 
     if TYPE_CHECKING:  # instances hold plain values under the same name
 
@@ -248,12 +255,21 @@ class Block:
         for base in reversed(cls.__mro__):
             for name, value in vars(base).items():
                 if isinstance(value, Variable):
+                    cls._check_redeclared(name, value)
                     cls.variables[name] = value
         if not (cls.__doc__ or "").strip():
             raise DeclarationError(f"{cls.__name__}: write a docstring: purpose, assumptions, source")
         cls._check_dependencies()
         if not interface:
             cls._check_written()
+
+    @classmethod
+    def _check_redeclared(cls, name: str, value: Variable) -> None:
+        """Starts and bounds may be declared again, what a variable is may not: others connect to it."""
+        before = cls.variables.get(name)
+        if before is not None and before.causality != value.causality:
+            kinds = f"a {value.causality} here, of causality {before.causality} in what {cls.__name__} derives from"
+            raise DeclarationError(f"{cls.__name__}.{name}: {kinds}; give it another name")
 
     @classmethod
     def _check_written(cls) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import importlib
 import importlib.util
 import inspect
@@ -52,6 +53,7 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
     spec = importlib.util.spec_from_file_location(name, path)
     if spec is None or spec.loader is None or not path.is_file():
         raise ValueError(f"{path}: not a Python file; give the .py file that defines the blocks")
+    _check_names(path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     try:
@@ -63,4 +65,24 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
     found = blocks_of(module)
     if not found:
         raise ValueError(f"{path}: defines no block; derive a class from perilune.Block or an interface of it")
+    names: dict[str, str] = {}
+    for block in found:
+        other = names.setdefault(block.fmu_name, block.__name__)
+        if other != block.__name__:
+            raise ValueError(f"{path}: {other} and {block.__name__} are both the FMU {block.fmu_name}; rename one")
     return found
+
+
+def _check_names(path: Path) -> None:
+    """Refuse two classes of one name, of which Python would keep the last without a word."""
+    try:
+        tree = ast.parse(path.read_bytes())
+    except (SyntaxError, ValueError):
+        return  # which the import tells better
+    lines: dict[str, int] = {}
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef):
+            if node.name in lines:
+                places = f"lines {lines[node.name]} and {node.lineno}"
+                raise ValueError(f"{path}: {places} define two classes {node.name}; rename one")
+            lines[node.name] = node.lineno

@@ -29,3 +29,12 @@ def built_fmu(name: str, flavour: str) -> Path:
 def own_fmu(name: str, flavour: str) -> Path:
     """The file that `perilune export` writes for a block of one's own, in the working folder; it need not exist."""
     return Path.cwd() / "build" / "fmus" / flavour / f"{name}.fmu"
+
+
+def own_fmus(name: str, flavour: str, system: Path | None) -> list[Path]:
+    """Where an FMU of one's own is looked for: in the working folder, then beside the folder of its ``system``."""
+    places = [own_fmu(name, flavour)]
+    if system is not None:
+        beside = system.resolve().parent / "build" / "fmus" / flavour / f"{name}.fmu"
+        places += [beside] if beside not in places else []
+    return places

@@ -32,3 +32,13 @@ def test_warnings_are_a_line_without_their_place(monkeypatch):
     monkeypatch.setattr(warnings, "formatwarning", warnings.formatwarning)  # put back in the end
     warn_in_one_line()
     assert warnings.formatwarning("a.fmu: odd", UserWarning, "place.py", 7) == "perilune: a.fmu: odd\n"
+
+
+def test_suggestions_are_few_nearest_first_and_in_natural_order():
+    known = [f"guidance.target_position[{i}]" for i in (10, 3, 1, 2)] + [f"plant.{name}" for name in "abcdefghi"]
+    found = suggestion("guidance.target_position[9]", known)
+    assert found.endswith(": " + ", ".join(f"guidance.target_position[{i}]" for i in (1, 2, 3, 10)))
+    few = ["guidance", "plant", "control"]
+    assert suggestion("contrl", few) == "use one of control, guidance, plant"
+    many = [f"block_{chr(97 + i)}" for i in range(20)]
+    assert suggestion("f.html", many) == "use one of block_a, block_b, block_c, block_d and 16 more"

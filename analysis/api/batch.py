@@ -16,17 +16,18 @@ from ..batch.summary import CONFIDENCE, summary_rows
 from ..batch.tables import who_cells, who_heads
 from ..campaign.plan import read_plan
 from ..errors import suggestion
+from ..flight.results import require_pandas
 from ..reports.batch.batch_report import write_batch_report
 from ..reports.batch.distributions import sort_metrics
 from ..reports.batch.plots import metric_plot
 from ..reports.kit.quantities import number
-from ..ssp.parameter_sets import ParameterValue
-from ..system.faults import Fault
+from ..ssp.parameter_sets import SetValue
+from ..system.faults import Fault, faults_of
 from ..system.series import Given, read_series
 from ..system.watch import Watch
 from ..targets import check_folder
 from .notebook import Grid, metric_grid, notebook_view
-from .options import FilePath, system_options
+from .options import FilePath, check_list, system_options
 
 MOST_PLOTTED = 6  # metrics, in a notebook
 
@@ -41,6 +42,7 @@ class BatchResult(results.BatchResult):
 
     def to_pandas(self) -> Any:
         """`table` as a pandas.DataFrame, a row per variant and trial; needs pandas."""
+        require_pandas()
         return self.table().to_pandas()
 
     def report(self, path: FilePath) -> None:
@@ -94,8 +96,8 @@ def batch(
     overwrite: bool = False,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
-    set: Mapping[str, ParameterValue] | None = None,
-    faults: Sequence[Fault] = (),
+    set: Mapping[str, SetValue] | None = None,
+    faults: Sequence[Fault | str] = (),
     input: Given | None = None,
     log: Literal["error", "warning", "info", "all"] | None = None,
     timeout: float | None = None,
@@ -122,8 +124,9 @@ def batch(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
+    check_list("faults", faults)
     plan = read_plan(
-        Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults,
+        Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults_of(faults),
         series=None if input is None else read_series(input), watch=Watch(timeout, log),
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder

@@ -14,6 +14,7 @@ from ..batch.tables import who_cells, who_heads
 from ..compare import comparison
 from ..compare.side_by_side import compare as side_by_side
 from ..errors import InputError, suggestion
+from ..flight.results import require_pandas
 from ..reports.compare.page import write_comparison_page
 from ..reports.compare.plots import metric_plot, varying_metrics
 from ..reports.kit.quantities import number
@@ -33,6 +34,7 @@ class Comparison(comparison.Comparison):
 
     def to_pandas(self) -> Any:
         """Statistics as a pandas.DataFrame, a row per metric, variant and group; needs pandas."""
+        require_pandas()
         from pandas import DataFrame
 
         rows = [

@@ -14,7 +14,7 @@ from ..describe.system import describe_system
 from ..describe.variables import variables_of
 from ..errors import InputError, suggestion
 from ..ssp.archive import system_names
-from ..ssp.parameter_sets import ParameterValue
+from ..ssp.parameter_sets import SetValue
 from ..system.alone import describe_alone
 from ..system.fmu import load_fmu
 from ..system.options import SystemOptions
@@ -28,7 +28,7 @@ def describe(
     *,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
-    set: Mapping[str, ParameterValue] | None = None,
+    set: Mapping[str, SetValue] | None = None,
     step: float | None = None,
     stop_time: float | None = None,
     algorithm: Literal["sequential", "jacobi"] | None = None,

@@ -13,12 +13,14 @@ from typing import Literal
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.archive import read_zip, write_zip
+from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
 from ...fmus_src.export.native_fmu import build_native_fmu
 from ...fmus_src.export.own_blocks import build_own_blocks, own_blocks
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
+from ...fmus_src.export.sources import record_source
 from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
-from ...fmus_src.places import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu
+from ...fmus_src.places import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu, own_fmus
 from ..atomic import write_atomically
 from ..errors import InputError, suggestion
 from ..ssp.archive import SystemArchive, open_system, system_names
@@ -62,12 +64,22 @@ def export(
     check_file("--output", target)
     try:
         if text.endswith(".py"):
+            _check_there(Path(text))
             return _export_file(Path(text), platforms, flavour, target)
         return _export_named(text, platforms, flavour or "native", target)
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
     except CompilationFailed as error:
         raise InputError("export", text, "the compiler refused it", " ".join(str(error).split())) from error
+
+
+def _check_there(file: Path) -> None:
+    """Refuse a Python file that is not there, with the names of those that are."""
+    if file.is_file():
+        return
+    beside = [path.name for path in file.parent.glob("*.py")] if file.parent.is_dir() else []
+    remedy = "give the .py file that defines the blocks"
+    raise InputError(str(file), "", "no such file", f"{remedy}: {suggestion(file.name, beside)}" if beside else remedy)
 
 
 def _export_named(name: str, asked: Sequence[str] | None, flavour: Flavour, output: Path | None) -> Exported:
@@ -127,14 +139,15 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
                 target = folder / f"{Path(source).stem}.fmu"
                 if source in archive.files or target.exists():
                     continue
-                own = own_fmu(target.stem, flavour)
+                own = fmu_file(target.stem, flavour, archive.path)
                 if target.stem in blocks:
                     _build(blocks[target.stem], target, flavour, platforms)
-                elif own.is_file():
+                elif own is not None:
                     shutil.copyfile(own, target)
                 else:
                     element = f"{component.get('name')} (line {component.sourceline})"
-                    problem = f"no {source} in the system, no FMU of this repository, no {own}"
+                    places = " or ".join(map(str, own_fmus(target.stem, flavour, archive.path)))
+                    problem = f"no {source} in the system, no FMU of this repository, no {places}"
                     remedy = f"build your own with perilune export FILE.py --flavour {flavour}, or add the FMU"
                     raise InputError(f"{archive.label}/{entry}", element, problem, remedy)
         packed = pack_system(archive.path, [folder], folder / "packed")
@@ -151,6 +164,7 @@ def _export_file(file: Path, asked: Sequence[str] | None, flavour: Flavour | Non
             check_file("export", own_fmu(file.stem, each))
         folder = own_fmu("x", "x").parents[1]
         written = build_own_blocks(file, folder, flavours, platforms, portable=_zig_is_here())
+        record_source(folder, file, written)
         return Exported(tuple(path.relative_to(Path.cwd()) for path in written), tuple(flavours), built_for)
     blocks = own_blocks(file)
     if output.suffix != ".fmu" or len(blocks) > 1:

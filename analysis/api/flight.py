@@ -22,13 +22,13 @@ from ..reports.own.limit_table import limit_rows
 from ..reports.run.plots import signal_plot
 from ..reports.run.run_report import key_values, write_run_report
 from ..reports.run.trajectory import trajectory_plot
-from ..ssp.parameter_sets import ParameterValue
-from ..system.faults import Fault
+from ..ssp.parameter_sets import SetValue
+from ..system.faults import Fault, faults_of
 from ..system.prepared import prepare_system
 from ..system.series import Given, read_series
 from ..system.watch import Watch
 from .notebook import Grid, notebook_view, value_text
-from .options import FilePath, system_options
+from .options import FilePath, check_list, system_options
 
 MOST_PLOTTED = 3  # signals of a flight without a path, in a notebook
 
@@ -62,7 +62,7 @@ class Result(results.Result):
         end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
         words = f"{self.status}{end}, {self.time.size} rows, {len(self.signals)} signals"
         grids = [
-            Grid((figure.title, "at the end", "limit", "unit", ""), limit_rows(figure, self))
+            Grid((figure.title, "value", "limit", "unit", ""), limit_rows(figure, self))
             for figure in self.figures
             if isinstance(figure, Limits) and self.time.size
         ]
@@ -84,8 +84,8 @@ def simulate(
     *,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
-    set: Mapping[str, ParameterValue] | None = None,
-    faults: Sequence[Fault] = (),
+    set: Mapping[str, SetValue] | None = None,
+    faults: Sequence[Fault | str] = (),
     input: Given | None = None,
     log: Literal["error", "warning", "info", "all"] | None = None,
     timeout: float | None = None,
@@ -103,7 +103,8 @@ def simulate(
 
     ``system`` is a name under ssp_systems, a folder, an .ssp or .fmu; ``use`` maps components to FMUs (block names or
     paths), ``parameters`` lists parameter sets (names of the system's, or paths), ``set`` maps ``component.variable``
-    to values in SI units; ``step`` and ``stop_time`` are in s. ``input`` are inputs over time: the path of a CSV file,
+    to values in SI units, and ``component.vector`` to lists of them; ``faults`` are `Fault` or texts as --fault takes
+    them; ``step`` and ``stop_time`` are in s. ``input`` are inputs over time: the path of a CSV file,
     a structured array or columns by name, ``time`` (s) and inputs that nothing is connected to. ``log``
     writes what FMUs say to standard error, from this level on; ``timeout`` (s, wall clock) ends the flight at its next
     communication point. Raises InputError, and TimeoutError where a step of an FMU does not return; a flight that
@@ -113,11 +114,10 @@ def simulate(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
+    check_list("faults", faults)
+    given = faults_of(faults)
     prepared = prepare_system(Path(system), options, series=None if input is None else read_series(input))
     figures = tuple(read_figures(prepared))
     watch, lines = Watch(timeout, log), None if log is None else Log(log)
-    with (
-        chdir(Path.cwd()),
-        Simulation(prepared, faults=faults, log=lines) as simulation,
-    ):  # an FMU may change the folder
+    with chdir(Path.cwd()), Simulation(prepared, faults=given, log=lines) as simulation:  # an FMU may change the folder
         return Result(**vars(fly(simulation, watch.timeout)), system=prepared.archive.name, figures=figures)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..errors import InputError
-from ..ssp.parameter_sets import ParameterValue
+from ..ssp.parameter_sets import SetValue
 from ..system.options import SystemOptions
 
 FilePath = str | os.PathLike[str]
@@ -16,7 +16,7 @@ FilePath = str | os.PathLike[str]
 def system_options(
     use: Mapping[str, FilePath] | None,
     parameters: Sequence[FilePath],
-    set: Mapping[str, ParameterValue] | None,
+    set: Mapping[str, SetValue] | None,
     no_feedthrough: Sequence[str],
     **others: Any,
 ) -> SystemOptions:
@@ -32,7 +32,7 @@ def system_options(
     )
 
 
-def check_list(name: str, given: Sequence[FilePath]) -> None:
+def check_list(name: str, given: Sequence[object]) -> None:
     """Refuse one text where several are meant, which Python takes for its letters. Raises InputError."""
     if isinstance(given, str | os.PathLike):
         text = os.fspath(given)

@@ -10,10 +10,11 @@ from typing import Any, Literal
 from matplotlib.figure import Figure as Plot
 
 from ..errors import suggestion
+from ..flight.results import require_pandas
 from ..reports.stability.page import write_stability_page
 from ..reports.stability.plots import Diagram, loop_plot
 from ..reports.stability.words import gain_margin, phase_margin, size, verdict
-from ..ssp.parameter_sets import ParameterValue
+from ..ssp.parameter_sets import SetValue
 from ..stability.ask.request import read_request
 from ..stability.results import report
 from ..stability.results.document import KEYS, document
@@ -52,6 +53,7 @@ class StabilityReport(report.StabilityReport):
 
         An unstable loop has no margins: nan; one without a crossing has inf.
         """
+        require_pandas()
         from pandas import DataFrame
 
         rows = [
@@ -129,7 +131,7 @@ def stability(
     workers: int | None = None,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
-    set: Mapping[str, ParameterValue] | None = None,
+    set: Mapping[str, SetValue] | None = None,
     step: float | None = None,
     stop_time: float | None = None,
     algorithm: Literal["sequential", "jacobi"] | None = None,

@@ -18,7 +18,7 @@ from ..laws.law import read_law
 from ..planning.stored_bound import MissingBound, find_bound
 from ..reports.own.asked.reading import read_figures
 from ..ssp.archive import DEFAULT_VARIANT, open_system
-from ..ssp.parameter_sets import ParameterValue, read_parameter_file
+from ..ssp.parameter_sets import SetValue, read_parameter_file
 from ..stability.ask.channels import channels_of
 from ..stability.ask.declaration import Declaration
 from ..stability.ask.reading import read_declaration
@@ -36,7 +36,7 @@ def validate(
     *paths: FilePath,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
-    set: Mapping[str, ParameterValue] | None = None,
+    set: Mapping[str, SetValue] | None = None,
     step: float | None = None,
     stop_time: float | None = None,
     algorithm: Literal["sequential", "jacobi"] | None = None,

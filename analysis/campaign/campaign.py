@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import InputError
@@ -15,7 +15,7 @@ from .faults import CampaignFault
 REDUCTIONS = ("final", "min", "max", "mean", "rms", "last_outside", "settled", "first")
 TRACES = ("none", "failures", "all")
 
-Setting = float | int | bool | str
+Setting = float | int | bool | str | Sequence[float | int]
 
 
 @dataclass(frozen=True)
@@ -119,7 +119,8 @@ class Campaign:
     @property
     def layer(self) -> Layer:
         """What the campaign asks of the system, whatever it draws."""
-        return Layer(parameters=self.parameters, set=self.settings)
+        places = dict.fromkeys(self.settings, (self.file, 0))
+        return Layer(parameters=self.parameters, set=self.settings, places=places)
 
     def drawn_names(self) -> list[str]:
         """Names of all drawn and derived values."""

@@ -153,7 +153,7 @@ class _Translator:
     def function(self, node: ast.Call) -> ast.expr:
         name = path_name(node.func)
         if name not in FUNCTIONS:
-            self.refuse(f"{ast.unparse(node.func)!r} is not a function", suggestion(str(name), FUNCTIONS, most=99))
+            self.refuse(f"{ast.unparse(node.func)!r} is not a function", suggestion(str(name), FUNCTIONS))
         function, fewest, most = FUNCTIONS[name]
         if node.keywords or any(isinstance(argument, ast.Starred) for argument in node.args):
             self.refuse(f"{ast.unparse(node)!r} has more than plain arguments", f"write {name}(a, ...)")

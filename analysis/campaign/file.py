@@ -123,8 +123,10 @@ def _record(table: Table) -> Record:
 def _settings(table: Table, drawn: list[str]) -> dict[str, Setting]:
     settings: dict[str, Setting] = {}
     for name, value in table.flat():
-        if not isinstance(value, float | int | bool | str):
-            raise table.error(name, f"{value!r} is not one value", "give a number, true, false or a text")
+        numbers = isinstance(value, list) and value and all(isinstance(item, float | int) for item in value)
+        if not numbers and not isinstance(value, float | int | bool | str):
+            remedy = "give a number, true, false or a text; of a vector a list of numbers"
+            raise table.error(name, f"{value!r} is no value", remedy)
         if "." not in name:
             raise table.error(name, "names no component", "write component.variable = value")
         if name in drawn:

@@ -46,6 +46,7 @@ class BatchPlan:
     faults: tuple[Fault, ...] = ()
     series: InputSeries | None = None
     watch: Watch = UNWATCHED
+    compared_by: str = ""  # what errors name for the compared FMUs: --compare, or the campaign's file
 
     @cached_property
     def draws(self) -> DrawTable:
@@ -89,7 +90,13 @@ class BatchPlan:
     def prepare(self, variant: Variant) -> PreparedSystem:
         """The system as one variant flies it. Raises InputError."""
         options = self.options.among(campaign=self.campaign.layer, study=Layer(use=variant.use))
-        return prepare_system(self.system, options, series=self.series)
+        try:
+            return prepare_system(self.system, options, series=self.series)
+        except InputError as error:
+            compared = {*variant.use, *variant.use.values(), *(f"{slot}={fmu}" for slot, fmu in variant.use.items())}
+            if error.file == "--use" and error.element in compared:
+                raise InputError(self.compared_by or "compare", error.element, error.problem, error.remedy) from error
+            raise
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of one trial: draws, and seed and stream of every component that has them."""
@@ -136,9 +143,15 @@ def read_plan(
     if compare is not None:
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
     changed = replace(read, **changes)
-    digest = hashlib.sha256(data).hexdigest()
     return BatchPlan(
-        str(system), changed, options, digest, faults=tuple(faults), series=series, watch=watch or UNWATCHED
+        str(system),
+        changed,
+        options,
+        hashlib.sha256(data).hexdigest(),
+        faults=tuple(faults),
+        series=series,
+        watch=watch or UNWATCHED,
+        compared_by=f"{label}: compare" if compare is None else "--compare",
     )
 
 
@@ -163,7 +176,8 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
         if slot in plan.options.use:
             raise InputError("--use", slot, "the campaign compares FMUs in this slot", f"give --compare {slot}=A,B")
     for name in plan.options.set:
-        if name in plan.draws.columns or name.endswith((".seed", ".stream")):
+        drawn = any(column == name or column.startswith(f"{name}[") for column in plan.draws.columns)
+        if drawn or name.endswith((".seed", ".stream")):
             raise InputError("--set", name, "the campaign draws it in every trial", "change the campaign, or --seed")
 
 

@@ -12,17 +12,20 @@ import numpy as np
 from ..batch.flyer import Flyer
 from ..batch.results import BatchResult
 from ..batch.runner import run_batch
+from ..batch.status_texts import worst_statuses
 from ..batch.summary import TrialColumns, requirement_values, summarise
-from ..batch.tables import faults_line
+from ..batch.tables import aligned, faults_line
 from ..campaign.expressions import Expression
 from ..campaign.plan import BatchPlan, check_plan, read_plan
 from ..errors import InputError
 from ..flight.interruptible import StuckError
 from ..flight.results import TIMED_OUT
 from ..reports.batch.batch_report import write_batch_report
-from ..targets import Results, check_file, check_folder
+from ..system.status_words import with_meaning
+from ..targets import PAGES, Results, check_file, check_folder
 from .common.in_flight import series, watch
 from .common.options import check_json, faults, json_number, pairs, system_options, write_json
+from .common.remarks import say_stale
 from .common.requirements import check_requirements, read_requirements
 
 
@@ -32,7 +35,7 @@ def run(options: argparse.Namespace) -> int:
         found = pairs(options.compare, "--compare", "SLOT=A,B,C")
         compare = {slot: [name.strip() for name in names.split(",")] for slot, names in found.items()}
     check_folder("--output", options.output, overwrite=options.overwrite or options.replay is not None)
-    check_file("--report", options.report)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     plan = read_plan(
         options.system,
@@ -45,6 +48,7 @@ def run(options: argparse.Namespace) -> int:
         series=series(options),
         watch=watch(options),
     )
+    say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
     if options.replay is not None:
         for name in ("require", "report"):
             if getattr(options, name):
@@ -55,6 +59,8 @@ def run(options: argparse.Namespace) -> int:
     result = run_batch(plan, workers=options.workers, output=options.output)
     if not write_json(result.document(), options.json, files):
         print(result.text())
+        for line in _meanings(plan, result):
+            print(line)
     files.write(options.output, result.write)
     files.write(options.report, lambda path: write_batch_report(result, path, result.provenance["system"]))
     if options.json != "-":
@@ -76,6 +82,18 @@ def run(options: argparse.Namespace) -> int:
         flown, planned = result.plan.campaign.trials, plan.campaign.trials
         print(f"perilune: interrupted: the first {flown} of {planned} trials were flown", file=sys.stderr)
     return 2 if files.failed else 0 if met and not result.interrupted and not late else 1
+
+
+def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
+    """What each status that a trial reported means, once, as its FMU says."""
+    found: dict[str, None] = {}
+    for variant in plan.campaign.variants():
+        texts = dict.fromkeys(text for text in result.trials[variant.name].statuses if worst_statuses(text))
+        if texts:
+            network = plan.prepare(variant).network
+            seen = {item: None for text in texts for item in worst_statuses(text).items()}
+            found |= {with_meaning(network, *item): None for item in seen}
+    return list(found)
 
 
 def _requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
@@ -106,6 +124,7 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
     check_plan(plan)
     files = Results()
     flyer = Flyer(plan)
+    files = Results()
     document: dict[str, dict[str, Any]] = {}
     for variant in flyer.variants:
         try:
@@ -114,16 +133,23 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
             print(f"perilune: {variant}: trial {trial}: {error}; nothing of it is written", file=sys.stderr)
             return 1
         if options.output is not None:
-            result.write(files.home / options.output / f"{variant}_{trial:06d}.parquet")
+            files.write(options.output / f"{variant}_{trial:06d}.parquet", result.write)
         metrics = {name: json_number(value) for name, value in found.metrics.items()}
         document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
     flown = [str(fault) for fault in plan.faults_of(trial) if fault is not None]
     declared = {"faults": flown} if plan.fault_texts() else {}
     if not write_json({"trial": trial, **declared, "variants": document}, options.json, files):
         for variant, entry in document.items():
-            numbers = [(name, "none" if value is None else f"{value:.6g}") for name, value in entry["metrics"].items()]
-            metrics_text = ", ".join(f"{name} {number}" for name, number in numbers)
-            print(f"{variant}: trial {trial}: {entry['status']}, success {entry['success']}: {metrics_text}")
+            print(f"{variant}: trial {trial}: {entry['status']}, {'success' if entry['success'] else 'no success'}")
+            units = {metric.name: "" if metric.unit == "1" else metric.unit for metric in plan.campaign.metrics}
+            cells = [
+                [f"  {name}", "none" if value is None else f"{value:.6g}", units[name]]
+                for name, value in entry["metrics"].items()
+            ]
+            for line in aligned(cells) if cells else ():
+                print(line.rstrip())
         if flown:
             print(faults_line(flown))
-    return 0
+    if options.json != "-":
+        files.say()
+    return 2 if files.failed else 0

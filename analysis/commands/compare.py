@@ -7,12 +7,12 @@ import shlex
 
 from ..compare.side_by_side import compare
 from ..reports.compare.page import write_comparison_page
-from ..targets import Results, check_file
+from ..targets import PAGES, Results, check_file
 from .common.options import check_json, write_json
 
 
 def run(options: argparse.Namespace) -> int:
-    check_file("--report", options.report)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     comparison = compare(options.result, options.reference)
     files = Results()

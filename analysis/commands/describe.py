@@ -48,7 +48,7 @@ def _print_system(document: dict[str, Any]) -> None:
         print("connectors      " + ", ".join(f"{c['name']} ({c['kind']})" for c in document["connectors"]))
     print("components (perilune describe SYSTEM COMPONENT: all that one has)")
     _lines(text_table([[f"  {c['name']}", c["fmu"], c["description"]] for c in document["components"]]))
-    print("fits there, for --use COMPONENT=FMU")
+    print("fits there, for --use SLOT=FMU, by the component's name")
     _lines(text_table([[f"  {c['name']}", ", ".join(c["fits"])] for c in document["components"] if c["fits"]]))
     _print_connections(document)
     given = [

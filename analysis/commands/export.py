@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from ...fmus_src.export.judge.subset import SubsetError
 from ..api.export import export
 from ..errors import InputError
 from .common.options import check_json, tell
@@ -16,6 +17,10 @@ def run(options: argparse.Namespace) -> int:
         exported = export(options.name, platforms=options.platform, flavour=options.flavour, output=options.output)
     except InputError:
         raise
+    except SubsetError as error:
+        for violation in error.violations:
+            print(f"perilune: {error.block}: {violation}", file=sys.stderr)
+        return 2
     except ValueError as error:  # what is wrong with a block, told by the export as one line
         print(f"perilune: {' '.join(str(error).split())}", file=sys.stderr)
         return 2

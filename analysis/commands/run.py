@@ -9,14 +9,16 @@ from ..batch.tables import faults_line
 from ..flight.instances.log import Log
 from ..flight.interruptible import StuckError, fly
 from ..flight.simulation import Simulation
+from ..flight.statuses import status_lines
 from ..reports.own.asked.reading import read_figures
 from ..reports.own.asked.stages import Limits
 from ..reports.own.limit_table import limit_lines
 from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
-from ..targets import Results, check_file
+from ..targets import PAGES, Results, check_file
 from .common.in_flight import series, watch
 from .common.options import check_json, faults, json_number, system_options, write_json
+from .common.remarks import note_lines, say_stale
 from .common.requirements import check_requirements, read_requirements
 
 OUTPUT_SUFFIXES = (".csv", ".parquet")
@@ -30,10 +32,11 @@ STUCK = "nothing is written; see what it says with --log all, or give it longer"
 
 def run(options: argparse.Namespace) -> int:
     check_file("--output", options.output, OUTPUT_SUFFIXES)
-    check_file("--report", options.report)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     files = Results()
     prepared = prepare_system(options.system, system_options(options), series=series(options))
+    say_stale(options)
     figures = read_figures(prepared)
     injected = faults(options)
     asked = watch(options)
@@ -54,6 +57,8 @@ def run(options: argparse.Namespace) -> int:
         for limits in figures if result.time.size else ():
             if isinstance(limits, Limits):
                 print("\n".join(limit_lines(limits, result)))
+        for line in (*status_lines(prepared.network, result), *note_lines(prepared)):
+            print(line)
         if injected:
             print(faults_line(injected))
     files.write(options.output, result.write)

@@ -16,12 +16,13 @@ from ..stability.results.loop import JointReport, LoopReport
 from ..stability.results.requirement import Requirement, Verdict
 from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
-from ..targets import Results, check_file
+from ..targets import PAGES, Results, check_file
 from .common.options import check_json, system_options, write_json
+from .common.remarks import say_stale
 
 
 def run(options: argparse.Namespace) -> int:
-    check_file("--report", options.report)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     files = Results()
     request = read_request(
@@ -34,6 +35,7 @@ def run(options: argparse.Namespace) -> int:
         seed=options.seed,
         trial=options.trial,
     )
+    say_stale(options)
     try:
         report = study(request, options.workers)
     except StudyError as error:
@@ -52,9 +54,13 @@ def run(options: argparse.Namespace) -> int:
     for subject, requirement in failures:
         if not requirement.unstable or isinstance(subject, JointReport):  # else that it is unstable has a line already
             print(f"perilune: {_failure_line(subject, requirement)}", file=sys.stderr)
+    doubted = [loop for loop in report.loops if loop.doubted and loop.verdict is Verdict.NOT_APPLICABLE]
+    for loop in doubted:
+        why = f"the routes differ, {loop.not_applicable['agreement']}"
+        print(f"perilune: loop {loop.name} at {loop.point}: not passed: {why}", file=sys.stderr)
     for lost in report.unstudied:
         print(f"perilune: {lost.what} {lost.name} at {lost.point}: not studied: {lost.reason}", file=sys.stderr)
-    return 2 if files.failed else 1 if failures or report.unstudied else 0
+    return 2 if files.failed else 1 if failures or doubted or report.unstudied else 0
 
 
 def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:
@@ -68,26 +74,31 @@ def _unit(item: Requirement) -> str:
     return "" if item.unit == "1" else item.unit
 
 
-def _words(sizes: Mapping[Quantity, float]) -> str:
-    """Sizes of margins: ``12.39 dB, 44.28 deg, modulus 0.597, disk 0.761``."""
+def _words(sizes: Mapping[Quantity, float], sides: Mapping[Quantity, str] | None = None) -> str:
+    """Sizes of margins: ``12.39 dB, 44.28 deg, modulus 0.597, disk 0.761``, with words for those that are one-sided."""
     words = []
     for quantity, size in sizes.items():
         name = quantity.split()[0]
         if size == UNLIMITED:
             words.append(f"no {name} crossing")
         else:
-            words.append(f"{name} {size:.3f}" if quantity.unit == "1" else f"{size:.2f} {quantity.unit}")
+            found = f"{name} {size:.3f}" if quantity.unit == "1" else f"{size:.2f} {quantity.unit}"
+            words.append(f"{found} {(sides or {}).get(quantity, '')}".strip())
     return ", ".join(words)
 
 
 def _lines(loop: LoopReport) -> Iterator[str]:
-    """A loop's line, and one below it for the campaign."""
+    """A loop's line, and below it one for each thing that could not be had, and one for the campaign."""
     margins = loop.margins
     sizes = {quantity: margins.size(quantity) for quantity in MARGINS}
-    words = f"unstable, largest multiplier {margins.largest:.4g}" if margins.unstable else _words(sizes)
+    sides = {Quantity.GAIN: "down" if margins.gain < 1.0 else "", Quantity.PHASE: "lead" if margins.phase < 0.0 else ""}
+    words = f"unstable, largest multiplier {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
     if loop.agreement is not None:
         words += ", routes agree" if loop.agreement.agrees else ", routes differ"
     yield f"{loop.name} at {loop.point}: {words}: {loop.verdict}"
+    for name, reason in loop.not_applicable.items():
+        if name != "agreement":  # which has a line of its own
+            yield f"  {name}: {reason}"
     if (spread := loop.dispersion) is not None:
         if spread.unstable:
             again = f"the worst, trial {spread.worst}, again: {spread.replay}"

@@ -198,7 +198,7 @@ class Comparison:
         """The comparison for a terminal: rates with intervals, then metrics of the successful trials."""
         names = [name_of(rate) for rate in self.rates]
         rows = summary_rows(self.summary)
-        cells = [[*who_heads(self.group), "trials", *(f"{name} % ({100 * CONFIDENCE:g} %)" for name in names)]]
+        cells = [[*who_heads(self.group), "trials", *map(_head, names)]]
         for row in rows:
             rates = [_percent(row.entry["rates"][name]) for name in names]
             cells.append([*who_cells(row, self.group), str(row.entry["trials"]), *rates])
@@ -211,6 +211,11 @@ class Comparison:
         if not self.has_faults:
             return []
         return list(lines.values()) if len(lines) == 1 else [f"{name}: {line}" for name, line in lines.items()]
+
+
+def _head(name: str) -> str:
+    """What heads a rate: of success, or of a metric, which a batch's own summary has over its successful trials."""
+    return f"{name} %{'' if name == SUCCESS else ' of all'} ({100 * CONFIDENCE:g} %)"
 
 
 def _percent(rate: Mapping[str, Any]) -> str:

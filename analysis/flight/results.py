@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,12 @@ from ..system.names import elements, vectors
 
 TIMED_OUT = "timed_out"
 COMPLETE = ("finished", "stop_time", "terminated")
+
+
+def require_pandas() -> None:
+    """Raises ImportError, with what to install, where pandas is not."""
+    if find_spec("pandas") is None:
+        raise ImportError("to_pandas needs pandas, which is not here; pip install 'perilune[notebook]'")
 
 
 @dataclass(repr=False)
@@ -86,13 +93,14 @@ class Result(Flight):
 
     def summary(self) -> dict[str, Any]:
         """Status and provenance, without the signals."""
-        last = float(self.time[-1]) if self.time.size else None
+        last = float(f"{self.time[-1]:.12g}") if self.time.size else None  # 283.4, not 283.40000000000003
         return {"status": self.status, "message": self.message, "rows": int(self.time.size), "end_time": last} | (
             self.provenance
         )
 
     def to_pandas(self) -> Any:
         """The flight as a pandas.DataFrame, a column for each signal, with time (s) as its index; needs pandas."""
+        require_pandas()
         return self.table().to_pandas().set_index("time")
 
     def write(self, path: str | Path) -> None:

@@ -44,6 +44,13 @@ def remembered(response: Response) -> Response:
     return response if isinstance(response, Remembered) else Remembered(response)
 
 
+def quotient(value: np.ndarray, reference: np.ndarray) -> np.ndarray:
+    """One response over another: 1 where both are 0, inf where the reference alone is."""
+    silent = reference == 0.0
+    same = np.where(value == 0.0, 1.0, np.inf)
+    return np.where(silent, same, value / np.where(silent, 1.0, reference))
+
+
 def interpolated(frequency: np.ndarray, value: np.ndarray, sample_period: float) -> Response:
     """A response through measured lines: at ``frequency`` (rad/s, increasing, below pi/T) it has ``value``.
 

@@ -144,7 +144,10 @@ def highest(size: Callable[[np.ndarray], np.ndarray], frequency: np.ndarray) -> 
     best = int(np.argmax(values))
     found = [(float(values[best]), float(frequency[best]))]
     neighbours = np.concatenate([[-np.inf], values, [-np.inf]])
-    peaks = (values >= neighbours[:-2]) & (values >= neighbours[2:]) & (values > 0.98 * values[best])
+    before, after = neighbours[:-2], neighbours[2:]
+    # of a level stretch only its ends: within it, as in a loop without gain, there is nothing to refine
+    peaks = (values >= before) & (values >= after) & ((values > before) | (values > after))
+    peaks &= values > 0.98 * values[best]
     for index in np.flatnonzero(peaks).tolist():
         left, right = frequency[max(index - 1, 0)], frequency[min(index + 1, len(frequency) - 1)]
         result = minimize_scalar(

@@ -112,7 +112,7 @@ def _flown(usage: Usage) -> str:
         for system in sorted({*usage.components, *usage.campaigns})
     ]
     if not rows:
-        return "In no system as it stands; `--use COMPONENT=FMU` puts it where it fits."
+        return "In no system as it stands; `--use SLOT=FMU` puts it where it fits."
     return table(["system", "as the component", "as a variant of the campaigns"], rows)
 
 

@@ -37,7 +37,7 @@ def slots_page() -> str:
     parts = [
         "# Slots",
         "A slot is an interface: what all blocks in it have in common, so that one is put in another's place by "
-        "`--use COMPONENT=FMU`. Some stand between a slot and its blocks and hold what a few of them share.",
+        "`--use SLOT=FMU`. Some stand between a slot and its blocks and hold what a few of them share.",
     ]
     for name, slot in slots().items():
         members = blocks_of_slot(slot)

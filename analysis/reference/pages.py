@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from ...fmus_src.catalogue import KINDS, catalogue
+from ...fmus_src.export.judge.subset_table import LANGUAGE_PAGE
 from ...fmus_src.places import ROOT
 from .blocks import block_page
 from .interface import interface_pages
+from .kernel import kernel_page
 from .lists import catalogue_page, kind_of, slots_page
 from .verbs import verbs_page
 
@@ -22,6 +24,7 @@ def derived_pages() -> dict[str, str]:
     pages = {target: _front(ROOT / source) for source, target in FRONT.items()}
     pages["reference/verbs.md"] = verbs_page()
     pages["reference/slots.md"] = slots_page()
+    pages["reference/kernel.md"] = kernel_page()
     pages["reference/blocks/index.md"] = catalogue_page()
     pages |= {f"reference/blocks/{name}.md": block_page(block) for name, block in catalogue().items()}
     pages |= {f"reference/python/{name}": text for name, text in interface_pages().items()}
@@ -38,6 +41,7 @@ def reference_navigation() -> list[dict[str, Any]]:
         {"Verbs": "reference/verbs.md"},
         {"Blocks": blocks},
         {"Slots": "reference/slots.md"},
+        {LANGUAGE_PAGE: "reference/kernel.md"},
         {
             "Python": [
                 {"Flying and studying": "reference/python/flying.md"},

@@ -17,7 +17,7 @@ from urllib.parse import unquote
 
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
-from ...fmus_src.places import IS_CHECKOUT, ROOT, SYSTEMS, own_fmu
+from ...fmus_src.places import IS_CHECKOUT, ROOT, SYSTEMS, own_fmus
 from ..errors import InputError, suggestion
 
 HOW_TO_BUILD = (
@@ -85,20 +85,22 @@ class SystemArchive:
     def fmu(self, source: str, element: str, flavour: str) -> tuple[Callable[[], bytes], str]:
         """What reads an FMU's content, and its name in messages.
 
-        A folder without FMUs of its own takes those of this repository and of the working folder.
+        A folder without FMUs of its own takes those of this repository, of the working folder, and of that which it
+        lies in.
         """
         if self.is_fmu:
             return self.path.read_bytes, self.label
         name = self._place(source)
         if self._has(name) or self.path.is_file() or not self._inside(name):
             return partial(self._content, name, element), f"{self.label}!{name}"
-        path = fmu_file(Path(name).stem, flavour)
+        path = fmu_file(Path(name).stem, flavour, self.path)
         if path is None:
-            own = own_fmu(Path(name).stem, flavour)
+            places = " or ".join(map(str, own_fmus(Path(name).stem, flavour, self.path)))
             if not self.path.is_relative_to(SYSTEMS.resolve()):
-                problem = f"no file {name} in the system's folder, and no FMU of this name is built ({own})"
-                raise InputError(self.label, element, problem, "add the file, or correct the source")
-            problem = f"no file {name} in the system, no {flavour} FMU of this repository, and {own} is not built"
+                problem = f"no file {name} in the system's folder, and no FMU of this name is built ({places})"
+                remedy = "build it: perilune export FILE.py, the file of its block; or correct the source"
+                raise InputError(self.label, element, problem, remedy)
+            problem = f"no file {name} in the system, no {flavour} FMU of this repository, and none is built ({places})"
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
         return path.read_bytes, str(path)
 
@@ -177,6 +179,9 @@ def open_system(system: str | Path) -> SystemArchive:
         if not path.is_file():
             raise InputError(text, "file", "not found", "give the path of an .fmu")
         return SystemArchive(path.stem, text, path, {path.name: path})
+    if path.suffix == ".py":
+        remedy = f"perilune export {text} builds them; fly the folder of a system that names them"
+        raise InputError(text, "", "a file of blocks is no system", remedy)
     if path.is_file():
         archive = open_zip(path.read_bytes(), text)
         files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}

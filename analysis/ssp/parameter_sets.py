@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from lxml import etree
@@ -12,6 +13,7 @@ from .transformations import Transformation, check_type, read_transformation
 from .units import Unit, units_of_document
 
 ParameterValue = float | int | bool | str
+SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from .description import Binding, Component, Connection, Connector, Description,
 from .documents import child, children, read_document, tag
 from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
 from .osp import Load, read_osp
+from .own_annotations import check_annotations
 from .transformations import read_transformation
 from .units import Unit, units_of_document
 
@@ -42,6 +43,7 @@ class Reader:
     def read(self, data: bytes) -> Description:
         """The whole document; raises InputError."""
         root = read_document(data, "ssd", self.file)
+        check_annotations(root, self.file)
         self.units = units_of_document(root, "ssd")
         system = child(root, "ssd:System")
         assert system is not None  # the schema requires it

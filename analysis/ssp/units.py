@@ -20,6 +20,18 @@ class Unit:
     factor: float = 1.0
     offset: float = 0.0
 
+    def told_from(self, other: Unit) -> str:
+        """The name, and what the unit is made of where the other has the same: ``N.m (kg m2 s-2)``."""
+        if self.name != other.name:
+            return self.name
+        if self.exponents is None:
+            return f"{self.name} (of no base units)"
+        sizes = zip(BASE_UNITS, self.exponents, strict=True)
+        parts = [name if size == 1 else f"{name}{size}" for name, size in sizes if size]
+        factor = [] if self.factor == 1.0 and parts else [f"{self.factor:g}"]
+        offset = f" + {self.offset:g}" if self.offset else ""
+        return f"{self.name} ({' '.join([*factor, *parts])}{offset})"
+
     def fits(self, other: Unit) -> bool:
         """Whether values can be converted; rad counts as dimensionless where the other has none (FMI 2.0)."""
         if self.exponents is None or other.exponents is None:

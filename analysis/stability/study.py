@@ -147,7 +147,7 @@ def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channe
     """One channel by both routes, with its amplitudes and elements."""
     work = point.loop_study(channel, request.declaration.limits)
     work.measure()
-    work.refuse_what_is_not_linear()
+    work.refuse_what_is_no_loop()
     report = work.report([item.name for item in point.channels if item is not channel])
     crossings = [crossing.frequency for crossing in report.classical.phase]
     found = work.amplitudes(min(crossings, default=0.1 * work.nyquist))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ..errors import InputError, suggestion
@@ -13,6 +14,7 @@ from ..ssp.documents import read_document
 from ..ssp.parameter_sets import (
     Assignment,
     ParameterValue,
+    SetValue,
     apply_mapping,
     parse_value,
     read_parameter_file,
@@ -24,7 +26,10 @@ from .open_inputs import check_signals, settle_open_inputs
 from .options import SystemOptions
 
 SETTABLE = ("parameter", "input")
-SINGLE = "--set"  # where single values come from
+SINGLE = "--set"  # where single values come from, unless a file says them
+TEXT = "Text"  # type of a single value, which takes that of its target
+ELEMENTS = ","  # between the values of a vector
+INDEX = re.compile(r"\[[\d,]+\]$")
 
 
 @dataclass
@@ -55,7 +60,7 @@ def collect_settings(
                     _apply(network, settings, path, f"{element.name}.", assignment, allow_unmatched)
         for assignment in _bound(network, archive, system.bindings):
             _apply(network, settings, path, "", assignment, allow_unmatched)
-    for assignment in assignments:
+    for assignment in [part for given in assignments for part in _elements(network, given)]:
         _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
     _pass_parameters(network, settings)
@@ -64,12 +69,36 @@ def collect_settings(
     return settings
 
 
-def text_assignment(text: str) -> Assignment:
-    """``component.variable=value`` from the command line."""
-    name, equals, value = text.partition("=")
-    if not equals or not name.strip():
-        raise InputError(SINGLE, text, "not of the form component.variable=value", "write it so")
-    return Assignment(name.strip(), value.strip(), "Text", None, SINGLE, 0)
+def single_value(name: str, value: SetValue, place: tuple[str, int] | None = None) -> Assignment:
+    """A value that is set by itself, by the command line or at a ``place`` (file, line); of a vector all elements."""
+    file, line = place or (SINGLE, 0)
+    return Assignment(name.strip(), ELEMENTS.join(_texts(value)), TEXT, None, file, line)
+
+
+def _texts(value: object) -> list[str]:
+    """The elements of a value as text: of [1, 2, 3], of 1,2,3 as a text, of one number."""
+    if isinstance(value, str):
+        return [part.strip() for part in value.strip().removeprefix("[").removesuffix("]").split(ELEMENTS)]
+    if isinstance(value, Iterable):
+        return [text for item in value for text in _texts(item)]
+    return [str(value).lower() if isinstance(value, bool) else str(value)]
+
+
+def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
+    """A value for a whole vector as one for each of its elements; others as they are. Raises InputError."""
+    target = _resolve(network, "", assignment.name)
+    if assignment.type_name != TEXT or not isinstance(target, tuple) or target[1] in network.fmus[target[0]].variables:
+        return [assignment]
+    variables = network.fmus[target[0]].variables
+    names = [f"{target[0]}.{name}" for name in variables if INDEX.sub("", name) == target[1] and name != target[1]]
+    if not names:
+        return [assignment]
+    values = str(assignment.value).split(ELEMENTS)
+    if len(values) != len(names):
+        problem = f"{len(values)} value{'s' if len(values) > 1 else ''} for the {len(names)} elements {names[0]} ..."
+        remedy = f"give {len(names)} with commas between, or one element: {names[0]}"
+        raise InputError(assignment.file, assignment.where, problem, remedy)
+    return [replace(assignment, name=name, value=value) for name, value in zip(names, values, strict=True)]
 
 
 def _bound(network: Network, archive: SystemArchive, bindings: list[Binding]) -> list[Assignment]:
@@ -145,41 +174,37 @@ def _apply(
         if variable is not None:
             problem += f": it is of causality {variable.causality}"
     if not allow_unmatched:
-        candidates = known or [f"{component}." for component in network.fmus]
         if len(network.fmus) == 1:
-            candidates = [
+            known = [
                 f"{component}.{key}"
                 for component, fmu in network.fmus.items()
                 for key, value in fmu.variables.items()
                 if value.causality in SETTABLE
             ]
-        raise InputError(
-            assignment.file,
-            assignment.where,
-            problem,
-            f"{suggestion(path + prefix + assignment.name, candidates)}; --allow-unmatched lets it pass",
-        )
+        name = path + prefix + assignment.name
+        remedy = suggestion(name, known) if known else suggestion(name.partition(".")[0], network.fmus)
+        raise InputError(assignment.file, assignment.where, problem, f"{remedy}; --allow-unmatched lets it pass")
     settings.unmatched.append(f"{assignment.file}: {assignment.where}")
 
 
 def _check_driven(network: Network, assignment: Assignment) -> None:
     """Refuse a single value for a connected input, which would be lost before the first step."""
     link = network.driver.get(assignment.name)
-    if assignment.file == SINGLE and assignment.name in network.driven:
+    if assignment.type_name == TEXT and assignment.name in network.driven:
         problem = f"is driven by column {network.driven[assignment.name]} of the inputs over time"
-        raise InputError(SINGLE, assignment.name, problem, "leave out the column or the value")
-    if assignment.file == SINGLE and link is not None and link.target.kind == "input":
+        raise InputError(assignment.file, assignment.where, problem, "leave out the column or the value")
+    if assignment.type_name == TEXT and link is not None and link.target.kind == "input":
         problem = f"is connected to {link.source.name}, which would overwrite the value"
         remedy = f"set a parameter, or override it: --fault {assignment.name}=override:{assignment.value}@0"
-        raise InputError(SINGLE, assignment.name, problem, remedy)
+        raise InputError(assignment.file, assignment.where, problem, remedy)
 
 
 def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     """The assignment's value as its target needs it: type, unit, transformation."""
     value, given = assignment.value, assignment.type_name
-    if given == "Text":
+    if given == TEXT:
         given = type_name
-        value = parse_value(str(value), type_name, assignment.file, assignment.where)
+        value = _parsed(assignment, type_name, node)
     if given == "Integer" and type_name == "Real" and not isinstance(value, bool):
         given, value = "Real", float(value)
     if given == "String" and type_name == "Enumeration":
@@ -219,6 +244,16 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
             suggestion(str(value), node.enumeration),
         )
     return value
+
+
+def _parsed(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
+    """A single value, which is a bare number in the variable's unit."""
+    try:
+        return parse_value(str(assignment.value), type_name, assignment.file, assignment.where)
+    except InputError as error:
+        if type_name != "Real" or node.unit is None:
+            raise
+        raise InputError(error.file, error.element, error.problem, f"write a number, in {node.unit.name}") from None
 
 
 def _check_bounds(assignment: Assignment, variable: object, value: ParameterValue) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..errors import InputError, suggestion
@@ -76,6 +77,11 @@ def parse_fault(text: str, option: str = "--fault") -> Fault:
     except ValueError as error:
         problem = str(error).replace("could not convert string to float", "not a number")
         raise InputError(option, text, problem, f"write {FORM}, times in s") from error
+
+
+def faults_of(given: Iterable[Fault | str]) -> list[Fault]:
+    """Faults, or texts of them. Raises InputError."""
+    return [parse_fault(item, "faults") if isinstance(item, str) else item for item in given]
 
 
 def _value(text: str) -> float | bool:

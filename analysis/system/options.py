@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from ..ssp.parameter_sets import ParameterValue
+from ..ssp.parameter_sets import SetValue
 
 ALGORITHMS = ("sequential", "jacobi")
 OPEN_INPUTS = ("refuse", "start")
@@ -20,12 +20,15 @@ LAYERS = ("operating_point", "campaign", "draws", "command_line", "study")
 @dataclass(frozen=True)
 class Layer:
     """What one source asks: ``use`` maps a component to the FMU that takes its place, by block name or path;
-    ``parameters`` lists parameter sets; ``set`` maps ``component.variable`` to a value, in SI units.
+    ``parameters`` lists parameter sets; ``set`` maps ``component.variable`` to a value, in SI units, or
+    ``component.vector`` to as many as it has elements. ``places`` maps a name of ``set`` to file and line where it is
+    written, if it is.
     """
 
     use: Mapping[str, str] = field(default_factory=dict)
     parameters: tuple[str, ...] = ()
-    set: Mapping[str, ParameterValue] = field(default_factory=dict)
+    set: Mapping[str, SetValue] = field(default_factory=dict)
+    places: Mapping[str, tuple[str, int]] = field(default_factory=dict, compare=False)
 
 
 @dataclass(frozen=True)
@@ -61,4 +64,11 @@ class SystemOptions(Layer):
             use={slot: fmu for layer in ordered for slot, fmu in layer.use.items()},
             parameters=tuple(name for layer in ordered for name in layer.parameters),
             set={name: value for layer in ordered for name, value in layer.set.items()},
+            places=_places(ordered),
         )
+
+
+def _places(layers: Sequence[Layer]) -> dict[str, tuple[str, int]]:
+    """Where each value comes from that is set last, as far as its layer says."""
+    last = {name: layer for layer in layers for name in layer.set}
+    return {name: layer.places[name] for name, layer in last.items() if name in layer.places}

@@ -17,7 +17,8 @@ from ..ssp.description import Component
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .alone import describe_alone
-from .assignments import Settings, collect_settings, text_assignment
+from .assignments import Settings, collect_settings, single_value
+from .checks import check_samples, unfit
 from .drive import Drive, drive_inputs, driven_inputs
 from .fmu import Fmu, load_fmu
 from .network import Network, build_network
@@ -89,13 +90,16 @@ def _prepared(
             raise InputError(name, str(value), "unknown", suggestion(str(value), known))
     archive = open_system(system)
 
+    used: dict[str, Component] = {}
+
     @cache
     def flavour_of(block: str) -> str:
-        return options.flavour or ("native" if fmu_file(block, "native") is not None else "python")
+        return options.flavour or ("native" if fmu_file(block, "native", archive.path) is not None else "python")
 
     def load(name: str, component: Component) -> Fmu:
         if name in options.use:
-            read, label = locate_fmu(options.use[name], options.flavour)
+            used[name] = component
+            read, label = locate_fmu(options.use[name], options.flavour, system=archive.path)
         else:
             flavour = flavour_of(Path(component.source).stem)
             read, label = archive.fmu(component.source, f"{name} (line {component.line})", flavour)
@@ -111,7 +115,13 @@ def _prepared(
         description, remarks = describe_alone(opened(archive.path.read_bytes, archive.label), options)
     else:
         description = read_description(archive, options.variant)
-    network = build_network(description, load)
+    try:
+        network = build_network(description, load)
+    except InputError as error:
+        slot = next((slot for slot in used if error.element.startswith(f"{slot}.")), None)
+        if slot is None or error.file != description.file:
+            raise
+        raise unfit(slot, options.use[slot], used[slot], error) from error
     network.notes += remarks
     for slot in options.use:
         if slot not in network.fmus:
@@ -127,6 +137,8 @@ def _prepared(
     no_feedthrough = [*options.no_feedthrough, *(network.fmus if archive.is_fmu else ())]
     schedule = make_schedule(network, no_feedthrough, algorithm)
     start, step, steps = flight_times(network, options)
+    periods = component_periods(network, options, step)
+    check_samples(network, settings, step, periods)
     return PreparedSystem(
         archive=archive,
         options=options,
@@ -137,7 +149,7 @@ def _prepared(
         start=start,
         step=step,
         steps=steps,
-        periods=component_periods(network, options, step),
+        periods=periods,
         remarks=tuple(remarks),
         drive=None if series is None else drive_inputs(network, series, network.driven, start, step, steps),
     )
@@ -160,15 +172,17 @@ def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[byt
     return read(), label
 
 
-def locate_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[Callable[[], bytes], str]:
-    """Likewise, with what reads the content."""
+def locate_fmu(
+    name: str, flavour: str | None, option: str = "--use", system: Path | None = None
+) -> tuple[Callable[[], bytes], str]:
+    """Likewise, with what reads the content; ``system`` is where one's own are looked for, too."""
     if name.endswith(".fmu") or Path(name).name != name:
         path = Path(name)
         if not path.is_file():
             raise InputError(option, name, "no such file", "give a block's name or the path of an .fmu")
         return path.read_bytes, name
     for candidate in FLAVOURS if flavour is None else (flavour,):
-        file = fmu_file(name, candidate)
+        file = fmu_file(name, candidate, system)
         if file is not None:
             return file.read_bytes, str(file)
     raise InputError(option, name, "no such FMU is built", f"{suggestion(name, fmu_flavours())}; {HOW_TO_BUILD}")
@@ -178,10 +192,7 @@ def _assignments(archive: SystemArchive, options: SystemOptions) -> list[Assignm
     found: list[Assignment] = []
     for name in options.parameters:
         found += read_parameter_file(*archive.parameter_set(name))
-    for name, value in options.set.items():
-        text = str(value).lower() if isinstance(value, bool) else str(value)
-        found.append(text_assignment(f"{name}={text}"))
-    return found
+    return found + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]
 
 
 @contextmanager

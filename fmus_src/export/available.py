@@ -1,4 +1,4 @@
-"""The FMUs there are, by name: this repository's own, and those in the working folder's ``build/fmus``.
+"""The FMUs there are, by name: this repository's own, those in the working folder's ``build/fmus``, or a system's.
 
 An installed package has its native FMUs inside. Its Python FMUs, whose loader alone would make it three times as large,
 are built when they are first asked for, which takes no compiler, and kept in the cache folder.
@@ -12,20 +12,22 @@ from importlib.metadata import version
 from pathlib import Path
 
 from ..catalogue import catalogue
-from ..places import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, built_fmu, own_fmu
+from ..places import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, built_fmu, own_fmu, own_fmus
 from .pythonfmu_fmu import build_python_fmu
 
 
-def fmu_file(name: str, flavour: str) -> Path | None:
-    """The FMU of this name, the repository's before one of the working folder; None where there is none."""
+def fmu_file(name: str, flavour: str, system: Path | None = None) -> Path | None:
+    """The FMU of this name, the repository's before one of the working folder, or of that which ``system`` lies in.
+
+    None where there is none.
+    """
     shipped = built_fmu(name, flavour)
     if shipped.is_file():
         return shipped
     if not IS_CHECKOUT and flavour == "python" and name in catalogue():
         path = _python_folder() / f"{name}.fmu"
         return path if path.is_file() else build_python_fmu(catalogue()[name], path)
-    own = own_fmu(name, flavour)
-    return own if own.is_file() else None
+    return next((own for own in own_fmus(name, flavour, system) if own.is_file()), None)
 
 
 def fmu_flavours() -> dict[str, dict[str, Path | None]]:

@@ -119,3 +119,42 @@ class Coasting(TerminalGuidance):
     slope = np.polyfit(flight.time, fall, 1)[0]
     assert np.ptp(np.diff(fall)) < 1e-12  # free fall
     assert 1.6 < -slope < 1.65
+
+
+def test_a_vector_is_set_as_a_whole(fmus, tmp_path):
+    """As a list, an array or a text: the same flight as by elements."""
+    target = [10.0, -5.0, 2100.0]
+    by_element = {f"guidance.target_position[{place}]": value for place, value in enumerate(target, 1)}
+    expected = perilune.simulate(SYSTEM, stop_time=2.0, set=by_element)
+    for value in (target, tuple(target), np.array(target), "10, -5, 2100"):
+        found = perilune.simulate(SYSTEM, stop_time=2.0, set={"guidance.target_position": value})
+        np.testing.assert_array_equal(found["guidance.thrust_acceleration"], expected["guidance.thrust_acceleration"])
+    campaign = tmp_path / "c.toml"
+    metric = '[metric.last]\nexpression = "guidance.thrust_acceleration"\nreduction = "final"\n'
+    text = f'system = "{SYSTEM}"\ntrials = 1\nseed = 1\n[set]\n"guidance.target_position" = {target}\n{metric}'
+    campaign.write_text(f'{text}[success]\nexpression = "1 < 2"\n')
+    batch = perilune.batch(SYSTEM, str(campaign), stop_time=2.0, workers=1)
+    assert batch.trials["default"].metrics["last"][0] == expected["guidance.thrust_acceleration"][-1]
+
+
+def test_faults_are_given_as_texts_too(fmus):
+    fault = perilune.Fault("plant.thrust", "override", 0.0, 1.0)
+    expected = perilune.simulate(SYSTEM, stop_time=3.0, faults=[fault])
+    found = perilune.simulate(SYSTEM, stop_time=3.0, faults=[str(fault)])
+    np.testing.assert_array_equal(found["plant.velocity"], expected["plant.velocity"])
+    with pytest.raises(perilune.InputError, match=r"faults: plant\.thrust=broken@1: unknown kind broken"):
+        perilune.simulate(SYSTEM, stop_time=3.0, faults=["plant.thrust=broken@1"])
+    with pytest.raises(perilune.InputError, match="one name where a list is meant"):
+        perilune.simulate(SYSTEM, stop_time=3.0, faults=str(fault))
+
+
+def test_tables_without_pandas_say_what_to_install(flight, monkeypatch):
+    monkeypatch.setattr("perilune.analysis.flight.results.find_spec", lambda name: None)
+    with pytest.raises(ImportError, match=r"pip install 'perilune\[notebook\]'"):
+        flight.to_pandas()
+
+
+def test_the_end_is_said_in_digits_that_mean_something(fmus):
+    result = perilune.simulate(SYSTEM, stop_time=0.3)
+    assert result.time[-1] == pytest.approx(0.3, abs=1e-12)
+    assert repr(result.summary()["end_time"]) == "0.3"

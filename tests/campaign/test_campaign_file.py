@@ -159,7 +159,7 @@ METRIC = '[metric.m]\nexpression = "a.b"\nreduction = "{}"\n'
         ('[derive]\ny = "z"\nz = "1"\n', "derive.y: 'z' is not a draw or an earlier"),
         ("[derive]\ny = 1\n", "derive.y: 1 is not a text"),
         ("[set]\ngravity = 1\n", "set.gravity: names no component"),
-        ("[set]\nplant.x = [1]\n", "set.plant.x: [1] is not one value"),
+        ('[set]\nplant.x = ["a"]\n', "set.plant.x: ['a'] is no value"),
         ('[set]\nplant.x = 1\n"plant.x" = 2\n', "set.plant.x: there twice"),
         ('[set]\nplant.x = 1\n[derive]\nplant.x = "1"\n', "set.plant.x: also drawn or derived"),
         ('[compare]\ng = "a"\n', "compare.g: 'a' is not a list"),

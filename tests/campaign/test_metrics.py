@@ -90,7 +90,7 @@ def test_names_are_looked_up_in_record_draws_and_parameters():
 
 def test_an_unknown_name_is_an_input_error():
     with pytest.raises(
-        InputError, match=r"^c\.toml: metric\.m\.expression: 'p\.y' in 'p\.y' is unknown; use one of p\.goal"
+        InputError, match=r"^c\.toml: metric\.m\.expression: 'p\.y' in 'p\.y' is unknown; use one of p\.x, p\.goal"
     ):
         value("p.y", "final")
 

@@ -15,6 +15,7 @@ from perilune.analysis.cli import main
 from perilune.fmus_src.places import SYSTEMS
 
 SYSTEM = "lunar_terminal_guidance"
+OVERFLOW = ("--fault", "guidance.thrust_acceleration=override:1e308@1")  # a flight that breaks off
 SMALL = ["batch", SYSTEM, "--campaign", "paper", "--trials", "10", "--workers", "1"]
 pytestmark = pytest.mark.usefixtures("fmus")
 
@@ -104,23 +105,23 @@ def test_replay_writes_the_whole_flight(tmp_path, capsys):
 
 def test_replay_of_a_flight_without_metrics_is_still_json(capsys):
     """A trial that fails has metrics that are not numbers; strict JSON has null for them."""
-    failing = ["--compare", "guidance=analytic_guidance", "--set", "guidance.sample_period=0.04", "--replay", "0"]
+    failing = ["--compare", "guidance=analytic_guidance", *OVERFLOW, "--replay", "0"]
     assert main([*SMALL, *failing, "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)["variants"]["analytic_guidance"]
-    assert (found["status"], found["success"]) == ("failed", False)
+    assert (found["status"], found["success"]) == ("nonfinite", False)
     assert set(found["metrics"].values()) == {None}
     assert main([*SMALL, *failing]) == 0
-    assert "position_error none" in capsys.readouterr().out
+    assert "position_error none" in " ".join(capsys.readouterr().out.split())
 
 
 def test_a_batch_in_which_all_fail_is_reported_not_crashed(tmp_path, capsys):
-    failing = ["--compare", "guidance=analytic_guidance", "--set", "guidance.sample_period=0.04"]
+    failing = ["--compare", "guidance=analytic_guidance", *OVERFLOW]
     assert main([*SMALL, *failing, "--output", str(tmp_path), "--report", str(tmp_path / "r.html"), "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)["variants"]["analytic_guidance"]
-    assert found["statuses"] == {"failed": 10}
+    assert found["statuses"] == {"nonfinite": 10}
     assert found["metrics"]["position_error"]["mean"] is None
     messages = pyarrow.parquet.read_table(tmp_path / "trials.parquet")["message"].to_pylist()
-    assert all("sample_period" in text for text in messages)
+    assert all("allocation.thrust is inf" in text for text in messages)
 
 
 GROUPED = """

@@ -28,6 +28,32 @@ SSV = """<?xml version="1.0" encoding="UTF-8"?>
   <ssv:Units><ssc:Unit name="s"><ssc:BaseUnit s="1"/></ssc:Unit></ssv:Units>
 </ssv:ParameterSet>
 """
+SSD = """<ssd:SystemStructureDescription version="1.0" name="robot"
+    xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
+    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon">
+  <ssd:System name="robot"><ssd:Elements>
+    <ssd:Component name="control" source="attitude_control.fmu">
+      <ssd:Connectors>
+        <ssd:Connector name="torque_command[1]" kind="output"><ssc:Real unit="N.m"/></ssd:Connector>
+      </ssd:Connectors>
+    </ssd:Component>
+  </ssd:Elements></ssd:System>
+  <ssd:Units>
+    <ssc:Unit name="N.m"><ssc:BaseUnit kg="1" m="{torque}" s="-2"/></ssc:Unit>
+  </ssd:Units>
+  <ssd:DefaultExperiment startTime="0" stopTime="4"/>
+  <ssd:Annotations>
+    <ssc:Annotation type="org.perilune.{ours}">
+      <Stability xmlns="https://perilune.org/{content}">
+        <Point name="there" time="1">
+          <Set name="control.lead_tim" value="1"/>
+        </Point>
+        <Loop name="loop" cut="control.torque_command[1]" points="there"/>
+      </Stability>
+    </ssc:Annotation>
+  </ssd:Annotations>
+</ssd:SystemStructureDescription>
+"""
 CAMPAIGN = """
 system = "lunar_terminal_guidance"
 trials = 2
@@ -47,6 +73,9 @@ class Mine({base}):
     def {method}:
         {body}
 '''
+
+
+PARAMETER = "from perilune import Parameter\n"
 
 
 def block(
@@ -89,11 +118,33 @@ def working(tmp_path, monkeypatch):
         "uses_numpy.py": block("self.y = float(np.sin(self.u))", imports="import numpy as np\n"),
         "no_unit.py": block(declared='    w = Input(0.0, unit="furlong", description="in")\n'),
         "no_words.py": block(declared="    w = Input(0.0)\n"),
+        "no_import.py": block("self.y = math.sqrt(self.u)"),
+        "no_import_of_ours.py": block("self.y = norm(self.v)"),
+        "above.py": block(declared='    w = Parameter(90.0, maximum=14.0, description="in")\n', imports=PARAMETER),
+        "below.py": block(declared='    w = Input([1.0, -1.0], minimum=0.0, description="in")\n'),
+        "other_causality.py": block(
+            base="TerminalGuidance",
+            method="solve(self) -> None",
+            body="self.status = 0",
+            declared='    mass = Parameter(1.0, unit="kg", description="mine")\n',
+            imports=PARAMETER,
+        ),
+        "twice.py": block() + block().partition("import Block")[2].partition("\n")[2],
+        "two_cases.py": block().replace("Mine", "AxisMine") + '\n\nclass Axis_Mine(AxisMine):\n    """Two."""\n',
         "taken_name.py": block().replace("Mine", "AstarGuidance"),
         "here.py": "mine\n",
         "file": "mine",
     }.items():
         Path(name).write_text(text, encoding="utf-8")
+    for name, (ours, content, torque) in {
+        "stabilty": ("stabilty", "stability", 2),
+        "orbit": ("orbit", "orbit", 2),
+        "space": ("stability", "stabilty", 2),
+        "setting": ("stability", "stability", 2),
+        "units": ("stability", "stability", 1),
+    }.items():
+        Path(name).mkdir()
+        Path(name, "SystemStructure.ssd").write_text(SSD.format(ours=ours, content=content, torque=torque))
     Path("folder").mkdir()
     Path("results").mkdir()
     Path("results/summary.json").write_text("{}")
@@ -112,11 +163,14 @@ CASES = {
     # names
     "a verb with a typo": (["rn", SYSTEM], ["'rn'", "run"]),
     "no verb": ([], ["VERB", "perilune --help"]),
-    "a system with a typo": (["run", "lunar_landings"], ["lunar_landings", "use one of", "lunar_landing,"]),
+    "a system with a typo": (["run", "lunar_landings"], ["lunar_landings", "nearest of", ": lunar_landing"]),
     "a system that is an FMU": (["run", "astar_guidance"], ["astar_guidance", "neither a system"]),
     "an FMU with a typo": ([*RUN, "--use", "guidance=astar_guidence"], ["--use", "astar_guidence", "astar_guidance"]),
     "a slot with a typo": ([*RUN, "--use", "guidence=astar_guidance"], ["--use", "guidence", "use one of", "guidance"]),
-    "an FMU that does not fit": ([*RUN, "--use", "guidance=thrust_allocation"], ["guidance.", "use another FMU"]),
+    "an FMU that does not fit": (
+        [*RUN, "--use", "guidance=kalman_navigation"],
+        ["--use: guidance=kalman_navigation", "does not fit guidance", "guidance.mass", "these do: analytic_exact_g"],
+    ),
     "--use without =": ([*RUN, "--use", "astar_guidance"], ["--use", "SLOT=FMU", "write it so"]),
     "a slot twice": (
         [*RUN, "--use", "guidance=astar_guidance", "--use", "guidance=analytic_guidance"],
@@ -157,11 +211,25 @@ CASES = {
         ["plant.thrust", "connected to allocation.thrust", "--fault plant.thrust=override:5@0"],
     ),
     "an output": ([*RUN, "--set", "plant.mass=5"], ["plant.mass", "output"]),
-    "a whole vector": ([*RUN, "--set", "guidance.target_position=5"], ["guidance.target_position", "[1]"]),
+    "a vector of one": (
+        [*RUN, "--set", "guidance.target_position=5"],
+        ["guidance.target_position", "1 value for the 3 elements", "[1]"],
+    ),
+    "a vector cut short": ([*RUN, "--set", "guidance.target_position=0,0"], ["2 values for the 3 elements", "give 3"]),
+    "a vector of words": ([*RUN, "--set", "guidance.target_position=0,b,0"], ["guidance.target_position[2]", "'b'"]),
+    "a value with its unit": ([*RUN, "--set", "plant.initial_mass=1000kg"], ["'1000kg'", "write a number, in kg"]),
+    "samples closer than the step": (
+        ["run", "robot_rendezvous", "--set", "attitude_control.sample_period=0.03"],
+        ["--set", "attitude_control.sample_period", "0.03 s is shorter than", "0.125 s", "--step of 0.03"],
+    ),
+    "a draw of a vector that is set": (
+        [*BATCH, "--set", "plant.initial_position=0,0,15e3"],
+        ["plant.initial_position", "draws"],
+    ),
     "a step of nothing": ([*RUN, "--step", "0"], ["--step", "positive"]),
     "a step that is no number": ([*RUN, "--step", "fast"], ["--step", "'fast'", "number of seconds"]),
     "an end between steps": ([*RUN, "--stop-time", "1.05"], ["--stop-time", "1.05", "whole number", "--stop-time 1"]),
-    "an end before the start": ([*RUN, "--stop-time", "-1"], ["--stop-time", "-1"]),
+    "an end before the start": ([*RUN, "--stop-time", "-1"], ["--stop-time", "-1", "before the start at 0 s"]),
     "no trials": ([*BATCH, "--trials", "0"], ["--trials", "0", "1 or more"]),
     "trials that are no number": ([*BATCH, "--trials", "many"], ["--trials", "many"]),
     "no workers": ([*BATCH, "--workers", "0"], ["--workers", "0"]),
@@ -169,7 +237,7 @@ CASES = {
     "a replay with a page": ([*BATCH, "--replay", "0", "--report", "x.html"], ["--replay", "--report", "leave one"]),
     "a comparison of one that is not there": (
         [*BATCH, "--compare", "guidance=analytic_guidance,astar_guidnce"],
-        ["astar_guidnce", "astar_guidance"],
+        ["--compare: astar_guidnce", "astar_guidance"],
     ),
     "a draw that is set, too": (
         [*BATCH, "--set", "plant.initial_position[3]=15e3"],
@@ -195,12 +263,27 @@ CASES = {
     "an FMU that is not there": ([*RUN, "--use", "guidance=none.fmu"], ["none.fmu", "no such file"]),
     "an .ssp without an SSD": (["run", "empty.ssp"], ["empty.ssp", "SystemStructure.ssd", "not found"]),
     "a folder without an SSD": (["run", "folder"], ["folder", "SystemStructure.ssd", "not found"]),
+    "a file of blocks that is to fly": (["run", "no_block.py"], ["no_block.py", "no system", "perilune export no_bl"]),
+    "a file of blocks to validate": (["validate", "no_block.py"], ["no_block.py", "perilune export no_block.py"]),
+    "an annotation with a typo": (["run", "stabilty"], ["line 16", "org.perilune.stabilty", ".stability"]),
+    "an annotation of ours that is none": (["run", "orbit"], ["org.perilune.orbit", "use one of", ".step"]),
+    "an annotation with another content": (["run", "space"], ["Stability (line 17)", "https://perilune.org/stability"]),
+    "a point's setting with a typo": (
+        ["stability", "setting"],
+        ["setting/SystemStructure.ssd", "control.lead_tim (line 19)", "control.lead_time"],
+    ),
+    "a unit of other base units": (
+        ["run", "units"],
+        ["control.torque", "N.m (kg m2 s-2)", "N.m (kg m s-2)", "correct the connector's unit"],
+    ),
     "a file that is no system": (["run", "notes.txt"], ["notes.txt", "not a readable zip"]),
     "nothing to validate": (["validate", "none.ssp"], ["none.ssp"]),
     "results that are none": (["compare", "folder"], ["folder"]),
     "results that are not there": (["compare", "nowhere"], ["nowhere"]),
     "a law that is no law": (["law", "results/summary.json"], ["summary.json", "format"]),
     # targets
+    "a page of another kind": ([*RUN, "--report", "flight.pdf"], ["--report", "flight.pdf", "end the name with .html"]),
+    "a study's page of another kind": (["stability", "robot_rendezvous", "--report", "x.pdf"], ["x.pdf", ".html"]),
     "a table of another kind": ([*RUN, "--output", "flight.xlsx"], ["--output", "flight.xlsx", ".csv or .parquet"]),
     "a table that is a folder": ([*RUN, "--output", "folder"], ["--output", "folder", ".csv"]),
     "a page below a file": ([*RUN, "--report", "file/page.html"], ["--report", "is a file", "another folder"]),
@@ -240,6 +323,18 @@ CASES = {
     "what is not declared": (["export", "undeclared.py"], ["undeclared.py", "self.gain", "State"]),
     "a vector of another size": (["export", "wrong_size.py"], ["wrong_size.py", "v", "3"]),
     "a library in a kernel": (["export", "uses_numpy.py"], ["uses_numpy.py", "np.sin", "python_only"]),
+    "a forgotten import": (["export", "no_import.py"], ["no_import.py:", "math is not imported", "write import math"]),
+    "a forgotten import of ours": (["export", "no_import_of_ours.py"], ["norm is not", "from perilune import norm"]),
+    "a start above its maximum": (["export", "above.py"], ["Mine.w", "starts at 90.0", "above its maximum 14.0"]),
+    "an element below its minimum": (["export", "below.py"], ["Mine.w", "starts at -1.0", "below its minimum 0.0"]),
+    "a slot's input as a parameter": (
+        ["export", "other_causality.py"],
+        ["Mine.mass", "a parameter here, of causality input", "give it another name"],
+    ),
+    "two classes of one name": (["export", "twice.py"], ["lines 6 and", "two classes Mine", "rename one"]),
+    "two classes of one FMU": (["export", "two_cases.py"], ["AxisMine and Axis_Mine", "axis_mine", "rename one"]),
+    "a file with a typo": (["export", "no_blocks.py"], ["no_blocks.py: no such file", ".py file", "no_block.py"]),
+    "something to export that is nothing near": (["export", "f.html"], ["f.html", "and", "more"]),
     "a unit that is none": (["export", "no_unit.py"], ["no_unit.py", "Mine.w", "furlong", "write it of m, kg"]),
     "a variable without words": (["export", "no_words.py"], ["no_words.py", "Mine.w", "give a description"]),
     "a name of ours": (["export", "taken_name.py"], ["taken_name.py", "astar_guidance", "rename the class"]),
@@ -270,3 +365,13 @@ def test_a_mistake(name, working, capfd):
     assert status == 2
     assert captured.out == ""
     assert snapshot(working) == before
+
+
+def test_every_violation_has_a_line_of_its_own(working, capfd):
+    Path("worse.py").write_text(block("self.y = math.sqrt(self.u)\n        self.gain = self.u"), encoding="utf-8")
+    assert main(["export", "worse.py"]) == 2
+    first, second = capfd.readouterr().err.splitlines()
+    assert first.startswith("perilune: Mine: ")
+    assert "worse.py:14: math is not imported; write import math at the top of the file" in first
+    assert "worse.py:15: self.gain" in second
+    assert not Path("build").exists()

@@ -158,7 +158,7 @@ def test_loops_are_picked_by_name_or_connector(packed, capsys):
     assert [loop["name"] for loop in one["loops"]] == ["sensed"]
     cut, _ = run(capsys, path, "--loop", "plant.u", "--at", "20")
     (loop,) = cut["loops"]
-    assert (loop["name"], loop["point"], loop["cut"]) == ("plant.u", "command line", "plant.u")
+    assert (loop["name"], loop["point"], loop["cut"]) == ("plant.u", "t = 20 s", "plant.u")
     assert cut["points"][0]["time_s"] == pytest.approx(20.0)
     for found in (*everything["loops"], *one["loops"], loop):
         for name in NUMBERS:

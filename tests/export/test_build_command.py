@@ -110,7 +110,7 @@ def test_a_declaration_error_is_shown(built):
 def test_a_file_that_is_not_there(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["export", "gone.py"]) == 2
-    assert "gone.py: not a Python file" in capsys.readouterr().err
+    assert "gone.py: no such file" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 

@@ -17,7 +17,13 @@ from perilune.analysis.describe.fits import slots
 from perilune.analysis.reference.build import pages_of, site_settings
 from perilune.analysis.reference.links import broken_links
 from perilune.analysis.reference.markdown import escaped, prose
-from perilune.analysis.reference.pages import derived_pages
+from perilune.analysis.reference.pages import derived_pages, reference_navigation
+from perilune.fmus_src.export.judge.subset_table import (
+    LANGUAGE_PAGE,
+    MATH_FUNCTIONS,
+    OTHER_FUNCTION,
+    REFUSED_FUNCTIONS,
+)
 from perilune.fmus_src.places import ROOT
 
 
@@ -42,6 +48,22 @@ def test_every_option_of_every_verb_is_there(pages):
             option for parser in helps for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", parser.format_usage())
         }
         assert set(re.findall(r"^\| `(--[a-z][\w-]*)", text, re.MULTILINE)) == printed - {"--help"}
+
+
+def test_what_a_kernel_may_use(pages):
+    """Every function that the judge takes, every rule's words, and the helpers that the templates take."""
+    page = pages["reference/kernel.md"]
+    assert page.startswith(f"# {LANGUAGE_PAGE}\n")
+    assert set(re.findall(r"^\| `math\.(\w+)` \|", page, re.MULTILINE)) == set(MATH_FUNCTIONS)
+    for name in ("quadratic_time", "impulse_and_miss", "clip", "norm"):
+        (row,) = re.findall(rf"^\| `{name}\(.*$", page, re.MULTILINE)
+        cells = re.split(r"(?<!\\)\|", row)
+        assert len(cells) == 4
+        assert len(cells[2]) > 10
+    for name in REFUSED_FUNCTIONS:
+        assert f"| `{name}` |" in page
+    assert LANGUAGE_PAGE in OTHER_FUNCTION
+    assert {LANGUAGE_PAGE: "reference/kernel.md"} in reference_navigation()
 
 
 def _sub_parser(parser, verb):

@@ -6,6 +6,7 @@ Truth: the built files, read by lxml; a browser that opens them as files.
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 import pytest
 
@@ -48,6 +49,17 @@ def test_links_between_pages(page):
         assert path.is_relative_to(ROOT), target
         if anchor:
             assert anchor in anchors(path.read_text(encoding="utf-8")), f"{target}#{anchor}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_tables_are_read_alike_everywhere(page):
+    """The site ends a table at a blank line only, and shows the backslash before a bar in code that GitHub needs."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    lines = text.splitlines()
+    for line, following in pairwise(lines):
+        if line.lstrip().startswith("| "):
+            assert not following.strip() or following.lstrip().startswith("|"), following
+            assert not any("|" in code for code in line.split("`")[1::2]), line
 
 
 @pytest.fixture(scope="module")

@@ -4,6 +4,8 @@ Truth: python-control on state spaces that were made without the FMUs (zero-orde
 The agreement asked for is 0.1 dB and 0.5 deg; rounding allows far more.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -137,3 +139,16 @@ def test_a_pendulum_that_falls(exact_fmus, tmp_path):
     assert loop.unstable_open == 1
     assert loop.classical.encirclements == 0
     assert np.sum(abs(loop.poles_z) > 1.0) == 1
+
+
+def test_routes_that_differ_do_not_pass(studied):
+    """The same loop, whose routes agree, with a difference of 6 dB written into it."""
+    _, report = studied("resonance, control at every 1")
+    (loop,) = report.loops
+    doubted = replace(loop, agreement=replace(loop.agreement, gain=2.0, agrees=False))
+    assert (doubted.doubted, loop.doubted) == (True, False)
+    assert {item.passed for item in doubted.judged} == {item.passed for item in loop.judged}
+    passing = replace(loop, requirements=tuple(item for item in loop.requirements if item.passed))
+    assert (passing.verdict, replace(report, loops=(passing,)).verdict) == ("pass", "pass")
+    passing = replace(passing, agreement=doubted.agreement)
+    assert (passing.verdict, replace(report, loops=(passing,)).verdict) == ("not applicable", "not applicable")

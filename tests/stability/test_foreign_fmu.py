@@ -79,7 +79,7 @@ def test_the_command_line(path, tmp_path, capsys):
     assert "law.fmu" in loop["not_applicable"]["route A"]
     assert loop["poles_z"] == []
     assert page.read_text().lower().startswith("<!doctype html")
-    assert "law.y at command line: 7.96 dB, 55.39 deg" in capsys.readouterr().out
+    assert "law.y at t = 1 s: 7.96 dB, 55.39 deg" in capsys.readouterr().out
 
 
 def test_exit_status_1_and_one_line_per_failed_requirement(path, capsys):
@@ -88,7 +88,7 @@ def test_exit_status_1_and_one_line_per_failed_requirement(path, capsys):
     modulus = np.min(abs(1.0 + 0.8 / (z * (z - 1.0))))
     assert main(["stability", str(path), "--loop", "law.y", "--set", "law.gain=8"]) == 1
     lines = capsys.readouterr().err.splitlines()
-    assert [line.partition(": loop law.y at command line: ")[2] for line in lines] == [
+    assert [line.partition(": loop law.y at t = 0 s: ")[2] for line in lines] == [
         "gain margin 1.938 dB misses the limit 6 dB",
         "phase margin 19.27 deg misses the limit 30 deg",
         f"modulus margin {modulus:.4g} misses the limit 0.5",
@@ -99,7 +99,7 @@ def test_exit_status_1_and_one_line_per_failed_requirement(path, capsys):
     ("gain", "words"),
     [
         (10.05, "route B: the answer still changes by"),  # slowly: g is 1.005, the square of the poles' size
-        (21.0, "route B: the flight for point command line ended early (nonfinite"),
+        (21.0, "route B: the flight for point t = 1 s ended early (nonfinite"),
     ],
 )
 def test_an_unstable_loop_that_injection_cannot_measure(path, capsys, gain, words):
@@ -111,7 +111,7 @@ def test_an_unstable_loop_that_injection_cannot_measure(path, capsys, gain, word
     assert words in lost.reason
     assert main(["stability", str(path), "--loop", "law.y", "--at", "1", "--set", f"law.gain={gain}"]) == 1
     (line,) = capsys.readouterr().err.splitlines()
-    assert line == f"perilune: loop law.y at command line: not studied: {lost.reason}"
+    assert line == f"perilune: loop law.y at t = 1 s: not studied: {lost.reason}"
 
 
 @pytest.mark.parametrize(

@@ -69,7 +69,7 @@ def test_all_that_can_be_declared():
 
 WRONG = {
     # what the wrong element is, by its line; words of the message
-    "unknown element": ("<Pint/>", "Pint", "unknown element; use one of Limits, Loop, Point, Sweep"),
+    "unknown element": ("<Pint/>", "Pint", "unknown element; use one of Point, Limits, Loop, Sweep"),
     "unknown attribute of limits": ('<Limits gain="8"/>', "Limits", "unknown attribute gain"),
     "limit that is no number": (
         '<Limits gain_margin_db="6 dB"/>',

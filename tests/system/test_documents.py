@@ -413,7 +413,7 @@ def test_variants_of_one_archive(tiny, tmp_path):
 def test_units_of_the_ssd_are_the_ssds(flown):
     """A connector's unit is one of the SSD, which calls m what is 1000 of the FMU's m only by mistake."""
     units = UNITS.replace('name="m"><ssc:BaseUnit m="1"', 'name="m"><ssc:BaseUnit factor="1000" m="1"')
-    with pytest.raises(InputError, match=r"ramp\.y .*unit is m in .*, m here"):
+    with pytest.raises(InputError, match=r"ramp\.y .*unit is m \(m\) in .*, m \(1000 m\) here"):
         flown("", files={"SystemStructure__ssd": document(system(RAMP), units=units)})
 
 

@@ -11,13 +11,13 @@ from ...planning.hover_study import HoverStudy, hover_study
 from ...planning.path import PlannedPath
 from ...planning.vehicle import HOVER_MARGINS, HOVER_VEHICLE, Margins, Transfer, Vehicle, check_hover, check_vehicle
 from ...reports.plan.hover_page import write_hover_page
-from ...targets import Results, check_file
+from ...targets import PAGES, Results, check_file
 from ..common.options import check_json, write_json
 from ..common.vehicle import burns_text, enough, given
 
 
 def run(options: argparse.Namespace) -> int:
-    check_file("--report", options.report)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     if options.intervals is not None and not (options.optimum or options.bound):
         problem = "nothing here has intervals"

@@ -16,14 +16,14 @@ from ...planning.vehicle import LANDING_VEHICLE, check_vehicle
 from ...reports.plan.landing_page import write_landing_page
 from ...system.options import SystemOptions
 from ...system.prepared import PreparedSystem, prepare_system
-from ...targets import Results, check_file
+from ...targets import PAGES, Results, check_file
 from ..asked.landing_bound import PLACES
 from ..common.options import check_json, system_options, write_json
 from ..common.vehicle import burns_text, enough, given
 
 
 def run(options: argparse.Namespace) -> int:
-    check_file("--report", options.report)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     if options.system is None and system_options(options) != SystemOptions():
         raise InputError("landing-bound", "system options", "there is no system that they are for", "name a system")
@@ -59,7 +59,7 @@ def _inputs(prepared: PreparedSystem) -> Inputs:
     found = read_inputs(prepared)
     if found is None:
         problem = f"no annotation {ANNOTATION}: it does not say what its landing's bound is made of"
-        raise InputError(prepared.network.file, "Annotations", problem, "add one, see docs/planning.md")
+        raise InputError(prepared.network.file, "Annotations", problem, 'add one: "Planning" in the documentation')
     return found
 
 

@@ -25,6 +25,7 @@ STATUS_WORDS = {
     "timed_out": "Broke off: it took longer than --timeout lets it.",
     "interrupted": "Broke off: it was interrupted from the keyboard.",
 }
+MOST_KEYS = 12  # signals of a system that has none of what one looks at first
 KEY_VECTORS = ("position", "velocity")
 
 
@@ -54,7 +55,8 @@ def key_values(result: Result) -> list[dict[str, Any]]:
     """What one looks at first, at the end of the run.
 
     The system's own connectors, positions and velocities with their magnitudes (each once,
-    however many inputs repeat it) and the worst status of every component.
+    however many inputs repeat it) and the worst status of every component; of a system without any of these all
+    signals, as far as they are few.
     """
     if not result.time.size:
         return []
@@ -72,6 +74,9 @@ def key_values(result: Result) -> list[dict[str, Any]]:
                 rows.append(_key_row(group.label, "magnitude", [float(np.linalg.norm(values))], group))
         elif group.variable == "status" and group.type == "Integer":
             rows.append(_key_row(group.label, "worst of the run", [int(group.values(result).max())], group))
+    others = [group for group in groups if originals[group] == group]
+    if not rows and len(others) <= MOST_KEYS:
+        rows = [_key_row(group.label, "", [final[name] for name in group.names], group) for group in others]
     return rows
 
 

@@ -67,6 +67,7 @@ class _Reader(AnnotationReader):
                 use=self.uses(parts["Use"]),
                 parameters=tuple(self.attributes(item, ("source",))["source"] for item in parts["ParameterSet"]),
                 set=self.pairs(parts["Set"], "name", "value"),
+                places={item.get("name", "").strip(): (self.file, item.sourceline or 0) for item in parts["Set"]},
             ),
         )
 

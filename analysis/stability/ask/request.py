@@ -17,8 +17,6 @@ from ...system.options import Layer, SystemOptions
 from .declaration import Declaration, Loop, Point
 from .reading import read_declaration
 
-HERE = "command line"  # name of the point of loops that the command line names
-
 
 @dataclass(frozen=True)
 class Request:
@@ -54,8 +52,8 @@ class Request:
         words = ["perilune", "stability", self.system, "--campaign", self.campaign]
         words += ["--trial", str(trial), "--trials", str(self.plan.campaign.trials)]
         words += ["--seed", str(self.plan.campaign.seed), "--loop", loop]
-        if HERE in self.loop(loop).points:
-            words += ["--at", repr(self.point(HERE).time)]
+        points = [self.point(name) for name in self.loop(loop).points]
+        words += [word for point in points if _is_asked(point) for word in ("--at", repr(point.time))]
         for slot, fmu in options.use.items():
             words += ["--use", f"{slot}={fmu}"]
         for name in options.parameters:
@@ -127,12 +125,13 @@ def _chosen(description: Description, names: Sequence[str], at: float | None) ->
             remedy = "name a loop in the SSD, or cut one with --loop COMPONENT.CONNECTOR --at SECONDS"
             raise InputError(description.file, "", "declares no loops", remedy)
         return declared
+    here = _point(0.0 if at is None else at)
     wanted: list[Loop] = []
     for name in dict.fromkeys(names):
         if name not in by_name and "." not in name:
             raise InputError("--loop", name, "the SSD names no such loop", _remedy(name, by_name))
-        wanted.append(by_name.get(name) or Loop(name, cut=name, points=(HERE,)))
-    points = (*declared.points, Point(HERE, time=0.0 if at is None else at))
+        wanted.append(by_name.get(name) or Loop(name, cut=name, points=(here.name,)))
+    points = (*declared.points, here)
     used = {point for loop in wanted for point in loop.points}
     kept = {loop.name for loop in wanted}
     return Declaration(
@@ -141,6 +140,15 @@ def _chosen(description: Description, names: Sequence[str], at: float | None) ->
         tuple(wanted),
         tuple(sweep for sweep in declared.sweeps if sweep.loop in kept),
     )
+
+
+def _point(time: float) -> Point:
+    """The point of loops that no description names, called by its time (s)."""
+    return Point(f"t = {time:g} s", time=time)
+
+
+def _is_asked(point: Point) -> bool:
+    return point.time is not None and point == _point(point.time)
 
 
 def _remedy(name: str, declared: Mapping[str, Loop]) -> str:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...loops.curves import quotient
 from ...loops.multisine import Multisine, line_spectrum, multisine, unexcited_share
 from ...loops.readings import Curve
 from ..ask.channels import Channel
@@ -73,7 +74,7 @@ class Injector:
             lines=len(self.signal.lines),
             periods=self.periods,
             period=self.samples * self.seconds,
-            half_amplitude_change=float(np.max(abs(half[low] / value[low] - 1.0))),
+            half_amplitude_change=float(np.max(abs(quotient(half[low], value[low]) - 1.0))),
             unexcited=unexcited,
             curve=Curve(self.frequency, value),
         )

@@ -12,6 +12,7 @@ import scipy.linalg
 from ..bench.operating_point import OperatingPoint
 from .jacobian import STEPS, Jacobian, plateau
 from .lifted import LiftedModel, reached
+from .whole import Block, circles, multipliers
 
 
 @dataclass
@@ -20,12 +21,14 @@ class Linearisation:
 
     ``neighbour`` is the model from the next smaller steps of the differences: as far as both agree, the steps are
     right. ``drift`` lists name, value, change over the period and unit of the memory in the model, the largest relative
-    change first. ``cells`` numbers the model's memory among the ``states`` cells of all.
+    change first. ``blocks`` have the multipliers of the whole system. ``cells`` numbers the memory that matters for
+    either among the ``states`` cells of all.
     """
 
     model: LiftedModel
     neighbour: LiftedModel
     drift: list[tuple[str, float, float, str | None]]
+    blocks: tuple[Block, ...]
     cells: list[int]
     states: int
 
@@ -45,32 +48,40 @@ def linearise(
         for port in jacobian.ports
         for sample in range(port.count)
     ]
+    screened = None
     if cells is None:
-        cells = _in_between(np.column_stack([jacobian.screened(cell) for cell in range(count)]), driven)
+        screened = np.column_stack([jacobian.screened(cell) for cell in range(count)])
+        lasting = {int(cell) for block in circles(screened[:count]) for cell in block}
+        cells = sorted(lasting.union(np.flatnonzero(_in_between(screened, driven)).tolist()))
     remembered = [plateau(partial(jacobian.cell_column, cell), steps) for cell in cells]
-    models = []
+    matrices, models = [], []
     for place in range(2):
-        parts = [column[place] for column in remembered]
-        matrix = np.column_stack(parts) if parts else np.zeros((driven[0][0].size, 0))
-        models.append(_model(jacobian, list(cells), matrix, np.column_stack([column[place] for column in driven])))
+        matrix = np.zeros((count + 2 * len(driven), count))
+        for cell, column in zip(cells, remembered, strict=True):
+            matrix[:, cell] = column[place]
+        matrices.append(matrix)
+        # the first matrix says which cells, so that both models have the same
+        inside = np.flatnonzero(_in_between(matrices[0], driven))
+        models.append(_model(jacobian, inside, matrix, np.column_stack([column[place] for column in driven])))
     change = jacobian.end - jacobian.start
-    order = sorted(cells, key=lambda cell: -abs(change[cell]) / jacobian.scale[cell])
+    order = sorted(inside, key=lambda cell: -abs(change[cell]) / jacobian.scale[cell])
     memory = operating_point.memory.cells
     drift = [(memory[cell].name, float(jacobian.start[cell]), float(change[cell]), memory[cell].unit) for cell in order]
-    return Linearisation(models[0], models[1], drift, list(cells), count)
+    blocks = _blocks(jacobian, matrices[0] if screened is None else screened, driven, matrices)
+    return Linearisation(models[0], models[1], drift, blocks, list(cells), count)
 
 
-def _model(jacobian: Jacobian, cells: list[int], matrix: np.ndarray, driven: np.ndarray) -> LiftedModel:
+def _model(jacobian: Jacobian, cells: np.ndarray, matrix: np.ndarray, driven: np.ndarray) -> LiftedModel:
     count, inputs = len(jacobian.memory.cells), driven.shape[1]
     u, v = slice(count, count + inputs), slice(count + inputs, None)
     # Balanced: what the memory happens to hold tells little about how much of it a signal moves.
-    a, (balance, _) = scipy.linalg.matrix_balance(matrix[cells], permute=False, separate=True)
+    a, (balance, _) = scipy.linalg.matrix_balance(matrix[np.ix_(cells, cells)], permute=False, separate=True)
     return LiftedModel(
         a=a,
         b=driven[cells] / balance[:, None],
-        cu=matrix[u] * balance,
+        cu=matrix[u, cells] * balance,
         du=driven[u],
-        cv=matrix[v] * balance,
+        cv=matrix[v, cells] * balance,
         dv=driven[v],
         names=tuple(jacobian.memory.cells[cell].name for cell in cells),
         period=jacobian.bench.seconds,
@@ -78,10 +89,40 @@ def _model(jacobian: Jacobian, cells: list[int], matrix: np.ndarray, driven: np.
     )
 
 
-def _in_between(columns: np.ndarray, driven: list) -> list[int]:
-    """Cells that what is added moves, and that move what is read."""
+def _in_between(columns: np.ndarray, driven: list) -> np.ndarray:
+    """Of every cell whether what is added moves it, and it moves what is read."""
     count = columns.shape[1]
-    arrows = columns[:count] != 0.0
-    moved = reached(arrows, np.any([column[:count] != 0.0 for column, _ in driven], axis=0))
-    moves = reached(arrows.T, np.any(columns[count:] != 0.0, axis=0))
-    return [int(cell) for cell in np.flatnonzero(moved & moves)]
+    moved = _moved(columns, driven)
+    return moved & _moves(columns, np.any(columns[count:] != 0.0, axis=0))
+
+
+def _moved(columns: np.ndarray, driven: list) -> np.ndarray:
+    count = columns.shape[1]
+    return reached(columns[:count] != 0.0, np.any([column[:count] != 0.0 for column, _ in driven], axis=0))
+
+
+def _moves(columns: np.ndarray, heard: np.ndarray) -> np.ndarray:
+    return reached((columns[: columns.shape[1]] != 0.0).T, heard)
+
+
+def _blocks(jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequence[np.ndarray]) -> tuple[Block, ...]:
+    """The multipliers of all memory, with what of it each cut moves and sees along the ``arrows`` of a matrix."""
+    count, inputs = arrows.shape[1], len(driven)
+    moved, moves = [], []
+    for port in jacobian.ports:
+        signals = np.arange(count + port.first, count + port.first + port.count)
+        moved.append(_moved(arrows, driven[port.rows]))
+        moves.append(_moves(arrows, np.any(arrows[np.concatenate([signals, signals + inputs])] != 0.0, axis=0)))
+    found = []
+    for cells in circles(matrices[0][:count]):
+        values, neighbours = (multipliers(matrix, cells) for matrix in matrices)
+        found.append(
+            Block(
+                names=tuple(jacobian.memory.cells[cell].name for cell in cells),
+                multipliers=values,
+                change=float(abs(abs(values[0]) - abs(neighbours[0]))),
+                moved=tuple(bool(np.any(cell[cells])) for cell in moved),
+                moves=tuple(bool(np.any(cell[cells])) for cell in moves),
+            )
+        )
+    return tuple(found)

@@ -9,6 +9,7 @@ from ..results.routes import Mode, Structure
 from .lifted import LiftedModel, Port
 
 APART = 1e-4  # of the largest: a mode that answers less does not belong to the loop, or it is rounding
+KINDS = {(True, True): "loop", (False, True): "not controllable", (True, False): "not observable"}
 RANK = 1e-9  # of the largest singular value
 
 
@@ -27,23 +28,24 @@ def modes(model: LiftedModel, port: Port) -> tuple[Mode, ...]:
     found = []
     for place in np.argsort(-abs(values), kind="stable"):
         z = complex(values[place])
-        s = np.log(z) / model.period
         moved, seen = into[place] > APART, out[place] > APART
         if residue[place] <= APART:  # the weaker side is the one that is missing
             moved, seen = moved and into[place] >= out[place], seen and out[place] > into[place]
-        kind = {(True, True): "loop", (False, True): "not controllable", (True, False): "not observable"}
-        found.append(
-            Mode(
-                z=z,
-                s=complex(s),
-                damping=float(-s.real / abs(s)) if abs(s) > 0.0 else 1.0,
-                frequency=float(abs(s)),
-                kind=kind.get((bool(moved), bool(seen)), "neither"),
-                controllability=float(into[place]),
-                observability=float(out[place]),
-            )
-        )
+        kind = KINDS.get((bool(moved), bool(seen)), "neither")
+        found.append(_mode(z, model.period, kind, float(into[place]), float(out[place])))
     return tuple(found)
+
+
+def unseen_mode(z: complex, period: float, moved: bool, moves: bool) -> Mode:
+    """A mode of memory that is not in the loop, which its cut moves or by which it is moved, not both."""
+    kind = "neither" if moved == moves else KINDS[moved, moves]
+    return _mode(z, period, kind, float(moved), float(moves))
+
+
+def _mode(z: complex, period: float, kind: str, controllability: float, observability: float) -> Mode:
+    s = complex(np.log(z)) / period
+    damping = -s.real / abs(s) if abs(s) > 0.0 else 1.0
+    return Mode(z, s, damping, abs(s), kind, controllability, observability)
 
 
 def structure(model: LiftedModel, port: Port, states: int) -> Structure:

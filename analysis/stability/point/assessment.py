@@ -12,7 +12,7 @@ from ...loops.margin_values import Margins, Quantity
 from ...loops.margins import classical, robust
 from ...loops.readings import Classical, Curve, Robust
 from ..ask.declaration import Limits
-from ..results.requirement import Requirement, Scope
+from ..results.requirement import Requirement, Scope, grows
 
 LOWEST = 1e-6  # of the Nyquist frequency: below, a linear model's integrators are not resolved
 BELOW = 0.02  # of the lowest gain crossover, from which on a loop is looked at
@@ -80,13 +80,13 @@ def assess(
     return Assessment(curve, found, robust(response, low, high, include=include), notes)
 
 
-def requirements(found: Margins, limits: Limits) -> tuple[Requirement, ...]:
-    """The project's limits against one loop."""
+def requirements(found: Margins, limits: Limits, outside: Sequence[str] = ()) -> tuple[Requirement, ...]:
+    """The project's limits against one loop; ``outside`` names what grows without a part in it."""
     if found.stable is None:
         note = "poles are not known without route A"
         stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, None, 1.0, None, note)
     else:
-        note = "" if found.stable else "the closed loop is unstable"
+        note = "" if found.stable else grows(outside) or "the closed loop is unstable"
         stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, found.largest, 1.0, found.stable, note)
     wanted = {
         Quantity.GAIN: limits.gain_margin_db,

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...loops.curves import Response, interpolated
+from ...loops.curves import Response, interpolated, quotient
 from ...loops.decibels import decibels
 from ..ask.channels import Channel
 from ..ask.declaration import Limits
@@ -21,6 +21,7 @@ from ..results.routes import RouteB
 from .assessment import Assessment, assess, requirements
 from .routes import DOUBTFUL, NOT_LINEAR, LoopModel, agreement, disagreement
 
+SILENT = "nothing of what is added comes back: L is 0"
 FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, beside itself
 FIRST_LOOK = 1e-3  # of the Nyquist frequency: where a measurement without route A begins
 LOOP_GAIN = 5.0  # a measurement begins low enough when the gain of its lowest line is at least this
@@ -74,8 +75,13 @@ class LoopStudy:
     def _bent(self) -> bool:
         return self.measured is not None and self.measured.half_amplitude_change > NOT_LINEAR
 
-    def refuse_what_is_not_linear(self) -> None:
-        """Raises StudyError, with L over the amplitude, where neither route finds the loop linear."""
+    def refuse_what_is_no_loop(self) -> None:
+        """Raises StudyError where nothing comes back and no pole is known, or where neither route finds it linear.
+
+        Of what is not linear the error has L over the amplitude.
+        """
+        if self.model is None and self.measured is not None and not np.any(self.measured.curve.value):
+            raise StudyError(f"{SILENT}, and no poles are known without route A ({self.notes['route A']})")
         if self._doubtful and self.measured is None:
             assert self.model is not None
             names = ", ".join(self.model.facts.doubtful)
@@ -129,7 +135,11 @@ class LoopStudy:
     def report(self, closed: Sequence[str]) -> LoopReport:
         """The report without what needs other flights than the two routes'."""
         assessment, _ = self.assessed
-        model = self.model if "route A" not in self.notes else None
+        if not np.any(assessment.curve.value):
+            self.notes["loop"] = SILENT
+        # what grows outside does so whether or not the loop's own derivatives can be trusted
+        trusted = self.model is not None and ("route A" not in self.notes or self.model.outside)
+        model = self.model if trusted else None
         poles = np.array([mode.z for mode in model.modes]) if model else np.zeros(0, dtype=complex)
         stable = model.stable if model else None
         report = LoopReport(
@@ -148,6 +158,7 @@ class LoopStudy:
             stable=stable,
             largest=model.largest if model else None,
             unstable_open=model.unstable_open if model else None,
+            outside=tuple(name for block in model.outside for name in block.names) if model else (),
             modes=model.modes if model else (),
             poles_z=poles,
             structure=structure(model.model, model.port, model.facts.states) if model else None,
@@ -156,7 +167,7 @@ class LoopStudy:
             not_applicable={**self.notes, **assessment.notes},
             step=self._step(assessment) if model and stable else None,
         )
-        report.requirements = requirements(report.margins, self.limits)
+        report.requirements = requirements(report.margins, self.limits, report.outside)
         if self.model is not None and self.measured is not None:
             found = agreement(self.model.response, self.measured, self.seconds)
             report.agreement = found
@@ -192,7 +203,7 @@ class LoopStudy:
                 found[factor] = value
         reference = found[min(found)][line]
         points = tuple(
-            AmplitudePoint(factor * peak, complex(value[line]), float(abs(value[line] / reference - 1.0)))
+            AmplitudePoint(factor * peak, complex(value[line]), float(abs(quotient(value[line], reference) - 1.0)))
             for factor, value in sorted(found.items())
         )
         return points, float(self.injector.frequency[line])

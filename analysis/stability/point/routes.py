@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from ...loops.curves import Response
+from ...loops.curves import Response, quotient
 from ...loops.decibels import decibels, factor_of
 from ..linear.lifted import UNIT_CIRCLE, LiftedModel, Port
 from ..linear.linearise import Linearisation
-from ..linear.modes import modes
+from ..linear.modes import modes, unseen_mode
+from ..linear.whole import Block
 from ..results.routes import Agreement, Mode, RouteA, RouteB
 from .assessment import lowest_frequency
 
@@ -28,13 +30,14 @@ BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped
 
 @dataclass
 class LoopModel:
-    """Route A of one channel."""
+    """Route A of one channel. ``outside`` is the unstable memory that the loop has no part in, the fastest first."""
 
     model: LiftedModel
     port: Port
     modes: tuple[Mode, ...]
     poles_open: np.ndarray
     facts: RouteA
+    outside: tuple[Block, ...] = ()
 
     def response(self, frequency: np.ndarray) -> np.ndarray:
         return self.model.response((self.port,), frequency)[:, 0, 0]
@@ -61,17 +64,22 @@ class LoopModel:
 
     @property
     def largest(self) -> float:
-        """The largest multiplier of a closed-loop mode that the cut moves and sees; 0 where none lasts."""
-        return max((abs(mode.z) for mode in self.modes if mode.kind == "loop"), default=0.0)
+        """The largest multiplier of a closed-loop mode that the cut moves and sees, or that is unstable outside.
+
+        0 where none lasts.
+        """
+        own = max((abs(mode.z) for mode in self.modes if mode.kind == "loop"), default=0.0)
+        return max([own, *(float(abs(block.multipliers[0])) for block in self.outside)])
 
     @property
     def stable(self) -> bool:
-        return bool(self.largest < 1.0 + self.blur)
+        """Of the whole system with all loops closed: nothing that it remembers may grow."""
+        return not self.outside and bool(self.largest < 1.0 + self.blur)
 
     @property
     def blur(self) -> float:
         """How near to the unit circle a pole is no longer told from one on it."""
-        return max(UNIT_CIRCLE, min(10.0 * self.facts.plateau, MOST_BLUR))
+        return _blur(self.facts.plateau)
 
     def lightly_damped(self) -> tuple[list[float], list[float]]:
         """Frequencies (rad/s) of undamped and of lightly damped open-loop poles.
@@ -103,7 +111,31 @@ def loop_model(found: Linearisation, port: Port) -> LoopModel:
         doubtful=_doubtful(model, neighbour) if change > DOUBTFUL else (),
         periodicity=model.periodicity(port, look[::8]),
     )
-    return LoopModel(model, port, modes(model, port), model.opened((port,)), facts)
+    own = modes(model, port)
+    outside = tuple(block for block in found.blocks if _is_outside(block, own, change))
+    place = found.model.ports.index(port)
+    unseen = tuple(
+        unseen_mode(complex(block.multipliers[0]), model.period, block.moved[place], block.moves[place])
+        for block in outside
+        if not any(_alike(mode, block) for mode in own)
+    )
+    return LoopModel(model, port, own + unseen, model.opened((port,)), facts, outside)
+
+
+def _blur(change: float) -> float:
+    return max(UNIT_CIRCLE, min(10.0 * change, MOST_BLUR))
+
+
+def _is_outside(block: Block, own: Sequence[Mode], plateau: float) -> bool:
+    """Whether a block grows, and no mode that the cut moves and sees says so already."""
+    if abs(block.multipliers[0]) < 1.0 + _blur(max(block.change, plateau)):
+        return False
+    return not any(mode.kind == "loop" and _alike(mode, block) for mode in own)
+
+
+def _alike(mode: Mode, block: Block) -> bool:
+    """Whether a mode is the fastest of a block: of a reduced model it is so up to what was left out."""
+    return bool(abs(abs(mode.z) - abs(block.multipliers[0])) < MOST_BLUR)
 
 
 def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
@@ -120,8 +152,9 @@ def agreement(response: Response, measured: RouteB, sample_period: float) -> Agr
     highest = 0.5 * np.pi / sample_period
     kept = measured.curve.frequency <= highest
     frequency = measured.curve.frequency[kept]
-    ratio = measured.curve.value[kept] / response(frequency)
-    gain = float(np.exp(np.max(abs(np.log(abs(ratio))))))
+    ratio = quotient(measured.curve.value[kept], response(frequency))
+    with np.errstate(divide="ignore"):
+        gain = float(np.exp(np.max(abs(np.log(abs(ratio))))))
     phase = float(np.max(abs(np.angle(ratio))))
     return Agreement(gain, phase, float(frequency[-1]), bool(gain <= GAIN_AGREES and phase <= PHASE_AGREES))
 

@@ -29,7 +29,7 @@ def document(report: StabilityReport) -> dict[str, Any]:
 
     No number is infinite: a margin is a number, "unstable", "unlimited", or null where it is not known.
     """
-    return {
+    found: dict[str, Any] = {
         "system": report.system,
         "verdict": report.verdict,
         "limits": report.limits,
@@ -40,10 +40,16 @@ def document(report: StabilityReport) -> dict[str, Any]:
         "unstudied": [asdict(item) for item in report.unstudied],
         "provenance": report.provenance,
     }
+    return _finite(found)
 
 
-def _number(value: float | None) -> float | None:
-    return None if value is None or not math.isfinite(value) else float(value)
+def _finite(value: Any) -> Any:
+    """The same with null for every number that is none or infinite."""
+    if isinstance(value, dict):
+        return {name: _finite(item) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _size(value: float | None) -> float | str | None:
@@ -79,6 +85,7 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
         "closed": list(loop.closed),
         "verdict": loop.verdict,
         "stable": loop.stable,
+        "outside": list(loop.outside),
         **_margins(margins),
         "delay_margin_s": held(loop.classical.delay_margin),
         "disk_gain_db": held(decibels(loop.robust.disk_gain)),
@@ -97,8 +104,8 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
         "modes": [
             {
                 "z": [mode.z.real, mode.z.imag],
-                "damping": _number(mode.damping),
-                "frequency_rad_s": _number(mode.frequency),
+                "damping": mode.damping,
+                "frequency_rad_s": mode.frequency,
                 "kind": mode.kind,
             }
             for mode in loop.modes
@@ -227,6 +234,6 @@ def _point(point: PointReport) -> dict[str, Any]:
         "phase": point.phase,
         "time_s": point.time,
         "settings": {name: str(value) for name, value in point.settings.items()},
-        "drift": _number(point.drift),
-        "holds_s": _number(point.holds),
+        "drift": point.drift,
+        "holds_s": point.holds,
     }

@@ -30,9 +30,10 @@ class LoopReport:
     curve: Curve
     classical: Classical
     robust: Robust
-    stable: bool | None  # of the closed loop; None: not known
-    largest: float | None  # multiplier of the closed loop's modes; None: not known
+    stable: bool | None  # of the whole system, all loops closed; None: not known
+    largest: float | None  # multiplier of the loop's modes and of what grows outside of it; None: not known
     unstable_open: int | None  # poles of the open loop outside the unit circle
+    outside: tuple[str, ...] = ()  # memory that grows without any part in this loop, while all loops are closed
     modes: tuple[Mode, ...] = ()
     poles_z: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=complex))
     structure: Structure | None = None
@@ -59,8 +60,14 @@ class LoopReport:
         return self.requirements + (self.dispersion.requirements if self.dispersion is not None else ())
 
     @property
+    def doubted(self) -> bool:
+        """Whether the two routes differ: then nothing that was read off one of them can pass."""
+        return self.agreement is not None and not self.agreement.agrees
+
+    @property
     def verdict(self) -> Verdict:
-        return combined(self.judged)
+        found = combined(self.judged)
+        return Verdict.NOT_APPLICABLE if found is Verdict.PASS and self.doubted else found
 
 
 @dataclass(frozen=True)

@@ -72,6 +72,7 @@ class StabilityReport:
 
     @property
     def verdict(self) -> Verdict:
-        """What could not be studied is not passed."""
+        """What could not be studied, or what the routes differ on, is not passed."""
         found = combined([item.requirement for item in self.judged()])
-        return Verdict.NOT_APPLICABLE if found is Verdict.PASS and self.unstudied else found
+        open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)
+        return Verdict.NOT_APPLICABLE if found is Verdict.PASS and open_to_doubt else found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -67,3 +67,11 @@ def combined(requirements: Iterable[Requirement]) -> Verdict:
     """Fail if one fails, pass if one passes; what is not applicable decides nothing."""
     verdicts = [requirement.verdict for requirement in requirements]
     return next((word for word in (Verdict.FAIL, Verdict.PASS) if word in verdicts), Verdict.NOT_APPLICABLE)
+
+
+def grows(outside: Sequence[str], most: int = 4) -> str:
+    """What is unstable outside of a loop, in words."""
+    if not outside:
+        return ""
+    more = f" and {len(outside) - most} more" if len(outside) > most else ""
+    return f"what grows is outside of this loop: {', '.join(outside[:most])}{more}"

@@ -92,6 +92,8 @@ class CallTypes(ExpressionTypes):
                 if got not in (FLOAT, None) and (got is not INT or to_int):
                     self.report(argument, "number", name=name, got=got)
             return Scalar(MATH_FUNCTIONS[callee].returns)
+        if self.report_missing(node.func):
+            return None
         short = name.split(".")[-1]
         self.report(node, RULES["function"], name=name, remedy=REFUSED_FUNCTIONS.get(short, OTHER_FUNCTION))
         return None

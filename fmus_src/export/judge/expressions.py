@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 import ast
+import builtins
 import math
 from types import ModuleType
 from typing import Any
 
 from ...block import Input, Parameter, Variable
+from ...face import HOME_OF
 from ...mathlib import vector_types
 from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, Type, Vector, is_self_attribute
 from .source import find_global, origin_of_constant
-from .subset_table import COMPARISONS, EXPRESSIONS, MATH_CONSTANTS, OPERATORS, OTHER_SYNTAX, REFUSED_SYNTAX, Rule
+from .subset_table import (
+    COMPARISONS,
+    EXPRESSIONS,
+    MATH_CONSTANTS,
+    MATH_FUNCTIONS,
+    OPERATORS,
+    OTHER_SYNTAX,
+    REFUSED_SYNTAX,
+    Rule,
+)
 from .vectors import VectorTypes
 
 SCALARS = {float: FLOAT, int: INT, bool: BOOL}
@@ -96,8 +107,27 @@ class ExpressionTypes(VectorTypes):
                 return self.component(node, holder)
             if holder is None:
                 return None
-        self.report(node, "unknown name", name=ast.unparse(node))
+        if not self.report_missing(node):
+            self.report(node, "unknown name", name=ast.unparse(node))
         return None
+
+    def report_missing(self, node: ast.expr) -> bool:
+        """Report something of math, or of `perilune`, that is used without its import; returns whether it is that."""
+        name = node.value if isinstance(node, ast.Attribute) else node
+        if not isinstance(name, ast.Name) or name.id in {*self.bound, *self.function.parameters}:
+            return False
+        if find_global(self.function.source.function, name.id) is not None:
+            return False
+        if name is not node and name.id == "math":
+            words = "import math"
+        elif name is node and name.id in MATH_FUNCTIONS and not hasattr(builtins, name.id):
+            words = f"import math, and math.{name.id} here,"
+        elif name is node and name.id in HOME_OF:
+            words = f"from perilune import {name.id}"
+        else:
+            return False
+        self.report(node, "no import", name=name.id, words=words)
+        return True
 
     def _module(self, node: ast.expr) -> ModuleType | None:
         """The module that a name means, if it means one."""

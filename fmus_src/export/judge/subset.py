@@ -23,6 +23,7 @@ class SubsetError(ValueError):
         super().__init__(
             f"{block_class.__name__} is outside the subset of Python that kernels are written in:\n{lines}"
         )
+        self.block = block_class.__name__
         self.violations = violations
 
 

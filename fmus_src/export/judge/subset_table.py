@@ -134,7 +134,7 @@ REFUSED_SYNTAX: dict[type[ast.AST], Rule] = {
     ast.Yield: Rule("yield", "keep what is to be remembered in a State"),
     ast.Await: Rule("await", "remove it"),
     ast.Pow: Rule("the operator **", "write x * x, or math.pow(x, y)"),
-    ast.MatMult: Rule("the operator @", "write mathlib.vectors.dot for vectors, and sums as for loops"),
+    ast.MatMult: Rule("the operator @", "take dot of perilune for vectors, and sums as for loops"),
     ast.LShift: Rule("a bit operator", "use *, // and % on ints"),
     ast.RShift: Rule("a bit operator", "use *, // and % on ints"),
     ast.BitAnd: Rule("a bit operator", "use `and` on bools; *, // and % on ints"),
@@ -154,8 +154,8 @@ REFUSED_FUNCTIONS: dict[str, str] = {
     "dist": "write math.sqrt of the sum of squares",
     "fsum": "add in a for loop",
     "sum": "add in a for loop, starting from 0.0",
-    "min": "write the comparison with if, or mathlib.vectors.clip",
-    "max": "write the comparison with if, or mathlib.vectors.clip",
+    "min": "write the comparison with if, or take clip of perilune.fmus_src.mathlib.vectors",
+    "max": "write the comparison with if, or take clip of perilune.fmus_src.mathlib.vectors",
     "round": "write math.floor(x + 0.5)",
     "bool": "write x != 0.0 or n != 0",
     "divmod": "write // and % apart",
@@ -170,7 +170,8 @@ REFUSED_FUNCTIONS: dict[str, str] = {
     "radians": "stay in radians; multiply by math.pi / 180.0 where a table needs degrees",
 }
 
-OTHER_FUNCTION = "use a function listed in subset_table.py, write one in mathlib, or declare python_only = True"
+LANGUAGE_PAGE = "What a kernel may use"  # of the documentation site, derived from this file
+OTHER_FUNCTION = f'take one of the page "{LANGUAGE_PAGE}", write one in the file, or declare python_only = True'
 
 # What a kernel may not say although each word of it is allowed.
 RULES: dict[str, Rule] = {
@@ -190,6 +191,7 @@ RULES: dict[str, Rule] = {
     "return value": Rule("returns {got}, declared {expected}", "return what the declaration says; float(n) widens"),
     "recursion": Rule("{name} calls itself, directly or through others", "write a for loop with a bound"),
     "unbound": Rule("{name} may be read before it is assigned", "give it a value before the if or the loop"),
+    "no import": Rule("{name} is not imported", "write {words} at the top of the file"),
     "unknown name": Rule(
         "{name} is no local variable, kernel function or constant of the module",
         "assign it first, or define it as a float or int constant of the module",

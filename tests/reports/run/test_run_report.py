@@ -114,3 +114,22 @@ def test_no_position_no_trajectory(page, tmp_path):
     for name in [name for name in result.signals if "position" in name]:
         del result.signals[name]
     assert "Trajectory" not in text_of(write(result, tmp_path / "run.html"))
+
+
+@pytest.mark.parametrize("many", [False, True])
+def test_a_system_without_any_of_what_one_looks_at_first(many, tmp_path):
+    result = run_result()
+    kept = {"ship.tilt", "ship.mass"}
+    for name in set(result.signals) - kept:
+        del result.signals[name]
+    for place in range(20 if many else 0):
+        name = f"ship.extra_{place}"
+        result.signals[name], result.units[name], result.types[name] = result.time + place, None, "Real"
+    page = write(result, tmp_path / "run.html")
+    (section,) = parse(page).xpath("//section[h2='At the end']")
+    words = " ".join(section.text_content().split())
+    assert "before its first row" not in text_of(page)
+    assert ("ship.tilt" in words) != many
+    assert ("No position, velocity or status" in words) == many
+    if not many:
+        assert {repr(float(result[name][-1])) for name in kept} <= set(section.xpath(".//data/@value"))

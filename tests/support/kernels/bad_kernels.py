@@ -6,6 +6,7 @@ STEPS = {
     "read-only": "self.p = 2.0  # here",
     "unbound": "if self.flag:\n    a = 1.0\nself.y = a  # here",
     "unknown name": "self.y = NOWHERE  # here",
+    "no import": "self.y = sqrt(self.x)  # here",
     "list rebound": "self.v = [0.0] * 5  # here",
     "list shared": "w = self.v  # here",
     "list size": "w = [0.0] * self.k  # here",

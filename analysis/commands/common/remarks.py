@@ -1,0 +1,40 @@
+"""What a command says of a system beside its result: FMUs that are out of date, inputs that nobody set."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from collections.abc import Iterable
+
+from ....fmus_src.places import SYSTEMS
+from ...system.prepared import PreparedSystem
+from ...system.stale import stale_fmus
+from .options import system_options
+
+MOST = 4  # names in a line
+INDEX = re.compile(r"\[[\d,]+\]$")
+
+
+def say_stale(options: argparse.Namespace, others: Iterable[str] = ()) -> None:
+    """A line on standard error for every file that is newer than the FMUs built of it, which fly here."""
+    for line in stale_fmus(options.system, system_options(options), others):
+        print(f"perilune: {line}", file=sys.stderr)
+
+
+def note_lines(prepared: PreparedSystem) -> list[str]:
+    """What `perilune validate` notes of a system that is not of this repository, a line for each kind of note."""
+    if prepared.archive.path.is_relative_to(SYSTEMS.resolve()):
+        return []
+    kinds: dict[str, dict[str, None]] = {}
+    for note in prepared.network.notes:
+        name, _, words = note.partition(": ")
+        kind = words.partition(", keeps ")[0]
+        kind += ", keeps its start" if kind != words else ""
+        kinds.setdefault(kind, {})[INDEX.sub("", name)] = None
+    return [f"note: {_some(list(names))}: {kind}" for kind, names in kinds.items()]
+
+
+def _some(names: list[str]) -> str:
+    more = f" and {len(names) - MOST} more" if len(names) > MOST else ""
+    return f"{', '.join(names[:MOST])}{more}"
