@@ -63,8 +63,6 @@ def test_system_options_are_spelled_out_with_their_types(name):
     assert not any(parameter.kind is inspect.Parameter.VAR_KEYWORD for parameter in parameters.values())
     for field in fields(SystemOptions):
         if not field.compare or field.name == "places":  # where paths are meant from, where files write values
-            not field.compare or field.name == "places"
-        ):  # the folder that paths are meant from; where files write values
             continue
         assert field.name in parameters
         assert field.name in hints
