@@ -23,8 +23,8 @@ from ..reports.batch.plots import metric_plot
 from ..reports.kit.quantities import number
 from ..ssp.parameter_sets import SetValue
 from ..system.faults import Fault, faults_of
-from ..system.series import Given, read_series
-from ..system.watch import Watch
+from ..system.in_flight.series import Given, read_series
+from ..system.in_flight.watch import Watch
 from ..targets import check_folder
 from .notebook import Grid, metric_grid, notebook_view
 from .options import FilePath, check_list, system_options

@@ -24,9 +24,9 @@ from ..reports.run.run_report import key_values, write_run_report
 from ..reports.run.trajectory import trajectory_plot
 from ..ssp.parameter_sets import SetValue
 from ..system.faults import Fault, faults_of
+from ..system.in_flight.series import Given, read_series
+from ..system.in_flight.watch import Watch
 from ..system.prepared import prepare_system
-from ..system.series import Given, read_series
-from ..system.watch import Watch
 from .notebook import Grid, notebook_view, value_text
 from .options import FilePath, check_list, system_options
 

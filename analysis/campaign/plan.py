@@ -14,10 +14,10 @@ import numpy as np
 from ..errors import InputError, suggestion
 from ..ssp.archive import open_system
 from ..system.faults import Fault, check_fault
+from ..system.in_flight.series import InputSeries
+from ..system.in_flight.watch import UNWATCHED, Watch
 from ..system.options import Layer, SystemOptions
 from ..system.prepared import PreparedSystem, prepare_system
-from ..system.series import InputSeries
-from ..system.watch import UNWATCHED, Watch
 from .campaign import Campaign, Variant
 from .draws import DrawTable, draw_table, stream_numbers
 from .faults import DrawnFault, check_drawn, drawn_fault

@@ -52,8 +52,6 @@ def run(options: argparse.Namespace) -> int:
     if not write_json(result.summary() | {"final": final}, options.json, files):
         end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
         print(f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows")
-        for remark in prepared.remarks:
-            print(f"note: {remark}")
         for limits in figures if result.time.size else ():
             if isinstance(limits, Limits):
                 print("\n".join(limit_lines(limits, result)))

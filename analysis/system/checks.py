@@ -12,7 +12,6 @@ from ..ssp.description import Component
 from .assignments import Settings
 from .network import Network
 
-OURS = "Perilune"  # generation tool of FMUs whose parameter sample_period is what it is called
 MOST = 6  # FMUs that are named
 
 
@@ -43,7 +42,7 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
     """
     for component, fmu in network.fmus.items():
         variable = fmu.variables.get("sample_period")
-        if variable is None or not (fmu.description.generationTool or "").startswith(OURS):
+        if variable is None or not fmu.is_own:
             continue
         period = float(settings.variables.get((component, "sample_period"), variable.start))
         own = step * periods.get(component, 1)

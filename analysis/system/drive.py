@@ -8,8 +8,8 @@ import numpy as np
 
 from ..errors import InputError, suggestion
 from .faults import INTEGERS
+from .in_flight.series import InputSeries
 from .network import Network
-from .series import InputSeries
 
 HELD = ("discrete", "tunable")  # variabilities of Reals that are held, not interpolated
 CLOSE = 1e-9  # of the greater of two times that are one: FMPy's, which is that of math.isclose

@@ -21,10 +21,10 @@ from .assignments import Settings, collect_settings, single_value
 from .checks import check_samples, unfit
 from .drive import Drive, drive_inputs, driven_inputs
 from .fmu import Fmu, load_fmu
+from .in_flight.series import InputSeries
 from .network import Network, build_network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from .schedule import Schedule, make_schedule
-from .series import InputSeries
 from .times import component_periods, flight_times
 
 

@@ -21,6 +21,8 @@ def stale_fmus(system: str | Path, options: SystemOptions, others: Iterable[str]
     ``others`` are FMUs that take a component's place for some flights. Raises InputError as reading the system does.
     """
     archive = open_system(system)
+    if archive.is_fmu:
+        return []
     named = {
         name: component.source for name, component in _components(read_description(archive, options.variant).system)
     }

@@ -229,7 +229,7 @@ CASES = {
     "a step of nothing": ([*RUN, "--step", "0"], ["--step", "positive"]),
     "a step that is no number": ([*RUN, "--step", "fast"], ["--step", "'fast'", "number of seconds"]),
     "an end between steps": ([*RUN, "--stop-time", "1.05"], ["--stop-time", "1.05", "whole number", "--stop-time 1"]),
-    "an end before the start": ([*RUN, "--stop-time", "-1"], ["--stop-time", "-1", "before the start at 0 s"]),
+    "an end before the start": ([*RUN, "--stop-time", "-1"], ["--stop-time", "-1", "lies before the start, 0 s"]),
     "no trials": ([*BATCH, "--trials", "0"], ["--trials", "0", "1 or more"]),
     "trials that are no number": ([*BATCH, "--trials", "many"], ["--trials", "many"]),
     "no workers": ([*BATCH, "--workers", "0"], ["--workers", "0"]),

@@ -68,7 +68,7 @@ def test_every_problem_has_its_line(tiny_folder, tmp_path, capsys, monkeypatch):
     (tmp_path / "bad.toml").write_text("system = ")
     retouched(tiny / "gain.fmu", tmp_path / "odd.fmu", lambda text: text.replace('unit="m"', 'unit="ell"'))
     names = ["good.ssv", "bad.ssv", "bad.fmu", "bad.toml", "odd.fmu", "gone.ssv", "gone.toml", "gone.fmu", "gone"]
-    assert main(["validate", *names]) == 2
+    assert main(["validate", *names, "--strict"]) == 2
     captured = capsys.readouterr()
     assert captured.out == "good.ssv: good\n"
     lines = captured.err.splitlines()

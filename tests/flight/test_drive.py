@@ -13,9 +13,9 @@ from perilune.analysis.campaign.plan import read_plan
 from perilune.analysis.errors import InputError
 from perilune.analysis.flight.simulation import Simulation
 from perilune.analysis.system.faults import Fault
+from perilune.analysis.system.in_flight.series import read_series
 from perilune.analysis.system.options import SystemOptions
 from perilune.analysis.system.prepared import prepare_system
-from perilune.analysis.system.series import read_series
 from tests.support.builders import component, connection, document, pack, system
 
 RAMP = {"time": [0.0, 1.0], "u": [1.0, 3.0]}  # u = 1 + 2 t

@@ -19,9 +19,9 @@ from perilune.analysis.errors import InputError
 from perilune.analysis.flight.compiled import loop
 from perilune.analysis.flight.interruptible import StuckError, fly, run
 from perilune.analysis.flight.simulation import Simulation
+from perilune.analysis.system.in_flight.watch import Watch
 from perilune.analysis.system.options import SystemOptions
 from perilune.analysis.system.prepared import prepare_system
-from perilune.analysis.system.watch import Watch
 from tests.support.lone_fmus import build_lone_fmu
 
 CAMPAIGN = """

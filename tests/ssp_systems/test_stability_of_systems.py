@@ -169,7 +169,7 @@ def test_robot_samples_at_its_own_period_whatever_the_communication_step(channel
             assert DECIBEL * np.log(item.margins.gain) == pytest.approx(exact.gain, abs=0.01)
             assert np.degrees(item.margins.phase) == pytest.approx(exact.phase, abs=0.01)
         assert twice.margins is None
-        assert "sample_period 0.125 s" in twice.note
+        assert "star.sample_period: 0.125 s is shorter" in twice.note
 
 
 @each_time

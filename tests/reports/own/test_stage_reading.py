@@ -304,7 +304,7 @@ def test_a_budget_needs_what_phases_use_up_and_a_bound_that_there_is(folder, loa
     refused(folder, loaded, bare, item, "Budget", "the Phases before it have no spent")
     keep(monkeypatch, STORED)
     unknown = '<Budget><Item name="a" plus="landng"/></Budget>'
-    refused(folder, loaded, PHASES, unknown, "Item", "landng: no such bound; use one of braking, landing, transfer")
+    refused(folder, loaded, PHASES, unknown, "Item", "landng: no such bound; use one of landing, braking, transfer")
 
 
 def test_what_an_fmu_that_is_put_in_lacks_is_said(tiny_folder, tmp_path):

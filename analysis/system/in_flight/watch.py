@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..errors import InputError, suggestion
+from ...errors import InputError, suggestion
 
 LOG_LEVELS = ("error", "warning", "info", "all")
 # The least fmi2Status of each level: discard, warning, OK; of `all` FMUs are asked for all their categories, too.
