@@ -60,6 +60,8 @@ TAKES_LONG = {
     "perilune benchmark": "importers that take a minute each",
     "lunar_landing --parameters noisy.ssv --use": "320 s of flight with all sensors and a table of it",
     "lunar_landing --report": "320 s of flight and its page",
+    "entry_attitude --report": "a flight through air and its page",
+    "hover_transfer --parameters ideal.ssv --report": "a flight and its page",
 }
 FAILS = ("attitude_control.lead_time=",)  # the thin and the unstable loop: exit status 1
 # What begins the work of a verb, once all that it was given has been looked at.

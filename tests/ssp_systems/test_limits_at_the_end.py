@@ -65,7 +65,8 @@ def test_the_limits_of_a_system(name, capsys):
     page = (ROOT / "docs" / "systems" / f"{name}.md").read_text(encoding="utf-8")
     assert "".join(f"    {line}\n" for line in said) in page
     final = perilune.simulate(name).final()
-    for line, truth in zip(said, TRUTH[name], strict=True):
+    limits = [line for line in said if ".status: " not in line]
+    for line, truth in zip(limits, TRUTH[name], strict=True):
         shown = re.search(r": (\S+)", line).group(1).replace("\N{MINUS SIGN}", "-")
         assert float(shown) == pytest.approx(truth(final), rel=1e-3), line
         assert line.endswith(": kept")

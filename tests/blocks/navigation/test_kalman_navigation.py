@@ -30,8 +30,9 @@ from tests.support.flights.braking_flight import (
     velocity,
 )
 from tests.support.flights.navigation_runs import NO_FIRST_ERRORS, Native, plain, state_of, truth
+from tests.support.lengths import either
 
-SEEDS = 200
+SEEDS = either(200, 100)
 EPOCHS = {"ignition": 0, "first_minute": 600, "mid_braking": 1400, "velocimeter_on": 2100, "end": 2800}
 AFTER_VELOCIMETER = ("velocimeter_on", "end")
 SQUARES = {"altitude": 1, "velocity": 3, "position": 3}
