@@ -66,7 +66,7 @@ def test_every_problem_has_its_line(tiny_folder, tmp_path, capsys, monkeypatch):
     (tmp_path / "bad.ssv").write_text(parameter_set("a=Real:1; a=Real:2"))
     (tmp_path / "bad.fmu").write_bytes(b"x")
     (tmp_path / "bad.toml").write_text("system = ")
-    retouched(tiny / "gain.fmu", tmp_path / "odd.fmu", lambda text: text.replace('unit="m"', 'unit="ell"'))
+    retouched(tiny / "gain.fmu", tmp_path / "odd.fmu", lambda text: text.replace('unit="m"', 'unit="ell"', 1))
     names = ["good.ssv", "bad.ssv", "bad.fmu", "bad.toml", "odd.fmu", "gone.ssv", "gone.toml", "gone.fmu", "gone"]
     assert main(["validate", *names, "--strict"]) == 2
     captured = capsys.readouterr()
