@@ -53,6 +53,10 @@ gains: .venv/ready
 bench: build
 	$(BIN)/perilune benchmark
 
+# How time and memory grow with the size of a system, to 10 000 components and 100 000 connections.
+large: build
+	$(BIN)/python -m benchmarks.large_systems
+
 # The C of every block under the address and undefined-behaviour sanitizers, 10000 steps each.
 sanitize: .venv/ready
 	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
@@ -82,4 +86,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long build docs wheel notebooks explore gains bench sanitize browser lint clean
+.PHONY: demo test quick long build docs wheel notebooks explore gains bench large sanitize browser lint clean
