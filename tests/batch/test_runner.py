@@ -245,6 +245,7 @@ def test_unknown_campaign():
         perilune.batch(SYSTEM, "papper")
 
 
+@pytest.mark.slow
 def test_threads_leave_the_working_directory_alone(tmp_path, monkeypatch):
     """Loading a library changes it for a moment; two threads at once once left it changed."""
     monkeypatch.chdir(tmp_path)

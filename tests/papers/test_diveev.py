@@ -146,6 +146,7 @@ def test_the_basic_solution_crashes():
 # ---- table 2 -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", TABLE_2)
 def test_table_2(table_2, start):
     _, altitude, time = TABLE_2[start]
@@ -156,6 +157,7 @@ def test_table_2(table_2, start):
     assert statistics.mean(row["metric.final_altitude"] for row in rows) == pytest.approx(altitude, abs=bound)
 
 
+@pytest.mark.slow
 def test_mean_altitude_of_table_2(table_2):
     """What the errors do to the altitude does not depend on the start; the eleven rows together have less scatter."""
     here = statistics.mean(row["metric.final_altitude"] for start in TABLE_2 for row in table_2[start])
@@ -164,6 +166,7 @@ def test_mean_altitude_of_table_2(table_2):
     assert here == pytest.approx(statistics.mean(printed), abs=3.0 * error)
 
 
+@pytest.mark.slow
 def test_flights_of_a_start_differ_in_their_errors(table_2):
     for rows in table_2.values():
         assert len({row["metric.final_altitude"] for row in rows}) == len(rows)

@@ -285,6 +285,7 @@ def test_several_folders(folder, tmp_path):
         assert label in text_of(page)
 
 
+@pytest.mark.slow
 def test_reference(folder, tmp_path):
     page = write([folder], tmp_path / "page.html", "gamma")
     assert "B is gamma" in text_of(page)
@@ -334,14 +335,14 @@ def test_propellant_from_final_masses_where_no_metric_tells_it(tmp_path):
 @pytest.mark.parametrize(
     "options",
     [
-        {"trials": 1},
+        pytest.param({"trials": 1}, marks=pytest.mark.slow),
         pytest.param({"trials": 2, "traced": 1}, marks=pytest.mark.slow),
         {"variants": ("default",)},
         pytest.param(
             {"variants": tuple(f"guidance_{k}" for k in range(9)), "trials": 8, "traced": 3}, marks=pytest.mark.slow
         ),
         pytest.param({"noise": 100.0}, marks=pytest.mark.slow),  # no trial succeeds
-        {"noise": 0.0},  # no dispersion at all
+        pytest.param({"noise": 0.0}, marks=pytest.mark.slow),  # no dispersion at all
         pytest.param({"targets": False}, marks=pytest.mark.slow),
         {"variants": ("$x_1$ <b>&", "y/z")},
         pytest.param({"trials": 3000, "traced": 1, "variants": ("a", "b")}, marks=pytest.mark.slow),
