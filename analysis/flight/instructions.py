@@ -49,8 +49,9 @@ class InstructionList:
         one_by_one: Collection[int] = (),
     ) -> None:
         self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
-        self.ranges = ranges
-        self.parameter_ranges = parameter_ranges
+        self.ranges = ranges.tolist()  # single elements of lists are ten times quicker to reach
+        self.parameter_ranges = parameter_ranges.tolist()
+        self.text_ranges = texts.ranges.tolist()
         self.connections = connections
         self.firsts = np.cumsum([0, *(len(group) for group in connections)]).tolist()
         self.fault_slots = fault_slots
@@ -111,7 +112,7 @@ class InstructionList:
         self.drive(component, started=known is None)
         self.connect(component, known)
         for function in (FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"]):
-            piece = self.ranges[component, function]
+            piece = self.ranges[component][function]
             if piece[1]:
                 self.inject(piece)
                 code = loop.SET_REAL if function == FUNCTION["SetReal"] else loop.SET_WHOLE
@@ -120,25 +121,25 @@ class InstructionList:
         for start, source, target in self.texts.connections[component]:
             if known is None or start in known:
                 self.rows.append([loop.COPY_TEXT, source, 0, target, 1, component, 0])
-        if self.texts.ranges[component, 0, 1]:
-            self.call(loop.SET_TEXT, component, FUNCTION["SetString"], self.texts.ranges[component, 0])
+        if self.text_ranges[component][0][1]:
+            self.call(loop.SET_TEXT, component, FUNCTION["SetString"], self.text_ranges[component][0])
 
     def carry(self, component: int) -> None:
         """Values and faults to the inputs of a component, which is not given them."""
         self.connect(component)
         for function in (FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"]):
-            self.inject(self.ranges[component, function])
+            self.inject(self.ranges[component][function])
 
     def get(self, component: int) -> None:
         """Outputs of a component, at the end of the step."""
         for function in (FUNCTION["GetReal"], FUNCTION["GetInteger"], FUNCTION["GetBoolean"]):
-            piece = self.ranges[component, function]
+            piece = self.ranges[component][function]
             if piece[1]:
                 code = loop.GET_REAL if function == FUNCTION["GetReal"] else loop.GET_WHOLE
                 self.call(code, component, function, piece)
                 self.inject(piece)
-        if self.texts.ranges[component, 1, 1]:
-            self.call(loop.GET_TEXT, component, FUNCTION["GetString"], self.texts.ranges[component, 1])
+        if self.text_ranges[component][1][1]:
+            self.call(loop.GET_TEXT, component, FUNCTION["GetString"], self.text_ranges[component][1])
 
     def step(self, component: int, period: int = 1) -> None:
         """A step that ends with this communication step and begins ``period`` of them earlier."""
@@ -153,7 +154,7 @@ class InstructionList:
     def parameters(self, component: int, column: int) -> None:
         """Parameters of a component: column 1 of its ranges sets them, 2 sets them again, 3 reads them back."""
         for kind, (setter, getter) in enumerate(PARAMETER_CALLS):
-            first, count = self.parameter_ranges[component, kind, [0, column]]
+            first, count = self.parameter_ranges[component][kind][0], self.parameter_ranges[component][kind][column]
             code, function = getter if column == 3 else setter
             size = 1 if column == 3 and component in self.one_by_one else max(1, count)
             for start in range(first, first + count, size):

@@ -24,6 +24,7 @@ from .instructions import InstructionList, write_instructions
 from .parameters import TYPE_KIND, Parameters
 from .texts import Texts
 
+CAUSALITIES = ("input", "output")
 EXCHANGES = FUNCTION_NAMES[:6]  # set and get of Real, Integer (and Enumeration), Boolean
 
 
@@ -107,12 +108,15 @@ class _Builder:
 
     def _place_component(self, index: int, component: str) -> None:
         fmu = self.network.fmus[component]
-        for function in range(len(EXCHANGES)):
+        exchanged: list[list[Any]] = [[] for _ in EXCHANGES]
+        for variable in fmu.variables.values():
+            kind = TYPE_KIND.get(variable.type, len(EXCHANGES))
+            if variable.causality in CAUSALITIES and 2 * kind < len(EXCHANGES):
+                exchanged[2 * kind + CAUSALITIES.index(variable.causality)].append(variable)
+        for function, variables in enumerate(exchanged):
             first = len(self.references)
-            causality = "input" if function % 2 == 0 else "output"
-            for variable in fmu.variables.values():
-                if variable.causality != causality or TYPE_KIND.get(variable.type) != function // 2:
-                    continue
+            causality = CAUSALITIES[function % 2]
+            for variable in variables:
                 name = f"{component}.{variable.name}"
                 if causality == "input" and name not in self.network.driver and name not in self.network.driven:
                     continue

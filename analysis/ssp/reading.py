@@ -141,10 +141,11 @@ class Reader:
     def typed(self, item: etree._Element, name: str, kind: str) -> Connector:
         type_name = unit = enumeration = None
         for inner in item:
-            if tag(inner) == "Binary":
+            kind_of_value = tag(inner)
+            if kind_of_value == "Binary":
                 raise self.refuse(item, name, "Binary connectors are not supported", "remove the connector")
-            if tag(inner) in ("Real", "Integer", "Boolean", "String", "Enumeration"):
-                type_name, unit, enumeration = tag(inner), inner.get("unit"), inner.get("name")
+            if kind_of_value in ("Real", "Integer", "Boolean", "String", "Enumeration"):
+                type_name, unit, enumeration = kind_of_value, inner.get("unit"), inner.get("name")
         return Connector(name, kind, type_name, unit, enumeration, item.sourceline)
 
     def dictionary(self, element: etree._Element) -> dict[str, Connector]:

@@ -102,8 +102,11 @@ def origin(network: Network, link: Link) -> Node:
 
 def _check_loops(network: Network, direct: dict[str, dict[str, set[str]]]) -> None:
     graph: dict[str, set[str]] = {}
+    # an input on which no output depends directly ends every path
+    passed_on = {component: set().union(*outputs.values()) for component, outputs in direct.items()}
     for link in network.driver.values():
-        if not link.is_parameter:
+        target = link.target
+        if not link.is_parameter and (target.component is None or target.variable in passed_on[target.component]):
             graph.setdefault(link.target.name, set()).add(link.source.name)
     for node in network.nodes.values():
         if node.kind == "output" and node.component is not None:
