@@ -57,6 +57,8 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     parameters, whole_parameters, text_parameters = settings.real, settings.whole, settings.text
     found, whole_found, text_found = buffers.read_back.real, buffers.read_back.whole, buffers.read_back.text
     tolerance, texts = program.tolerance, buffers.texts
+    text_reference, text_address, text_given = texts.reference, texts.address, texts.given
+    text_rows, text_initial, text_size = texts.rows, texts.initial, texts.rows.shape[1]
     start, step, stop, first_point, steps = span.start, span.step, span.stop, span.first, span.last
     recorded, stride, record, times = recording.slots, recording.stride, recording.rows, recording.times
     halt = buffers.halt
@@ -69,7 +71,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     if n < 0:
         values[:] = program.initial
         frozen[:] = np.nan
-        texts.rows[:] = texts.initial
+        text_rows[:] = text_initial
         first_instruction = np.uint64(0 if span.reset else program.reset_end)
         last_instruction = np.uint64(phases[0])
         after = start
@@ -195,21 +197,21 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                         outcome[5] = k
                         return rows
             elif code == SET_TEXT:
-                status = exchange(address, instance, texts.reference, texts.address, first, count)
+                status = exchange(address, instance, text_reference, text_address, first, count)
             elif code == GET_TEXT:
-                status = exchange(address, instance, texts.reference, texts.given, first, count)
+                status = exchange(address, instance, text_reference, text_given, first, count)
                 for t in range(first, first + count if 0 <= status <= FMI_WARNING else first):
-                    if texts.given[t] == 0:
-                        texts.rows[t, 0] = 0
+                    if text_given[t] == 0:
+                        text_rows[t, 0] = 0
                     else:
-                        copy_text(texts.address[t], texts.given[t], texts.rows.shape[1])
-                    if texts.rows[t, -1] != 0:
+                        copy_text(text_address[t], text_given[t], text_size)
+                    if text_rows[t, text_size - 1] != 0:
                         outcome[0] = TOO_LONG
                         outcome[1] = t
                         outcome[5] = k
                         return rows
             elif code == COPY_TEXT:
-                texts.rows[first] = texts.rows[address]
+                copy_text(text_address[first], text_address[address], text_size)
             if status > FMI_WARNING or status < 0:
                 outcome[0] = FAILED
                 outcome[1] = instructions[k, COMPONENT]
