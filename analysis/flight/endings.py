@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from fmpy import fmi2
 
-from .compiled import arrays, loop
+from .compiled import arrays, codes
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
 from .instances.log import status_word
@@ -16,19 +16,19 @@ from .program import Layout
 from .texts import LONGEST
 
 STATUS = {
-    loop.STOP_TIME: "stop_time",
-    loop.FINISHED: "finished",
-    loop.NONFINITE: "nonfinite",
-    loop.FAILED: "failed",
-    loop.UNMAPPED: "failed",
-    loop.INTERRUPTED: "interrupted",
-    loop.NOT_TAKEN: "failed",
-    loop.TOO_LONG: "failed",
+    codes.STOP_TIME: "stop_time",
+    codes.FINISHED: "finished",
+    codes.NONFINITE: "nonfinite",
+    codes.FAILED: "failed",
+    codes.UNMAPPED: "failed",
+    codes.INTERRUPTED: "interrupted",
+    codes.NOT_TAKEN: "failed",
+    codes.TOO_LONG: "failed",
 }
 TERMINATED = "terminated"  # an FMU asked for the end
 ENTER = FUNCTION_NAMES.index("fmi2EnterInitializationMode")
-SETTERS = (loop.PARAMETERS, loop.WHOLE_PARAMETERS, loop.TEXT_PARAMETERS)
-READ_BACKS = (loop.READ_BACK, loop.WHOLE_READ_BACK, loop.TEXT_READ_BACK)
+SETTERS = (codes.PARAMETERS, codes.WHOLE_PARAMETERS, codes.TEXT_PARAMETERS)
+READ_BACKS = (codes.READ_BACK, codes.WHOLE_READ_BACK, codes.TEXT_READ_BACK)
 
 
 class Outcome(NamedTuple):
@@ -44,7 +44,7 @@ class Outcome(NamedTuple):
     @property
     def is_well(self) -> bool:
         """Whether nothing has gone wrong."""
-        return self.code in (loop.STOP_TIME, loop.FINISHED, loop.INTERRUPTED)
+        return self.code in (codes.STOP_TIME, codes.FINISHED, codes.INTERRUPTED)
 
     @property
     def is_discarded_step(self) -> bool:
@@ -53,7 +53,7 @@ class Outcome(NamedTuple):
     @property
     def is_fatal(self) -> bool:
         """Whether no instance of the FMU may be used again (FMI 2.0, fmi2Fatal), or its status is none of FMI's."""
-        return self.code == loop.FAILED and not 0 <= self.fmi_status < fmi2.fmi2Fatal
+        return self.code == codes.FAILED and not 0 <= self.fmi_status < fmi2.fmi2Fatal
 
     @property
     def is_error(self) -> bool:
@@ -64,7 +64,7 @@ class Outcome(NamedTuple):
         """Whether an FMU did not give a parameter back."""
         if not (self.is_error or self._failed_with(fmi2.fmi2Discard)):
             return False
-        return int(program.instructions[self.instruction, loop.CODE]) in READ_BACKS
+        return int(program.instructions[self.instruction, codes.CODE]) in READ_BACKS
 
     def is_refused_again(self, program: arrays.Program) -> bool:
         """Whether an FMU refused to be given parameters in initialisation mode."""
@@ -72,11 +72,11 @@ class Outcome(NamedTuple):
             return False
         row = program.instructions[self.instruction]
         before = program.instructions[: self.instruction]
-        enters = before[before[:, loop.COMPONENT] == row[loop.COMPONENT], loop.FUNCTION] == np.uint64(ENTER)
-        return int(row[loop.CODE]) in SETTERS and bool(enters.any())
+        enters = before[before[:, codes.COMPONENT] == row[codes.COMPONENT], codes.FUNCTION] == np.uint64(ENTER)
+        return int(row[codes.CODE]) in SETTERS and bool(enters.any())
 
     def _failed_with(self, status: int) -> bool:
-        return self.code == loop.FAILED and self.fmi_status == status
+        return self.code == codes.FAILED and self.fmi_status == status
 
 
 def outcome_of(buffers: arrays.Buffers) -> Outcome:
@@ -104,22 +104,22 @@ def in_words(
     """Status and message of a flight; ``time`` (s) is that of its last communication point."""
     code, subject = outcome.code, outcome.subject
     status = STATUS[code]
-    if code == loop.NONFINITE:
+    if code == codes.NONFINITE:
         return status, f"{list(layout.slots)[subject]} is {buffers.values[subject]} at t = {time:g} s"
-    if code == loop.UNMAPPED:
+    if code == codes.UNMAPPED:
         name, value = list(layout.slots)[subject], buffers.values[subject]
         return status, f"{name}: its connection's mapping has no entry for {value:g}, at t = {time:g} s"
-    if code == loop.INTERRUPTED:
+    if code == codes.INTERRUPTED:
         return status, f"interrupted at t = {time:g} s"
-    if code == loop.TOO_LONG:
+    if code == codes.TOO_LONG:
         return status, f"{list(layout.texts.slots)[subject]} gave a string of {LONGEST} bytes or more at t = {time:g} s"
-    if code == loop.NOT_TAKEN:
+    if code == codes.NOT_TAKEN:
         parameters = layout.parameters
         component, variable = parameters.keys[subject]
         given, found = (parameters.value_in(values, subject) for values in (parameters.values, buffers.read_back))
         words = f"{component}.{variable}: was set to {given}, and its FMU has {found} after initialisation"
         return status, " | ".join([f"{words}: it did not take it", *instances[component].messages])
-    if code == loop.FAILED:
+    if code == codes.FAILED:
         component = list(instances)[subject]
         log = " | ".join(instances[component].messages) or "no message in its log"
         word = status_word(outcome.fmi_status)
@@ -134,9 +134,9 @@ def initialised(outcome: Outcome, program: arrays.Program, count: int) -> list[b
     reached = [True] * count
     if outcome.is_well or outcome.instruction >= program.phases[0]:
         return reached
-    exits = program.instructions[: program.phases[0], loop.FUNCTION] == np.uint64(
+    exits = program.instructions[: program.phases[0], codes.FUNCTION] == np.uint64(
         FUNCTION_NAMES.index("fmi2ExitInitializationMode")
     )
     for row in np.flatnonzero(exits):
-        reached[int(program.instructions[row, loop.COMPONENT])] = bool(row < outcome.instruction)
+        reached[int(program.instructions[row, codes.COMPONENT])] = bool(row < outcome.instruction)
     return reached

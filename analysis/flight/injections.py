@@ -6,9 +6,9 @@ import math
 from typing import NamedTuple
 
 from ..system.faults import Fault
-from .compiled import loop
+from .compiled import codes
 
-KIND_NUMBERS = {"override": loop.OVERRIDE, "bias": loop.BIAS, "freeze": loop.FREEZE}
+KIND_NUMBERS = {"override": codes.OVERRIDE, "bias": codes.BIAS, "freeze": codes.FREEZE}
 NEVER = (math.inf, math.inf)  # the window of a fault that does not fly
 
 
@@ -32,4 +32,4 @@ def of_fault(fault: Fault, margin: float) -> Injection:
 
 def of_excitation(connector: str, column: int) -> Injection:
     """A connector to which `Simulation.advance` adds the given column of its excitation, in the connector's unit."""
-    return Injection(connector, loop.EXCITE, float(column), (-math.inf, math.inf))
+    return Injection(connector, codes.EXCITE, float(column), (-math.inf, math.inf))

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from ..system.schedule import Schedule
-from .compiled import loop
+from .compiled import codes
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
 from .texts import Texts
@@ -16,10 +16,10 @@ from .texts import Texts
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES)}
 # Real, Integer (and Enumeration), Boolean, String: what sets parameters, what reads them back.
 PARAMETER_CALLS = (
-    ((loop.PARAMETERS, "SetReal"), (loop.READ_BACK, "GetReal")),
-    ((loop.WHOLE_PARAMETERS, "SetInteger"), (loop.WHOLE_READ_BACK, "GetInteger")),
-    ((loop.WHOLE_PARAMETERS, "SetBoolean"), (loop.WHOLE_READ_BACK, "GetBoolean")),
-    ((loop.TEXT_PARAMETERS, "SetString"), (loop.TEXT_READ_BACK, "GetString")),
+    ((codes.PARAMETERS, "SetReal"), (codes.READ_BACK, "GetReal")),
+    ((codes.WHOLE_PARAMETERS, "SetInteger"), (codes.WHOLE_READ_BACK, "GetInteger")),
+    ((codes.WHOLE_PARAMETERS, "SetBoolean"), (codes.WHOLE_READ_BACK, "GetBoolean")),
+    ((codes.TEXT_PARAMETERS, "SetString"), (codes.TEXT_READ_BACK, "GetString")),
 )
 
 
@@ -62,7 +62,7 @@ class InstructionList:
 
     def array(self) -> np.ndarray:
         """What has been collected."""
-        return np.array(self.rows, dtype=np.uint64).reshape(-1, loop.COLUMNS)
+        return np.array(self.rows, dtype=np.uint64).reshape(-1, codes.COLUMNS)
 
     def call(self, code: int, component: int, function: int, piece: Sequence[int] = (0, 0)) -> None:
         """A call of an FMI function on a piece of slots or parameters."""
@@ -79,7 +79,7 @@ class InstructionList:
         for number, (code, origin, source, target) in enumerate(self.connections[group], self.firsts[group]):
             if known is not None and origin not in known:
                 run = []
-            elif code == loop.COPY:
+            elif code == codes.COPY:
                 # neighbouring slots copied to neighbouring slots are one instruction
                 if run and (source, target) == (run[1] + run[4], run[3] + run[4]):
                     run[4] += 1
@@ -99,13 +99,13 @@ class InstructionList:
         """
         first, count = self.drives[group]
         if count:
-            self.rows.append([loop.DRIVE, int(started), 0, first, count, 0, 0])
+            self.rows.append([codes.DRIVE, int(started), 0, first, count, 0, 0])
 
     def inject(self, piece: Sequence[int]) -> None:
         """The faults on a piece of slots."""
         for number, slot in enumerate(self.fault_slots):
             if piece[0] <= slot < piece[0] + piece[1]:
-                self.rows.append([loop.INJECT, 0, 0, number, 1, 0, 0])
+                self.rows.append([codes.INJECT, 0, 0, number, 1, 0, 0])
 
     def set(self, component: int, known: Collection[int] | None = None) -> None:
         """Inputs of a component; in the initialisation those whose source is not ``known`` keep their start values."""
@@ -115,14 +115,14 @@ class InstructionList:
             piece = self.ranges[component][function]
             if piece[1]:
                 self.inject(piece)
-                code = loop.SET_REAL if function == FUNCTION["SetReal"] else loop.SET_WHOLE
+                code = codes.SET_REAL if function == FUNCTION["SetReal"] else codes.SET_WHOLE
                 self.call(code, component, function, piece)
 
         for start, source, target in self.texts.connections[component]:
             if known is None or start in known:
-                self.rows.append([loop.COPY_TEXT, source, 0, target, 1, component, 0])
+                self.rows.append([codes.COPY_TEXT, source, 0, target, 1, component, 0])
         if self.text_ranges[component][0][1]:
-            self.call(loop.SET_TEXT, component, FUNCTION["SetString"], self.text_ranges[component][0])
+            self.call(codes.SET_TEXT, component, FUNCTION["SetString"], self.text_ranges[component][0])
 
     def carry(self, component: int) -> None:
         """Values and faults to the inputs of a component, which is not given them."""
@@ -135,21 +135,21 @@ class InstructionList:
         for function in (FUNCTION["GetReal"], FUNCTION["GetInteger"], FUNCTION["GetBoolean"]):
             piece = self.ranges[component][function]
             if piece[1]:
-                code = loop.GET_REAL if function == FUNCTION["GetReal"] else loop.GET_WHOLE
+                code = codes.GET_REAL if function == FUNCTION["GetReal"] else codes.GET_WHOLE
                 self.call(code, component, function, piece)
                 self.inject(piece)
         if self.text_ranges[component][1][1]:
-            self.call(loop.GET_TEXT, component, FUNCTION["GetString"], self.text_ranges[component][1])
+            self.call(codes.GET_TEXT, component, FUNCTION["GetString"], self.text_ranges[component][1])
 
     def step(self, component: int, period: int = 1) -> None:
         """A step that ends with this communication step and begins ``period`` of them earlier."""
-        self.call(loop.STEP, component, FUNCTION["DoStep"], (0, 0 if period == 1 else period))
+        self.call(codes.STEP, component, FUNCTION["DoStep"], (0, 0 if period == 1 else period))
 
     def reset(self) -> None:
         """Every FMU back to the state after instantiation, its flight ended."""
         for component in range(len(self.instances)):
-            self.call(loop.MODE, component, FUNCTION["Terminate"])
-            self.call(loop.MODE, component, FUNCTION["Reset"])
+            self.call(codes.MODE, component, FUNCTION["Terminate"])
+            self.call(codes.MODE, component, FUNCTION["Reset"])
 
     def parameters(self, component: int, column: int) -> None:
         """Parameters of a component: column 1 of its ranges sets them, 2 sets them again, 3 reads them back."""
@@ -168,8 +168,8 @@ class InstructionList:
         """
         for component in range(len(self.instances)):
             self.parameters(component, 1)
-            self.call(loop.SETUP, component, FUNCTION["SetupExperiment"])
-            self.call(loop.MODE, component, FUNCTION["EnterInitializationMode"])
+            self.call(codes.SETUP, component, FUNCTION["SetupExperiment"])
+            self.call(codes.MODE, component, FUNCTION["EnterInitializationMode"])
             self.parameters(component, 2)  # again: there are FMUs that lose what they were given before
         self.drive(-1, started=False)
         known = {-1}
@@ -178,7 +178,7 @@ class InstructionList:
             self.get(component)
             known.add(component)
         for component in range(len(self.instances)):
-            self.call(loop.MODE, component, FUNCTION["ExitInitializationMode"])
+            self.call(codes.MODE, component, FUNCTION["ExitInitializationMode"])
         for component in range(len(self.instances)):
             self.parameters(component, 3)
         for component in range(len(self.instances)):

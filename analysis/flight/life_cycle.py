@@ -7,7 +7,7 @@ from collections.abc import Set as AbstractSet
 
 from fmpy.fmi1 import FMICallException
 
-from .compiled import arrays, loop
+from .compiled import arrays, codes
 from .endings import Outcome, initialised
 from .instances.instance import Instance
 from .instances.reset_test import ResetVerdict, judge, known_verdict, reset_verdict
@@ -94,10 +94,10 @@ class LifeCycle:
     def _readdress(self, index: int, instance: Instance) -> None:
         """Let the program call the new instance of a component."""
         rows = self._program.instructions
-        calls = (rows[:, loop.INSTANCE] != 0) & (rows[:, loop.COMPONENT] == index)
+        calls = (rows[:, codes.INSTANCE] != 0) & (rows[:, codes.COMPONENT] == index)
         addresses = instance.function_addresses()
-        rows[calls, loop.INSTANCE] = instance.address
-        rows[calls, loop.ADDRESS] = [addresses[function] for function in rows[calls, loop.FUNCTION]]
+        rows[calls, codes.INSTANCE] = instance.address
+        rows[calls, codes.ADDRESS] = [addresses[function] for function in rows[calls, codes.FUNCTION]]
         self._instructions.instances[index] = (instance.address, addresses)
 
     def close(self, fatal: str | None = None) -> None:

@@ -16,7 +16,7 @@ from ..system.fmu import Fmu
 from ..system.names import parted
 from ..system.network import Link, Network, Node
 from ..system.schedule import Schedule, origin
-from .compiled import arrays, loop
+from .compiled import arrays, codes
 from .injections import Injection
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
@@ -248,5 +248,5 @@ def _columns(drive: Drive | None, names: Sequence[str]) -> np.ndarray:
 def _connection_code(link: Link) -> int:
     """The instruction that carries a connection's value."""
     if link.transformation.table:
-        return loop.MAP
-    return loop.COPY if link.transformation == IDENTITY else loop.TRANSFORM
+        return codes.MAP
+    return codes.COPY if link.transformation == IDENTITY else codes.TRANSFORM

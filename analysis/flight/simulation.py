@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..ssp.parameter_sets import ParameterValue, parse_value
 from ..system.faults import Fault, check_fault
 from ..system.prepared import PreparedSystem, no_collection
-from .compiled import arrays, loop
+from .compiled import arrays, codes, loop
 from .endings import TERMINATED, Outcome, asked_end, in_words, outcome_of
 from .injections import NEVER, of_excitation, of_fault
 from .instances.instance import Instance, instantiate
@@ -251,7 +251,7 @@ class Simulation:
         """Whether an FMU has shown what not to ask of it, so that the flight is to begin anew."""
         parameters = self.layout.parameters
         if outcome.is_unreadable(self.program):
-            first, count = self.program.instructions[outcome.instruction, [loop.FIRST, loop.COUNT]]
+            first, count = self.program.instructions[outcome.instruction, [codes.FIRST, codes.COUNT]]
             parameters.learn_unreadable(int(first), int(count))
         elif outcome.is_refused_again(self.program):
             parameters.learn_set_once(list(self.instances)[outcome.subject])

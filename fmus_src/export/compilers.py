@@ -18,7 +18,9 @@ from pathlib import Path
 
 from .fat_binary import fat_binary
 
-FLAGS = ("-O2", "-std=c99", "-ffp-contract=off", "-fno-builtin", "-fPIC", "-shared", "-s")
+# -O3 for what it does to calls and branches; vectors of doubles it makes of our loops, of three or nine passes, cost
+# more than they save.
+FLAGS = ("-O3", "-fno-tree-vectorize", "-std=c99", "-ffp-contract=off", "-fno-builtin", "-fPIC", "-shared", "-s")
 
 
 class CompilerMissing(RuntimeError):  # noqa: N818

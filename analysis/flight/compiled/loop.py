@@ -1,13 +1,12 @@
 """The co-simulation loop: one compiled function that initialises the FMUs and flies them.
 
-A system becomes a list of instructions (`instructions.py`): one part that initialises, one part
-that is repeated every communication step. The loop knows nothing of algorithms; their order is
-in the list. Every exchanged variable has a slot in one float64 array; Integer, Boolean and
-Enumeration values pass through an int32 array of the same layout. The slots of a component are
-contiguous by type and direction, so that each FMI call takes a piece of the arrays as it stands.
+Every exchanged variable has a slot in one float64 array; Integer, Boolean and Enumeration values pass through an
+int32 array of the same layout. The slots of a component are contiguous by type and direction, so that each FMI call
+takes a piece of the arrays as it stands.
 
-It is one function without calls to others of ours: numba counts references to every array that
-crosses a call, which costs more than the FMI calls themselves.
+What is repeated every step is one function without calls to others of ours: numba counts references to every array
+that crosses a call, which costs more than the FMI calls themselves; and all that is done once, or rarely, stands in
+others, since every name that is kept alive here is read from memory instead of a register.
 """
 
 from __future__ import annotations
@@ -17,26 +16,40 @@ from typing import Any
 
 import numpy as np
 
+from .beginning import begin
+from .codes import (
+    ADDRESS,
+    BIAS,
+    CODE,
+    COMPONENT,
+    COPY,
+    COPY_TEXT,
+    COUNT,
+    DRIVE,
+    EXCITE,
+    FAILED,
+    FINISHED,
+    FIRST,
+    FMI_WARNING,
+    FUNCTION,
+    GET_REAL,
+    GET_WHOLE,
+    INJECT,
+    INSTANCE,
+    INTERRUPTED,
+    MAP,
+    NONFINITE,
+    OVERRIDE,
+    SET_REAL,
+    SET_WHOLE,
+    STEP,
+    STOP_TIME,
+    TRANSFORM,
+    UNMAPPED,
+)
 from .compiler import compiled
-from .fmi_calls import change_mode, compare_texts, copy_text, do_step, exchange, setup_experiment
-
-# Instruction codes.
-COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP = range(9)
-PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, DRIVE = range(9, 15)
-READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(15, 18)
-SET_TEXT, GET_TEXT, COPY_TEXT = range(18, 21)
-# Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY and
-# a COPY_TEXT have the first target in FIRST and the first source in ADDRESS; a STEP over several communication steps
-# their number in COUNT (0 for one); a DRIVE has 0 in ADDRESS while the FMUs initialise, then 1; FUNCTION numbers
-# library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
-CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
-COLUMNS = 7
-
-# How a run ends: Buffers.outcome[0].
-STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED, NOT_TAKEN, TOO_LONG = range(8)
-OVERRIDE, BIAS, FREEZE, EXCITE = range(4)
-FMI_WARNING = 1
-KEPT = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
+from .fmi_calls import do_step, exchange
+from .strings import exchange_texts
 
 
 def _fly(program, buffers, settings, span, recording, excitation):  # type: ignore[no-untyped-def]
@@ -46,7 +59,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     ``span.first``.
     """
     instructions = program.instructions
-    reference, parameter_reference = program.reference, program.parameter_reference
+    reference = program.reference
     source, target = program.source, program.target
     factor, offset = program.factor, program.offset
     table, table_from, table_to = program.table, program.table_from, program.table_to
@@ -54,12 +67,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     fault_window, fault_value = program.fault_window, program.fault_value
     drive_slot, drive_table = program.drive_slot, program.drive_table
     values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
-    parameters, whole_parameters, text_parameters = settings.real, settings.whole, settings.text
-    found, whole_found, text_found = buffers.read_back.real, buffers.read_back.whole, buffers.read_back.text
-    tolerance, texts = program.tolerance, buffers.texts
-    text_reference, text_address, text_given = texts.reference, texts.address, texts.given
-    text_rows, text_initial, text_size = texts.rows, texts.initial, texts.rows.shape[1]
-    start, step, stop, first_point, steps = span.start, span.step, span.stop, span.first, span.last
+    start, step, first_point, steps = span.start, span.step, span.first, span.last
     recorded, stride, record, times = recording.slots, recording.stride, recording.rows, recording.times
     halt = buffers.halt
     outcome[:] = 0
@@ -71,7 +79,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     if n < 0:
         values[:] = program.initial
         frozen[:] = np.nan
-        text_rows[:] = text_initial
+        buffers.texts.rows[:] = buffers.texts.initial
         first_instruction = np.uint64(0 if span.reset else program.reset_end)
         last_instruction = np.uint64(phases[0])
         after = start
@@ -158,60 +166,14 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                 driven_row = min(n + 1 + np.int64(address), drive_table.shape[0] - 1)
                 for d in range(first, first + count):
                     values[drive_slot[d]] = drive_table[driven_row, d]
-            elif code == PARAMETERS:
-                status = exchange(address, instance, parameter_reference, parameters, first, count)
-            elif code == WHOLE_PARAMETERS:
-                status = exchange(address, instance, parameter_reference, whole_parameters, first, count)
-            elif code == TEXT_PARAMETERS:
-                status = exchange(address, instance, parameter_reference, text_parameters, first, count)
-            elif code == SETUP:
-                allowed = tolerance[instructions[k, COMPONENT]]
-                known = not np.isnan(allowed)
-                status = setup_experiment(address, instance, np.int32(known), allowed if known else 0.0, start, stop)
-            elif code == MODE:
-                status = change_mode(address, instance)
-            elif code == READ_BACK:
-                status = exchange(address, instance, parameter_reference, found, first, count)
-                for p in range(first, first + count if 0 <= status <= FMI_WARNING else first):
-                    given = parameters[p]
-                    near = abs(found[p] - given) <= KEPT * abs(given)
-                    if not (near or found[p] == given or (np.isnan(found[p]) and np.isnan(given))):
-                        outcome[0] = NOT_TAKEN
-                        outcome[1] = p
-                        outcome[5] = k
-                        return rows
-            elif code == WHOLE_READ_BACK:
-                status = exchange(address, instance, parameter_reference, whole_found, first, count)
-                for p in range(first, first + count if 0 <= status <= FMI_WARNING else first):
-                    if whole_found[p] != whole_parameters[p]:
-                        outcome[0] = NOT_TAKEN
-                        outcome[1] = p
-                        outcome[5] = k
-                        return rows
-            elif code == TEXT_READ_BACK:
-                status = exchange(address, instance, parameter_reference, text_found, first, count)
-                for p in range(first, first + count if 0 <= status <= FMI_WARNING else first):
-                    if text_found[p] == 0 or compare_texts(text_found[p], text_parameters[p]) != 0:
-                        outcome[0] = NOT_TAKEN
-                        outcome[1] = p
-                        outcome[5] = k
-                        return rows
-            elif code == SET_TEXT:
-                status = exchange(address, instance, text_reference, text_address, first, count)
-            elif code == GET_TEXT:
-                status = exchange(address, instance, text_reference, text_given, first, count)
-                for t in range(first, first + count if 0 <= status <= FMI_WARNING else first):
-                    if text_given[t] == 0:
-                        text_rows[t, 0] = 0
-                    else:
-                        copy_text(text_address[t], text_given[t], text_size)
-                    if text_rows[t, text_size - 1] != 0:
-                        outcome[0] = TOO_LONG
-                        outcome[1] = t
-                        outcome[5] = k
-                        return rows
-            elif code == COPY_TEXT:
-                copy_text(text_address[first], text_address[address], text_size)
+            else:
+                if code <= COPY_TEXT:
+                    status = exchange_texts(instructions[k], buffers.texts, outcome)
+                else:
+                    status = begin(instructions[k], program, settings, buffers.read_back, span, outcome)
+                if outcome[0] != 0:
+                    outcome[5] = k
+                    return rows
             if status > FMI_WARNING or status < 0:
                 outcome[0] = FAILED
                 outcome[1] = instructions[k, COMPONENT]

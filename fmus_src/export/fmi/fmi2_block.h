@@ -24,7 +24,8 @@ typedef enum Trait {
  * every call that gets or sets reads them. Their names, for messages only, are in a table apart. */
 typedef struct Element {
     uint32_t offset; /* in the block's struct */
-    uint32_t traits;
+    uint16_t traits;
+    uint16_t alike; /* so many from this one on, itself included, have its traits and lie side by side */
 } Element;
 
 #endif

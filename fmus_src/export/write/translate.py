@@ -145,6 +145,7 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
     starts.open("static const Block STARTS = {")
     elements = Lines()
     elements.open("static const Element ELEMENTS[] = {")
+    described: list[tuple[str, str]] = []
     element_names = []
     for name, variable in block_class.variables.items():
         values = ", ".join(map(literal, variable.elements))
@@ -153,9 +154,12 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
         starts.add(f".{identifier(name)} = {values},")
         kind, role = KINDS[type(variable.elements[0])], ROLES[variable.causality]
         for position, element_name in enumerate(variable.element_names()):
-            elements.add(f"{{offsetof(Block, {member(variable, position)}), {kind} | {role}}},")
+            place, traits = f"offsetof(Block, {member(variable, position)})", f"{kind} | {role}"
+            described.append((place, traits))
             element_names.append(f'"{element_name}"')
     starts.close("};")
+    for (place, traits), alike in zip(described, _alike([traits for _, traits in described]), strict=True):
+        elements.add(f"{{{place}, {traits}, {alike}}},")
     elements.close("};")
     names = Lines()
     names.add(f"static const char *const NAMES[] = {{{', '.join(element_names)}}};")
@@ -181,6 +185,15 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
             "",
         ]
     )
+
+
+def _alike(traits: list[str]) -> list[int]:
+    """For each element how many from it on have its traits: members of one kind lie side by side in the struct."""
+    counts: list[int] = []
+    for number in range(len(traits) - 1, -1, -1):
+        goes_on = counts and traits[number] == traits[number + 1]
+        counts.append(counts[-1] + 1 if goes_on else 1)
+    return counts[::-1]
 
 
 def _entry_points(kernel: Kernel, names: Names) -> str:

@@ -1,0 +1,76 @@
+"""What happens once, before a flight: parameters, modes, and whether the FMUs took what they were given."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .codes import (
+    ADDRESS,
+    CODE,
+    COMPONENT,
+    COUNT,
+    FIRST,
+    FMI_WARNING,
+    INSTANCE,
+    MODE,
+    NOT_TAKEN,
+    PARAMETERS,
+    READ_BACK,
+    SETUP,
+    TEXT_PARAMETERS,
+    WHOLE_PARAMETERS,
+    WHOLE_READ_BACK,
+)
+from .compiler import compiled
+from .fmi_calls import change_mode, compare_texts, exchange, setup_experiment
+
+KEPT = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
+
+
+def _begin(instruction, program, given, read_back, span, outcome):  # type: ignore[no-untyped-def]
+    """Work off one instruction of the initialisation; returns the fmi2Status.
+
+    A parameter that an FMU has not taken becomes the outcome.
+    """
+    code = instruction[CODE]
+    address = instruction[ADDRESS]
+    instance = instruction[INSTANCE]
+    first = instruction[FIRST]
+    count = instruction[COUNT]
+    reference = program.parameter_reference
+    if code == PARAMETERS:
+        return exchange(address, instance, reference, given.real, first, count)
+    if code == WHOLE_PARAMETERS:
+        return exchange(address, instance, reference, given.whole, first, count)
+    if code == TEXT_PARAMETERS:
+        return exchange(address, instance, reference, given.text, first, count)
+    if code == SETUP:
+        allowed = program.tolerance[instruction[COMPONENT]]
+        known = not np.isnan(allowed)
+        return setup_experiment(address, instance, np.int32(known), allowed if known else 0.0, span.start, span.stop)
+    if code == MODE:
+        return change_mode(address, instance)
+    if code == READ_BACK:
+        status = exchange(address, instance, reference, read_back.real, first, count)
+    elif code == WHOLE_READ_BACK:
+        status = exchange(address, instance, reference, read_back.whole, first, count)
+    else:  # TEXT_READ_BACK
+        status = exchange(address, instance, reference, read_back.text, first, count)
+    if status < 0 or status > FMI_WARNING:
+        return status
+    for p in range(first, first + count):
+        if code == READ_BACK:
+            asked, found = given.real[p], read_back.real[p]
+            taken = found == asked or abs(found - asked) <= KEPT * abs(asked) or (np.isnan(found) and np.isnan(asked))
+        elif code == WHOLE_READ_BACK:
+            taken = read_back.whole[p] == given.whole[p]
+        else:
+            taken = read_back.text[p] != 0 and compare_texts(read_back.text[p], given.text[p]) == 0
+        if not taken:
+            outcome[0] = NOT_TAKEN
+            outcome[1] = p
+            return status
+    return status
+
+
+begin = compiled(_begin)

@@ -1,0 +1,23 @@
+"""The instructions that the compiled loop works off, and how a run ends: numbers that it compares.
+
+A system becomes a list of instructions (`instructions.py`): one part that initialises, one part that is repeated every
+communication step. The loop knows nothing of algorithms; their order is in the list.
+"""
+
+# Every communication step.
+COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP, DRIVE = range(10)
+SET_TEXT, GET_TEXT, COPY_TEXT = range(10, 13)
+# Once, before a flight; behind all others, as those of Strings are behind those of numbers.
+PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(13, 21)
+
+# Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY and
+# a COPY_TEXT have the first target in FIRST and the first source in ADDRESS; a STEP over several communication steps
+# their number in COUNT (0 for one); a DRIVE has 0 in ADDRESS while the FMUs initialise, then 1; FUNCTION numbers
+# library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
+CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
+COLUMNS = 7
+
+# How a run ends: Buffers.outcome[0].
+STOP_TIME, FINISHED, NONFINITE, FAILED, UNMAPPED, INTERRUPTED, NOT_TAKEN, TOO_LONG = range(8)
+OVERRIDE, BIAS, FREEZE, EXCITE = range(4)
+FMI_WARNING = 1
