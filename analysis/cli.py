@@ -14,7 +14,7 @@ from typing import Any, NoReturn
 
 import argcomplete
 
-from .errors import InputError, warn_in_one_line
+from .errors import EndedError, InputError, warn_in_one_line
 from .examples import EXAMPLES
 from .process_end import leave
 
@@ -24,6 +24,8 @@ VERBS = {
     "validate": "check systems, FMUs, parameter sets and campaigns",
     "run": "fly a system once",
     "batch": "fly a campaign: many trials, variants compared on the same draws",
+    "shard": "fly some shards of a campaign that perilune batch --prepare, or a batch that ended early, has left",
+    "merge": "put the flown shards of a campaign together: summary, page, requirements",
     "compare": "compare the variants of one or several stored batches on the same trials",
     "law": "print a network operator's law as a formula, or write it as parameter set or drawing",
     "synthesize": "search for a control law, every candidate flown in its system",
@@ -34,11 +36,16 @@ VERBS = {
     "export": "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
 }
 
+# Verbs whose files lie in rooms of their own.
+ROOMS = {"batch": "campaigns", "shard": "campaigns", "merge": "campaigns"}
+
 # What exit status 1 means besides an interruption, of which all verbs make it; 0 is done, 2 wrong input.
 FAILURES = {
     "plan": "there is no such plan, or less propellant on board than it takes",
     "run": "the flight failed, or a requirement is not met",
     "batch": "a requirement is not met, or a flight took longer than --timeout",
+    "shard": "worker processes ended again and again",
+    "merge": "a requirement is not met, or a flight took longer than --timeout",
     "synthesize": "no law was found with every trial a success",
     "stability": "a requirement is not met, or a point could not be studied",
 }
@@ -78,6 +85,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except InputError as error:
         print(f"perilune: {error}", file=sys.stderr)
         return 2
+    except EndedError as ended:
+        print(f"perilune: {ended}", file=sys.stderr)
+        return ended.status
     except KeyboardInterrupt:
         print("perilune: interrupted", file=sys.stderr)
         return 1
@@ -107,12 +117,13 @@ def parser_of(given: Sequence[str]) -> Parser:
         epilog = f"Examples:\n{examples}\n{exit_status(verb)}"
         own = verbs.add_parser(verb, help=words, description=words, epilog=epilog)
         if verb in named:
-            _module(f"asked.{verb}").add(own)
+            _module(verb, "asked.").add(own)
     return parser
 
 
-def _module(name: str) -> ModuleType:
-    return importlib.import_module(f".commands.{name}", __package__)
+def _module(verb: str, of: str = "") -> ModuleType:
+    room = f"{ROOMS[verb]}." if verb in ROOMS else ""
+    return importlib.import_module(f".commands.{of}{room}{verb}", __package__)
 
 
 def run() -> NoReturn:

@@ -30,6 +30,18 @@ class InputError(ValueError):
         return " ".join(f"{place}; {self.remedy}".split())
 
 
+class EndedError(RuntimeError):
+    """Work that ended early for no fault of its input: an interruption, a full disk. ``status`` is the exit status."""
+
+    def __init__(self, message: str, status: int) -> None:
+        super().__init__(message, status)
+        self.message = message
+        self.status = status
+
+    def __str__(self) -> str:
+        return self.message
+
+
 def warn_in_one_line() -> None:
     """Let warnings of this process be a line each, as errors are, without the place in the source."""
     warnings.formatwarning = lambda message, *_: f"perilune: {message}\n"

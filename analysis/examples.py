@@ -39,6 +39,15 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
             "one trial again, with all signals",
         ),
     ),
+    "shard": (
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --trials 100 --output parts --prepare",
+            "what flies, written down",
+        ),
+        ("perilune shard parts 0-2", "three of its four shards, here or on another machine"),
+        ("perilune shard parts 3", "the last one"),
+    ),
+    "merge": (("perilune merge parts --report merged.html", "the result of the four shards"),),
     "compare": (
         ("perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results", "what is compared"),
         ("perilune compare results --report compare.html", "rates, pairs of variants, trajectories, distributions"),

@@ -10,7 +10,7 @@ from pathlib import Path
 from .errors import InputError
 
 PAGES = (".html", ".htm")
-RESULTS = ("trials.parquet", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json")
+RESULTS = ("manifest.json", "trials", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json")
 
 
 def check_file(option: str, path: Path | None, suffixes: Collection[str] = ()) -> None:

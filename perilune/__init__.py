@@ -14,7 +14,7 @@ from .fmus_src.face import HOME_OF
 
 if TYPE_CHECKING:
     from . import modal
-    from .analysis.api.batch import BatchResult, batch
+    from .analysis.api.batch import BatchResult, batch, merge, shard
     from .analysis.api.comparison import Comparison, compare
     from .analysis.api.describe import describe
     from .analysis.api.export import Exported, export
@@ -103,12 +103,14 @@ __all__ = [
     "export",
     "inventory",
     "law",
+    "merge",
     "modal",
     "new_block",
     "new_system",
     "norm",
     "plan_hover_transfer",
     "plan_landing_bound",
+    "shard",
     "simulate",
     "stability",
     "synthesize",
@@ -117,7 +119,7 @@ __all__ = [
 ]
 
 _HOMES = {
-    "analysis.api.batch": ("BatchResult", "batch"),
+    "analysis.api.batch": ("BatchResult", "batch", "merge", "shard"),
     "analysis.api.comparison": ("Comparison", "compare"),
     "analysis.api.describe": ("describe",),
     "analysis.api.export": ("Exported", "export"),

@@ -10,12 +10,11 @@ from typing import Any, Literal
 
 from matplotlib.figure import Figure as Plot
 
-from ..batch import results
-from ..batch.runner import run_batch
+from ..batch import results, runner
 from ..batch.summary import CONFIDENCE, summary_rows
 from ..batch.tables import who_cells, who_heads
 from ..campaign.plan import read_plan
-from ..errors import suggestion
+from ..errors import InputError, suggestion
 from ..flight.results import require_pandas
 from ..reports.batch.batch_report import write_batch_report
 from ..reports.batch.distributions import sort_metrics
@@ -94,6 +93,8 @@ def batch(
     workers: int | None = None,
     output: FilePath | None = None,
     overwrite: bool = False,
+    resume: bool = False,
+    engine: Literal["threads", "processes"] | None = None,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
     set: Mapping[str, SetValue] | None = None,
@@ -113,13 +114,16 @@ def batch(
 ) -> BatchResult:
     """Fly a campaign, by name or path of its .toml file: `perilune batch`.
 
-    ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for trials.parquet,
-    draws.parquet and summary.json, refused if it holds results unless ``overwrite``; ``faults`` fly in every trial,
+    ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for trials, draws and
+    summary, refused if it holds results unless ``overwrite``, or ``resume``, which goes on with what it holds;
+    ``engine`` is what flies side by side, threads or processes; ``faults`` fly in every trial,
     after the campaign's own, and every trial has the same ``input``; one that takes longer than ``timeout`` (s, wall
     clock) ends ``timed_out``, is no success, and the next one flies. The rest is as in `simulate`. Raises InputError.
     """
     folder = Path(output) if output is not None else None
-    check_folder("output", folder, overwrite=overwrite)
+    if resume and folder is None:
+        raise InputError("resume", "", "there is no folder to go on in", "give output")
+    check_folder("output", folder, overwrite=overwrite or resume, otherwise="resume or overwrite")
     options = system_options(
         use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
@@ -130,7 +134,28 @@ def batch(
         series=None if input is None else read_series(input), watch=Watch(timeout, log),
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder
-        result = BatchResult(**vars(run_batch(plan, workers=workers, output=folder)))
-    if folder is not None:
-        result.write(folder)
-    return result
+        flown = runner.run_batch(plan, workers=workers, output=folder, resume=resume, engine=engine)
+        return BatchResult(**vars(flown))
+
+
+def shard(
+    folder: FilePath,
+    numbers: Sequence[int],
+    *,
+    workers: int | None = None,
+    engine: Literal["threads", "processes"] | None = None,
+) -> None:
+    """Fly some shards of a campaign whose folder is there: `perilune shard`. Those that are flown stay as they are.
+
+    Raises InputError, for a number that is no shard's too.
+    """
+    campaign = runner.open_folder(Path(folder))
+    wanted = campaign.checked(numbers)
+    with chdir(Path.cwd()):
+        runner.fly_campaign(campaign, wanted, workers=workers, engine=engine)
+
+
+def merge(folder: FilePath) -> BatchResult:
+    """Put the shards of a campaign's folder together: `perilune merge`. Raises InputError where some are missing."""
+    with chdir(Path.cwd()):
+        return BatchResult(**vars(runner.merge(runner.open_folder(Path(folder)))))

@@ -72,17 +72,13 @@ class Flyer:
         for simulation, _ in list(self._ready.values()):
             simulation.interrupt()
 
-    def fly(self, variant: str, trials: range) -> Trials | None:
-        """Fly some trials of one variant, in order; those up to an `interrupt`, and none where it comes first."""
+    def fly(self, variant: str, trials: range) -> Trials:
+        """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         found = []
         for trial in trials:
-            flown = self.fly_one(variant, trial)
+            found.append(self.fly_one(variant, trial))
             if self.halted:
-                break
-            found.append(flown)
-        trials = trials[: len(found)]
-        if not found:
-            return None
+                raise KeyboardInterrupt
         numbers = list(zip(trials, found, strict=True))
         return Trials(
             statuses=[row.status for row in found],

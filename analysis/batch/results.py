@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pyarrow
-import pyarrow.parquet
 
-from ..atomic import whole_file, write_atomically
+from ..atomic import write_atomically
 from ..campaign.plan import BatchPlan
+from .shards import SUMMARY, Numbering, clear, shard_size, trial_table, write_draws, write_shard
 from .summary import summarise
 from .tables import faults_line, summary_text
 from .trials import Trials
@@ -30,31 +29,8 @@ class BatchResult:
 
     def table(self) -> pyarrow.Table:
         """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics."""
-        found = list(self.trials.values())
-        rows = sum(len(part.trial) for part in found)
-        arrays: dict[str, Any] = {
-            "variant": [name for name, part in self.trials.items() for _ in part.trial],
-            "trial": np.concatenate([part.trial for part in found]),
-            "status": [status for part in found for status in part.statuses],
-            "success": np.concatenate([part.success for part in found]),
-            "message": [part.messages.get(int(trial), "") for part in found for trial in part.trial],
-            "end_time": np.concatenate([part.end_time for part in found]),
-        }
-        for name, values in self.plan.draws.columns.items():
-            arrays[f"draw.{name}"] = np.resize(values, rows)  # the same for every variant
-        for fault in self.plan.drawn_faults:
-            arrays |= {name: np.resize(values, rows) for name, values in fault.columns().items()}
-        for name in found[0].final:
-            arrays[f"final.{name}"] = np.concatenate([part.final[name] for part in found])
-        for name in found[0].metrics:
-            arrays[f"metric.{name}"] = np.concatenate([part.metrics[name] for part in found])
-        table = pyarrow.table(arrays)
+        table = trial_table(self.plan, self.trials)
         return table.replace_schema_metadata({"perilune": json.dumps(self.provenance)})
-
-    @property
-    def interrupted(self) -> bool:
-        """Whether it was broken off: then it is a whole batch of the first trials."""
-        return "planned_trials" in self.provenance
 
     def document(self) -> dict[str, Any]:
         """The machine-readable result: provenance and the summary of each variant."""
@@ -67,35 +43,31 @@ class BatchResult:
         return f"{found}\n{faults_line(faults)}" if faults else found
 
     def write(self, folder: Path) -> None:
-        """Write trials.parquet, draws.parquet, summary.json, and traces/ where the campaign keeps them.
+        """Write trials/, draws.parquet, summary.json, and traces/ where the campaign keeps them.
 
-        Every trace carries the batch's digest: a folder can hold traces of an earlier batch too.
+        Every file carries the batch's digest: a folder can hold traces of an earlier batch too.
         """
         batch = batch_digest(self.provenance)
-        write_parquet(self.table(), folder / "trials.parquet")
+        numbering = Numbering(self.plan.campaign.trials, shard_size(self.plan.campaign.trials))
+        write_draws(self.plan, folder)
+        clear(folder)
+        for shard in range(numbering.count):
+            part = {variant: trials.part(numbering.of(shard)) for variant, trials in self.trials.items()}
+            write_shard(folder, batch, shard, self.plan, part)
+        self.write_summary(folder)
+
+    def write_summary(self, folder: Path) -> None:
+        """Write summary.json, which makes the folder whole: the shards lie there already."""
         text = json.dumps(self.document(), indent=1, allow_nan=False)
-        write_atomically(folder / "summary.json", f"{text}\n".encode())
-        for variant, found in self.trials.items():
-            for trial, traces in found.traces.items():
-                path = trace_path(folder, variant, trial)
-                metadata = {"perilune": json.dumps({"batch": batch, "variant": variant, "trial": trial})}
-                write_parquet(pyarrow.table(traces).replace_schema_metadata(metadata), path)
-
-
-def trace_path(folder: Path, variant: str, trial: int) -> Path:
-    """Where a trial's trace lies; a variant named by the path of an FMU has that path's slashes replaced."""
-    return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
-
-
-def write_parquet(table: pyarrow.Table, path: Path) -> None:
-    """A table with a checksum on every page, so that a damaged file is found out when it is read."""
-    with whole_file(path) as partial:
-        pyarrow.parquet.write_table(table, partial, write_page_checksum=True)
+        write_atomically(folder / SUMMARY, f"{text}\n".encode())
 
 
 def batch_digest(provenance: dict[str, Any]) -> str:
-    """The SHA-256 that tells a batch from others: of its provenance as JSON with sorted keys."""
-    return hashlib.sha256(json.dumps(provenance, sort_keys=True).encode()).hexdigest()
+    """The SHA-256 that tells a batch from others: of its provenance as JSON with sorted keys.
+
+    It is the same for any number of trials, since a batch can be gone on with.
+    """
+    return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
 
 
 def make_result(plan: BatchPlan, trials: dict[str, Trials], provenance: dict[str, Any]) -> BatchResult:

@@ -1,73 +1,165 @@
-"""Runs a batch: plan, draws, workers, results."""
+"""Runs a campaign: manifest, draws, shards flown by workers, results."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import pyarrow
-
 from ..campaign.plan import BatchPlan, check_plan
+from ..errors import InputError
 from ..progress import progress_bar
+from ..system.prepared import PreparedSystem
+from .engines import in_threads
 from .facts import campaign_facts
-from .results import BatchResult, make_result, write_parquet
+from .manifest.folder import begin, go_on
+from .manifest.gather import gather
+from .manifest.manifest import Manifest, read_manifest
+from .manifest.restore import restore
+from .results import BatchResult, batch_digest, make_result
+from .shard_flights import fly_shards, task_size
+from .shards import Numbering, is_flown, spans, write_shard
+from .stored_shards import read_shard
 from .trials import Trials, joined
-from .workers import fly_all, tasks_of, worker_count
+from .workers import FlyerPool, worker_count
 
 
-def run_batch(plan: BatchPlan, *, workers: int | None = None, output: Path | None = None) -> BatchResult:
+@dataclass(frozen=True)
+class Campaign:
+    """A campaign that is ready to fly: every file of it read, in its folder if it has one (absolute).
+
+    ``plan`` is what results tell of, ``flown`` the same with the files that the folder holds.
+    """
+
+    plan: BatchPlan
+    flown: BatchPlan
+    systems: Mapping[str, PreparedSystem]
+    manifest: Manifest
+    folder: Path | None
+
+    @property
+    def provenance(self) -> dict[str, Any]:
+        """What its numbers depend on, apart from the trials themselves."""
+        return provenance(self.plan, self.systems) | {"manifest": self.manifest.key}
+
+    @property
+    def numbering(self) -> Numbering:
+        return Numbering(self.manifest.trials, self.manifest.shard_size)
+
+    def missing(self) -> list[int]:
+        """The shards that its folder does not hold."""
+        shards = range(self.numbering.count)
+        if self.folder is None:
+            return list(shards)
+        batch = batch_digest(self.provenance)
+        return [shard for shard in shards if not is_flown(self.folder, batch, shard, self.numbering.of(shard))]
+
+    def checked(self, shards: Iterable[int]) -> list[int]:
+        """Those of some shards that its folder does not hold. Raises InputError for a number that is none's."""
+        wanted = set(shards)
+        for shard in sorted(wanted):
+            if not 0 <= shard < self.numbering.count:
+                raise InputError("shard", str(shard), "no such shard", f"give 0 to {self.numbering.count - 1}")
+        return sorted(wanted & set(self.missing()))
+
+
+def open_campaign(plan: BatchPlan, output: Path | None, *, resume: bool = False) -> Campaign:
+    """Check a plan and write down what it flies. Raises InputError before anything is written or flown.
+
+    With ``output`` a campaign begins in that folder, in place of what is there, or goes on there with ``resume``; what
+    flies are the files that the folder then holds, whatever becomes of their originals.
+    """
+    systems = check_plan(plan)
+    manifest, contents = gather(plan, systems)
+    if output is None:
+        return Campaign(plan, plan, systems, manifest, None)
+    folder = output.absolute()  # FMUs may change the working folder
+    manifest = (go_on if resume else begin)(folder, manifest, contents, plan)
+    return Campaign(plan, restore(folder, manifest, plan.watch.log), systems, manifest, folder)
+
+
+def open_folder(folder: Path) -> Campaign:
+    """The campaign whose manifest lies in a folder. Raises InputError."""
+    folder = folder.absolute()
+    manifest = read_manifest(folder)
+    plan = restore(folder, manifest)
+    return Campaign(plan, plan, check_plan(plan), manifest, folder)
+
+
+def run_batch(
+    plan: BatchPlan,
+    *,
+    workers: int | None = None,
+    output: Path | None = None,
+    resume: bool = False,
+    engine: str | None = None,
+) -> BatchResult:
     """Fly every trial of every variant of a plan. Raises InputError before anything flies.
 
-    ``workers`` is the number of parallel flights (default: one per processor). With ``output`` the table of draws is
-    written there first; the results are the caller's to write. Ctrl-C leaves a result of the first trials, as many as
-    every variant has flown; without any it is raised again.
+    ``workers`` is the number of parallel flights (default: one per processor), ``engine`` one of `ENGINES` (default:
+    threads where the FMUs can fly in them). With ``output`` every shard is written there as soon as it is flown, and
+    the summary at the end: whatever ends it early, ``resume`` goes on from there. Without it Ctrl-C leaves nothing.
     """
-    output = None if output is None else output.absolute()  # FMUs may change the working folder
+    worker_count(workers), in_threads((), engine)  # looked at before anything is written
+    campaign = open_campaign(plan, output, resume=resume)
+    return finish(campaign, fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine))
+
+
+def merge(campaign: Campaign) -> BatchResult:
+    """The result of a campaign whose shards all lie in its folder. Raises InputError where some are missing."""
+    missing = campaign.missing()
+    if missing:
+        count = f"{len(missing)} of {campaign.numbering.count} shards are missing"
+        remedy = f"perilune shard {campaign.folder} {spans(missing)} flies them"
+        raise InputError(str(campaign.folder), f"shards {spans(missing)}", count, remedy)
+    return finish(campaign, fly_campaign(campaign, []))
+
+
+def finish(campaign: Campaign, trials: dict[str, Trials]) -> BatchResult:
+    """The result of all trials, by variant; its summary makes the campaign's folder whole, if it has one."""
+    result = make_result(campaign.plan, trials, campaign.provenance)
+    if campaign.folder is not None:
+        result.write_summary(campaign.folder)
+    return result
+
+
+def fly_campaign(
+    campaign: Campaign, shards: Sequence[int], *, workers: int | None = None, engine: str | None = None
+) -> dict[str, Trials]:
+    """Fly some shards of a campaign, and write them where it has a folder; all of its trials by variant then.
+
+    Those of shards that were neither flown now nor before are missing.
+    """
+    plan, numbering, folder = campaign.plan, campaign.numbering, campaign.folder
     count = worker_count(workers)
-    systems = check_plan(plan)
-    native = all(prepared.flies_in_threads for prepared in systems.values())
-    if output is not None:
-        write_draws(plan, output)
-    tasks = tasks_of(plan, count, native)
-    trials: dict[str, list[Trials]] = {variant.name: [] for variant in plan.campaign.variants()}
-    planned = plan.campaign.trials
-    total = planned * len(trials)
-    try:
-        with progress_bar(total=total, unit="trial") as progress:
-            for variant, found in fly_all(plan, tasks, min(count, len(tasks)), native):
-                trials[variant].append(found)
-                progress.update(len(found.trial))
-    except KeyboardInterrupt:
-        first = min(_first_flown(parts) for parts in trials.values())
-        if not first:
-            raise
-        plan = plan.of_first(first)
-        trials = {
-            name: [part.below(first) for part in parts if part.trial[0] < first] for name, parts in trials.items()
-        }
-        if output is not None:
-            write_draws(plan, output)
-    facts = provenance(plan, systems) | ({"planned_trials": planned} if plan.campaign.trials < planned else {})
-    return make_result(plan, {name: joined(parts) for name, parts in trials.items()}, facts)
+    threads = in_threads(campaign.systems.values(), engine)
+    batch = batch_digest(campaign.provenance)
+    variants = [variant.name for variant in plan.campaign.variants()]
+    parts: dict[str, list[Trials]] = {name: [] for name in variants}
+    wanted = set(shards)
+    for shard in range(numbering.count):
+        if folder is not None and shard not in wanted and is_flown(folder, batch, shard, numbering.of(shard)):
+            for name, trials in read_shard(folder, batch, shard, plan).items():
+                parts[name].append(trials)
+    flights = sum(len(numbering.of(shard)) for shard in shards) * len(variants)
+    size = task_size(numbering.trials, count, threads)
+    tasks = -(-flights // size)
+    with (
+        progress_bar(total=flights, unit="trial") as progress,
+        FlyerPool(campaign.flown, min(count, max(tasks, 1)), threads, apart=engine == "processes") as pool,
+    ):
+        for shard, found in fly_shards(numbering, shards, pool, size):
+            if folder is not None:
+                write_shard(folder, batch, shard, plan, found)
+            for name, trials in found.items():
+                parts[name].append(trials)
+                progress.update(len(trials.trial))
+    return {name: joined(found) for name, found in parts.items() if found}
 
 
-def _first_flown(parts: list[Trials]) -> int:
-    """How many trials from the first on are there without a gap."""
-    flown = 0
-    for part in sorted(parts, key=lambda part: int(part.trial[0])):
-        if int(part.trial[0]) == flown:
-            flown += len(part.trial)
-    return flown
-
-
-def write_draws(plan: BatchPlan, folder: Path) -> None:
-    """Write the table of draws to ``folder``/draws.parquet, a row per trial."""
-    columns = {"trial": list(range(plan.campaign.trials)), **plan.draws.columns}
-    write_parquet(pyarrow.table(columns), folder / "draws.parquet")
-
-
-def provenance(plan: BatchPlan, systems: dict) -> dict[str, Any]:
+def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
     """What a batch's numbers depend on, apart from the trials themselves."""
     first = next(iter(systems.values()))
     return {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -11,23 +12,23 @@ from typing import Any
 
 import numpy as np
 import pyarrow
-import pyarrow.parquet
 
 from ..campaign.campaign import Metric
 from ..campaign.expressions import Expression
 from ..campaign.groups import Group, groups_of
 from ..errors import InputError
 from ..system.names import parted
-from .results import batch_digest, trace_path
+from .manifest.manifest import FILE as MANIFEST
+from .manifest.manifest import WRITE
+from .results import batch_digest
+from .shards import DRAWS, FOLDER, SUMMARY, about_of, described, shard_path, trace_path
+from .stored_shards import AGAIN, numbers, read_table, trials_of, unreadable
 from .trials import Trials
 
-WRITE = "give a folder that perilune batch --output wrote"
-AGAIN = "fly the batch again into an empty folder"
 FACTS = (
     "system", "system_sha256", "campaign", "campaign_sha256", "parameter_sets", "set", "variant", "trials", "seed",
     "step", "algorithm", "fmus", "perilune", "description", "success", "metrics", "record", "signals", "targets",
 )  # fmt: skip
-COLUMNS = ("variant", "trial", "status", "success", "end_time")
 
 
 @dataclass(frozen=True)
@@ -82,39 +83,51 @@ class StoredBatch:
         table = read_table(path, names if names is None else [*names, "time"])
         if "time" not in table.column_names:
             raise InputError(path, "time", "no such column", AGAIN)
-        return {name: _numbers(table, name, path) for name in table.column_names}
+        return {name: numbers(table, name, path) for name in table.column_names}
 
 
 def read_batch(folder: Path) -> StoredBatch:
     """The batch in a folder. Raises InputError for what is missing, damaged, or of two batches."""
-    for name in ("summary.json", "trials.parquet", "draws.parquet"):
-        if not (folder / name).is_file():
-            raise InputError(folder, name, "not found", WRITE)
-    document = _read_summary(folder / "summary.json")
+    for name in (SUMMARY, FOLDER, DRAWS):
+        if not (folder / name).exists():
+            raise InputError(folder, name, "not found", _how_to_end(folder))
+    document = _read_summary(folder / SUMMARY)
     provenance = {key: value for key, value in document.items() if key != "variants"}
-    path = folder / "trials.parquet"
-    table = read_table(path)
-    if _metadata(table) != provenance:
-        raise InputError(path, "", "of another batch than summary.json", AGAIN)
-    metrics = _metrics(document, folder / "summary.json")
-    draws = read_table(folder / "draws.parquet")
-    columns = {name: _numbers(draws, name, folder / "draws.parquet") for name in draws.column_names}
-    variants = _variants(table, metrics, columns, path)
-    _check_summary(document, variants, folder / "summary.json")
-    traced, strangers = _traced(folder, list(variants), batch_digest(provenance))
+    batch = batch_digest(provenance)
+    table = _read_shards(folder, batch, document["trials"])
+    metrics = _metrics(document, folder / SUMMARY)
+    draws = read_table(folder / DRAWS)
+    columns = {name: numbers(draws, name, folder / DRAWS) for name in draws.column_names}
+    variants = _variants(table, metrics, columns, folder / FOLDER)
+    _check_summary(document, variants, folder / SUMMARY)
+    traced, strangers = _traced(folder, list(variants), batch)
     columns.pop("trial")
     return StoredBatch(folder, document, metrics, columns, variants, traced, strangers)
 
 
-def read_table(path: Path, columns: Collection[str] | None = None) -> pyarrow.Table:
-    """A parquet file, or those of its ``columns`` that there are, checksums verified. Raises InputError."""
-    try:
-        with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
-            names = file.schema_arrow.names
-            return file.read(names if columns is None else [name for name in names if name in columns])
-    except (OSError, pyarrow.ArrowException) as error:
-        reason = str(error).split(": ")[-1] or type(error).__name__
-        raise InputError(path, "", f"cannot be read as parquet ({' '.join(reason.split())})", AGAIN) from error
+def _how_to_end(folder: Path) -> str:
+    return "go on with it: perilune batch ... --resume" if (folder / MANIFEST).is_file() else WRITE
+
+
+def _read_shards(folder: Path, batch: str, trials: int) -> pyarrow.Table:
+    """All shards in order of number, which together hold every trial once."""
+    tables = []
+    end = 0
+    for shard in itertools.count():
+        if end == trials:
+            break
+        path = shard_path(folder, shard)
+        if not path.is_file():
+            raise InputError(path, "", f"not found: trials from {end} on are missing", AGAIN)
+        table = read_table(path)
+        about = about_of(table.schema)
+        if not isinstance(about, dict) or about.get("batch") != batch:
+            raise InputError(path, "", f"of another batch than {SUMMARY}", AGAIN)
+        if about.get("shard") != shard or about["trials"][0] != end:
+            raise InputError(path, "", "not the shard that it is named by", AGAIN)
+        tables.append(table)
+        end = about["trials"][1]
+    return pyarrow.concat_tables(tables)
 
 
 def _read_summary(path: Path) -> dict[str, Any]:
@@ -129,13 +142,6 @@ def _read_summary(path: Path) -> dict[str, Any]:
         if key not in document:
             raise InputError(path, key, "missing, as in results of an older version", "fly the batch again")
     return document
-
-
-def _metadata(table: pyarrow.Table) -> Any:
-    try:
-        return json.loads((table.schema.metadata or {}).get(b"perilune", b"null"))
-    except ValueError:
-        return None
 
 
 def _metrics(document: Mapping[str, Any], path: Path) -> tuple[Metric, ...]:
@@ -160,62 +166,38 @@ def _condition(fact: Mapping[str, Any], where: tuple[str, str]) -> Expression | 
     return Expression(fact["condition"], where) if "condition" in fact else None
 
 
-def _numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
-    """A column as doubles, or whole numbers or booleans where it holds such."""
-    kind = table.schema.field(name).type
-    column = table[name]
-    known = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)
-    if column.null_count or not known:
-        raise InputError(path, name, "not a column of numbers", AGAIN)
-    return column.to_numpy()
-
-
 def _variants(
     table: pyarrow.Table, metrics: tuple[Metric, ...], draws: Mapping[str, np.ndarray], path: Path
 ) -> dict[str, Trials]:
-    wanted = [*COLUMNS, *(f"metric.{metric.name}" for metric in metrics), *(f"draw.{name}" for name in draws)]
-    for name in wanted:
-        if name not in table.column_names and name != "draw.trial":
-            raise InputError(path, name, "no such column", AGAIN)
+    """The trials by variant, with the draws that draws.parquet has of them."""
+    for name in draws:
+        if _column(name) not in table.column_names:
+            raise InputError(path, _column(name), "no such column", AGAIN)
+    found = trials_of(table, [metric.name for metric in metrics], path)
     labels = np.array(table["variant"].to_pylist(), dtype=str)
-    statuses = np.array(table["status"].to_pylist(), dtype=str)
-    columns = {
-        name: _numbers(table, name, path) for name in table.column_names if name not in ("variant", "status", "message")
-    }
-    found = {}
-    for variant in dict.fromkeys(labels.tolist()):
+    columns = {name: numbers(table, _column(name), path) for name in draws}
+    for variant in found:
         rows = labels == variant
-        mine = {name: column[rows] for name, column in columns.items()}
-        same = all(np.array_equal(mine[_column(name)], column) for name, column in draws.items())
+        same = all(np.array_equal(columns[name][rows], column) for name, column in draws.items())
         if "trial" not in draws or not same:
             raise InputError(path, variant, "its draws are not those of draws.parquet", AGAIN)
-        found[variant] = Trials(
-            statuses=statuses[rows].tolist(),
-            success=mine["success"].astype(bool),
-            metrics={metric.name: mine[f"metric.{metric.name}"] for metric in metrics},
-            trial=mine["trial"],
-            end_time=mine["end_time"],
-            messages={},
-            final={name.removeprefix("final."): mine[name] for name in mine if name.startswith("final.")},
-            traces={},
-        )
     return found
 
 
 def _column(draw: str) -> str:
-    """The column of trials.parquet that repeats one of draws.parquet."""
+    """The column of the shards that repeats one of draws.parquet."""
     return "trial" if draw == "trial" else f"draw.{draw}"
 
 
 def _check_summary(document: Mapping[str, Any], variants: Mapping[str, Trials], path: Path) -> None:
     """Refuse a summary that does not count what the table holds."""
     if list(document["variants"]) != list(variants):
-        raise InputError(path, "variants", "not those of trials.parquet", AGAIN)
+        raise InputError(path, "variants", "not those of trials/", AGAIN)
     for name, trials in variants.items():
         stated = document["variants"][name]
         rate = stated.get("success_rate") if isinstance(stated, dict) else None
         if rate != int(trials.success.sum()) / len(trials.success):
-            raise InputError(path, f"variants.{name}", "its success rate is not that of trials.parquet", AGAIN)
+            raise InputError(path, f"variants.{name}", "its success rate is not that of trials/", AGAIN)
 
 
 def _traced(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, list[int]], int]:
@@ -226,18 +208,15 @@ def _traced(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, li
         traced[variant] = []
         for path in sorted(trace_path(folder, variant, 0).parent.glob("*.parquet")):
             trial = int(path.stem) if path.stem.isdecimal() else -1
-            if _metadata_of(path) == {"batch": batch, "variant": variant, "trial": trial}:
+            if _described(path) == {"batch": batch, "variant": variant, "trial": trial}:
                 traced[variant].append(trial)
             else:
                 strangers += 1
     return traced, strangers
 
 
-def _metadata_of(path: Path) -> Any:
+def _described(path: Path) -> Any:
     try:
-        with pyarrow.parquet.ParquetFile(path) as file:
-            return json.loads((file.schema_arrow.metadata or {}).get(b"perilune", b"null"))
-    except (OSError, pyarrow.ArrowException) as error:  # the latter is a ValueError too
-        raise InputError(path, "", "cannot be read as parquet", AGAIN) from error
-    except ValueError:
-        return None
+        return described(path)
+    except (OSError, pyarrow.ArrowException) as error:
+        raise unreadable(path, error) from error

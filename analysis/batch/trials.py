@@ -24,18 +24,19 @@ class Trials(TrialColumns):
     final: dict[str, np.ndarray]
     traces: dict[int, dict[str, np.ndarray]]
 
-    def below(self, end: int) -> Trials:
-        """Those with numbers below ``end``; trials are in order of number."""
-        count = int(np.searchsorted(self.trial, end))
+    def part(self, numbers: range) -> Trials:
+        """Those with some consecutive numbers; trials are in order of number."""
+        first, end = (int(np.searchsorted(self.trial, number)) for number in (numbers.start, numbers.stop))
+        rows = slice(first, end)
         return Trials(
-            statuses=self.statuses[:count],
-            success=self.success[:count],
-            metrics={name: values[:count] for name, values in self.metrics.items()},
-            trial=self.trial[:count],
-            end_time=self.end_time[:count],
-            messages={trial: text for trial, text in self.messages.items() if trial < end},
-            final={name: values[:count] for name, values in self.final.items()},
-            traces={trial: traces for trial, traces in self.traces.items() if trial < end},
+            statuses=list(self.statuses[rows]),
+            success=self.success[rows],
+            metrics={name: values[rows] for name, values in self.metrics.items()},
+            trial=self.trial[rows],
+            end_time=self.end_time[rows],
+            messages={trial: text for trial, text in self.messages.items() if trial in numbers},
+            final={name: values[rows] for name, values in self.final.items()},
+            traces={trial: traces for trial, traces in self.traces.items() if trial in numbers},
         )
 
 

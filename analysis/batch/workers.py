@@ -4,27 +4,35 @@ from __future__ import annotations
 
 import atexit
 import gc
+import itertools
+import os
 import signal
 import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
 from functools import partial
 from typing import Any, TypeVar
 
 from loky import ProcessPoolExecutor, cpu_count
+from loky.process_executor import TerminatedWorkerError
 
 from ..campaign.plan import BatchPlan
 from ..errors import InputError, warn_in_one_line
 from ..flight.interruptible import PATIENCE, wait
 from ..process_end import leave
 from .flyer import Flyer
-from .trials import Trials
 
-Task = tuple[str, range]
 Result = TypeVar("Result")
+WAITING = 4  # tasks that are handed out ahead, for each worker
+MOST_DEATHS = 3  # of workers in a row, without a task done
 _local = threading.local()
 _flyers: list[Flyer] = []  # of this process's threads
+
+
+class WorkersDiedError(RuntimeError):
+    """Worker processes end one after the other, before they have done anything."""
 
 
 def worker_count(workers: int | None) -> int:
@@ -35,71 +43,87 @@ def worker_count(workers: int | None) -> int:
     return count
 
 
-def tasks_of(plan: BatchPlan, workers: int, native: bool) -> list[Task]:
-    """Trials in pieces large enough to send and small enough to share out, or to lose where a process is stopped."""
-    trials = plan.campaign.trials
-    size = max(1, min(50 if native else 10, trials // (4 * workers)))
-    pieces = [range(first, min(first + size, trials)) for first in range(0, trials, size)]
-    return [(variant.name, piece) for piece in pieces for variant in plan.campaign.variants()]
-
-
 class FlyerPool:
     """Workers that each hold a `Flyer` of one plan, for as long as the pool is open.
 
-    Python FMUs hold the interpreter lock, so they get a process per worker; native ones
-    release it and get threads. With one worker everything happens in the caller's thread.
+    Python FMUs hold the interpreter lock, so they get a process per worker; native ones (``threads``)
+    release it and get threads. With one worker everything happens in the caller's thread, unless it is to be a process.
     """
 
-    def __init__(self, plan: BatchPlan, workers: int, native: bool) -> None:
+    def __init__(self, plan: BatchPlan, workers: int, threads: bool, *, apart: bool = False) -> None:
         self.plan = plan
-        self._flyer = Flyer(plan) if workers == 1 else None
+        self._workers = workers
+        here = workers == 1 and not apart
+        self._flyer = Flyer(plan) if here else None
         self._executor: Executor | None = None
-        if workers > 1 and native:
-            self._executor = ThreadPoolExecutor(workers, initializer=_start, initargs=(plan,))
-        elif workers > 1:
-            self._executor = ProcessPoolExecutor(workers, initializer=_start_process, initargs=(plan,))
+        self._make: Callable[[], Executor] | None = None
+        if not here:
+            kind, start = (ThreadPoolExecutor, _start) if threads else (ProcessPoolExecutor, _start_process)
+            self._make = partial(kind, workers, initializer=start, initargs=(plan,))
+            self._executor = self._make()
 
     def work(self, function: Callable[..., Result], tasks: Sequence[tuple]) -> Iterator[tuple[int, Result]]:
         """Call ``function(flyer, *task)`` for every task: (place of the task, result), in any order.
 
         The function is defined at the top of a module; tasks and results can be pickled. What has not
-        begun when the iterator is closed is not done any more.
+        begun when the iterator is closed is not done any more. The tasks of a worker process that is killed are done
+        again. Raises `WorkersDiedError`.
         """
         if self._executor is None:
             assert self._flyer is not None
             for place, task in enumerate(tasks):
-                yield place, wait(partial(function, self._flyer, *task), self._flyer.interrupt)
+                found = wait(partial(function, self._flyer, *task), self._flyer.interrupt)
                 if self._flyer.halted:
                     raise KeyboardInterrupt
+                yield place, found
             return
-        futures: dict[Future, int] = {
-            self._executor.submit(_call, function, task): place for place, task in enumerate(tasks)
-        }
+        left = dict(enumerate(tasks))
+        deaths = 0
+        while left:
+            try:
+                for place, found in self._handed_out(function, left):
+                    deaths = 0
+                    del left[place]
+                    yield place, found
+            except TerminatedWorkerError as error:
+                deaths += 1
+                if deaths == MOST_DEATHS:
+                    raise WorkersDiedError(_how(error)) from error
+                assert self._make is not None
+                self._executor = self._make()
+
+    def _handed_out(self, function: Callable[..., Result], left: dict[int, tuple]) -> Iterator[tuple[int, Result]]:
+        """The results of the tasks that are left, so few at a time that their number costs no memory."""
+        assert self._executor is not None
+        waiting = iter(list(left.items()))
+        futures: dict[Future, int] = {}
         try:
-            for future in as_completed(futures):
-                yield futures.pop(future), future.result()
+            while True:
+                for place, task in itertools.islice(waiting, WAITING * self._workers - len(futures)):
+                    futures[self._executor.submit(_call, function, task)] = place
+                if not futures:
+                    return
+                done = wait_for(futures, return_when=FIRST_COMPLETED).done
+                for future in sorted(done, key=_is_broken):  # what was done before a worker died is not done again
+                    yield futures.pop(future), future.result()
         except KeyboardInterrupt:
-            yield from self._interrupted(futures)
+            self._halt(list(futures))
             raise
         finally:
             for future in futures:
                 future.cancel()
 
-    def _interrupted(self, futures: dict[Future, int]) -> Iterator[tuple[int, Any]]:
-        """What is done when Ctrl-C comes, and what threads have flown of the rest; processes are stopped."""
+    def _halt(self, futures: list[Future]) -> None:
+        """End what flies: threads at their next communication point, processes at once."""
         for future in futures:
             future.cancel()
         for flyer in _flyers:
             if flyer.plan is self.plan:
                 flyer.interrupt()
         if isinstance(self._executor, ProcessPoolExecutor):
-            done = [future for future in futures if future.done() and not future.cancelled()]
             self._executor.shutdown(wait=False, kill_workers=True)
         else:
-            done = [future for future in wait_for(list(futures), timeout=PATIENCE).done if not future.cancelled()]
-        for future in done:
-            if future.exception() is None:
-                yield futures[future], future.result()
+            wait_for(futures, timeout=PATIENCE)
 
     def __enter__(self) -> FlyerPool:
         return self
@@ -112,12 +136,13 @@ class FlyerPool:
         _close_threads(self.plan)
 
 
-def fly_all(plan: BatchPlan, tasks: list[Task], workers: int, native: bool) -> Iterator[tuple[str, Trials]]:
-    """Fly every task, yielding results as they come, in any order."""
-    with FlyerPool(plan, workers, native) as pool:
-        for place, found in pool.work(Flyer.fly, tasks):
-            if found is not None:
-                yield tasks[place][0], found
+def _is_broken(future: Future) -> bool:
+    return isinstance(future.exception(), TerminatedWorkerError)
+
+
+def _how(error: BaseException) -> str:
+    """How worker processes ended, from loky's message: its last line names signals and exit codes."""
+    return " ".join(str(error).split())
 
 
 def _start(plan: BatchPlan) -> None:
@@ -136,7 +161,15 @@ def _start_process(plan: BatchPlan) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
     atexit.register(_leave)
     warn_in_one_line()
+    threading.Thread(target=_leave_with, args=(os.getppid(),), daemon=True).start()
     _start(plan)
+
+
+def _leave_with(parent: int) -> None:
+    """End this process where the one that it works for is killed, since no one else would."""
+    while os.getppid() == parent:
+        time.sleep(PATIENCE)
+    leave(1)
 
 
 def _leave() -> None:
@@ -149,5 +182,5 @@ def _leave() -> None:
         leave(0)
 
 
-def _call(function: Callable[..., Result], task: tuple) -> Result:
+def _call(function: Callable[..., Result], task: tuple) -> Any:
     return function(_local.flyer, *task)

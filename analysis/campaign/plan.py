@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError, suggestion
-from ..ssp.archive import open_system
+from ..ssp.archive import SystemArchive, open_system
 from ..system.faults import Fault, check_fault
 from ..system.in_flight.series import InputSeries
 from ..system.in_flight.watch import UNWATCHED, Watch
@@ -47,6 +47,8 @@ class BatchPlan:
     series: InputSeries | None = None
     watch: Watch = UNWATCHED
     compared_by: str = ""  # what errors name for the compared FMUs: --compare, or the campaign's file
+    campaign_data: bytes = b""  # the campaign's file
+    archive: SystemArchive | None = None  # flown instead of what `system` names, for which it stands
 
     @cached_property
     def draws(self) -> DrawTable:
@@ -56,12 +58,6 @@ class BatchPlan:
         except MemoryError as error:
             problem = f"the draws of {self.campaign.trials} trials do not fit into memory"
             raise InputError(self.campaign.file, "trials", problem, "give fewer") from error
-
-    def of_first(self, trials: int) -> BatchPlan:
-        """A plan of the first ``trials`` trials, with the draws that they have in this one."""
-        part = replace(self, campaign=replace(self.campaign, trials=trials))
-        part.__dict__["draws"] = self.draws.of_first(trials)  # in cached_property's place: drawn anew they may differ
-        return part
 
     @cached_property
     def groups(self) -> list[Group]:
@@ -91,7 +87,7 @@ class BatchPlan:
         """The system as one variant flies it. Raises InputError."""
         options = self.options.among(campaign=self.campaign.layer, study=Layer(use=variant.use))
         try:
-            return prepare_system(self.system, options, series=self.series)
+            return prepare_system(self.archive or self.system, options, series=self.series)
         except InputError as error:
             compared = {*variant.use, *variant.use.values(), *(f"{slot}={fmu}" for slot, fmu in variant.use.items())}
             if error.file == "--use" and error.element in compared:
@@ -106,6 +102,15 @@ class BatchPlan:
             if {"seed", "stream"} <= set(fmu.variables):
                 values[f"{name}.seed"], values[f"{name}.stream"] = streams[name]
         return values
+
+
+def campaign_of(data: bytes, label: str) -> Campaign:
+    """The campaign that a file declares, which ``label`` names in messages. Raises InputError."""
+    try:
+        table = Table(tomllib.loads(data.decode("utf-8")), label)
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
+    return parse_campaign(table)
 
 
 def read_plan(
@@ -126,11 +131,7 @@ def read_plan(
     """
     archive = open_system(system)
     data, label = archive.campaign(campaign)
-    try:
-        table = Table(tomllib.loads(data.decode("utf-8")), label)
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
-    read = parse_campaign(table)
+    read = campaign_of(data, label)
     if read.system.removesuffix(".ssp").removesuffix(".fmu") != archive.name:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
     changes: dict = {}
@@ -152,6 +153,7 @@ def read_plan(
         series=series,
         watch=watch or UNWATCHED,
         compared_by=f"{label}: compare" if compare is None else "--compare",
+        campaign_data=data,
     )
 
 

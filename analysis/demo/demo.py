@@ -48,7 +48,6 @@ def fly(output: Path, trials: int) -> Path:
     variants = len(plan.campaign.variants())
     print(f"Comparing {variants} guidances over {trials} trials each ...", flush=True)
     batch = run_batch(plan, output=output)
-    batch.write(output)
     return write_files(landing, sample, batch, output)
 
 

@@ -10,7 +10,7 @@ import struct
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
 from urllib.parse import unquote
@@ -44,13 +44,20 @@ UNREADABLE = (
 
 @dataclass(frozen=True)
 class SystemArchive:
-    """Files of a system by archive name; ``label`` names it in messages, ``description`` is read without a variant."""
+    """Files of a system by archive name; ``label`` names it in messages, ``description`` is read without a variant.
+
+    ``elsewhere`` are files that stand for those outside of it, by `fmu_asked`, `use_asked` and `parameters_asked`; a
+    system that has any takes none from other places. ``besides`` collects what is read of its folder that ``files``
+    lack.
+    """
 
     name: str
     label: str
     path: Path
     files: Mapping[str, Path | bytes]
     description: str = DESCRIPTION
+    elsewhere: Mapping[str, Path] = field(default_factory=dict)
+    besides: dict[str, None] = field(default_factory=dict)
 
     @property
     def is_fmu(self) -> bool:
@@ -79,6 +86,8 @@ class SystemArchive:
             raise InputError(self.label, element, problem, "put the file inside and correct the reference")
         if not self._has(name):
             raise InputError(self.label, element, f"no file {name}", "add the file or correct the reference")
+        if name not in self.files:
+            self.besides[name] = None
         content = self.files.get(name, self.path / name)
         return content if isinstance(content, bytes) else content.read_bytes()
 
@@ -90,6 +99,8 @@ class SystemArchive:
         """
         if self.is_fmu:
             return self.path.read_bytes, self.label
+        if fmu_asked(source) in self.elsewhere:
+            return self.elsewhere[fmu_asked(source)].read_bytes, source
         name = self._place(source)
         if self._has(name) or self.path.is_file() or not self._inside(name):
             return partial(self._content, name, element), f"{self.label}!{name}"
@@ -103,6 +114,10 @@ class SystemArchive:
             problem = f"no file {name} in the system, no {flavour} FMU of this repository, and none is built ({places})"
             raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
         return path.read_bytes, str(path)
+
+    def is_own_file(self, source: str) -> bool:
+        """Whether a source is a file of the system, not one of those that `fmu` finds elsewhere."""
+        return self.is_fmu or self._has(self._place(source))
 
     def variants(self) -> list[str]:
         """Names of the archive's SSDs, the default one included."""
@@ -133,6 +148,8 @@ class SystemArchive:
         for place in places:
             if place in self.files:
                 return self._content(place, option), f"{self.label}!{place}"
+        if parameters_asked(name) in self.elsewhere:
+            return self.elsewhere[parameters_asked(name)].read_bytes(), name
         if Path(name).is_file():
             return Path(name).read_bytes(), name
         known = sorted(Path(entry).name for entry in self.files if entry.endswith(suffix))
@@ -147,6 +164,21 @@ class SystemArchive:
         for name in sorted(self.files):
             total.update(name.encode() + b"\0" + hashlib.sha256(self._content(name, name)).digest())
         return total.hexdigest()
+
+
+def fmu_asked(source: str) -> str:
+    """How `SystemArchive.elsewhere` names the FMU of a component's source."""
+    return f"source:{source}"
+
+
+def use_asked(name: str) -> str:
+    """How it names an FMU that options put into a slot."""
+    return f"use:{name}"
+
+
+def parameters_asked(name: str) -> str:
+    """How it names a parameter set."""
+    return f"parameters:{name}"
 
 
 def open_zip(data: bytes, label: str) -> zipfile.ZipFile:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import chdir, contextmanager
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, field
+from functools import cache, partial
 from pathlib import Path
 
 from ...fmus_src.export.available import fmu_file, fmu_flavours
 from ...fmus_src.places import FLAVOURS
 from ..errors import InputError, suggestion
-from ..ssp.archive import HOW_TO_BUILD, SystemArchive, open_system
+from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, use_asked
 from ..ssp.description import Component
 from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
@@ -32,7 +32,8 @@ from .times import component_periods, flight_times
 class PreparedSystem:
     """A checked system; pass it to `Simulation`. Times in s; ``remarks`` say what an FMU alone left open.
 
-    ``drive`` are its inputs over time, if it has them.
+    ``drive`` are its inputs over time, if it has them; ``elsewhere`` reads the files that are not the system's own, by
+    the names of `SystemArchive.elsewhere`.
     """
 
     archive: SystemArchive
@@ -47,6 +48,7 @@ class PreparedSystem:
     periods: dict[str, int]  # communication steps that one step of a component takes, where more than one
     remarks: tuple[str, ...] = ()
     drive: Drive | None = None
+    elsewhere: Mapping[str, Callable[[], bytes]] = field(default_factory=dict)
 
     @property
     def is_native(self) -> bool:
@@ -64,7 +66,7 @@ class PreparedSystem:
 
 
 def prepare_system(
-    system: str | Path,
+    system: str | Path | SystemArchive,
     options: SystemOptions | None = None,
     loaded: dict[str, Fmu] | None = None,
     series: InputSeries | None = None,
@@ -79,7 +81,7 @@ def prepare_system(
 
 
 def _prepared(
-    system: str | Path, options: SystemOptions, loaded: dict[str, Fmu], series: InputSeries | None
+    system: str | Path | SystemArchive, options: SystemOptions, loaded: dict[str, Fmu], series: InputSeries | None
 ) -> PreparedSystem:
     for name, value, known in (
         ("--algorithm", options.algorithm, ALGORITHMS),
@@ -88,7 +90,8 @@ def _prepared(
     ):
         if value is not None and value not in known:
             raise InputError(name, str(value), "unknown", suggestion(str(value), known))
-    archive = open_system(system)
+    archive = system if isinstance(system, SystemArchive) else open_system(system)
+    elsewhere: dict[str, Callable[[], bytes]] = {}
 
     used: dict[str, Component] = {}
 
@@ -99,10 +102,17 @@ def _prepared(
     def load(name: str, component: Component) -> Fmu:
         if name in options.use:
             used[name] = component
-            read, label = locate_fmu(options.use[name], options.flavour, system=archive.path)
+            asked = use_asked(options.use[name])
+            if asked in archive.elsewhere:
+                read, label = archive.elsewhere[asked].read_bytes, options.use[name]
+            else:
+                read, label = locate_fmu(options.use[name], options.flavour, system=archive.path)
+            elsewhere[asked] = read
         else:
             flavour = flavour_of(Path(component.source).stem)
             read, label = archive.fmu(component.source, f"{name} (line {component.line})", flavour)
+            if not archive.is_own_file(component.source):
+                elsewhere[fmu_asked(component.source)] = read
         return opened(read, label)
 
     def opened(read: Callable[[], bytes], label: str) -> Fmu:
@@ -129,7 +139,7 @@ def _prepared(
     _refuse_seconds(network)
     if series is not None:
         network.driven = driven_inputs(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
-    settings = collect_settings(network, archive, _assignments(archive, options), options)
+    settings = collect_settings(network, archive, _assignments(archive, options, elsewhere), options)
     for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
@@ -152,6 +162,7 @@ def _prepared(
         periods=periods,
         remarks=tuple(remarks),
         drive=None if series is None else drive_inputs(network, series, network.driven, start, step, steps),
+        elsewhere=elsewhere,
     )
 
 
@@ -188,10 +199,15 @@ def locate_fmu(
     raise InputError(option, name, "no such FMU is built", f"{suggestion(name, fmu_flavours())}; {HOW_TO_BUILD}")
 
 
-def _assignments(archive: SystemArchive, options: SystemOptions) -> list[Assignment]:
+def _assignments(
+    archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
+) -> list[Assignment]:
     found: list[Assignment] = []
     for name in options.parameters:
-        found += read_parameter_file(*archive.parameter_set(name))
+        data, label = archive.parameter_set(name)
+        if not label.startswith(f"{archive.label}!"):
+            elsewhere[parameters_asked(name)] = partial(bytes, data)
+        found += read_parameter_file(data, label)
     return found + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]
 
 

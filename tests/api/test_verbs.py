@@ -14,20 +14,23 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import VERBS
-from perilune.analysis.commands.asked import batch, describe, export, run, stability, synthesize
+from perilune.analysis.commands.asked import describe, export, run, stability, synthesize
+from perilune.analysis.commands.asked.campaigns import batch, shard
 from perilune.analysis.system.options import SystemOptions
 
 FUNCTIONS = {
     "list": "inventory", "describe": "describe", "validate": "validate", "run": "simulate", "batch": "batch",
-    "compare": "compare", "law": "law", "synthesize": "synthesize", "plan": "plan_hover_transfer",
-    "stability": "stability", "new": "new_block", "benchmark": "benchmark", "export": "export",
+    "shard": "shard", "merge": "merge", "compare": "compare", "law": "law", "synthesize": "synthesize",
+    "plan": "plan_hover_transfer", "stability": "stability", "new": "new_block",
+    "benchmark": "benchmark", "export": "export",
 }  # fmt: skip
 # Options that are something else in Python: methods of the result, its values, or another name.
-PRINTED = {"help", "json", "report", "require", "replay", "output"}
+PRINTED = {"help", "json", "report", "require", "replay", "output", "prepare"}
 NAMES = {"loop": "loops", "fault": "faults", "platform": "platforms"}
 COMMANDS = {
     "simulate": run,
     "batch": batch,
+    "shard": shard,
     "stability": stability,
     "describe": describe,
     "export": export,

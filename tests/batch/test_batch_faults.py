@@ -204,7 +204,7 @@ def test_what_is_stored(result):
     assert json.loads((folder / "summary.json").read_text())["faults"] == SAYS
     assert read_batch(folder).faults == SAYS
     assert batch.text().splitlines()[-1] == f"with faults: {'; '.join(SAYS)}"
-    rows = pyarrow.parquet.read_table(folder / "trials.parquet").to_pylist()
+    rows = pyarrow.parquet.read_table(folder / "trials").to_pylist()
     names = [f"fault.shifted{key}" for key in ("", ".value", ".start", ".end")]
     names += [f"fault.held{key}" for key in ("", ".start", ".end")]
     names += [f"fault.up{key}" for key in ("", ".value", ".start", ".end")]

@@ -83,15 +83,15 @@ def test_the_first_trials_leave_the_traces_they_leave_without_it(everything, tmp
 
 
 def test_trials_and_metrics_are_the_same_with_or_without_traces(everything, tmp_path):
-    few = pyarrow.parquet.read_table(fly(tmp_path, f"{SAMPLED}trials = 2\n") / "trials.parquet")
+    few = pyarrow.parquet.read_table(fly(tmp_path, f"{SAMPLED}trials = 2\n") / "trials")
     assert few.replace_schema_metadata(None).equals(
-        pyarrow.parquet.read_table(everything / "trials.parquet").replace_schema_metadata(None)
+        pyarrow.parquet.read_table(everything / "trials").replace_schema_metadata(None)
     )
 
 
 def test_failures_beyond_the_first_trials_are_kept_in_full(tmp_path):
     folder = fly(tmp_path, f'{SAMPLED}trials = 3\ntraces = "failures"\n')
-    table = pyarrow.parquet.read_table(folder / "trials.parquet").to_pylist()
+    table = pyarrow.parquet.read_table(folder / "trials").to_pylist()
     failed = {(row["variant"], row["trial"]) for row in table if not row["success"]}
     assert any(trial >= 3 for _, trial in failed)
     found = traces(folder)
@@ -145,7 +145,7 @@ def test_truths_are_told_from_numbers(text, truth):
 
 def test_tables_have_checksums(everything):
     """A byte of the data changed, the length kept: found out when checksums are verified."""
-    path = everything / "trials.parquet"
+    path = everything / "trials" / "000000.parquet"
     data = bytearray(path.read_bytes())
     column = pyarrow.parquet.ParquetFile(path).metadata.row_group(0).column(8)
     start = column.data_page_offset if column.dictionary_page_offset is None else column.dictionary_page_offset

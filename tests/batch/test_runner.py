@@ -13,6 +13,7 @@ import pyarrow.parquet
 import pytest
 
 import perilune
+from perilune.analysis.batch.results import batch_digest
 from perilune.analysis.batch.runner import run_batch
 from perilune.analysis.batch.summary import requirement_values
 from perilune.analysis.campaign.draws import draw_table
@@ -52,7 +53,7 @@ def campaign(tmp_path, head="", tail="", name="c.toml"):
 
 
 def test_tables_and_their_columns(result, folder):
-    table = pyarrow.parquet.read_table(folder / "trials.parquet")
+    table = pyarrow.parquet.read_table(folder / "trials")
     assert table.equals(result.table())
     read = read_campaign(PAPER)
     expected = ["variant", "trial", "status", "success", "message", "end_time"]
@@ -65,8 +66,8 @@ def test_tables_and_their_columns(result, folder):
         v for v in ("analytic_guidance", "astar_guidance", "astar_modified_guidance") for _ in range(12)
     ]
     assert table["trial"].to_pylist() == list(range(12)) * 3
-    provenance = json.loads(table.schema.metadata[b"perilune"])
-    assert (provenance["seed"], provenance["trials"], provenance["system"]) == (5, 12, SYSTEM)
+    about = json.loads(table.schema.metadata[b"perilune"])
+    assert about == {"batch": batch_digest(result.provenance), "shard": 0, "trials": [0, 12]}
     draws = pyarrow.parquet.read_table(folder / "draws.parquet")
     assert draws.column_names == ["trial", *read.drawn_names()]
     for name in read.drawn_names():
@@ -78,7 +79,7 @@ def test_summary_counts_what_the_table_holds(result, folder):
     assert {"system", "system_sha256", "campaign", "trials", "seed", "step", "algorithm", "fmus", "perilune"} <= set(
         summary
     )
-    table = pyarrow.parquet.read_table(folder / "trials.parquet").to_pylist()
+    table = pyarrow.parquet.read_table(folder / "trials").to_pylist()
     for variant, found in summary["variants"].items():
         rows = [row for row in table if row["variant"] == variant]
         good = [row for row in rows if row["success"]]
@@ -111,16 +112,16 @@ def test_a_trial_is_the_flight_of_its_draws(result):
 
 
 def test_draws_are_written_first(tmp_path, monkeypatch):
-    """A batch that dies while flying leaves the draws and nothing else."""
+    """A batch that dies while flying leaves what it flies and the draws, and no result."""
 
     def die(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("perilune.analysis.batch.runner.fly_all", die)
+    monkeypatch.setattr("perilune.analysis.batch.runner.fly_shards", die)
     plan = read_plan(SYSTEM, "paper", SystemOptions(), trials=5)
     with pytest.raises(KeyboardInterrupt):
         run_batch(plan, workers=1, output=tmp_path / "out")
-    assert [path.name for path in (tmp_path / "out").iterdir()] == ["draws.parquet"]
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"draws.parquet", "files", "manifest.json"}
     table = pyarrow.parquet.read_table(tmp_path / "out" / "draws.parquet")
     expected = draw_table(plan.campaign).columns
     assert {name: table[name].to_pylist() for name in expected} == {name: list(v) for name, v in expected.items()}

@@ -6,6 +6,7 @@ refused in one line that names the file.
 
 import json
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pyarrow
@@ -103,13 +104,15 @@ def texts(name):
     return change
 
 
+LAST = Path("trials", "000001.parquet")
 DAMAGES = {
     "no summary": (lambda f: (f / "summary.json").unlink(), "summary.json: not found; give a folder"),
-    "no trials": (lambda f: (f / "trials.parquet").unlink(), "trials.parquet: not found"),
+    "no trials": (lambda f: shutil.rmtree(f / "trials"), "trials: not found"),
+    "no shard": (lambda f: (f / LAST).unlink(), "trials from 25 on are missing"),
     "no draws": (lambda f: (f / "draws.parquet").unlink(), "draws.parquet: not found"),
-    "truncated": (lambda f: truncated(f / "trials.parquet"), "trials.parquet: cannot be read as parquet"),
+    "truncated": (lambda f: truncated(f / LAST), "000001.parquet: cannot be read as parquet"),
     "empty": (lambda f: (f / "draws.parquet").write_bytes(b""), "draws.parquet: cannot be read as parquet"),
-    "flipped": (lambda f: flip(f / "trials.parquet"), "trials.parquet: cannot be read as parquet"),
+    "flipped": (lambda f: flip(f / LAST), "000001.parquet: cannot be read as parquet"),
     "flipped draws": (lambda f: flip(f / "draws.parquet"), "draws.parquet: cannot be read as parquet"),
     "no JSON": (lambda f: (f / "summary.json").write_text("{"), "summary.json: not JSON"),
     "not UTF-8": (lambda f: (f / "summary.json").write_bytes(b"\xff"), "summary.json: not JSON"),
@@ -117,20 +120,20 @@ DAMAGES = {
     "old": (lambda f: edit(f / "summary.json", lambda d: d.pop("signals")), "signals: missing, as in results of"),
     "other seed": (lambda f: edit(f / "summary.json", lambda d: d.update(seed=8)), "of another batch than"),
     "metadata": (
-        lambda f: rewrite(f / "trials.parquet", lambda t: t.replace_schema_metadata({})),
-        "trials.parquet: of another batch than summary.json",
+        lambda f: rewrite(f / LAST, lambda t: t.replace_schema_metadata({})),
+        "000001.parquet: of another batch than summary.json",
     ),
     "rate": (
         lambda f: edit(f / "summary.json", lambda d: d["variants"]["beta"].update(success_rate=0.5)),
-        "variants.beta: its success rate is not that of trials.parquet",
+        "variants.beta: its success rate is not that of trials/",
     ),
     "variants": (
         lambda f: edit(f / "summary.json", lambda d: d["variants"].pop("beta")),
-        "summary.json: variants: not those of trials.parquet",
+        "summary.json: variants: not those of trials/",
     ),
-    "column": (lambda f: rewrite(f / "trials.parquet", without("metric.miss")), "metric.miss: no such column"),
-    "status": (lambda f: rewrite(f / "trials.parquet", without("status")), "status: no such column"),
-    "texts": (lambda f: rewrite(f / "trials.parquet", texts("metric.miss")), "metric.miss: not a column of numbers"),
+    "column": (lambda f: rewrite(f / LAST, without("metric.miss")), "metric.miss: no such column"),
+    "status": (lambda f: rewrite(f / LAST, without("status")), "status: no such column"),
+    "texts": (lambda f: rewrite(f / LAST, texts("metric.miss")), "metric.miss: not a column of numbers"),
     "draws": (lambda f: rewrite(f / "draws.parquet", other_numbers("offset")), "its draws are not those"),
     "draw": (lambda f: rewrite(f / "draws.parquet", lambda t: t.append_column("x", t["offset"])), "draw.x: no such"),
     "rows": (lambda f: rewrite(f / "draws.parquet", lambda t: t.slice(1)), "its draws are not those of draws.parquet"),

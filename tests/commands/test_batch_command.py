@@ -74,12 +74,14 @@ def test_files_and_json(tmp_path, capsys):
     assert found == json.loads((tmp_path / "out" / "summary.json").read_text())
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "draws.parquet",
+        "files",
+        "manifest.json",
         "summary.json",
-        "trials.parquet",
+        "trials",
     ]
     compare = {"guidance": ["analytic_guidance", "analytic_exact_guidance"]}
     expected = perilune.batch(SYSTEM, "paper", trials=10, seed=9, compare=compare, workers=1).table()
-    assert pyarrow.parquet.read_table(tmp_path / "out" / "trials.parquet").equals(expected)
+    assert pyarrow.parquet.read_table(tmp_path / "out" / "trials").equals(expected)
     assert (tmp_path / "page.html").read_text().lower().startswith("<!doctype html")
 
 
@@ -120,7 +122,7 @@ def test_a_batch_in_which_all_fail_is_reported_not_crashed(tmp_path, capsys):
     found = json.loads(capsys.readouterr().out)["variants"]["analytic_guidance"]
     assert found["statuses"] == {"nonfinite": 10}
     assert found["metrics"]["position_error"]["mean"] is None
-    messages = pyarrow.parquet.read_table(tmp_path / "trials.parquet")["message"].to_pylist()
+    messages = pyarrow.parquet.read_table(tmp_path / "trials")["message"].to_pylist()
     assert all("allocation.thrust is inf" in text for text in messages)
 
 
@@ -161,7 +163,7 @@ def of_campaign(folder, *options):
 
 
 def test_groups_settled_and_first(grouped, capsys):
-    """Truth: trials.parquet filtered by hand; a flight of one trial's draws, row by row."""
+    """Truth: trials/ filtered by hand; a flight of one trial's draws, row by row."""
     compare = ["--compare", "guidance=analytic_guidance,astar_guidance"]
     need = ["--require", 'astar_guidance.groups["3.5"].metrics.near.p95 < 200']
     files = ["--output", str(grouped / "out"), "--report", str(grouped / "page.html")]
@@ -169,7 +171,7 @@ def test_groups_settled_and_first(grouped, capsys):
     printed = [line.split()[:3] for line in capsys.readouterr().out.splitlines()]
     summary = json.loads((grouped / "out" / "summary.json").read_text())
     assert summary["group"] == "case"
-    rows = pyarrow.parquet.read_table(grouped / "out" / "trials.parquet").to_pylist()
+    rows = pyarrow.parquet.read_table(grouped / "out" / "trials").to_pylist()
     for variant, entry in summary["variants"].items():
         assert list(entry["groups"]) == ["1", "2", "3.5"]
         assert sum(group["trials"] for group in entry["groups"].values()) == 12

@@ -1,6 +1,6 @@
 """`perilune compare`: flown for real, its table, JSON and page; exit status of what cannot be compared.
 
-Truth: the batches' own summary.json and trials.parquet; the exit status promised: 0 when compared, 2 for wrong input.
+Truth: the batches' own summary.json and trials/; the exit status promised: 0 when compared, 2 for wrong input.
 """
 
 import json
@@ -67,7 +67,7 @@ def test_json_holds_rates_metrics_and_pairs(folders, capsys):
     found = json.loads(capsys.readouterr().out)
     for folder in folders:
         summary = json.loads((folder / "summary.json").read_text())
-        table = pyarrow.parquet.read_table(folder / "trials.parquet").to_pylist()
+        table = pyarrow.parquet.read_table(folder / "trials").to_pylist()
         assert found["batches"][str(folder)] == {key: value for key, value in summary.items() if key != "variants"}
         for name, entry in summary["variants"].items():
             mine = found["variants"][f"{folder.name}: {name}"]
@@ -77,7 +77,7 @@ def test_json_holds_rates_metrics_and_pairs(folders, capsys):
             low = beta.ppf(0.025, yes, 17 - yes) if yes else 0.0
             high = beta.ppf(0.975, yes + 1, 16 - yes) if yes < 16 else 1.0
             assert mine["rates"]["finished"]["interval"] == pytest.approx([low, high], rel=1e-9)
-    rows = pyarrow.parquet.read_table(folders[1] / "trials.parquet").to_pylist()
+    rows = pyarrow.parquet.read_table(folders[1] / "trials").to_pylist()
     good = {name: np.array([row["success"] for row in rows if row["variant"] == name]) for name in VARIANTS}
     (pair,) = (p for p in found["pairs"] if (p["a"], p["b"]) == ("noisy: astar_guidance", "noisy: analytic_guidance"))
     assert pair["rates"]["success"]["only_b"] == int(np.sum(good["analytic_guidance"] & ~good["astar_guidance"]))
@@ -114,7 +114,7 @@ def damage(folder, name):
     ("spoil", "says"),
     [
         (lambda folder: shutil.rmtree(folder), "summary.json: not found; give a folder that perilune batch"),
-        (lambda folder: damage(folder, "trials.parquet"), "trials.parquet: cannot be read as parquet"),
+        (lambda folder: damage(folder, "trials/000000.parquet"), "000000.parquet: cannot be read as parquet"),
         (lambda folder: damage(folder, "draws.parquet"), "draws.parquet: cannot be read as parquet"),
         (lambda folder: damage(folder, "summary.json"), "summary.json: not JSON"),
         (lambda folder: damage(folder, "traces/astar_guidance/000003.parquet"), "000003.parquet: cannot be read"),

@@ -20,7 +20,7 @@ def nothing_flies(monkeypatch):
         raise AssertionError("it flew")
 
     monkeypatch.setattr("perilune.analysis.commands.run.fly", fly)
-    monkeypatch.setattr("perilune.analysis.commands.batch.run_batch", fly)
+    monkeypatch.setattr("perilune.analysis.commands.campaigns.batch.run_batch", fly)
 
 
 @pytest.mark.usefixtures("nothing_flies")
@@ -50,12 +50,13 @@ def test_targets_that_cannot_be_written_are_refused_before_a_flight(tmp_path, ca
 def test_a_folder_with_results_is_not_written_over_without_a_word(tmp_path, capsys):
     out = tmp_path / "out"
     assert main([*BATCH, "--output", str(out)]) == 0
-    before = (out / "trials.parquet").read_bytes()
+    before = (out / "trials" / "000000.parquet").read_bytes()
     capsys.readouterr()
     assert main([*BATCH, "--seed", "5", "--output", str(out)]) == 2
-    words = "holds results already (trials.parquet, draws.parquet, summary.json); give another, or --overwrite"
+    words = "holds results already (manifest.json, trials, draws.parquet, summary.json); "
+    words += "give another, or --resume to go on, or --overwrite"
     assert words in capsys.readouterr().err
-    assert (out / "trials.parquet").read_bytes() == before
+    assert (out / "trials" / "000000.parquet").read_bytes() == before
     assert main([*BATCH, "--seed", "5", "--output", str(out), "--overwrite"]) == 0
     assert json.loads((out / "summary.json").read_text())["seed"] == 5
 

@@ -14,7 +14,7 @@ from tests.support.pages.checks import assert_self_contained, data_values, parse
 
 TRIALS = 12
 FILES = {"landing.html", "comparison.html", "landing.csv", "landing.csv.json"}
-FILES |= {"trials.parquet", "draws.parquet", "summary.json"}
+FILES |= {"trials", "draws.parquet", "summary.json"}
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_the_published_values_are_those_of_the_table():
 def test_ours_stand_beside_the_published_values(demo):
     page = demo.read_text(encoding="utf-8")
     text, values = text_of(page), data_values(page)
-    trials = pyarrow.parquet.read_table(demo.parent / "trials.parquet").to_pydict()
+    trials = pyarrow.parquet.read_table(demo.parent / "trials").to_pydict()
     for variant, published in PUBLISHED.items():
         good = [ok for name, ok in zip(trials["variant"], trials["success"], strict=True) if name == variant]
         assert len(good) == TRIALS

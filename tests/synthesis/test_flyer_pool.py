@@ -47,7 +47,7 @@ def test_every_task_once_by_its_place(plan, workers, native):
 def test_an_error_ends_the_rest(plan, workers):
     COUNTED.clear()
     tasks = [(number, threading.Event()) for number in range(200)]
-    with FlyerPool(plan, workers, native=True) as pool, pytest.raises(ValueError, match="the first one"):
+    with FlyerPool(plan, workers, threads=True) as pool, pytest.raises(ValueError, match="the first one"):
         list(pool.work(failing, tasks))
     begun = {1: 1, 2: 199}[workers]  # one worker begins no other task; two have some of the others begun
     assert 1 <= len(COUNTED) <= begun

@@ -42,6 +42,11 @@ def known_verdict(fmu: Fmu) -> ResetVerdict | None:
     return ResetVerdict(True) if fmu.is_own else _verdicts.get(fmu.digest)
 
 
+def known(digest: str, verdict: ResetVerdict) -> None:
+    """Keep a verdict of another process on the FMU with this SHA-256."""
+    _verdicts[digest] = verdict
+
+
 def judge(fmu: Fmu, verdict: ResetVerdict) -> None:
     """Keep what a flight has shown of an FMU."""
     _verdicts[fmu.digest] = verdict

@@ -129,7 +129,7 @@ def test_batch_and_its_replay(folder, batch, tmp_path, capsys):
     said = f"with faults: held: ramp.y=freeze@t0 when t0 > 0.5; {BIAS}"
     assert capsys.readouterr().out.splitlines()[-2:] == [said, f"written: {tmp_path / 'out'}, {tmp_path / 'page.html'}"]
     assert f"W{said[1:]}." in text_of((tmp_path / "page.html").read_text())
-    rows = pyarrow.parquet.read_table(tmp_path / "out" / "trials.parquet").to_pylist()
+    rows = pyarrow.parquet.read_table(tmp_path / "out" / "trials").to_pylist()
     expected = perilune.batch(folder / "s.ssp", str(folder / "held.toml"), faults=[perilune.Fault("gain.u", "bias",
                               0.5, 0.25, 0.75)], workers=1).table().to_pylist()  # fmt: skip
     assert repr(rows) == repr(expected)

@@ -76,7 +76,7 @@ def test_batch(elsewhere, workers):
     here = elsewhere.with_name("here")
     assert list(elsewhere.iterdir()) == []
     assert {"r.html", "j.json", "results"} <= {path.name for path in here.iterdir()}
-    table = pyarrow.parquet.read_table(here / "results" / "trials.parquet")
+    table = pyarrow.parquet.read_table(here / "results" / "trials")
     assert table["metric.last"].to_pylist() == [7.0] * 8
     assert len(list((here / "results" / "traces").rglob("*.parquet"))) == 8
 
@@ -104,4 +104,4 @@ def test_python_stays_where_it_was(elsewhere):
     result.write("o.csv")
     assert os.getcwd() == str(elsewhere.with_name("here"))
     assert list(elsewhere.iterdir()) == []
-    assert (elsewhere.with_name("here") / "results" / "trials.parquet").is_file()
+    assert (elsewhere.with_name("here") / "results" / "trials").is_dir()

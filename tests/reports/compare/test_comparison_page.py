@@ -42,8 +42,8 @@ def page(folder):
 
 @pytest.fixture(scope="module")
 def trials(folder):
-    """Columns of trials.parquet by variant."""
-    rows = pyarrow.parquet.read_table(folder / "trials.parquet").to_pylist()
+    """Columns of trials/ by variant."""
+    rows = pyarrow.parquet.read_table(folder / "trials").to_pylist()
     return {
         variant: {name: np.array([row[name] for row in rows if row["variant"] == variant]) for name in rows[0]}
         for variant in VARIANTS
@@ -231,7 +231,7 @@ def test_groups(tmp_path):
     write_sample(tmp_path / "out", text=text, traced=0)
     page = write([tmp_path / "out"], tmp_path / "page.html")
     assert_self_contained(page)
-    rows = pyarrow.parquet.read_table(tmp_path / "out" / "trials.parquet").to_pylist()
+    rows = pyarrow.parquet.read_table(tmp_path / "out" / "trials").to_pylist()
     rates, metrics = [], []
     for name in ("success", "metric.pinpoint"):
         for variant in VARIANTS:
@@ -388,7 +388,7 @@ def test_traces_of_failures_only_are_called_biased(tmp_path):
         for trial in [trial for trial in trials.traces if trials.success[trial]]:
             del trials.traces[trial]
     result.write(tmp_path / "other")
-    from perilune.analysis.batch.runner import write_draws
+    from perilune.analysis.batch.shards import write_draws
 
     write_draws(result.plan, tmp_path / "other")
     page = write([tmp_path / "other"], tmp_path / "page.html")

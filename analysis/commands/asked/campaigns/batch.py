@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..common.completers import campaigns, completed
-from ..common.in_flight import add_input, add_watch
-from ..common.options import add_faults, add_json, add_system
-from ..common.requirements import add_requirements
+from ...common.completers import campaigns, completed
+from ...common.in_flight import add_input, add_watch
+from ...common.options import add_faults, add_json, add_system
+from ...common.requirements import add_requirements
+from .shard import add_engine
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -25,8 +26,12 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--compare", action="append", metavar="SLOT=A,B,C", help="fly these FMUs in a slot, on the same draws"
     )
-    parser.add_argument("--workers", type=int, metavar="N", help="flights in parallel; default: one per processor")
-    parser.add_argument("--output", type=Path, metavar="DIR", help="write trials.parquet, draws.parquet, summary.json")
+    add_engine(parser)
+    parser.add_argument("--output", type=Path, metavar="DIR", help="write the trials, their draws and a summary")
+    parser.add_argument("--resume", action="store_true", help="go on with the campaign in --output DIR, or extend it")
+    parser.add_argument(
+        "--prepare", action="store_true", help="write what flies to --output DIR, for perilune shard, and fly nothing"
+    )
     parser.add_argument("--replay", type=int, metavar="K", help="fly trial K only, with all signals to --output DIR")
     parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
     parser.add_argument("--overwrite", action="store_true", help="put the results in place of those in --output DIR")

@@ -1,0 +1,35 @@
+"""Files under the names of their contents: their SHA-256, with the suffix that they had."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+from ...atomic import write_atomically
+from ...errors import InputError
+
+AGAIN = "copy the campaign's folder again, with all of its files"
+
+
+def name_of(content: bytes, suffix: str) -> str:
+    """The name under which a content is kept."""
+    return f"{hashlib.sha256(content).hexdigest()}{suffix}"
+
+
+def store(folder: Path, contents: dict[str, bytes]) -> None:
+    """Write contents by their names, those that are not there yet."""
+    for name, content in contents.items():
+        if not (folder / name).is_file():
+            write_atomically(folder / name, content)
+
+
+def stored(folder: Path, name: str) -> Path:
+    """Where a content lies, once it is seen to be the one of that name. Raises InputError."""
+    path = folder / name
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(path, "", "not found", AGAIN) from error
+    if name_of(content, path.suffix) != name:
+        raise InputError(path, "", "its content is not the one that it is named by", AGAIN)
+    return path

@@ -1,0 +1,91 @@
+"""From a campaign's folder back to a plan, whose every file is the one that the manifest names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet
+
+from ...campaign.draws import DrawTable
+from ...campaign.plan import BatchPlan, campaign_of
+from ...errors import InputError
+from ...flight.instances.reset_test import ResetVerdict, known
+from ...ssp.archive import SystemArchive
+from ...system.faults import parse_fault
+from ...system.in_flight.series import InputSeries
+from ...system.in_flight.watch import Watch
+from ...system.options import SystemOptions
+from ..shards import DRAWS
+from .contents import AGAIN, stored
+from .manifest import CONTENTS, Manifest
+
+
+def restore(folder: Path, manifest: Manifest, log: str | None = None) -> BatchPlan:
+    """The plan of a campaign's folder, with the draws that are stored there. Raises InputError.
+
+    ``log`` is the level of the FMUs' messages, which changes no result.
+    """
+    contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
+    content = stored(contents, manifest.campaign["content"])
+    campaign = replace(
+        campaign_of(content.read_bytes(), manifest.campaign["label"]),
+        trials=manifest.trials,
+        seed=manifest.seed,
+        compare={slot: tuple(names) for slot, names in manifest.campaign["compare"].items()},
+    )
+    options: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in manifest.options.items()
+    }
+    plan = BatchPlan(
+        manifest.system["label"],
+        campaign,
+        SystemOptions(**options, folder=str(contents)),
+        content.stem,
+        faults=tuple(parse_fault(text) for text in manifest.faults),
+        series=None if manifest.series is None else _series(contents, manifest.series),
+        watch=Watch(manifest.timeout, log),
+        compared_by=manifest.campaign["compared_by"],
+        campaign_data=content.read_bytes(),
+        archive=_archive(contents, manifest),
+    )
+    plan.__dict__["draws"] = _draws(folder / DRAWS, plan)  # in cached_property's place: drawn anew they could differ
+    for digest, verdict in manifest.resets.items():
+        known(digest, ResetVerdict(**verdict))
+    return plan
+
+
+def _archive(contents: Path, manifest: Manifest) -> SystemArchive:
+    system: Mapping[str, Any] = manifest.system
+    files = {name: stored(contents, content) for name, content in system["files"].items()}
+    archive = SystemArchive(
+        name=system["name"],
+        label=system["label"],
+        path=contents if system["fmu"] is None else files[system["fmu"]],
+        files=files,
+        description=system["description"],
+        elsewhere={asked: stored(contents, content) for asked, content in manifest.elsewhere.items()},
+    )
+    archive.__dict__["digest"] = system["sha256"]  # as it was computed, without what was read besides its list of files
+    return archive
+
+
+def _series(contents: Path, series: Mapping[str, str]) -> InputSeries:
+    table = pyarrow.parquet.read_table(stored(contents, series["content"]))
+    columns = {name: table[name].to_numpy() for name in table.column_names}
+    return InputSeries(series["label"], series["sha256"], columns.pop("time"), columns)
+
+
+def _draws(path: Path, plan: BatchPlan) -> DrawTable:
+    try:
+        table = pyarrow.parquet.read_table(path).slice(0, plan.campaign.trials)
+    except (OSError, pyarrow.ArrowException) as error:
+        raise InputError(path, "", "cannot be read as parquet", AGAIN) from error
+    names = plan.campaign.drawn_names()
+    missing = [name for name in names if name not in table.column_names]
+    if missing or table.num_rows < plan.campaign.trials:
+        problem = f"lacks column {missing[0]}" if missing else f"has {table.num_rows} rows for {plan.campaign.trials}"
+        raise InputError(path, "", problem, AGAIN)
+    return DrawTable(plan.campaign.trials, {name: table[name].to_numpy() for name in names})

@@ -1,0 +1,43 @@
+"""Flies shards: the trials of each parted among workers, and put together again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from .flyer import Flyer
+from .shards import Numbering
+from .trials import Trials, joined
+from .workers import FlyerPool
+
+MOST_IN_THREAD, MOST_IN_PROCESS = 50, 10  # trials of a task: enough to send, few enough to share out or lose
+
+
+def fly_shards(
+    numbering: Numbering, shards: Sequence[int], pool: FlyerPool, size: int
+) -> Iterator[tuple[int, dict[str, Trials]]]:
+    """Fly shards of the pool's plan, in tasks of ``size`` trials.
+
+    Each one's trials come by variant, as soon as all are there, in any order of shards.
+    """
+    variants = [variant.name for variant in pool.plan.campaign.variants()]
+    tasks: list[tuple[str, range]] = []
+    owners: list[int] = []
+    missing: dict[int, int] = {}
+    for shard in shards:
+        trials = numbering.of(shard)
+        pieces = [trials[first : first + size] for first in range(0, len(trials), size)]
+        tasks += [(variant, piece) for piece in pieces for variant in variants]
+        missing[shard] = len(pieces) * len(variants)
+        owners += [shard] * missing[shard]
+    parts: dict[int, dict[str, list[Trials]]] = {}
+    for place, found in pool.work(Flyer.fly, tasks):
+        shard = owners[place]
+        parts.setdefault(shard, {name: [] for name in variants})[tasks[place][0]].append(found)
+        missing[shard] -= 1
+        if not missing[shard]:
+            yield shard, {name: joined(pieces) for name, pieces in parts.pop(shard).items()}
+
+
+def task_size(trials: int, workers: int, threads: bool) -> int:
+    """How many trials a worker flies at a time."""
+    return max(1, min(MOST_IN_THREAD if threads else MOST_IN_PROCESS, trials // (4 * workers)))

@@ -1,0 +1,170 @@
+"""Shards: runs of consecutive trials, each of which is flown as a whole and lies in a file of its own."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+from ..atomic import whole_file
+from ..campaign.plan import BatchPlan
+from ..errors import InputError
+from .trials import Trials
+
+FOLDER = "trials"
+DRAWS = "draws.parquet"
+SUMMARY = "summary.json"
+LEAST, MOST, PARTS = 25, 5000, 40  # trials of a shard, and into how many a campaign is parted between these
+
+
+@dataclass(frozen=True)
+class Numbering:
+    """The shards of a campaign: ``trials`` in shards of ``size``, the last one with what is left."""
+
+    trials: int
+    size: int
+
+    @property
+    def count(self) -> int:
+        return -(-self.trials // self.size)
+
+    def of(self, shard: int) -> range:
+        """The trials of a shard."""
+        return range(shard * self.size, min((shard + 1) * self.size, self.trials))
+
+
+def shard_size(trials: int) -> int:
+    """The trials of a shard, from the campaign alone: neither machine nor workers change what a shard holds."""
+    return min(max(-(-trials // PARTS), LEAST), MOST)
+
+
+def spans(shards: Sequence[int]) -> str:
+    """Rising numbers of shards as `perilune shard` takes them: 0-3 7."""
+    starts = [shard for place, shard in enumerate(shards) if place == 0 or shards[place - 1] != shard - 1]
+    ends = [shard for place, shard in enumerate(shards) if place == len(shards) - 1 or shards[place + 1] != shard + 1]
+    pairs = zip(starts, ends, strict=True)
+    return " ".join(str(first) if first == last else f"{first}-{last}" for first, last in pairs)
+
+
+def numbers_of(texts: Iterable[str]) -> list[int]:
+    """The shards that numbers and spans (A-B) name, rising, each once. Raises InputError."""
+    found: set[int] = set()
+    for text in texts:
+        first, dash, last = text.partition("-")
+        if not first.isdecimal() or (dash and not last.isdecimal()) or int(last or first) < int(first):
+            raise InputError("shard", text, "neither a number nor a span of them", "give 3, or 0-7")
+        found |= set(range(int(first), int(last or first) + 1))
+    return sorted(found)
+
+
+def shard_path(folder: Path, shard: int) -> Path:
+    """Where a shard's trials lie."""
+    return folder / FOLDER / f"{shard:06d}.parquet"
+
+
+def trace_path(folder: Path, variant: str, trial: int) -> Path:
+    """Where a trial's trace lies; a variant named by the path of an FMU has that path's slashes replaced."""
+    return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
+
+
+def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: Mapping[str, Trials]) -> None:
+    """Write the traces of a shard, then its table, which is there only when all is.
+
+    ``batch`` is the digest that tells the campaign from others, ``trials`` are those of the shard by variant.
+    """
+    for variant, found in trials.items():
+        for trial, traces in found.traces.items():
+            about = {"batch": batch, "variant": variant, "trial": trial}
+            write_parquet(_described(pyarrow.table(traces), about), trace_path(folder, variant, trial))
+    numbers = next(iter(trials.values())).trial
+    about = {"batch": batch, "shard": shard, "trials": [int(numbers[0]), int(numbers[-1]) + 1]}
+    write_parquet(_described(trial_table(plan, trials), about), shard_path(folder, shard))
+
+
+def clear(folder: Path) -> None:
+    """Remove the shards of an earlier batch; traces say which one they are of."""
+    if (folder / FOLDER).is_dir():
+        shutil.rmtree(folder / FOLDER)
+
+
+def write_draws(plan: BatchPlan, folder: Path) -> None:
+    """Write the table of draws to ``folder``/draws.parquet, a row per trial."""
+    columns = {"trial": list(range(plan.campaign.trials)), **plan.draws.columns}
+    write_parquet(pyarrow.table(columns), folder / DRAWS)
+
+
+def is_flown(folder: Path, batch: str, shard: int, trials: range) -> bool:
+    """Whether the shard lies in the folder, of this campaign and with these trials."""
+    return described(shard_path(folder, shard)) == {
+        "batch": batch,
+        "shard": shard,
+        "trials": [trials.start, trials.stop],
+    }
+
+
+def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
+    """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
+
+    Every variant has the same trials.
+    """
+    found = list(trials.values())
+    numbers = found[0].trial
+    columns: dict[str, Any] = {
+        "variant": pyarrow.array([name for name, part in trials.items() for _ in part.trial], pyarrow.string()),
+        "trial": _joined(found, lambda part: part.trial),
+        "status": pyarrow.array([status for part in found for status in part.statuses], pyarrow.string()),
+        "success": _joined(found, lambda part: part.success),
+        "message": pyarrow.array(
+            [part.messages.get(int(trial), "") for part in found for trial in part.trial], pyarrow.string()
+        ),
+        "end_time": _joined(found, lambda part: part.end_time),
+    }
+    for name, values in plan.draws.columns.items():
+        columns[f"draw.{name}"] = np.tile(values[numbers], len(found))
+    for fault in plan.drawn_faults:
+        columns |= {name: np.tile(values[numbers], len(found)) for name, values in fault.columns().items()}
+    for name in found[0].final:
+        columns[f"final.{name}"] = _joined(found, lambda part, name=name: part.final[name])
+    for name in found[0].metrics:
+        columns[f"metric.{name}"] = _joined(found, lambda part, name=name: part.metrics[name])
+    return pyarrow.table(columns)
+
+
+def _joined(parts: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.ndarray:
+    return np.concatenate([column(part) for part in parts])
+
+
+def write_parquet(table: pyarrow.Table, path: Path) -> None:
+    """A table with a checksum on every page, so that a damaged file is found out when it is read."""
+    with whole_file(path) as partial:
+        pyarrow.parquet.write_table(table, partial, write_page_checksum=True)
+
+
+def _described(table: pyarrow.Table, about: Mapping[str, Any]) -> pyarrow.Table:
+    return table.replace_schema_metadata({"perilune": json.dumps(about)})
+
+
+def described(path: Path) -> Any:
+    """What a file that `write_shard` wrote says of itself; None where it says nothing, or is not there.
+
+    Raises OSError and pyarrow's errors for one that is damaged.
+    """
+    if not path.is_file():
+        return None
+    with pyarrow.parquet.ParquetFile(path) as file:
+        return about_of(file.schema_arrow)
+
+
+def about_of(schema: pyarrow.Schema) -> Any:
+    """What a table says of itself; None where it says nothing."""
+    try:
+        return json.loads((schema.metadata or {}).get(b"perilune", b"null"))
+    except ValueError:
+        return None

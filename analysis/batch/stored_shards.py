@@ -1,0 +1,86 @@
+"""Shards read back: tables, with every file's checksums verified, and the trials in them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from pathlib import Path
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+from ..campaign.plan import BatchPlan
+from ..errors import InputError
+from .shards import described, shard_path, trace_path
+from .trials import Trials
+
+AGAIN = "fly the batch again into an empty folder"
+COLUMNS = ("variant", "trial", "status", "success", "end_time")
+
+
+def read_table(path: Path, columns: Collection[str] | None = None) -> pyarrow.Table:
+    """A parquet file, or those of its ``columns`` that there are, checksums verified. Raises InputError."""
+    try:
+        with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
+            names = file.schema_arrow.names
+            return file.read(names if columns is None else [name for name in names if name in columns])
+    except (OSError, pyarrow.ArrowException) as error:
+        raise unreadable(path, error) from error
+
+
+def unreadable(path: Path, error: Exception) -> InputError:
+    """What is said of a file that is damaged."""
+    reason = str(error).split(": ")[-1] or type(error).__name__
+    return InputError(path, "", f"cannot be read as parquet ({' '.join(reason.split())})", AGAIN)
+
+
+def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
+    """A column as doubles, or whole numbers or booleans where it holds such. Raises InputError."""
+    kind = table.schema.field(name).type
+    column = table[name]
+    known = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)
+    if column.null_count or not known:
+        raise InputError(path, name, "not a column of numbers", AGAIN)
+    return column.to_numpy()
+
+
+def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[str, Trials]:
+    """The trials of a table by variant, without traces; ``path`` is what errors name. Raises InputError."""
+    metrics = list(metrics)
+    for name in (*COLUMNS, *(f"metric.{metric}" for metric in metrics)):
+        if name not in table.column_names:
+            raise InputError(path, name, "no such column", AGAIN)
+    labels = np.array(table["variant"].to_pylist(), dtype=str)
+    statuses = np.array(table["status"].to_pylist(), dtype=object)
+    messages = np.array(table["message"].to_pylist(), dtype=object) if "message" in table.column_names else None
+    kept = [name for name in table.column_names if name in COLUMNS[1:] or name.startswith(("metric.", "final."))]
+    columns = {name: numbers(table, name, path) for name in kept if name != "status"}
+    found = {}
+    for variant in dict.fromkeys(labels.tolist()):
+        rows = labels == variant
+        mine = {name: column[rows] for name, column in columns.items()}
+        texts = [] if messages is None else zip(mine["trial"].tolist(), messages[rows], strict=True)
+        found[variant] = Trials(
+            statuses=statuses[rows].tolist(),
+            success=mine["success"].astype(bool),
+            metrics={metric: mine[f"metric.{metric}"] for metric in metrics},
+            trial=mine["trial"],
+            end_time=mine["end_time"],
+            messages={trial: text for trial, text in texts if text},
+            final={name.removeprefix("final."): mine[name] for name in mine if name.startswith("final.")},
+            traces={},
+        )
+    return found
+
+
+def read_shard(folder: Path, batch: str, shard: int, plan: BatchPlan) -> dict[str, Trials]:
+    """The trials of one shard by variant, with their traces. Raises InputError."""
+    path = shard_path(folder, shard)
+    found = trials_of(read_table(path), [metric.name for metric in plan.campaign.metrics], path)
+    for variant, trials in found.items():
+        for trial in trials.trial.tolist():
+            place = trace_path(folder, variant, trial)
+            if described(place) == {"batch": batch, "variant": variant, "trial": trial}:
+                table = read_table(place)
+                trials.traces[trial] = {name: numbers(table, name, place) for name in table.column_names}
+    return found

@@ -1,0 +1,117 @@
+"""perilune batch: a campaign of many flights."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import Any
+
+from ...batch.flyer import Flyer
+from ...batch.runner import open_campaign, run_batch
+from ...batch.tables import aligned, faults_line
+from ...campaign.plan import BatchPlan, check_plan, read_plan
+from ...errors import InputError
+from ...flight.interruptible import StuckError
+from ...targets import PAGES, Results, check_file, check_folder
+from ..common.in_flight import series, watch
+from ..common.options import check_json, faults, json_number, pairs, system_options, write_json
+from ..common.remarks import say_stale
+from .telling import asked_requirements, said_how_to_go_on, tell
+
+
+def run(options: argparse.Namespace) -> int:
+    compare = None
+    if options.compare is not None:
+        found = pairs(options.compare, "--compare", "SLOT=A,B,C")
+        compare = {slot: [name.strip() for name in names.split(",")] for slot, names in found.items()}
+    _refuse_what_does_not_go_together(options)
+    anything = options.overwrite or options.resume or options.replay is not None
+    check_folder("--output", options.output, overwrite=anything, otherwise="--resume to go on, or --overwrite")
+    check_file("--report", options.report, PAGES)
+    check_json(options)
+    plan = read_plan(
+        options.system,
+        options.campaign,
+        system_options(options),
+        trials=options.trials,
+        seed=options.seed,
+        compare=compare,
+        faults=faults(options),
+        series=series(options),
+        watch=watch(options),
+    )
+    say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
+    if options.replay is not None:
+        for name in ("require", "report"):
+            if getattr(options, name):
+                raise InputError("--replay", f"--{name}", "does not go with a replay", "leave one of them out")
+        return _replay(plan, options)
+    if options.prepare:
+        return _prepare(plan, options)
+    files = Results()
+    requirements = asked_requirements(plan, options.require)
+    with said_how_to_go_on(options.output):
+        result = run_batch(
+            plan, workers=options.workers, output=options.output, resume=options.resume, engine=options.engine
+        )
+    if options.output is not None:
+        files.written.append(options.output)
+    return tell(result, options, requirements, files)
+
+
+def _refuse_what_does_not_go_together(options: argparse.Namespace) -> None:
+    for name in ("resume", "prepare"):
+        if getattr(options, name) and options.output is None:
+            raise InputError(f"--{name}", "", "there is no folder to do it in", "give --output DIR")
+        if getattr(options, name) and options.replay is not None:
+            raise InputError(f"--{name}", "--replay", "does not go with it", "leave one of them out")
+    if options.resume and options.overwrite:
+        raise InputError("--resume", "--overwrite", "one keeps what is there, one does not", "leave one of them out")
+
+
+def _prepare(plan: BatchPlan, options: argparse.Namespace) -> int:
+    """Write what flies, and say how its shards are flown."""
+    campaign = open_campaign(plan, options.output, resume=options.resume)
+    last = campaign.numbering.count - 1
+    print(f"written: {options.output}, shards 0-{last} of {campaign.numbering.size} trials and the rest")
+    print(f"fly them: perilune shard {options.output} 0-{last}, in any parts; then: perilune merge {options.output}")
+    return 0
+
+
+def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
+    """Fly one trial of every variant again, every signal recorded."""
+    trial = options.replay
+    if not 0 <= trial < plan.campaign.trials:
+        raise InputError("--replay", str(trial), "no such trial", f"give 0 to {plan.campaign.trials - 1}")
+    check_plan(plan)
+    files = Results()
+    flyer = Flyer(plan)
+    files = Results()
+    document: dict[str, dict[str, Any]] = {}
+    for variant in flyer.variants:
+        try:
+            result, found = flyer.replay(variant, trial)
+        except StuckError as error:
+            print(f"perilune: {variant}: trial {trial}: {error}; nothing of it is written", file=sys.stderr)
+            return 1
+        if options.output is not None:
+            files.write(options.output / f"{variant}_{trial:06d}.parquet", result.write)
+        metrics = {name: json_number(value) for name, value in found.metrics.items()}
+        document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
+    flown = [str(fault) for fault in plan.faults_of(trial) if fault is not None]
+    declared = {"faults": flown} if plan.fault_texts() else {}
+    if not write_json({"trial": trial, **declared, "variants": document}, options.json, files):
+        for variant, entry in document.items():
+            print(f"{variant}: trial {trial}: {entry['status']}, {'success' if entry['success'] else 'no success'}")
+            units = {metric.name: "" if metric.unit == "1" else metric.unit for metric in plan.campaign.metrics}
+            cells = [
+                [f"  {name}", "none" if value is None else f"{value:.6g}", units[name]]
+                for name, value in entry["metrics"].items()
+            ]
+            for line in aligned(cells) if cells else ():
+                print(line.rstrip())
+        if flown:
+            print(faults_line(flown))
+    if options.json != "-":
+        files.say()
+    return 2 if files.failed else 0

@@ -1,0 +1,20 @@
+"""perilune shard: some shards of a campaign whose manifest is there."""
+
+from __future__ import annotations
+
+import argparse
+
+from ...batch.runner import fly_campaign, open_folder
+from ...batch.shards import numbers_of
+from .telling import said_how_to_go_on
+
+
+def run(options: argparse.Namespace) -> int:
+    shards = numbers_of(options.shards)
+    campaign = open_folder(options.folder)
+    wanted = campaign.checked(shards)
+    with said_how_to_go_on(options.folder):
+        fly_campaign(campaign, wanted, workers=options.workers, engine=options.engine)
+    missing, count = len(campaign.missing()), campaign.numbering.count
+    print(f"shards: {len(wanted)} flown, {len(shards) - len(wanted)} were there, {missing} of {count} are missing")
+    return 0

@@ -1,0 +1,99 @@
+"""What the commands about campaigns say of a result, and their exit status."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ...batch.results import BatchResult
+from ...batch.status_texts import worst_statuses
+from ...batch.summary import TrialColumns, requirement_values, summarise
+from ...batch.workers import WorkersDiedError
+from ...campaign.expressions import Expression
+from ...campaign.plan import BatchPlan
+from ...errors import EndedError
+from ...flight.results import TIMED_OUT
+from ...reports.batch.batch_report import write_batch_report
+from ...system.status_words import with_meaning
+from ...targets import Results
+from ..common.options import write_json
+from ..common.requirements import check_requirements, read_requirements
+
+
+@contextmanager
+def said_how_to_go_on(folder: Path | None) -> Iterator[None]:
+    """What ends a campaign early also says how it is gone on with, if it lies in a folder."""
+    go_on = "" if folder is None else f"; what is flown lies in {folder}: the same command with --resume goes on"
+    try:
+        yield
+    except KeyboardInterrupt:
+        raise EndedError(f"interrupted{go_on}", 1) from None
+    except WorkersDiedError as error:
+        raise EndedError(f"worker processes end again and again: {error}{go_on}", 1) from error
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        raise EndedError(f"{place}{error.strerror or error}; make room{go_on}", 2) from error
+
+
+def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Expression], files: Results) -> int:
+    """Print a result, write its page and JSON as asked; returns the exit status."""
+    plan = result.plan
+    if not write_json(result.document(), options.json, files):
+        print(result.text())
+        for line in _meanings(plan, result):
+            print(line)
+    files.write(options.report, lambda path: write_batch_report(result, path, result.provenance["system"]))
+    if options.json != "-":
+        files.say()
+    for variant, trials in result.trials.items():
+        for trial, message in list(trials.messages.items())[:1]:
+            print(
+                f"perilune: {variant}: {len(trials.messages)} flights failed; trial {trial}: {message}", file=sys.stderr
+            )
+    late = timed_out(result)
+    for variant, count in late.items():
+        limit = f"{plan.watch.timeout:g} s of --timeout"
+        print(f"perilune: {variant}: {count} flights took longer than the {limit}; give them longer", file=sys.stderr)
+    values = requirement_values(result.summary)
+    # a status that no trial had is not in the summary: it counts 0
+    values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
+    met = check_requirements(requirements, values)
+    return 2 if files.failed else 0 if met and not late else 1
+
+
+def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
+    """What each status that a trial reported means, once, as its FMU says."""
+    found: dict[str, None] = {}
+    for variant in plan.campaign.variants():
+        texts = dict.fromkeys(text for text in result.trials[variant.name].statuses if worst_statuses(text))
+        if texts:
+            network = plan.prepare(variant).network
+            seen = {item: None for text in texts for item in worst_statuses(text).items()}
+            found |= {with_meaning(network, *item): None for item in seen}
+    return list(found)
+
+
+def asked_requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
+    """Requirements; those on numbers that the summary will not have are refused before anything flies."""
+    nothing = np.full(1, np.nan)
+    blank = TrialColumns([""], np.zeros(1, dtype=bool), {metric.name: nothing for metric in plan.campaign.metrics})
+    variants = [variant.name for variant in plan.campaign.variants()]
+    groups = [replace(group, trials=np.zeros(1, dtype=int)) for group in plan.groups]
+    known = requirement_values(summarise(dict.fromkeys(variants, blank), plan.campaign.metrics, groups))
+    statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
+    return read_requirements(texts, known, statuses)
+
+
+def timed_out(result: BatchResult) -> dict[str, int]:
+    """How many flights of each variant took longer than they may; those without any are left out."""
+    counts = {
+        variant: sum(status.startswith(TIMED_OUT) for status in trials.statuses)
+        for variant, trials in result.trials.items()
+    }
+    return {variant: count for variant, count in counts.items() if count}

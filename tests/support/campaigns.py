@@ -1,0 +1,54 @@
+"""Campaigns in folders: the bytes that they leave, and processes of theirs that are killed."""
+
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import psutil
+
+
+def bytes_of(folder):
+    """SHA-256 of every file that a campaign left, by name."""
+    files = sorted(path for path in Path(folder).rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
+
+
+def started(*words):
+    """A command of perilune in a process of its own."""
+    line = [sys.executable, "-m", "perilune", *map(str, words)]
+    return subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def workers_of(process):
+    """The process ids of a command's worker processes."""
+    found = []
+    for child in psutil.Process(process.pid).children(recursive=True):
+        try:
+            line = " ".join(child.cmdline())
+        except psutil.Error:  # it has just ended
+            continue
+        if "--process-name LokyProcess" in line:
+            found.append(child.pid)
+    return found
+
+
+def shards_in(folder):
+    """How many shards lie in a folder."""
+    return len(list((Path(folder) / "trials").glob("[0-9]*.parquet")))
+
+
+def killed_when(process, condition, victim=None):
+    """SIGKILL for the process, or one of its workers, as soon as the condition holds; False where it ended before."""
+    while process.poll() is None:
+        if condition():
+            try:
+                os.kill(process.pid if victim is None else victim(), signal.SIGKILL)
+            except (ProcessLookupError, IndexError):
+                continue
+            return True
+        time.sleep(0.01)
+    return False
