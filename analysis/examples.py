@@ -47,7 +47,14 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
         ("perilune shard parts 0-2", "three of its four shards, here or on another machine"),
         ("perilune shard parts 3", "the last one"),
     ),
-    "merge": (("perilune merge parts --report merged.html", "the result of the four shards"),),
+    "merge": (
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output shared --prepare",
+            "what flies, written down",
+        ),
+        ("perilune shard shared 0-1", "both of its shards, on one machine or another"),
+        ("perilune merge shared --report merged.html", "their result"),
+    ),
     "compare": (
         ("perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results", "what is compared"),
         ("perilune compare results --report compare.html", "rates, pairs of variants, trajectories, distributions"),

@@ -23,7 +23,7 @@ from .manifest.manifest import WRITE
 from .results import batch_digest
 from .shards import DRAWS, FOLDER, SUMMARY, about_of, described, shard_path, trace_path
 from .stored_shards import AGAIN, numbers, read_table, trials_of, unreadable
-from .trials import Trials
+from .trials import Trials, joined
 
 FACTS = (
     "system", "system_sha256", "campaign", "campaign_sha256", "parameter_sets", "set", "variant", "trials", "seed",
@@ -94,11 +94,11 @@ def read_batch(folder: Path) -> StoredBatch:
     document = _read_summary(folder / SUMMARY)
     provenance = {key: value for key, value in document.items() if key != "variants"}
     batch = batch_digest(provenance)
-    table = _read_shards(folder, batch, document["trials"])
+    shards = _read_shards(folder, batch, document["trials"])
     metrics = _metrics(document, folder / SUMMARY)
     draws = read_table(folder / DRAWS)
     columns = {name: numbers(draws, name, folder / DRAWS) for name in draws.column_names}
-    variants = _variants(table, metrics, columns, folder / FOLDER)
+    variants = _variants(shards, document["trials"], metrics, columns)
     _check_summary(document, variants, folder / SUMMARY)
     traced, strangers = _traced(folder, list(variants), batch)
     columns.pop("trial")
@@ -109,9 +109,9 @@ def _how_to_end(folder: Path) -> str:
     return "go on with it: perilune batch ... --resume" if (folder / MANIFEST).is_file() else WRITE
 
 
-def _read_shards(folder: Path, batch: str, trials: int) -> pyarrow.Table:
+def _read_shards(folder: Path, batch: str, trials: int) -> dict[Path, pyarrow.Table]:
     """All shards in order of number, which together hold every trial once."""
-    tables = []
+    tables: dict[Path, pyarrow.Table] = {}
     end = 0
     for shard in itertools.count():
         if end == trials:
@@ -125,9 +125,9 @@ def _read_shards(folder: Path, batch: str, trials: int) -> pyarrow.Table:
             raise InputError(path, "", f"of another batch than {SUMMARY}", AGAIN)
         if about.get("shard") != shard or about["trials"][0] != end:
             raise InputError(path, "", "not the shard that it is named by", AGAIN)
-        tables.append(table)
+        tables[path] = table
         end = about["trials"][1]
-    return pyarrow.concat_tables(tables)
+    return tables
 
 
 def _read_summary(path: Path) -> dict[str, Any]:
@@ -167,21 +167,29 @@ def _condition(fact: Mapping[str, Any], where: tuple[str, str]) -> Expression | 
 
 
 def _variants(
-    table: pyarrow.Table, metrics: tuple[Metric, ...], draws: Mapping[str, np.ndarray], path: Path
+    shards: Mapping[Path, pyarrow.Table], total: int, metrics: tuple[Metric, ...], draws: Mapping[str, np.ndarray]
 ) -> dict[str, Trials]:
-    """The trials by variant, with the draws that draws.parquet has of them."""
-    for name in draws:
-        if _column(name) not in table.column_names:
-            raise InputError(path, _column(name), "no such column", AGAIN)
-    found = trials_of(table, [metric.name for metric in metrics], path)
-    labels = np.array(table["variant"].to_pylist(), dtype=str)
-    columns = {name: numbers(table, _column(name), path) for name in draws}
-    for variant in found:
-        rows = labels == variant
-        same = all(np.array_equal(columns[name][rows], column) for name, column in draws.items())
-        if "trial" not in draws or not same:
-            raise InputError(path, variant, "its draws are not those of draws.parquet", AGAIN)
-    return found
+    """The trials by variant, ``total`` of each, with the draws that draws.parquet has of them."""
+    parts: dict[str, list[Trials]] = {}
+    rows_drawn = {len(column) for column in draws.values()}
+    for path, table in shards.items():
+        for name in draws:
+            if _column(name) not in table.column_names:
+                raise InputError(path, _column(name), "no such column", AGAIN)
+        labels = np.array(table["variant"].to_pylist(), dtype=str)
+        columns = {name: numbers(table, _column(name), path) for name in draws}
+        for variant, trials in trials_of(table, [metric.name for metric in metrics], path).items():
+            rows = labels == variant
+            drawn = "trial" in draws and rows_drawn == {total}
+            same = drawn and all(
+                np.array_equal(columns[name][rows], column[trials.trial]) for name, column in draws.items()
+            )
+            if not same:
+                raise InputError(path, variant, "its draws are not those of draws.parquet", AGAIN)
+            parts.setdefault(variant, []).append(trials)
+    if len({sum(len(part.trial) for part in found) for found in parts.values()}) != 1:
+        raise InputError(next(iter(shards)).parent, "variant", "not every variant has every trial", AGAIN)
+    return {variant: joined(found) for variant, found in parts.items()}
 
 
 def _column(draw: str) -> str:

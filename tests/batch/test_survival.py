@@ -83,7 +83,9 @@ def test_ctrl_c_leaves_what_can_be_gone_on_with(whole, tmp_path, capsys):
     out = tmp_path / "out"
     with interrupted_when(lambda: shards_in(out) >= 2):
         assert main(["batch", *CAMPAIGN, "--output", str(out), "--workers", "2"]) == 1
-    words = f"perilune: interrupted; what is flown lies in {out}: the same command with --resume goes on"
+    words = (
+        f"perilune: interrupted; what is flown lies in {out}: the same command with --resume goes on, or perilune shard"
+    )
     assert words in capsys.readouterr().err
     assert not (out / "summary.json").exists()
     assert 2 <= shards_in(out) < 5

@@ -66,7 +66,7 @@ TAKES_LONG = {
 FAILS = ("attitude_control.lead_time=",)  # the thin and the unstable loop: exit status 1
 # What begins the work of a verb, once all that it was given has been looked at.
 WORK = {
-    "batch": ["batch.run_batch"],
+    "batch": ["campaigns.batch.run_batch", "campaigns.batch.open_campaign"],
     "benchmark": ["benchmark.run_benchmark"],
     "compare": ["compare.compare"],
     "plan": ["plans.hover_transfer.hover_study", "plans.landing_bound.landing_study"],

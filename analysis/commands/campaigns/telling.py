@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...batch.manifest.manifest import FILE as MANIFEST
 from ...batch.results import BatchResult
 from ...batch.status_texts import worst_statuses
 from ...batch.summary import TrialColumns, requirement_values, summarise
@@ -29,16 +30,22 @@ from ..common.requirements import check_requirements, read_requirements
 @contextmanager
 def said_how_to_go_on(folder: Path | None) -> Iterator[None]:
     """What ends a campaign early also says how it is gone on with, if it lies in a folder."""
-    go_on = "" if folder is None else f"; what is flown lies in {folder}: the same command with --resume goes on"
+    place = None if folder is None else folder.absolute()  # an FMU may change the working folder
     try:
         yield
     except KeyboardInterrupt:
-        raise EndedError(f"interrupted{go_on}", 1) from None
+        raise EndedError(f"interrupted{_how_to_go_on(place)}", 1) from None
     except WorkersDiedError as error:
-        raise EndedError(f"worker processes end again and again: {error}{go_on}", 1) from error
+        raise EndedError(f"worker processes end again and again: {error}{_how_to_go_on(place)}", 1) from error
     except OSError as error:
-        place = f"{error.filename}: " if error.filename else ""
-        raise EndedError(f"{place}{error.strerror or error}; make room{go_on}", 2) from error
+        file = f"{error.filename}: " if error.filename else ""
+        raise EndedError(f"{file}{error.strerror or error}; make room{_how_to_go_on(place)}", 2) from error
+
+
+def _how_to_go_on(folder: Path | None) -> str:
+    if folder is None or not (folder / MANIFEST).is_file():
+        return ""
+    return f"; what is flown lies in {folder}: the same command with --resume goes on, or perilune shard"
 
 
 def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Expression], files: Results) -> int:

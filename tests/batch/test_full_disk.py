@@ -1,0 +1,46 @@
+"""A disk that fills up while a campaign flies: one line, nothing half-written, and the rest once there is room.
+
+Truth: what the same campaign leaves where there is room.
+"""
+
+import shlex
+import subprocess
+import sys
+
+import pytest
+
+from perilune.analysis.cli import main
+from tests.support.campaigns import bytes_of
+
+pytestmark = pytest.mark.usefixtures("fmus")
+CAMPAIGN = ["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "200"]
+FREE = 800  # kB left: the campaign's files and its first shards fit
+
+
+def can_mount():
+    return subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False).returncode == 0
+
+
+@pytest.mark.skipif(sys.platform != "linux" or not can_mount(), reason="this machine lets nobody mount a tmpfs")
+def test_a_full_disk_ends_it_and_room_goes_on_with_it(tmp_path):
+    disk, kept = tmp_path / "disk", tmp_path / "kept"
+    disk.mkdir()
+    command = shlex.join([sys.executable, "-m", "perilune", *CAMPAIGN, "--output", str(disk / "out")])
+    script = f"""
+        mount -t tmpfs -o size=20m tmpfs {disk}
+        head -c {20 * 1024 - FREE}k /dev/zero > {disk}/filler
+        {command}; echo "status $?"
+        find {disk}/out -name '.*' -type f
+        rm {disk}/filler
+        {command} --resume || exit 1
+        cp -r {disk}/out {kept}
+    """
+    done = subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True, text=True, check=True)
+    assert "status 2" in done.stdout.splitlines()
+    said = [line for line in done.stderr.splitlines() if line.startswith("perilune: ")]
+    assert len(said) == 1
+    assert "No space left on device; make room; what is flown lies in" in said[0]
+    assert "--resume goes on" in said[0]
+    assert not [line for line in done.stdout.splitlines() if line.startswith(f"{disk}/out/")]
+    assert main([*CAMPAIGN, "--output", str(tmp_path / "whole")]) == 0
+    assert bytes_of(kept) == bytes_of(tmp_path / "whole")
