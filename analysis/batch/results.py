@@ -17,6 +17,7 @@ from ..campaign.plan import BatchPlan
 from .summary import summarise
 from .tables import faults_line, summary_text
 from .trials import Trials
+from .verdicts import add_verdicts
 
 
 @dataclass
@@ -100,4 +101,6 @@ def batch_digest(provenance: dict[str, Any]) -> str:
 
 def make_result(plan: BatchPlan, trials: dict[str, Trials], provenance: dict[str, Any]) -> BatchResult:
     """The result with its summary; ``trials`` by variant, each in order of trial."""
-    return BatchResult(plan, trials, summarise(trials, plan.campaign.metrics, plan.groups), provenance)
+    summary = summarise(trials, plan.campaign.metrics, plan.groups)
+    add_verdicts(summary, plan.campaign.requirements, trials)
+    return BatchResult(plan, trials, summary, provenance)

@@ -15,6 +15,7 @@ from ..batch.runner import run_batch
 from ..batch.status_texts import worst_statuses
 from ..batch.summary import TrialColumns, requirement_values, summarise
 from ..batch.tables import aligned, faults_line
+from ..batch.verdicts import add_verdicts, unmet_lines
 from ..campaign.expressions import Expression
 from ..campaign.plan import BatchPlan, check_plan, read_plan
 from ..errors import InputError
@@ -78,10 +79,13 @@ def run(options: argparse.Namespace) -> int:
     # a status that no trial had is not in the summary: it counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
     met = check_requirements(requirements, values)
+    unmet = unmet_lines(result.summary)
+    for line in unmet:
+        print(f"perilune: {line}", file=sys.stderr)
     if result.interrupted:
         flown, planned = result.plan.campaign.trials, plan.campaign.trials
         print(f"perilune: interrupted: the first {flown} of {planned} trials were flown", file=sys.stderr)
-    return 2 if files.failed else 0 if met and not result.interrupted and not late else 1
+    return 2 if files.failed else 0 if met and not unmet and not result.interrupted and not late else 1
 
 
 def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
@@ -102,7 +106,10 @@ def _requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
     blank = TrialColumns([""], np.zeros(1, dtype=bool), {metric.name: nothing for metric in plan.campaign.metrics})
     variants = [variant.name for variant in plan.campaign.variants()]
     groups = [replace(group, trials=np.zeros(1, dtype=int)) for group in plan.groups]
-    known = requirement_values(summarise(dict.fromkeys(variants, blank), plan.campaign.metrics, groups))
+    columns = dict.fromkeys(variants, blank)
+    summary = summarise(columns, plan.campaign.metrics, groups)
+    add_verdicts(summary, plan.campaign.requirements, columns)
+    known = requirement_values(summary)
     statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
     return read_requirements(texts, known, statuses)
 
