@@ -13,7 +13,7 @@ from matplotlib.figure import Figure as Plot
 from ..batch import results
 from ..batch.runner import run_batch
 from ..batch.summary import CONFIDENCE, summary_rows
-from ..batch.tables import who_cells, who_heads
+from ..batch.tables import requirement_rows, who_cells, who_heads
 from ..campaign.plan import read_plan
 from ..errors import suggestion
 from ..flight.results import require_pandas
@@ -80,8 +80,16 @@ class BatchResult(results.BatchResult):
         plot = metric_plot(self, drawn) if drawn else None
         faults = self.plan.fault_texts()
         words = [Path(self.plan.campaign.file).name, f"with faults: {'; '.join(faults)}" if faults else ""]
-        grids = [Grid(head, rates), metric_grid(rows, [metric.name for metric in self.plan.campaign.metrics], group)]
+        metrics = [metric.name for metric in self.plan.campaign.metrics]
+        grids = [Grid(head, rates), self._requirement_grid(), metric_grid(rows, metrics, group)]
         return notebook_view(self.provenance["system"], words, grids, plot)
+
+    def _requirement_grid(self) -> Grid:
+        rows = [
+            (f"{name}: {found['text']}", variant, found["verdict"], str(found["flights"]), str(found["failures"]))
+            for variant, name, found in requirement_rows(self.summary)
+        ]
+        return Grid(("requirement", "variant", "verdict", "flights", "failures"), rows)
 
 
 def batch(

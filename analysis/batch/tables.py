@@ -51,13 +51,14 @@ def requirement_lines(summary: Mapping[str, Any]) -> list[str]:
     head = ["requirement", "variant", "flights", "failures", "risk %", "verdict", "more for 0, 1, 2 failures"]
     cells, bounds = [head], []
     for variant, name, found in requirement_rows(summary):
-        risk = f"{100 * found['consumer_risk']:.3g}"
+        risk = f"{100 * found['consumer_risk']:.2f}"
         more = ", ".join("-" if number is None else str(number) for number in found["flights_to_decide"].values())
         text, flights = f"{name}: {found['text']}", str(found["flights"])
         cells.append([text, variant, flights, str(found["failures"]), risk, found["verdict"], more])
         if found["bound"] is not None:
             unit = summary[variant]["metrics"][found["bound"]["metric"]]["unit"]
-            bounds.append(f"{variant}: {bound_text(found, unit)}")
+            value = f"{_cell(found['bound']['value'])} {'' if unit == '1' else unit}".strip()
+            bounds.append(f"{variant}: {bound_text(found, value)}")
     return [*aligned(cells), *bounds] if len(cells) > 1 else []
 
 
@@ -67,16 +68,16 @@ def requirement_rows(summary: Mapping[str, Any]) -> list[tuple[str, str, dict[st
     return [(variant, name, entry["requirements"][name]) for name in names for variant, entry in summary.items()]
 
 
-def bound_text(found: Mapping[str, Any], unit: str) -> str:
-    """The tolerance bound of a requirement in words; ``unit`` is its metric's."""
+def bound_text(found: Mapping[str, Any], value: str) -> str:
+    """The tolerance bound of a requirement in words, with its ``value`` as it is shown."""
     bound = found["bound"]
     share = f"{100 * found['share']:.10g} % of flights at {100 * found['confidence']:.10g} %"
     if bound["rank"] is None:
         more = f"a campaign longer by {bound['flights_to_decide']} has one"
         return f"no {bound['side']} bound of {bound['metric']} in {share}: {more}"
-    value = f"{_cell(bound['value'])} {'' if unit == '1' else unit}".strip()
-    rank = f"number {bound['rank']} of {bound['flights']} from the worst"
-    return f"{bound['metric']} {'<=' if bound['side'] == 'upper' else '>='} {value} in {share}: {rank}"
+    rank = "the worst" if bound["rank"] == 1 else f"the worst but {bound['rank'] - 1}"
+    sign = "<=" if bound["side"] == "upper" else ">="
+    return f"{bound['metric']} {sign} {value} in {share}: {rank} of {bound['flights']} flights"
 
 
 def faults_line(faults: Iterable[object]) -> str:

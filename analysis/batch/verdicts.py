@@ -13,6 +13,8 @@ from ..verdicts.stopping import StoppingRule, stopping_rule
 from ..verdicts.tolerance import tolerance_bound
 from .summary import TrialColumns
 
+FIXED_SIZE, UNTIL_DECIDED = "fixed size", "until decided"
+
 
 def kept(requirement: Requirement, trials: TrialColumns) -> np.ndarray:
     """In which trials a requirement was kept, booleans; where a metric of it is not finite it was not."""
@@ -26,9 +28,10 @@ def kept(requirement: Requirement, trials: TrialColumns) -> np.ndarray:
 def requirement_verdict(requirement: Requirement, trials: TrialColumns, until_decided: bool = False) -> dict[str, Any]:
     """The verdict on one requirement by a variant's trials, in order of trial.
 
-    ``text``, ``share``, ``confidence``, ``flights``, ``failures``, ``consumer_risk``, ``verdict`` ("met", "not met",
-    "undecided"), ``decided_after`` (flights; None where undecided), ``flights_to_decide`` (how many more would meet
-    it with "0", "1", "2" failures in them; None once it is decided) and ``bound`` (`_bound`, or None).
+    ``text``, ``share``, ``confidence``, ``rule`` ("fixed size", "until decided"), ``flights``, ``failures``,
+    ``consumer_risk``, ``verdict`` ("met", "not met", "undecided"), ``decided_after`` (flights; None where undecided),
+    ``flights_to_decide`` (how many more would meet it with "0", "1", "2" failures in them; None once it is decided) and
+    ``bound`` (`_bound`, or None).
 
     With ``until_decided``, as where the campaign may have ended because it was decided, all of it is by `StoppingRule`.
     """
@@ -42,6 +45,7 @@ def requirement_verdict(requirement: Requirement, trials: TrialColumns, until_de
         "text": str(requirement),
         "share": requirement.share,
         "confidence": requirement.confidence,
+        "rule": UNTIL_DECIDED if until_decided else FIXED_SIZE,
         "flights": flights,
         "failures": failures,
         "consumer_risk": decision.consumer_risk,

@@ -57,7 +57,7 @@ def alone(rule, rate, most, verdict):
 
 
 def test_looking_at_figures_of_one_size_is_wrong():
-    """Why there is a rule: 1771, 2991 and 4093 flights looked at in turn, at the limit itself, are accepted in 17.8 %."""
+    """Why there is a rule: 1771, 2991 and 4093 flights looked at in turn accept a system at the limit in 17.8 %."""
     rate = Fraction(13, 10_000)
     alive, accepted, last = {0: Fraction(1)}, 0.0, 0
     for permitted, flights in enumerate((1771, 2991, 4093)):
