@@ -9,6 +9,7 @@ flights are as large or larger, and so stop no more often: the risk holds for ev
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,12 +44,14 @@ class Look:
 
 
 class Boundary:
-    """Counts that stop, look by look; looks are added in ascending order and do not change those before."""
+    """Counts that stop, look by look; looks are added in ascending order and do not change those before.
 
-    def __init__(self, rate: float, risk: float, half: int) -> None:
+    ``spend`` is what may be spent by a number of flights, such as `spending`, which does not grow less.
+    """
+
+    def __init__(self, rate: float, spend: Callable[[int], float]) -> None:
         self.rate = rate
-        self.risk = risk
-        self.half = half
+        self.spend = spend
         self.looks: list[Look] = []
 
     def add(self, flights: int) -> Look:
@@ -64,7 +67,7 @@ class Boundary:
         low = int(np.searchsorted(np.cumsum(probabilities), TAIL))
         high = len(probabilities) - int(np.searchsorted(np.cumsum(probabilities[::-1]), TAIL))
         probabilities, lowest = probabilities[low:high], lowest + low
-        left = spending(flights, self.risk, self.half) - spent
+        left = self.spend(flights) - spent
         most = lowest + int(np.searchsorted(np.cumsum(probabilities), left, side="right")) - 1
         self.looks.append(Look(flights, most, spent, lowest, probabilities))
         return self.looks[-1]

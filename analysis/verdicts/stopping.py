@@ -9,12 +9,12 @@ still undecided at its end may be made longer.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
 from .acceptance import FURTHER, Decision, Verdict, flights_needed, permitted_risk
-from .boundary import Boundary, Look
+from .boundary import Boundary, Look, spending
 
 FINEST = 32  # looks at one distance; then the distance doubles whenever the flights do
 FIRST_LOOKS = 16  # looks or a few more, until a campaign of one size without failures would be done
@@ -38,8 +38,9 @@ class StoppingRule:
         self.confidence = confidence
         half = flights_needed(0, share, confidence)
         self.look = look or _round_look(half)
-        self._met = Boundary(1.0 - share, permitted_risk(confidence), half)  # counts failures: few are good
-        self._not_met = Boundary(share, permitted_risk(confidence), half)  # counts good flights: few are bad
+        spend = partial(spending, risk=permitted_risk(confidence), half=half)
+        self._met = Boundary(1.0 - share, spend)  # counts failures: few are good
+        self._not_met = Boundary(share, spend)  # counts good flights: few are bad
         self._places: dict[int, int] = {}
         self._next = self.look
 
