@@ -12,7 +12,7 @@ from matplotlib.figure import Figure as Plot
 
 from ..batch import results, runner
 from ..batch.summary import CONFIDENCE, summary_rows
-from ..batch.tables import who_cells, who_heads
+from ..batch.tables import requirement_rows, who_cells, who_heads
 from ..campaign.plan import read_plan
 from ..errors import InputError, suggestion
 from ..flight.results import require_pandas
@@ -79,8 +79,16 @@ class BatchResult(results.BatchResult):
         plot = metric_plot(self, drawn) if drawn else None
         faults = self.plan.fault_texts()
         words = [Path(self.plan.campaign.file).name, f"with faults: {'; '.join(faults)}" if faults else ""]
-        grids = [Grid(head, rates), metric_grid(rows, [metric.name for metric in self.plan.campaign.metrics], group)]
+        metrics = [metric.name for metric in self.plan.campaign.metrics]
+        grids = [Grid(head, rates), self._requirement_grid(), metric_grid(rows, metrics, group)]
         return notebook_view(self.provenance["system"], words, grids, plot)
+
+    def _requirement_grid(self) -> Grid:
+        rows = [
+            (f"{name}: {found['text']}", variant, found["verdict"], str(found["flights"]), str(found["failures"]))
+            for variant, name, found in requirement_rows(self.summary)
+        ]
+        return Grid(("requirement", "variant", "verdict", "flights", "failures"), rows)
 
 
 def batch(
@@ -94,6 +102,7 @@ def batch(
     output: FilePath | None = None,
     overwrite: bool = False,
     resume: bool = False,
+    until_decided: bool = False,
     engine: Literal["threads", "processes"] | None = None,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
@@ -116,6 +125,7 @@ def batch(
 
     ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for trials, draws and
     summary, refused if it holds results unless ``overwrite``, or ``resume``, which goes on with what it holds;
+    ``until_decided`` ends with the first shard after which the campaign's requirements are met, or are not;
     ``engine`` is what flies side by side, threads or processes; ``faults`` fly in every trial,
     after the campaign's own, and every trial has the same ``input``; one that takes longer than ``timeout`` (s, wall
     clock) ends ``timed_out``, is no success, and the next one flies. The rest is as in `simulate`. Raises InputError.
@@ -132,6 +142,7 @@ def batch(
     plan = read_plan(
         Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults_of(faults),
         series=None if input is None else read_series(input), watch=Watch(timeout, log),
+        until_decided=until_decided,
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder
         flown = runner.run_batch(plan, workers=workers, output=folder, resume=resume, engine=engine)

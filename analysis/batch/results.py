@@ -16,6 +16,7 @@ from .shards import SUMMARY, Numbering, clear, shard_size, trial_table, write_dr
 from .summary import summarise
 from .tables import faults_line, summary_text
 from .trials import Trials
+from .verdicts import add_verdicts
 
 
 @dataclass
@@ -72,4 +73,6 @@ def batch_digest(provenance: dict[str, Any]) -> str:
 
 def make_result(plan: BatchPlan, trials: dict[str, Trials], provenance: dict[str, Any]) -> BatchResult:
     """The result with its summary; ``trials`` by variant, each in order of trial."""
-    return BatchResult(plan, trials, summarise(trials, plan.campaign.metrics, plan.groups), provenance)
+    summary = summarise(trials, plan.campaign.metrics, plan.groups)
+    add_verdicts(summary, plan.campaign.requirements, trials, plan.until_decided)
+    return BatchResult(plan, trials, summary, provenance)

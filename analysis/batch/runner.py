@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -12,9 +12,10 @@ from ..campaign.plan import BatchPlan, check_plan
 from ..errors import InputError
 from ..progress import progress_bar
 from ..system.prepared import PreparedSystem
+from .decision import Decision
 from .engines import in_threads
 from .facts import campaign_facts
-from .manifest.folder import begin, go_on
+from .manifest.folder import begin, cut, go_on
 from .manifest.gather import gather
 from .manifest.manifest import Manifest, read_manifest
 from .manifest.restore import restore
@@ -38,6 +39,15 @@ class Campaign:
     systems: Mapping[str, PreparedSystem]
     manifest: Manifest
     folder: Path | None
+
+    def of_first(self, trials: int) -> Campaign:
+        """The campaign of the first trials, which end with a shard; its folder holds no more either."""
+        if trials == self.manifest.trials:
+            return self
+        plan = self.plan.of_first(trials)
+        if self.folder is None:
+            return replace(self, plan=plan, manifest=replace(self.manifest, trials=trials))
+        return replace(self, plan=plan, manifest=cut(self.folder, self.manifest, plan))
 
     @property
     def provenance(self) -> dict[str, Any]:
@@ -104,7 +114,8 @@ def run_batch(
     """
     worker_count(workers), in_threads((), engine)  # looked at before anything is written
     campaign = open_campaign(plan, output, resume=resume)
-    return finish(campaign, fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine))
+    trials = fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine)
+    return finish(campaign.of_first(len(next(iter(trials.values())).trial)), trials)
 
 
 def merge(campaign: Campaign) -> BatchResult:
@@ -130,33 +141,35 @@ def fly_campaign(
 ) -> dict[str, Trials]:
     """Fly some shards of a campaign, and write them where it has a folder; all of its trials by variant then.
 
-    Those of shards that were neither flown now nor before are missing.
+    Those of shards that were neither flown now nor before are missing; where the campaign ends as soon as it is
+    decided, so are those behind the shard at whose end it was, however many of them have flown.
     """
     plan, numbering, folder = campaign.plan, campaign.numbering, campaign.folder
     count = worker_count(workers)
     threads = in_threads(campaign.systems.values(), engine)
     batch = batch_digest(campaign.provenance)
-    variants = [variant.name for variant in plan.campaign.variants()]
-    parts: dict[str, list[Trials]] = {name: [] for name in variants}
-    wanted = set(shards)
-    for shard in range(numbering.count):
-        if folder is not None and shard not in wanted and is_flown(folder, batch, shard, numbering.of(shard)):
-            for name, trials in read_shard(folder, batch, shard, plan).items():
-                parts[name].append(trials)
-    flights = sum(len(numbering.of(shard)) for shard in shards) * len(variants)
+    parts: dict[int, dict[str, Trials]] = {}
+    for shard in set(range(numbering.count)) - set(shards):
+        if folder is not None and is_flown(folder, batch, shard, numbering.of(shard)):
+            parts[shard] = read_shard(folder, batch, shard, plan)
+    decision = Decision(plan, parts)
+    flights = sum(len(numbering.of(shard)) for shard in shards) * len(plan.campaign.variants())
     size = task_size(numbering.trials, count, threads)
     tasks = -(-flights // size)
     with (
         progress_bar(total=flights, unit="trial") as progress,
         FlyerPool(campaign.flown, min(count, max(tasks, 1)), threads, apart=engine == "processes") as pool,
     ):
-        for shard, found in fly_shards(numbering, shards, pool, size):
+        flown = () if decision.shards is not None else fly_shards(numbering, shards, pool, size)
+        for shard, found in flown:
             if folder is not None:
                 write_shard(folder, batch, shard, plan, found)
-            for name, trials in found.items():
-                parts[name].append(trials)
-                progress.update(len(trials.trial))
-    return {name: joined(found) for name, found in parts.items() if found}
+            parts[shard] = found
+            progress.update(sum(len(trials.trial) for trials in found.values()))
+            if decision.is_made():
+                break
+    kept = [parts[shard] for shard in sorted(parts) if decision.shards is None or shard < decision.shards]
+    return {variant: joined(found[variant] for found in kept) for variant in (kept[0] if kept else ())}
 
 
 def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:

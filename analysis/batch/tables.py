@@ -46,13 +46,47 @@ def _cell(value: float | str | None) -> str:
     return value if isinstance(value, str) else f"{value:.4g}"
 
 
+def requirement_lines(summary: Mapping[str, Any]) -> list[str]:
+    """A line per requirement and variant: what is required, the figures and the verdict; then tolerance bounds."""
+    head = ["requirement", "variant", "flights", "failures", "risk %", "verdict", "more for 0, 1, 2 failures"]
+    cells, bounds = [head], []
+    for variant, name, found in requirement_rows(summary):
+        risk = f"{100 * found['consumer_risk']:.2f}"
+        more = ", ".join("-" if number is None else str(number) for number in found["flights_to_decide"].values())
+        text, flights = f"{name}: {found['text']}", str(found["flights"])
+        cells.append([text, variant, flights, str(found["failures"]), risk, found["verdict"], more])
+        if found["bound"] is not None:
+            unit = summary[variant]["metrics"][found["bound"]["metric"]]["unit"]
+            value = f"{_cell(found['bound']['value'])} {'' if unit == '1' else unit}".strip()
+            bounds.append(f"{variant}: {bound_text(found, value)}")
+    return [*aligned(cells), *bounds] if len(cells) > 1 else []
+
+
+def requirement_rows(summary: Mapping[str, Any]) -> list[tuple[str, str, dict[str, Any]]]:
+    """Variant, name and verdict of every requirement of every variant, those of one requirement together."""
+    names = dict.fromkeys(name for variant in summary.values() for name in variant.get("requirements", {}))
+    return [(variant, name, entry["requirements"][name]) for name in names for variant, entry in summary.items()]
+
+
+def bound_text(found: Mapping[str, Any], value: str) -> str:
+    """The tolerance bound of a requirement in words, with its ``value`` as it is shown."""
+    bound = found["bound"]
+    share = f"{100 * found['share']:.10g} % of flights at {100 * found['confidence']:.10g} %"
+    if bound["rank"] is None:
+        more = f"a campaign longer by {bound['flights_to_decide']} has one"
+        return f"no {bound['side']} bound of {bound['metric']} in {share}: {more}"
+    rank = "the worst" if bound["rank"] == 1 else f"the worst but {bound['rank'] - 1}"
+    sign = "<=" if bound["side"] == "upper" else ">="
+    return f"{bound['metric']} {sign} {value} in {share}: {rank} of {bound['flights']} flights"
+
+
 def faults_line(faults: Iterable[object]) -> str:
     """What results say of the faults that flew."""
     return f"with faults: {'; '.join(map(str, faults))}"
 
 
 def summary_text(summary: Mapping[str, Any], group: str | None = None) -> str:
-    """A summary for the terminal: success rates, then metrics of successful trials, of all trials and of groups."""
+    """A summary for the terminal: success rates, requirements, then metrics of successful trials, of groups too."""
     rows = summary_rows(summary)
     rates = [[*who_heads(group), "trials", "success %", f"{100 * CONFIDENCE:g} % interval", "statuses"]]
     for row in rows:
@@ -63,4 +97,5 @@ def summary_text(summary: Mapping[str, Any], group: str | None = None) -> str:
         rates.append([*who_cells(row, group), str(row.entry["trials"]), rate, interval, statuses])
     metrics = dict.fromkeys(metric for variant in summary.values() for metric in variant["metrics"])
     found = metric_lines(rows, metrics, group)
-    return "\n".join([*aligned(rates), *(["", *found] if found else [])])
+    required = requirement_lines(summary)
+    return "\n".join([*aligned(rates), *(["", *required] if required else []), *(["", *found] if found else [])])

@@ -11,6 +11,7 @@ from ..system.options import Layer
 from .distributions import Draw
 from .expressions import Expression
 from .faults import CampaignFault
+from .requirements import Requirement
 
 REDUCTIONS = ("final", "min", "max", "mean", "rms", "last_outside", "settled", "first")
 TRACES = ("none", "failures", "all")
@@ -85,7 +86,7 @@ class Campaign:
     ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are
     expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
     [compare], ``group`` is the drawn or derived value by which [group] sums trials up, ``faults`` are [fault],
-    ``scatters`` [scatter]. ``file`` is what errors name.
+    ``scatters`` [scatter], ``requirements`` [requirement]. ``file`` is what errors name.
     """
 
     file: str
@@ -104,6 +105,7 @@ class Campaign:
     group: str | None = None
     faults: tuple[CampaignFault, ...] = ()
     scatters: tuple[Scatter, ...] = ()
+    requirements: tuple[Requirement, ...] = ()
 
     def __post_init__(self) -> None:
         if self.trials < 1:

@@ -29,6 +29,10 @@ class DrawTable:
     trials: int
     columns: Mapping[str, np.ndarray]
 
+    def of_first(self, trials: int) -> DrawTable:
+        """Those of the first ``trials`` trials."""
+        return DrawTable(trials, {name: column[:trials] for name, column in self.columns.items()})
+
     def row(self, trial: int) -> dict[str, float]:
         """Every value of one trial."""
         return {name: float(column[trial]) for name, column in self.columns.items()}

@@ -11,6 +11,7 @@ from .campaign import REDUCTIONS, TRACES, Campaign, Metric, Record, Scatter, Set
 from .distributions import Draw, read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
+from .requirements import read_requirements
 from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, read_toml, sequence, text
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
@@ -193,7 +194,8 @@ def parse_campaign(table: Table) -> Campaign:
         remedy = "search with perilune synthesize, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
     keys = ["system", "description", "trials", "seed", "parameters"]
-    table.only([*keys, "set", "compare", "draw", "derive", "fault", "group", "metric", "record", "success", "scatter"])
+    tables = ["set", "compare", "draw", "derive", "fault", "group", "metric", "record", "success", "requirement"]
+    table.only([*keys, *tables, "scatter"])
     draws = _draws(table.table("draw"))
     derived = _derived(table.table("derive"), draws)
     drawn = [name for draw in draws for name in draw.names] + list(derived)
@@ -215,6 +217,7 @@ def parse_campaign(table: Table) -> Campaign:
         group=_group(table.table("group"), drawn) if "group" in table.content else None,
         faults=_faults(table.table("fault"), drawn),
         scatters=_scatters(table.table("scatter"), metrics),
+        requirements=read_requirements(table.table("requirement"), [metric.name for metric in metrics], draws),
     )
 
 

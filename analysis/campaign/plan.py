@@ -48,6 +48,7 @@ class BatchPlan:
     watch: Watch = UNWATCHED
     compared_by: str = ""  # what errors name for the compared FMUs: --compare, or the campaign's file
     campaign_data: bytes = b""  # the campaign's file
+    until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
     archive: SystemArchive | None = None  # flown instead of what `system` names, for which it stands
 
     @cached_property
@@ -58,6 +59,12 @@ class BatchPlan:
         except MemoryError as error:
             problem = f"the draws of {self.campaign.trials} trials do not fit into memory"
             raise InputError(self.campaign.file, "trials", problem, "give fewer") from error
+
+    def of_first(self, trials: int) -> BatchPlan:
+        """A plan of the first ``trials`` trials, with the draws that they have in this one."""
+        part = replace(self, campaign=replace(self.campaign, trials=trials))
+        part.__dict__["draws"] = self.draws.of_first(trials)  # in cached_property's place: drawn anew they may differ
+        return part
 
     @cached_property
     def groups(self) -> list[Group]:
@@ -124,6 +131,7 @@ def read_plan(
     faults: Sequence[Fault] = (),
     series: InputSeries | None = None,
     watch: Watch | None = None,
+    until_decided: bool = False,
 ) -> BatchPlan:
     """Read a campaign by name or path, with the command line's changes. Raises InputError.
 
@@ -144,6 +152,9 @@ def read_plan(
     if compare is not None:
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
     changed = replace(read, **changes)
+    if until_decided and not changed.requirements:
+        remedy = "declare what is to be decided: [requirement.NAME]"
+        raise InputError(label, "--until-decided", "the campaign has no requirement", remedy)
     return BatchPlan(
         str(system),
         changed,
@@ -154,6 +165,7 @@ def read_plan(
         watch=watch or UNWATCHED,
         compared_by=f"{label}: compare" if compare is None else "--compare",
         campaign_data=data,
+        until_decided=until_decided,
     )
 
 

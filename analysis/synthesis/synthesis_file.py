@@ -26,6 +26,7 @@ REFUSED = {  # tables of a campaign, and why they do not go with a search
     "compare": "one law flies at a time",
     "record": "nothing is kept of the flights",
     "group": "a law is judged by all trials",
+    "requirement": "objectives judge a law",
 }
 LIMITS: Mapping[str, tuple[float, float]] = {
     "population": (2, 5000),

@@ -12,6 +12,8 @@ from perilune.analysis.campaign.draws import draw_table
 from perilune.analysis.campaign.expressions import FUNCTIONS
 from perilune.analysis.campaign.faults import KEYS
 from perilune.analysis.campaign.file import REDUCTION_OF, SCATTER
+from perilune.analysis.campaign.requirements import KEYS as REQUIREMENT
+from perilune.analysis.campaign.requirements import SIDES, TOGETHER
 from perilune.analysis.system.faults import KINDS
 
 TEXT = (Path(__file__).parents[2] / "docs" / "campaigns.md").read_text(encoding="utf-8")
@@ -33,6 +35,14 @@ def test_every_word_is_documented():
     words = set(re.findall(r"[a-z_0-9]+", " ".join(re.findall(r"`([^`\n]+)`", TEXT))))
     keys = {key for arguments, _ in DISTRIBUTIONS.values() for key in arguments}
     assert {*DISTRIBUTIONS, *keys, *REDUCTIONS, *REDUCTION_OF, *TRACES, *FUNCTIONS, *KINDS, *KEYS, *SCATTER} <= words
+    assert {*REQUIREMENT, *SIDES, *TOGETHER, *TOGETHER.values()} <= words
+
+
+def test_the_requirements_of_the_example(campaign):
+    (example,) = (text for text in EXAMPLES if "[requirement.lands]" in text)
+    metric = '[metric.miss]\nexpression = "plant.x"\nreduction = "final"\n'
+    pinpoint, lands = campaign(metric + example).requirements
+    assert (pinpoint.share, pinpoint.confidence, pinpoint.metric, lands.share) == (0.9987, 0.9, "miss", 0.95)
 
 
 def test_the_faults_of_the_example_fly(fmus, tmp_path):

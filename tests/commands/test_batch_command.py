@@ -43,6 +43,38 @@ def test_requirements(capsys, requirement, status):
     assert error == (f"perilune: --require: {requirement}: not met\n" if status else "")
 
 
+REQUIRED = """
+[requirement.near]
+expression = "position_error < {limit}"
+share = "{share} %"
+confidence = "90 %"
+"""
+
+
+@pytest.mark.parametrize(
+    ("limit", "share", "status", "words"),
+    [
+        (1e6, 75, 0, ""),
+        (1e6, 99.87, 1, "99.87 % of flights at 90 %: undecided: 0 of 10 flights fail it; a campaign longer by 1761, "),
+        (0, 50, 1, "near: position_error < 0 in 50 % of flights at 90 %: not met: 10 of 10 flights fail it\n"),
+    ],
+)
+def test_requirements_of_the_campaign(capsys, tmp_path, limit, share, status, words):
+    """Nine flights without a failure show 75 % at 90 %, and 99.87 % takes 1771."""
+    text = (SYSTEMS / SYSTEM / "campaigns" / "paper.toml").read_text() + REQUIRED.format(limit=limit, share=share)
+    (tmp_path / "c.toml").write_text(text)
+    options = ["--compare", "guidance=analytic_guidance", "--json", "-"]
+    known = "analytic_guidance.requirements.near.failures >= 0"
+    asked = ["batch", SYSTEM, "--campaign", str(tmp_path / "c.toml"), "--trials", "10", "--workers", "1"]
+    assert main([*asked, *options, "--require", known]) == status
+    captured = capsys.readouterr()
+    assert words in captured.err
+    assert captured.err.startswith("perilune: analytic_guidance: requirement near: " if status else "")
+    found = json.loads(captured.out)["variants"]["analytic_guidance"]["requirements"]["near"]
+    assert (found["verdict"] == "met") == (status == 0)
+    assert found["flights"] == 10
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [

@@ -10,7 +10,7 @@ import pyarrow.parquet
 
 from ...campaign.plan import BatchPlan
 from ...errors import InputError
-from ..shards import DRAWS, SUMMARY, clear, write_draws
+from ..shards import DRAWS, FOLDER, SUMMARY, Numbering, clear, write_draws
 from .contents import store
 from .manifest import CONTENTS, FILE, Manifest, differences, read_manifest
 
@@ -44,6 +44,18 @@ def go_on(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: Ba
     if manifest.trials > held.trials:
         (folder / SUMMARY).unlink(missing_ok=True)
         _write(folder, manifest, contents, plan)
+    return manifest
+
+
+def cut(folder: Path, manifest: Manifest, plan: BatchPlan) -> Manifest:
+    """The folder of a campaign of fewer trials, those of the plan: whole shards, as far as there are more."""
+    manifest = replace(manifest, trials=plan.campaign.trials)
+    numbering = Numbering(manifest.trials, manifest.shard_size)
+    for path in (folder / FOLDER).glob("[0-9]*.parquet"):
+        if int(path.stem) >= numbering.count:
+            path.unlink()
+    manifest.write(folder)
+    write_draws(plan, folder)
     return manifest
 
 

@@ -68,6 +68,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
             for variant, prepared in systems.items()
         },
         resets={digest: asdict(reset_verdict(fmu)) for digest, fmu in fmus.items() if not fmu.is_own},
+        until_decided=plan.until_decided,
         seed=campaign.seed,
         trials=campaign.trials,
         shard_size=shard_size(campaign.trials),

@@ -26,6 +26,7 @@ class Manifest:
     that lay outside of it, by what asks for them. ``campaign`` has label, content and what the command line compares.
     ``options`` are the system options, ``faults`` the user's, ``series`` the inputs over time (label, sha256, content),
     ``timeout`` is in s. ``fmus`` are hashes by variant and component, ``resets`` the verdicts of reset tests by hash.
+    ``until_decided`` says that it ends with the shard at whose end its requirements are decided.
     ``shard_size`` is in trials, each of which every variant flies.
     """
 
@@ -39,6 +40,7 @@ class Manifest:
     timeout: float | None
     fmus: Mapping[str, Mapping[str, str]]
     resets: Mapping[str, Mapping[str, Any]]
+    until_decided: bool
     seed: int
     trials: int
     shard_size: int

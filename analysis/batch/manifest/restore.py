@@ -49,6 +49,7 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None) -> BatchPl
         watch=Watch(manifest.timeout, log),
         compared_by=manifest.campaign["compared_by"],
         campaign_data=content.read_bytes(),
+        until_decided=manifest.until_decided,
         archive=_archive(contents, manifest),
     )
     plan.__dict__["draws"] = _draws(folder / DRAWS, plan)  # in cached_property's place: drawn anew they could differ

@@ -39,6 +39,7 @@ def run(options: argparse.Namespace) -> int:
         faults=faults(options),
         series=series(options),
         watch=watch(options),
+        until_decided=options.until_decided,
     )
     say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
     if options.replay is not None:

@@ -15,6 +15,7 @@ from ...batch.manifest.manifest import FILE as MANIFEST
 from ...batch.results import BatchResult
 from ...batch.status_texts import worst_statuses
 from ...batch.summary import TrialColumns, requirement_values, summarise
+from ...batch.verdicts import add_verdicts, unmet_lines
 from ...batch.workers import WorkersDiedError
 from ...campaign.expressions import Expression
 from ...campaign.plan import BatchPlan
@@ -71,7 +72,10 @@ def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Ex
     # a status that no trial had is not in the summary: it counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
     met = check_requirements(requirements, values)
-    return 2 if files.failed else 0 if met and not late else 1
+    unmet = unmet_lines(result.summary)
+    for line in unmet:
+        print(f"perilune: {line}", file=sys.stderr)
+    return 2 if files.failed else 0 if met and not unmet and not late else 1
 
 
 def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
@@ -92,7 +96,10 @@ def asked_requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
     blank = TrialColumns([""], np.zeros(1, dtype=bool), {metric.name: nothing for metric in plan.campaign.metrics})
     variants = [variant.name for variant in plan.campaign.variants()]
     groups = [replace(group, trials=np.zeros(1, dtype=int)) for group in plan.groups]
-    known = requirement_values(summarise(dict.fromkeys(variants, blank), plan.campaign.metrics, groups))
+    columns = dict.fromkeys(variants, blank)
+    summary = summarise(columns, plan.campaign.metrics, groups)
+    add_verdicts(summary, plan.campaign.requirements, columns)
+    known = requirement_values(summary)
     statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
     return read_requirements(texts, known, statuses)
 

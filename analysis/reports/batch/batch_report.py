@@ -12,7 +12,7 @@ from .distributions import distribution_panels, legend_of, sort_metrics
 from .failures import failure_panels, telling_scores
 from .rates import rates_figure
 from .replays import extremes_to_replay, failures_to_replay
-from .rows import HEADINGS, group_rows, variant_rows
+from .rows import HEADINGS, group_rows, variant_rows, verdict_rows
 from .scatters import scatter_figures
 from .seen_statuses import seen_statuses
 
@@ -31,6 +31,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         summary=result.summary,
         rows=variant_rows(result.summary),
         group_rows=group_rows(result.summary),
+        requirements=verdict_rows(result.summary, campaign),
         statistics=HEADINGS,
         rates=rates_figure(result),
         looks=legend_of(result),

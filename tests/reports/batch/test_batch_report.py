@@ -54,6 +54,30 @@ def test_every_name_is_there(result, page):
     assert "stop_time (ship.status 2)" in text
 
 
+def test_requirements_have_verdicts_in_words_and_colour(tmp_path):
+    """Truth: the summary; a requirement that every trial keeps, one that too few show, one that too many fail."""
+    text = "".join(
+        f'[requirement.{name}]\nexpression = "{expression}"\nshare = {share}\nconfidence = "90 %"\n{more}'
+        for name, expression, share, more in (
+            ("easy", "tilt < 1e9", 0.5, 'description = "one can do it"\n'),
+            ("strict", "tilt < 1e9", 0.9987, 'metric = "tilt"\nbound = "upper"\n'),
+            ("steep", "tilt > 1e9", 0.5, 'metric = "tilt"\nbound = "lower"\n'),
+        )
+    )
+    page = write(mixed_batch(text=DRAWS + METRICS + text), tmp_path / "page.html")
+    assert_self_contained(page)
+    (section,) = (part for part in parse(page).xpath("//section") if part.xpath("h2")[0].text == "Requirements")
+    cells = section.xpath(".//td[contains(@class, 'verdict')]")
+    words = [("met", "verdict pass"), ("undecided", "verdict not-applicable"), ("not met", "verdict fail")]
+    assert [(cell.text, cell.get("class")) for cell in cells] == [pair for pair in words for _ in range(2)]
+    shown = text_of(page)
+    assert "1731, 2951, 4053 more" in shown
+    assert "no upper bound of tilt in 99.87 % of flights at 90 %: a campaign longer by 1731 has one" in shown
+    assert "tilt >= 5.73 deg in 50 % of flights at 90 %: the worst but 15 of 40 flights" in shown  # 0.1 rad
+    assert "one can do it" in shown
+    assert "Requirements" not in text_of(write(mixed_batch(), tmp_path / "without.html"))
+
+
 def test_every_group_has_rows_of_its_own(tmp_path):
     """Truth: the trials of each case, filtered here."""
     result = grouped_batch()

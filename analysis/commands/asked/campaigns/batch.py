@@ -30,6 +30,9 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--output", type=Path, metavar="DIR", help="write the trials, their draws and a summary")
     parser.add_argument("--resume", action="store_true", help="go on with the campaign in --output DIR, or extend it")
     parser.add_argument(
+        "--until-decided", action="store_true", help="end as soon as the campaign's requirements are met, or are not"
+    )
+    parser.add_argument(
         "--prepare", action="store_true", help="write what flies to --output DIR, for perilune shard, and fly nothing"
     )
     parser.add_argument("--replay", type=int, metavar="K", help="fly trial K only, with all signals to --output DIR")

@@ -1,0 +1,73 @@
+"""The stopping boundary of a count at looks, its risk spent exactly: by recursion over looks and counts.
+
+A count of events that each have a probability ``rate`` is looked at again and again. The boundary says at which
+counts to stop as improbably low: at every look the largest for which the probability of having stopped by then,
+at that rate, keeps within what may be spent by then (Lan and DeMets, Biometrika 70, 1983; the recursion is that of
+Armitage, McPherson and Rowe, J. R. Statist. Soc. A 132, 1969, on counts). At a larger rate, counts of the same
+flights are as large or larger, and so stop no more often: the risk holds for every larger rate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import binom
+
+TAIL = 1e-18  # what is left off either end of a distribution: nothing beside any risk
+SPENT = 1.0 - 1e-9  # of the risk that is permitted: the rest is for rounding and for those tails
+
+
+def spending(flights: int, risk: float, half: int) -> float:
+    """How much of ``risk`` may be spent in the first ``flights``: half of it in ``half``, all in no finite number."""
+    return SPENT * risk * flights / (flights + half)
+
+
+@dataclass(frozen=True)
+class Look:
+    """One look: counts up to ``most`` stop.
+
+    ``spent`` is the probability of having stopped at an earlier look, ``probabilities`` are of the counts from
+    ``lowest`` on that come to this look.
+    """
+
+    flights: int
+    most: int
+    spent: float
+    lowest: int
+    probabilities: np.ndarray
+
+    def risk(self, count: int) -> float:
+        """The probability of having stopped before, or of a count here that is no larger."""
+        return self.spent + float(self.probabilities[: max(0, count - self.lowest + 1)].sum())
+
+
+class Boundary:
+    """Counts that stop, look by look; looks are added in ascending order and do not change those before.
+
+    ``spend`` is what may be spent by a number of flights, such as `spending`, which does not grow less.
+    """
+
+    def __init__(self, rate: float, spend: Callable[[int], float]) -> None:
+        self.rate = rate
+        self.spend = spend
+        self.looks: list[Look] = []
+
+    def add(self, flights: int) -> Look:
+        """The next look, after so many flights in all."""
+        last = self.looks[-1] if self.looks else Look(0, -1, 0.0, 0, np.ones(1))
+        start = max(last.lowest, last.most + 1)
+        flown = flights - last.flights
+        first, end = int(binom.ppf(TAIL, flown, self.rate)), int(binom.isf(TAIL, flown, self.rate))
+        events = binom.pmf(np.arange(first, end + 1), flown, self.rate)
+        probabilities = np.convolve(last.probabilities[start - last.lowest :], events)
+        lowest = start + first
+        spent = last.risk(last.most)
+        low = int(np.searchsorted(np.cumsum(probabilities), TAIL))
+        high = len(probabilities) - int(np.searchsorted(np.cumsum(probabilities[::-1]), TAIL))
+        probabilities, lowest = probabilities[low:high], lowest + low
+        left = self.spend(flights) - spent
+        most = lowest + int(np.searchsorted(np.cumsum(probabilities), left, side="right")) - 1
+        self.looks.append(Look(flights, most, spent, lowest, probabilities))
+        return self.looks[-1]

@@ -1,0 +1,132 @@
+"""Verdicts that hold however often a campaign is looked at, so that it may end with the first of them.
+
+Looking at 1771, 2991 and 4093 flights in turn, each with the figures of a campaign of that size alone, accepts a
+system at the limit in 17.8 % of campaigns and not in 10. `StoppingRule` shares the risk out over all looks there will
+ever be (`analysis.verdicts.boundary`), for each of the two verdicts by itself. It has no last look: a campaign that is
+still undecided at its end may be made longer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache, partial
+
+import numpy as np
+
+from .acceptance import FURTHER, Decision, Verdict, flights_needed, permitted_risk
+from .boundary import Boundary, Look, spending
+
+FINEST = 32  # looks at one distance; then the distance doubles whenever the flights do
+FIRST_LOOKS = 16  # looks or a few more, until a campaign of one size without failures would be done
+
+
+class StoppingRule:
+    """When to stop, and with which verdict: a function of the numbers of flights and failures at fixed looks.
+
+    A system whose share of good flights is less than ``share`` is ever called met with a probability of 1 -
+    ``confidence`` at most, and one with ``share`` or more is ever called not met with that probability at most. Each
+    of both holds by itself, whether or not flights go on after a verdict.
+
+    Looks are at multiples of ``look`` flights; by default a round number, a sixteenth or less of what one campaign
+    without failures needs. After 32 of them every second multiple is looked at, after 64 every fourth, and so on.
+    """
+
+    def __init__(self, share: float, confidence: float, look: int | None = None) -> None:
+        if not 0.5 <= confidence < 1.0:
+            raise ValueError(f"a confidence of {confidence:g} is not in 0.5 to 1")
+        self.share = share
+        self.confidence = confidence
+        half = flights_needed(0, share, confidence)
+        self.look = look or _round_look(half)
+        spend = partial(spending, risk=permitted_risk(confidence), half=half)
+        self._met = Boundary(1.0 - share, spend)  # counts failures: few are good
+        self._not_met = Boundary(share, spend)  # counts good flights: few are bad
+        self._places: dict[int, int] = {}
+        self._next = self.look
+
+    def looks(self, most: int) -> list[int]:
+        """The numbers of flights after which to look, up to ``most``."""
+        self._extend(most)
+        return [flights for flights in self._places if flights <= most]
+
+    def permitted_failures(self, flights: int) -> int:
+        """With how many failures at most a look meets the requirement, -1 where none are few enough; ValueError
+        where there is no look."""
+        return self._look(self._met, flights).most
+
+    def refused_failures(self, flights: int) -> int:
+        """With how many failures at least a look finds the requirement not met; more than ``flights`` where no number
+        is enough. ValueError where there is no look."""
+        return flights - self._look(self._not_met, flights).most
+
+    def decide(self, flights: int, failures: int) -> Verdict:
+        """The verdict at a look that none came before; ValueError where there is no look."""
+        if failures <= self.permitted_failures(flights):
+            return Verdict.MET
+        return Verdict.NOT_MET if failures >= self.refused_failures(flights) else Verdict.UNDECIDED
+
+    def decision(self, kept: np.ndarray) -> Decision:
+        """The first verdict on flights in order of trial, True where the requirement was kept; the rest is not seen.
+
+        Undecided, it is of the last look, or of no flights where there was none. The consumer's risk is the
+        probability of having met the requirement at an earlier look, or with no more failures at this.
+        """
+        failures = np.concatenate([[0], np.cumsum(~np.asarray(kept, dtype=bool))])
+        last = 0
+        for flights in self.looks(len(kept)):
+            last = flights
+            verdict = self.decide(flights, int(failures[flights]))
+            if verdict is not Verdict.UNDECIDED:
+                return self._decision(verdict, flights, int(failures[flights]))
+        return self._decision(Verdict.UNDECIDED, last, int(failures[last]))
+
+    def permitted(self, flights: int) -> tuple[int, int]:
+        """The last look in so many flights, and with how many failures it meets the requirement, -1 for none."""
+        last = max(self.looks(flights), default=0)
+        return last, self.permitted_failures(last) if last else -1
+
+    def flights_to_meet(self, flights: int, failures: int) -> dict[int, int]:
+        """How many more flights meet the requirement, by failures still to come."""
+        found = {}
+        for more in FURTHER:
+            looks = (look for look in self._all_looks() if look >= flights)
+            enough = next(look for look in looks if self.permitted_failures(look) >= failures + more)
+            found[more] = enough - flights
+        return found
+
+    def _decision(self, verdict: Verdict, flights: int, failures: int) -> Decision:
+        risk = self._look(self._met, flights).risk(failures) if flights else 1.0
+        return Decision(verdict, flights, failures, risk)
+
+    def _look(self, boundary: Boundary, flights: int) -> Look:
+        self._extend(flights)
+        if flights not in self._places:
+            raise ValueError(f"no look after {flights} flights")
+        return boundary.looks[self._places[flights]]
+
+    def _all_looks(self) -> Iterator[int]:
+        most = self._next
+        yield from self.looks(most)
+        while True:
+            most = self._next
+            self._extend(most)
+            yield most
+
+    def _extend(self, most: int) -> None:
+        while self._next <= most:
+            self._places[self._next] = len(self._places)
+            self._met.add(self._next)
+            self._not_met.add(self._next)
+            self._next += self.look * 2 ** max(0, (self._next // self.look).bit_length() - FINEST.bit_length() + 1)
+
+
+def _round_look(flights: int) -> int:
+    """1, 2 or 5 times a power of ten, at most a sixteenth of ``flights`` where that is more than one."""
+    sizes = [digit * 10**power for power in range(len(str(flights))) for digit in (1, 2, 5)]
+    return max((size for size in sizes if size * FIRST_LOOKS <= flights), default=1)
+
+
+@lru_cache(maxsize=64)
+def stopping_rule(share: float, confidence: float) -> StoppingRule:
+    """The rule with looks as they are by default, its boundaries computed once."""
+    return StoppingRule(share, confidence)
