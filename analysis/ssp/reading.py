@@ -11,6 +11,7 @@ from .documents import child, children, read_document, tag
 from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
 from .osp import Load, read_osp
 from .own_annotations import check_annotations
+from .sources import is_elsewhere, source_file
 from .transformations import read_transformation
 from .units import Unit, units_of_document
 
@@ -108,9 +109,11 @@ class Reader:
         if element.get("implementation", "any") == "ModelExchange":
             problem = 'implementation="ModelExchange" is not supported'
             raise self.refuse(element, name, problem, 'use a co-simulation FMU and write implementation="CoSimulation"')
-        source = element.get("source", "")
+        source = source_file(element.get("source", ""))
         if not source.endswith(".fmu"):
             raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")
+        if is_elsewhere(source):
+            raise self.refuse(element, name, f"source {source} is on another machine", "name a file of the system")
         return Component(**self.common(element), source=source, step=step_of_component(element, self.file))
 
     def reference(self, element: etree._Element) -> DictionaryReference:

@@ -18,6 +18,8 @@ from tests.support.builders import (
     connectors,
     document,
     fly,
+    inline,
+    inline_mapping,
     pack,
     parameter_set,
     retouched,
@@ -211,6 +213,51 @@ def test_sources_that_leave_the_folder(tiny, tmp_path, source):
         fly(folder)
     with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's archive; put"):
         fly(pack(tmp_path / "s.ssp", tiny, text))
+
+
+def test_an_fmu_in_a_process_of_its_own_is_the_fmu(tiny, tmp_path, plain):
+    """libcosim, Ecos and Vico: proxyfmu://localhost?file=x.fmu."""
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    fmus = {f"resources___{name}__fmu": (tiny / f"{name}.fmu").read_bytes() for name in ("ramp", "gain")}
+    text = document(root).replace('"resources/gain.fmu"', '"proxyfmu://localhost?file=resources/gain.fmu"')
+    same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmus)), plain)
+    text = text.replace("localhost?", "127.0.0.1:9090?")
+    same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmus)), plain)
+    with pytest.raises(
+        InputError, match=r"gain \(line \d+\): source proxyfmu://lab\?file=.* is on another machine; name"
+    ):
+        fly(pack(tmp_path / "s.ssp", tiny, text.replace("127.0.0.1:9090?", "lab?"), **fmus))
+
+
+def test_what_a_mapping_leaves_out_is_said(tiny, tmp_path, capsys):
+    """OMSimulator applies it under its own name; SSP 1.0, ParameterBindings: non-mapped values are not applied."""
+    entry = inline_mapping('<ssm:MappingEntry source="a" target="factor"/>')
+    binding = inline("a=Real:2; u=Real:5 m", mapping=entry)
+    path = pack(tmp_path / "s.ssp", tiny, document(system(component("gain", "gain", "input u Real m", binding))))
+    with pytest.raises(
+        InputError, match=r"gain\.u .*; map u of SystemStructure\.ssd line \d+ too, .* leaves it out; or"
+    ):
+        fly(path)
+    assert main(["validate", str(path), "--open-inputs", "start"]) == 0
+    said = capsys.readouterr().out
+    assert re.search(r"gain\.ParameterBinding \(line \d+\): its mapping has no entry for u: not applied", said)
+    given = fly(pack(tmp_path / "s.ssp", tiny, document(system(component("gain", "gain", "output y Real m", binding)))))
+    assert set(given["gain.y"]) == {2.0 * 0.0}  # u keeps its start
+
+
+def test_a_constant_takes_no_value(tiny, tmp_path):
+    """SSP 1.0, ParameterBindings: variability other than constant."""
+    frozen = retouched(
+        tiny / "ramp.fmu",
+        tmp_path / "ramp.fmu",
+        lambda text: re.sub(
+            r'(name="slope"[^>]*) causality="\w+" variability="\w+"', r'\1 variability="constant"', text
+        ),
+    )
+    path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP)), resources___ramp__fmu=frozen.read_bytes())
+    assert fly(path)["ramp.y"][-1] == 1.0 + 2.0
+    with pytest.raises(InputError, match=r"--set: ramp\.slope: matches no parameter: it is a constant; use one of"):
+        fly(path, set={"ramp.slope": 4.0})
 
 
 def test_messages_speak_of_the_file(tiny, tmp_path):
