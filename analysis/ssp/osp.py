@@ -51,7 +51,7 @@ class _Reader:
             self.simulator(simulator)
         gains = {item.get("name", ""): self.function(item) for item in root.findall("{*}Functions/*")}
         self.connections(root.findall("{*}Connections/*"), gains)
-        start, step = root.find("{*}StartTime"), root.find("{*}BaseStepSize")
+        start, end, step = (root.find(f"{{*}}{name}") for name in ("StartTime", "EndTime", "BaseStepSize"))
         return Description(
             file=self.file,
             name=PurePosixPath(self.file).parent.name,
@@ -59,7 +59,7 @@ class _Reader:
             units={},
             enumerations={},
             start_time=0.0 if start is None else self.number(start),
-            stop_time=None,
+            stop_time=None if end is None else self.number(end),
             step=None if step is None else self.step(step, step.text or ""),
             algorithm="jacobi",
         )

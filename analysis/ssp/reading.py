@@ -148,7 +148,7 @@ class Reader:
             if kind_of_value == "Binary":
                 raise self.refuse(item, name, "Binary connectors are not supported", "remove the connector")
             if kind_of_value in ("Real", "Integer", "Boolean", "String", "Enumeration"):
-                type_name, unit, enumeration = kind_of_value, inner.get("unit"), inner.get("name")
+                type_name, unit, enumeration = kind_of_value, inner.get("unit") or None, inner.get("name")
         return Connector(name, kind, type_name, unit, enumeration, item.sourceline)
 
     def dictionary(self, element: etree._Element) -> dict[str, Connector]:

@@ -195,12 +195,11 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
         value = _parsed(assignment, type_name, node)
     if given == "Integer" and type_name == "Real" and not isinstance(value, bool):
         given, value = "Real", float(value)
-    if given == "String" and type_name == "Enumeration":
+    if given in ("String", "Integer") and type_name == "Enumeration":
         given = "Enumeration"
     if given != type_name:
-        raise InputError(
-            assignment.file, assignment.where, f"is {given}, the variable is {type_name}", f"give a {type_name}"
-        )
+        remedy = f"give {'an' if type_name in ('Enumeration', 'Integer') else 'a'} {type_name}"
+        raise InputError(assignment.file, assignment.where, f"is {given}, the variable is {type_name}", remedy)
     transformation = assignment.transformation or Transformation()
     if type_name == "Real":
         if assignment.unit and node.unit and not assignment.suppress_unit_conversion:
@@ -223,8 +222,10 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
             raise InputError(assignment.file, assignment.where, f"the mapping has no entry for {value}", "add one")
         value = found[-1]
     if type_name == "Enumeration":
-        if str(value) in node.enumeration:
-            return node.enumeration[str(value)]
+        by_value = {str(number): number for number in node.enumeration.values()}  # as OMSimulator writes items
+        items = by_value | node.enumeration
+        if str(value) in items:
+            return items[str(value)]
         raise InputError(
             assignment.file,
             assignment.where,

@@ -129,6 +129,13 @@ def test_simulators_in_a_process_of_their_own(folder):
         fly(folder(text))
 
 
+def test_an_end_of_its_own(folder):
+    place = folder(CHAIN.replace("<BaseStepSize>", "<StartTime>1</StartTime><EndTime>2.5</EndTime><BaseStepSize>"))
+    result = fly(place)
+    assert (result.time[0], result.time[-1]) == (1.0, 2.5)
+    np.testing.assert_array_equal(result["after.y"], fly(folder(CHAIN), stop_time=1.5)["after.y"])
+
+
 def test_linear_functions(folder):
     function = '<Functions><LinearTransformation name="f" factor="2" offset="-1"/></Functions>\n'
     wires = (

@@ -128,6 +128,36 @@ def test_an_integer_is_an_enumeration_s_value(tiny, tmp_path):
     assert result["mode.m"].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
 
 
+def test_an_enumeration_is_set_by_name_or_value(tiny, tmp_path):
+    """OMSimulator sets items by their values, and writes them so."""
+    declared = "input n Enumeration Mode; output m Enumeration Mode"
+    enumeration = "".join(f'<ssc:Item name="{name}" value="{value}"/>' for name, value in MODES.items())
+    more = f'<ssd:Enumerations><ssc:Enumeration name="Mode">{enumeration}</ssc:Enumeration></ssd:Enumerations>'
+    for place, given in enumerate(("n=Enumeration:hover", "n=Enumeration:7", "n=Integer:7", "n=String:hover")):
+        mode = component("mode", "mode", declared, inline(given))
+        path = pack(tmp_path / f"{place}.ssp", tiny, document(system(mode), more=more))
+        assert set(fly(path)["mode.m"]) == {7.0}
+        assert [set(fly(path, set={"mode.n": item})["mode.m"]) for item in ("brake", "2", 2)] == [{2.0}] * 3
+        with pytest.raises(InputError, match=r"mode\.n: no item 3 in the enumeration; use one of brake, hover, idle"):
+            fly(path, set={"mode.n": 3})
+    mode = component("mode", "mode", declared, inline("n=Real:7"))
+    with pytest.raises(InputError, match="is Real, the variable is Enumeration; give an Enumeration"):
+        fly(pack(tmp_path / "s.ssp", tiny, document(system(mode), more=more)))
+
+
+def test_an_empty_unit_is_none(tiny, tmp_path, plain):
+    """OMSimulator's Parker demonstrator declares unit=""."""
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    text = document(root).replace('kind="input"><ssc:Real unit="m"', 'kind="input"><ssc:Real unit=""')
+    values = inline("factor=Real:3 1").replace('unit="1"', 'unit=""')
+    assert 'unit=""' in text
+    same(fly(pack(tmp_path / "s.ssp", tiny, text)), plain)
+    bound = component("gain", "gain", "input u Real m; output y Real m", values)
+    assert 'unit=""' in bound
+    root = system(RAMP, bound, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    same(fly(pack(tmp_path / "s.ssp", tiny, document(root))), plain)
+
+
 def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys):
     cross = component("cross", "cross", "input a Real m; input b Real m; output ya Real m; output yb Real m")
     path = pack(
