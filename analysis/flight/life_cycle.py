@@ -18,8 +18,8 @@ class LifeCycle:
     """What each instance may be asked next, by the state machine of FMI 2.0 (co-simulation).
 
     Our own FMUs that flew well are terminated and reset by the loop itself. Others are here: those whose reset cannot
-    be trusted, and those that returned an error, are instantiated anew. A flight is ended when the next one
-    begins, since until then it can go on.
+    be trusted, and those that returned an error or discarded a step, which the trial of a reset need not have come
+    to, are instantiated anew. A flight is ended when the next one begins, since until then it can go on.
     """
 
     def __init__(
@@ -32,6 +32,7 @@ class LifeCycle:
         self._fresh = True
         self._running: AbstractSet[str] = set()  # initialised, so that they can be terminated
         self._broken: set[str] = set()  # returned an error
+        self._discarded: set[str] = set()  # discarded a step, to end the simulation or not
 
     def note(self, outcome: Outcome, program: arrays.Program) -> None:
         """Remember how the loop has left the instances."""
@@ -45,6 +46,8 @@ class LifeCycle:
         if outcome.is_error:
             self._broken.add(names[outcome.subject])
             self._running -= self._broken
+        if outcome.is_discarded_step:
+            self._discarded.add(names[outcome.subject])
 
     def make_ready(self) -> bool:
         """Get the instances ready for a start; returns whether the loop is to terminate and reset them.
@@ -62,12 +65,13 @@ class LifeCycle:
                 self._readdress(index, instance)
         self._running = set()
         self._broken.clear()
+        self._discarded.clear()
         self._fresh = True
         return False
 
     def _is_reset(self, name: str, instance: Instance) -> bool:
         """Whether an instance has been reset, and is as good as a new one for it."""
-        sound = instance.fmu.is_own or name not in self._broken
+        sound = instance.fmu.is_own or name not in self._broken | self._discarded
         if not instance.is_there or not self._terminate(name, instance) or not sound:
             return False
         if known_verdict(instance.fmu) is None and instance.fmu.is_alone:

@@ -17,7 +17,7 @@ from .documents import child, children, tag
 
 OURS = "org.perilune.step"
 OMSIMULATOR = "org.openmodelica"
-OSP = ("com.opensimulationplatform", "org.open-simulation-platform")
+OSP = ("com.opensimulationplatform", "org.open-simulation-platform", "com.github.ntnu-ihb.vico")  # the last is Vico's
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from ..errors import InputError
 from .description import Binding, Component, Connection, Connector, Description, System
 from .documents import NAMESPACES, parse_xml, tag
 from .experiment import positive_seconds
+from .sources import is_elsewhere, source_file
 from .transformations import IDENTITY, Transformation
 
 Load = Callable[[str, str], bytes]  # content of a file by name, and the element that names it
@@ -50,7 +51,7 @@ class _Reader:
             self.simulator(simulator)
         gains = {item.get("name", ""): self.function(item) for item in root.findall("{*}Functions/*")}
         self.connections(root.findall("{*}Connections/*"), gains)
-        start, step = root.find("{*}StartTime"), root.find("{*}BaseStepSize")
+        start, end, step = (root.find(f"{{*}}{name}") for name in ("StartTime", "EndTime", "BaseStepSize"))
         return Description(
             file=self.file,
             name=PurePosixPath(self.file).parent.name,
@@ -58,7 +59,7 @@ class _Reader:
             units={},
             enumerations={},
             start_time=0.0 if start is None else self.number(start),
-            stop_time=None,
+            stop_time=None if end is None else self.number(end),
             step=None if step is None else self.step(step, step.text or ""),
             algorithm="jacobi",
         )
@@ -74,9 +75,11 @@ class _Reader:
         return positive_seconds(text, tag(element), f"{tag(element)} (line {element.sourceline})", self.file)
 
     def simulator(self, element: etree._Element) -> None:
-        name, source = element.get("name", ""), element.get("source", "")
+        name, source = element.get("name", ""), source_file(element.get("source", ""))
         if not source.endswith(".fmu"):
             raise self.refuse(element, f"source {source} of {name} is not an .fmu", "name an FMU beside the file")
+        if is_elsewhere(source):
+            raise self.refuse(element, f"source {source} of {name} is on another machine", "name a file beside this")
         if name in self.system.elements:
             raise self.refuse(element, f"a second one of the name {name}", "rename one")
         values = element.findall("{*}InitialValues/{*}InitialValue")

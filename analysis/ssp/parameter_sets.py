@@ -57,7 +57,7 @@ def read_parameter_set(root: etree._Element, file: str) -> list[Assignment]:
             if tag(item) == "Binary":
                 raise InputError(file, f"{name} (line {line})", "Binary values are not supported", "remove it")
             if tag(item) in ("Real", "Integer", "Boolean", "String", "Enumeration"):
-                unit_name = item.get("unit")
+                unit_name = item.get("unit") or None
                 if unit_name is not None and unit_name not in units:
                     raise InputError(
                         file, f"{name} (line {line})", f"unit {unit_name} is not defined here", "add it under Units"

@@ -11,6 +11,7 @@ from .documents import child, children, read_document, tag
 from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
 from .osp import Load, read_osp
 from .own_annotations import check_annotations
+from .sources import is_elsewhere, source_file
 from .transformations import read_transformation
 from .units import Unit, units_of_document
 
@@ -108,9 +109,11 @@ class Reader:
         if element.get("implementation", "any") == "ModelExchange":
             problem = 'implementation="ModelExchange" is not supported'
             raise self.refuse(element, name, problem, 'use a co-simulation FMU and write implementation="CoSimulation"')
-        source = element.get("source", "")
+        source = source_file(element.get("source", ""))
         if not source.endswith(".fmu"):
             raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")
+        if is_elsewhere(source):
+            raise self.refuse(element, name, f"source {source} is on another machine", "name a file of the system")
         return Component(**self.common(element), source=source, step=step_of_component(element, self.file))
 
     def reference(self, element: etree._Element) -> DictionaryReference:
@@ -145,7 +148,7 @@ class Reader:
             if kind_of_value == "Binary":
                 raise self.refuse(item, name, "Binary connectors are not supported", "remove the connector")
             if kind_of_value in ("Real", "Integer", "Boolean", "String", "Enumeration"):
-                type_name, unit, enumeration = kind_of_value, inner.get("unit"), inner.get("name")
+                type_name, unit, enumeration = kind_of_value, inner.get("unit") or None, inner.get("name")
         return Connector(name, kind, type_name, unit, enumeration, item.sourceline)
 
     def dictionary(self, element: etree._Element) -> dict[str, Connector]:

@@ -19,7 +19,7 @@ STANDARD = "http://ssp-standard.org/"
 COMMON = f"{STANDARD}SSP1/SystemStructureCommon"
 WITHOUT_EFFECT = ("MetaData", "Signature")  # where a document comes from and who vouches for it
 ATTRIBUTES = {  # of 1.0's elements, with values that are new
-    "kind": ("structuralParameter", "localClock", "inputClock", "outputClock"),
+    "kind": ("local", "constant", "structuralParameter", "localClock", "inputClock", "outputClock"),
     "implementation": ("ScheduledExecution",),
 }
 

@@ -9,17 +9,9 @@ from typing import Any
 
 from ..errors import InputError, suggestion
 from ..ssp.archive import SystemArchive
+from ..ssp.bindings import read_binding
 from ..ssp.description import Binding, Component, System
-from ..ssp.documents import read_document
-from ..ssp.parameter_sets import (
-    Assignment,
-    ParameterValue,
-    SetValue,
-    apply_mapping,
-    parse_value,
-    read_parameter_file,
-    read_parameter_set,
-)
+from ..ssp.parameter_sets import Assignment, ParameterValue, SetValue, parse_value
 from ..ssp.transformations import VALUE_TYPES, Transformation
 from .network import Link, Network, Node
 from .open_inputs import check_signals, settle_open_inputs
@@ -34,13 +26,17 @@ INDEX = re.compile(r"\[[\d,]+\]$")
 
 @dataclass
 class Settings:
-    """Values by (component, variable), and of system connectors by node name; ``origins``: where each comes from."""
+    """Values by (component, variable), and of system connectors by node name; ``origins``: where each comes from.
+
+    ``left_out`` is where values come from that no mapping passes on, by what they would be applied to without one.
+    """
 
     variables: dict[tuple[str, str], ParameterValue] = field(default_factory=dict)
     origins: dict[tuple[str, str], str] = field(default_factory=dict)
     node_origins: dict[str, str] = field(default_factory=dict)
     nodes: dict[str, float | str] = field(default_factory=dict)
     unmatched: list[str] = field(default_factory=list)
+    left_out: dict[str, str] = field(default_factory=dict)
 
 
 def collect_settings(
@@ -56,9 +52,9 @@ def collect_settings(
     for path, system in sorted(network.systems.items(), key=lambda item: -item[0].count(".")):
         for element in system.elements.values():
             if isinstance(element, Component):
-                for assignment in _bound(network, archive, element.bindings):
+                for assignment in _bound(network, settings, archive, element.bindings, f"{path}{element.name}."):
                     _apply(network, settings, path, f"{element.name}.", assignment, allow_unmatched)
-        for assignment in _bound(network, archive, system.bindings):
+        for assignment in _bound(network, settings, archive, system.bindings, path):
             _apply(network, settings, path, "", assignment, allow_unmatched)
     for assignment in [part for given in assignments for part in _elements(network, given)]:
         _check_driven(network, assignment)
@@ -101,29 +97,19 @@ def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
     return [replace(assignment, name=name, value=value) for name, value in zip(names, values, strict=True)]
 
 
-def _bound(network: Network, archive: SystemArchive, bindings: list[Binding]) -> list[Assignment]:
-    """Assignments of parameter bindings in order; the prefix is put before names, then mapped."""
+def _bound(
+    network: Network, settings: Settings, archive: SystemArchive, bindings: list[Binding], place: str
+) -> list[Assignment]:
+    """Assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
     found: list[Assignment] = []
     for binding in bindings:
-        element = f"ParameterBinding (line {binding.line})"
-        if binding.source is not None:
-            file = f"{archive.label}!{binding.source}"
-            values = read_parameter_file(archive.read(binding.source, element), file)
-        else:
-            assert binding.inline is not None  # the reader refuses a binding with neither
-            values = read_parameter_set(binding.inline, network.file)
-        values = [
-            Assignment(binding.prefix + value.name, value.value, value.type_name, value.unit, value.file, value.line)
-            for value in values
-        ]
-        if binding.mapping_source is not None:
-            file = f"{archive.label}!{binding.mapping_source}"
-            values = apply_mapping(
-                values, read_document(archive.read(binding.mapping_source, element), "ssm", file), file
-            )
-        elif binding.mapping_inline is not None:
-            values = apply_mapping(values, binding.mapping_inline, network.file)
+        values, without = read_binding(archive, network.file, binding)
         found += values
+        settings.left_out |= {place + value.name: f"{value.name} of {value.origin}" for value in without}
+        if without:
+            names = ", ".join(value.name for value in without)
+            where = f"{place}ParameterBinding (line {binding.line})"
+            network.notes.append(f"{where}: its mapping has no entry for {names}: not applied")
     return found
 
 
@@ -160,7 +146,9 @@ def _apply(
         fmu = network.fmus[component]
         variable = fmu.variables.get(name)
         known = [f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in SETTABLE]
-        if variable is not None and (variable.causality in SETTABLE or variable.initial in ("exact", "approx")):
+        is_constant = variable is not None and variable.variability == "constant"
+        has_start = variable is not None and (variable.causality in SETTABLE or variable.initial in ("exact", "approx"))
+        if variable is not None and has_start and not is_constant:
             items = {}
             if variable.type == "Enumeration" and variable.declaredType is not None:
                 items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
@@ -172,7 +160,7 @@ def _apply(
             settings.origins[component, name] = assignment.origin
             return
         if variable is not None:
-            problem += f": it is of causality {variable.causality}"
+            problem += ": it is a constant" if is_constant else f": it is of causality {variable.causality}"
     if not allow_unmatched:
         if len(network.fmus) == 1:
             known = [
@@ -207,12 +195,11 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
         value = _parsed(assignment, type_name, node)
     if given == "Integer" and type_name == "Real" and not isinstance(value, bool):
         given, value = "Real", float(value)
-    if given == "String" and type_name == "Enumeration":
+    if given in ("String", "Integer") and type_name == "Enumeration":
         given = "Enumeration"
     if given != type_name:
-        raise InputError(
-            assignment.file, assignment.where, f"is {given}, the variable is {type_name}", f"give a {type_name}"
-        )
+        remedy = f"give {'an' if type_name in ('Enumeration', 'Integer') else 'a'} {type_name}"
+        raise InputError(assignment.file, assignment.where, f"is {given}, the variable is {type_name}", remedy)
     transformation = assignment.transformation or Transformation()
     if type_name == "Real":
         if assignment.unit and node.unit and not assignment.suppress_unit_conversion:
@@ -235,8 +222,10 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
             raise InputError(assignment.file, assignment.where, f"the mapping has no entry for {value}", "add one")
         value = found[-1]
     if type_name == "Enumeration":
-        if str(value) in node.enumeration:
-            return node.enumeration[str(value)]
+        by_value = {str(number): number for number in node.enumeration.values()}  # as OMSimulator writes items
+        items = by_value | node.enumeration
+        if str(value) in items:
+            return items[str(value)]
         raise InputError(
             assignment.file,
             assignment.where,

@@ -119,6 +119,23 @@ def test_the_file_itself_may_be_named(folder):
     np.testing.assert_array_equal(*found)
 
 
+def test_simulators_in_a_process_of_their_own(folder):
+    found = []
+    for source in ("delay.fmu", "proxyfmu://localhost?file=delay.fmu"):
+        found.append(fly(folder(CHAIN.replace('"delay.fmu"', f'"{source}"')), stop_time=1.5)["after.y"])
+    np.testing.assert_array_equal(*found)
+    text = CHAIN.replace('"ramp.fmu"', '"proxyfmu://lab:9090?file=ramp.fmu"')
+    with pytest.raises(InputError, match=r"source proxyfmu://lab:9090\?file=ramp\.fmu of ramp is on another machine"):
+        fly(folder(text))
+
+
+def test_an_end_of_its_own(folder):
+    place = folder(CHAIN.replace("<BaseStepSize>", "<StartTime>1</StartTime><EndTime>2.5</EndTime><BaseStepSize>"))
+    result = fly(place)
+    assert (result.time[0], result.time[-1]) == (1.0, 2.5)
+    np.testing.assert_array_equal(result["after.y"], fly(folder(CHAIN), stop_time=1.5)["after.y"])
+
+
 def test_linear_functions(folder):
     function = '<Functions><LinearTransformation name="f" factor="2" offset="-1"/></Functions>\n'
     wires = (

@@ -36,6 +36,8 @@ def test_what_both_have_flies(tiny, tmp_path):
         ('<ssc:Real unit="m"/>', '<ssc:Float64 unit="m"/>', "Float64"),
         ('<ssc:Real unit="m"/>', '<ssc:Real unit="m"/><ssc:Dimension size="3"/>', "Dimension"),
         ('kind="output"', 'kind="structuralParameter"', 'kind="structuralParameter"'),
+        ('kind="output"', 'kind="local"', 'kind="local"'),
+        ('kind="output"', 'kind="constant"', 'kind="constant"'),
         (
             "<ssd:Component ",
             '<ssd:Component implementation="ScheduledExecution" ',

@@ -18,6 +18,8 @@ from tests.support.builders import (
     connectors,
     document,
     fly,
+    inline,
+    inline_mapping,
     pack,
     parameter_set,
     retouched,
@@ -126,6 +128,36 @@ def test_an_integer_is_an_enumeration_s_value(tiny, tmp_path):
     assert result["mode.m"].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
 
 
+def test_an_enumeration_is_set_by_name_or_value(tiny, tmp_path):
+    """OMSimulator sets items by their values, and writes them so."""
+    declared = "input n Enumeration Mode; output m Enumeration Mode"
+    enumeration = "".join(f'<ssc:Item name="{name}" value="{value}"/>' for name, value in MODES.items())
+    more = f'<ssd:Enumerations><ssc:Enumeration name="Mode">{enumeration}</ssc:Enumeration></ssd:Enumerations>'
+    for place, given in enumerate(("n=Enumeration:hover", "n=Enumeration:7", "n=Integer:7", "n=String:hover")):
+        mode = component("mode", "mode", declared, inline(given))
+        path = pack(tmp_path / f"{place}.ssp", tiny, document(system(mode), more=more))
+        assert set(fly(path)["mode.m"]) == {7.0}
+        assert [set(fly(path, set={"mode.n": item})["mode.m"]) for item in ("brake", "2", 2)] == [{2.0}] * 3
+        with pytest.raises(InputError, match=r"mode\.n: no item 3 in the enumeration; use one of brake, hover, idle"):
+            fly(path, set={"mode.n": 3})
+    mode = component("mode", "mode", declared, inline("n=Real:7"))
+    with pytest.raises(InputError, match="is Real, the variable is Enumeration; give an Enumeration"):
+        fly(pack(tmp_path / "s.ssp", tiny, document(system(mode), more=more)))
+
+
+def test_an_empty_unit_is_none(tiny, tmp_path, plain):
+    """OMSimulator's Parker demonstrator declares unit=""."""
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    text = document(root).replace('kind="input"><ssc:Real unit="m"', 'kind="input"><ssc:Real unit=""')
+    values = inline("factor=Real:3 1").replace('unit="1"', 'unit=""')
+    assert 'unit=""' in text
+    same(fly(pack(tmp_path / "s.ssp", tiny, text)), plain)
+    bound = component("gain", "gain", "input u Real m; output y Real m", values)
+    assert 'unit=""' in bound
+    root = system(RAMP, bound, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    same(fly(pack(tmp_path / "s.ssp", tiny, document(root))), plain)
+
+
 def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys):
     cross = component("cross", "cross", "input a Real m; input b Real m; output ya Real m; output yb Real m")
     path = pack(
@@ -211,6 +243,51 @@ def test_sources_that_leave_the_folder(tiny, tmp_path, source):
         fly(folder)
     with pytest.raises(InputError, match=r"ramp \(line \d+\): .*ramp\.fmu lies outside the system's archive; put"):
         fly(pack(tmp_path / "s.ssp", tiny, text))
+
+
+def test_an_fmu_in_a_process_of_its_own_is_the_fmu(tiny, tmp_path, plain):
+    """libcosim, Ecos and Vico: proxyfmu://localhost?file=x.fmu."""
+    root = system(RAMP, GAIN, connections=WIRED + connection("gain.y", "out"), declared=ROOT)
+    fmus = {f"resources___{name}__fmu": (tiny / f"{name}.fmu").read_bytes() for name in ("ramp", "gain")}
+    text = document(root).replace('"resources/gain.fmu"', '"proxyfmu://localhost?file=resources/gain.fmu"')
+    same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmus)), plain)
+    text = text.replace("localhost?", "127.0.0.1:9090?")
+    same(fly(pack(tmp_path / "s.ssp", tiny, text, **fmus)), plain)
+    with pytest.raises(
+        InputError, match=r"gain \(line \d+\): source proxyfmu://lab\?file=.* is on another machine; name"
+    ):
+        fly(pack(tmp_path / "s.ssp", tiny, text.replace("127.0.0.1:9090?", "lab?"), **fmus))
+
+
+def test_what_a_mapping_leaves_out_is_said(tiny, tmp_path, capsys):
+    """OMSimulator applies it under its own name; SSP 1.0, ParameterBindings: non-mapped values are not applied."""
+    entry = inline_mapping('<ssm:MappingEntry source="a" target="factor"/>')
+    binding = inline("a=Real:2; u=Real:5 m", mapping=entry)
+    path = pack(tmp_path / "s.ssp", tiny, document(system(component("gain", "gain", "input u Real m", binding))))
+    with pytest.raises(
+        InputError, match=r"gain\.u .*; map u of SystemStructure\.ssd line \d+ too, .* leaves it out; or"
+    ):
+        fly(path)
+    assert main(["validate", str(path), "--open-inputs", "start"]) == 0
+    said = capsys.readouterr().out
+    assert re.search(r"gain\.ParameterBinding \(line \d+\): its mapping has no entry for u: not applied", said)
+    given = fly(pack(tmp_path / "s.ssp", tiny, document(system(component("gain", "gain", "output y Real m", binding)))))
+    assert set(given["gain.y"]) == {2.0 * 0.0}  # u keeps its start
+
+
+def test_a_constant_takes_no_value(tiny, tmp_path):
+    """SSP 1.0, ParameterBindings: variability other than constant."""
+    frozen = retouched(
+        tiny / "ramp.fmu",
+        tmp_path / "ramp.fmu",
+        lambda text: re.sub(
+            r'(name="slope"[^>]*) causality="\w+" variability="\w+"', r'\1 variability="constant"', text
+        ),
+    )
+    path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP)), resources___ramp__fmu=frozen.read_bytes())
+    assert fly(path)["ramp.y"][-1] == 1.0 + 2.0
+    with pytest.raises(InputError, match=r"--set: ramp\.slope: matches no parameter: it is a constant; use one of"):
+        fly(path, set={"ramp.slope": 4.0})
 
 
 def test_messages_speak_of_the_file(tiny, tmp_path):

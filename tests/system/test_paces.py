@@ -31,9 +31,9 @@ def fixed(step):
     return openmodelica(f'<oms:FixedStepMaster description="oms-ma" stepSize="{step}" relativeTolerance="1e-4"/>')
 
 
-def osp(step):
+def osp(step, kind="com.opensimulationplatform"):
     content = f'<osp:Algorithm {OSP}><osp:FixedStepAlgorithm baseStepSize="{step}"/></osp:Algorithm>'
-    experiment = f'stopTime="1.0">{annotated("com.opensimulationplatform", content)}</ssd:DefaultExperiment>'
+    experiment = f'stopTime="1.0">{annotated(kind, content)}</ssd:DefaultExperiment>'
     return document(system(RAMP, GAIN, connections=WIRED), step=None).replace(
         'stopTime="1.0"></ssd:DefaultExperiment>', experiment
     )
@@ -41,8 +41,12 @@ def osp(step):
 
 @pytest.mark.parametrize(
     "text",
-    [osp(0.125), document(system(RAMP, GAIN, connections=WIRED, extra=fixed(0.125)), step=None)],
-    ids=["osp", "openmodelica"],
+    [
+        osp(0.125),
+        osp(0.125, "com.github.ntnu-ihb.vico"),
+        document(system(RAMP, GAIN, connections=WIRED, extra=fixed(0.125)), step=None),
+    ],
+    ids=["osp", "vico", "openmodelica"],
 )
 def test_step_and_algorithm_are_those_of_the_annotation(tiny, tmp_path, text):
     path = pack(tmp_path / "s.ssp", tiny, text)

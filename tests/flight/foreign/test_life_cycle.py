@@ -125,6 +125,17 @@ def test_an_instance_that_failed_does_not_fly_again(tmp_path):
             assert gain < 0 or result["odd.y"][-1] == gain * 0.5 + 2.0
 
 
+def test_an_instance_that_asked_for_the_end_does_not_fly_again(tmp_path):
+    """Stair of the Reference FMUs, after its reset, ends every flight with its first step: behind the trial's."""
+    path = odd_system(tmp_path, stop=4.0, ENDS_AT=3.1, KEEPS_END=True)
+    assert reset_verdict(load_fmu((tmp_path / "odd.fmu").read_bytes(), "odd.fmu")).resets
+    with Simulation(prepare_system(path)) as simulation:
+        for _ in range(3):
+            result = simulation.fly()
+            assert (result.status, result.time[-1]) == ("terminated", 3.1)
+            np.testing.assert_allclose(result["odd.y"][-1], 9.3, rtol=1e-14)
+
+
 def test_a_second_component_of_an_fmu_that_allows_one_instance_is_refused(tmp_path):
     odd_fmu(tmp_path, once=True)
     root = system(component("one", "odd"), component("two", "odd"))

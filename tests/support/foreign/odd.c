@@ -17,6 +17,7 @@
  * GOES_TO          the folder that it makes the process's own when it is instantiated
  * ONE_AT_A_TIME    a second instance beside the first is refused
  * ENDS_AT          the time (s) at which it asks for the end, as Stair of the Reference FMUs does at 10 s
+ * KEEPS_END        fmi2Reset does not forget that it has asked for the end, which it does at the next step again
  * ANSWERS, AT      the status that fmi2DoStep returns from the time AT (s) on
  */
 #include <stdio.h>
@@ -30,7 +31,7 @@ enum { COUNT, MODE, INTEGERS };
 typedef enum { INSTANTIATED, INITIALISING, STEPPING, FAILED_STEP, TERMINATED, BROKEN } State;
 typedef struct {
     double real[REALS];
-    int whole[INTEGERS], on, ended, hurt;
+    int whole[INTEGERS], on, ended, spent, hurt;
     double time;
     char word[64];
     State state;
@@ -238,8 +239,11 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real t, fmi2Real h, fmi2Boolean final
     }
 #endif
 #ifdef ENDS_AT
-    odd->ended = end > ENDS_AT;
-    if (odd->ended) end = ENDS_AT;
+    odd->ended = odd->spent || end > ENDS_AT;
+    if (odd->ended) end = odd->spent ? end : ENDS_AT;
+#ifdef KEEPS_END
+    odd->spent = odd->ended;
+#endif
 #endif
 #ifdef ANSWERS
     if (t >= AT) {
