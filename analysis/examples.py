@@ -39,6 +39,18 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
             "one trial again, with all signals",
         ),
     ),
+    "rare": (
+        (
+            "perilune rare lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--failure 'flight_time > 220' --samples 500 --output long_flights",
+            "how likely a long flight is, by few flights a level",
+        ),
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--draws long_flights/failures.parquet",
+            "the likeliest long flights again",
+        ),
+    ),
     "compare": (
         ("perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results", "what is compared"),
         ("perilune compare results --report compare.html", "rates, pairs of variants, trajectories, distributions"),

@@ -10,7 +10,10 @@ from pathlib import Path
 from .errors import InputError
 
 PAGES = (".html", ".htm")
-RESULTS = ("trials.parquet", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json")
+RESULTS = (
+    "trials.parquet", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json",
+    "rare.json", "flights.parquet", "failures.parquet",
+)  # fmt: skip
 
 
 def check_file(option: str, path: Path | None, suffixes: Collection[str] = ()) -> None:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from .analysis.api.laws import Law, law, synthesize
     from .analysis.api.own import new_block, new_system
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
+    from .analysis.api.samples.rare import RareResult, rare
     from .analysis.api.stability import StabilityReport, stability
     from .analysis.api.timing import benchmark
     from .analysis.api.validate import validate
@@ -82,6 +83,7 @@ __all__ = [
     "Output",
     "Parameter",
     "PlanError",
+    "RareResult",
     "Result",
     "StabilityReport",
     "State",
@@ -109,6 +111,7 @@ __all__ = [
     "norm",
     "plan_hover_transfer",
     "plan_landing_bound",
+    "rare",
     "simulate",
     "stability",
     "synthesize",
@@ -126,6 +129,7 @@ _HOMES = {
     "analysis.api.laws": ("Law", "law", "synthesize"),
     "analysis.api.own": ("new_block", "new_system"),
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
+    "analysis.api.samples.rare": ("RareResult", "rare"),
     "analysis.api.stability": ("StabilityReport", "stability"),
     "analysis.api.timing": ("benchmark",),
     "analysis.api.validate": ("validate",),

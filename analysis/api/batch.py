@@ -99,6 +99,7 @@ def batch(
     set: Mapping[str, SetValue] | None = None,
     faults: Sequence[Fault | str] = (),
     input: Given | None = None,
+    draws: FilePath | None = None,
     log: Literal["error", "warning", "info", "all"] | None = None,
     timeout: float | None = None,
     step: float | None = None,
@@ -116,7 +117,8 @@ def batch(
     ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for trials.parquet,
     draws.parquet and summary.json, refused if it holds results unless ``overwrite``; ``faults`` fly in every trial,
     after the campaign's own, and every trial has the same ``input``; one that takes longer than ``timeout`` (s, wall
-    clock) ends ``timed_out``, is no success, and the next one flies. The rest is as in `simulate`. Raises InputError.
+    clock) ends ``timed_out``, is no success, and the next one flies; ``draws`` is a Parquet file of draws to fly, a
+    trial for each row. The rest is as in `simulate`. Raises InputError.
     """
     folder = Path(output) if output is not None else None
     check_folder("output", folder, overwrite=overwrite)
@@ -128,6 +130,7 @@ def batch(
     plan = read_plan(
         Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults_of(faults),
         series=None if input is None else read_series(input), watch=Watch(timeout, log),
+        draws=None if draws is None else Path(draws),
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder
         result = BatchResult(**vars(run_batch(plan, workers=workers, output=folder)))

@@ -47,6 +47,7 @@ def run(options: argparse.Namespace) -> int:
         faults=faults(options),
         series=series(options),
         watch=watch(options),
+        draws=options.draws,
     )
     say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
     if options.replay is not None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from argcomplete.completers import FilesCompleter
+
 from ..common.completers import campaigns, completed
 from ..common.in_flight import add_input, add_watch
 from ..common.options import add_faults, add_json, add_system
@@ -22,6 +24,10 @@ def add(parser: argparse.ArgumentParser) -> None:
     completed(campaign, campaigns)
     parser.add_argument("--trials", type=int, metavar="N", help="instead of the campaign's number")
     parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
+    draws = parser.add_argument(
+        "--draws", type=Path, metavar="F.parquet", help="fly these draws, a trial for each row, and draw none"
+    )
+    completed(draws, FilesCompleter(("parquet",)))
     parser.add_argument(
         "--compare", action="append", metavar="SLOT=A,B,C", help="fly these FMUs in a slot, on the same draws"
     )
