@@ -25,6 +25,7 @@ VERBS = {
     "run": "fly a system once",
     "batch": "fly a campaign: many trials, variants compared on the same draws",
     "rare": "the probability of a rare failure over a campaign's draws, and the likeliest draws that make it",
+    "worst": "the draws within a campaign's box that make a number worst",
     "compare": "compare the variants of one or several stored batches on the same trials",
     "law": "print a network operator's law as a formula, or write it as parameter set or drawing",
     "synthesize": "search for a control law, every candidate flown in its system",
@@ -41,6 +42,7 @@ FAILURES = {
     "run": "the flight failed, or a requirement is not met",
     "batch": "a requirement is not met, or a flight took longer than --timeout",
     "rare": "a requirement is not met",
+    "worst": "a requirement is not met",
     "synthesize": "no law was found with every trial a success",
     "stability": "a requirement is not met, or a point could not be studied",
 }

@@ -51,6 +51,13 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
             "the likeliest long flights again",
         ),
     ),
+    "worst": (
+        (
+            "perilune worst lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--metric flight_time --flights 600 --output longest",
+            "the longest flight from anywhere in the box",
+        ),
+    ),
     "compare": (
         ("perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results", "what is compared"),
         ("perilune compare results --report compare.html", "rates, pairs of variants, trajectories, distributions"),

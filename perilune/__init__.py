@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .analysis.api.own import new_block, new_system
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
     from .analysis.api.samples.rare import RareResult, rare
+    from .analysis.api.samples.worst import WorstResult, worst
     from .analysis.api.stability import StabilityReport, stability
     from .analysis.api.timing import benchmark
     from .analysis.api.validate import validate
@@ -96,6 +97,7 @@ __all__ = [
     "Vector3",
     "Vector4",
     "Vehicle",
+    "WorstResult",
     "batch",
     "benchmark",
     "compare",
@@ -117,6 +119,7 @@ __all__ = [
     "synthesize",
     "validate",
     "vector",
+    "worst",
 ]
 
 _HOMES = {
@@ -130,6 +133,7 @@ _HOMES = {
     "analysis.api.own": ("new_block", "new_system"),
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
     "analysis.api.samples.rare": ("RareResult", "rare"),
+    "analysis.api.samples.worst": ("WorstResult", "worst"),
     "analysis.api.stability": ("StabilityReport", "stability"),
     "analysis.api.timing": ("benchmark",),
     "analysis.api.validate": ("validate",),

@@ -10,19 +10,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyarrow
 
 from ..atomic import write_atomically
 from ..batch.results import write_parquet
 from ..batch.tables import aligned
 from ..campaign.draw_space import DrawSpace
 from ..campaign.failure import Failure
-from ..campaign.given import STREAMS
-from .flown import Flown
+from ..samples.flown import Flown, strict
 from .subset_simulation import Level, SubsetSimulation
 from .uncertainty import CONFIDENCE
 
 TOLD = 5  # failures
+APART = 1.0  # standard deviations: a failure nearer to a likelier one is not told
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,21 +68,28 @@ class RareResult:
 
         The distance is in standard deviations from the medians of the draws, as independent normal ones.
         """
-        flown = self.flown
         return [
             {
                 "trial": trial,
-                "distance": float(np.linalg.norm(flown.points[place])),
-                "margin": _strict(flown.margins[place]),
-                "draws": {name: float(values[place]) for name, values in flown.draws.items() if name != STREAMS},
-                "metrics": {name: _strict(values[place]) for name, values in flown.metrics.items()},
+                "distance": float(np.linalg.norm(self.flown.points[place])),
+                "margin": strict(self.flown.values[place]),
+                **self.flown.fact(place),
             }
             for trial, place in enumerate(self._places)
         ]
 
     @cached_property
     def _places(self) -> np.ndarray:
-        return self.flown.likeliest_failures(TOLD)
+        """Of the likeliest failures among those flown: nearest to the origin first, where points are densest."""
+        failed = np.flatnonzero(self.flown.values >= 0.0)
+        points = self.flown.points
+        chosen: list[int] = []
+        for place in failed[np.argsort(np.linalg.norm(points[failed], axis=1), kind="stable")]:
+            if all(np.linalg.norm(points[place] - points[other]) > APART for other in chosen):
+                chosen.append(int(place))
+            if len(chosen) == TOLD:
+                break
+        return np.array(chosen, dtype=int)
 
     def values(self) -> dict[str, float]:
         """The numbers that requirements are about: probability, interval[1] and [2], flights."""
@@ -141,9 +147,8 @@ class RareResult:
         """Write rare.json, flights.parquet and, where there are failures, failures.parquet for `--draws`."""
         if self.failures:
             drawn = [name for draw in self.space.campaign.draws for name in draw.names]
-            columns = {name: self.flown.draws[name][self._places] for name in (*drawn, STREAMS)}
-            write_parquet(pyarrow.table(columns), folder / "failures.parquet")
-        write_parquet(self.flown.table(), folder / "flights.parquet")
+            write_parquet(self.flown.given(drawn, self._places), folder / "failures.parquet")
+        write_parquet(self.flown.table("margin"), folder / "flights.parquet")
         write_atomically(folder / "rare.json", f"{json.dumps(self.document(), indent=1, allow_nan=False)}\n".encode())
 
 
@@ -151,7 +156,7 @@ LEVEL_HEADS = ["level", "margin from", "flown", "probability", "taken", "gamma",
 
 
 def _level_fact(level: Level) -> dict[str, Any]:
-    return vars(level) | {"threshold": None if level.threshold is None else _strict(level.threshold)}
+    return vars(level) | {"threshold": None if level.threshold is None else strict(level.threshold)}
 
 
 def _level_cells(place: int, level: Level) -> list[str]:
@@ -164,8 +169,3 @@ def _level_cells(place: int, level: Level) -> list[str]:
         f"{level.correlation:.2f}",
         f"{level.deviation:.3f}",
     ]
-
-
-def _strict(value: float) -> float | None:
-    """A number as strict JSON can hold it."""
-    return float(value) if math.isfinite(value) else None

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..batch.samples import SampleFlights
 from ..campaign.draw_space import DrawSpace
 from ..campaign.failure import failure_of
 from ..campaign.plan import BatchPlan
 from ..errors import InputError
-from .flown import Flown
+from ..samples.flights import SampleFlights
+from ..samples.flown import Flown
 from .outcome import RareResult
 from .subset_simulation import StuckError, subset_simulation
 

@@ -14,12 +14,13 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import VERBS
-from perilune.analysis.commands.asked import batch, describe, export, rare, run, stability, synthesize
+from perilune.analysis.commands.asked import batch, describe, export, rare, run, stability, synthesize, worst
 from perilune.analysis.system.options import SystemOptions
 
 FUNCTIONS = {
     "list": "inventory", "describe": "describe", "validate": "validate", "run": "simulate", "batch": "batch",
-    "rare": "rare", "compare": "compare", "law": "law", "synthesize": "synthesize", "plan": "plan_hover_transfer",
+    "rare": "rare", "worst": "worst", "compare": "compare", "law": "law",
+    "synthesize": "synthesize", "plan": "plan_hover_transfer",
     "stability": "stability", "new": "new_block", "benchmark": "benchmark", "export": "export",
 }  # fmt: skip
 # Options that are something else in Python: methods of the result, its values, or another name.
@@ -29,6 +30,7 @@ COMMANDS = {
     "simulate": run,
     "batch": batch,
     "rare": rare,
+    "worst": worst,
     "stability": stability,
     "describe": describe,
     "export": export,
@@ -57,7 +59,7 @@ def test_options_of_the_command_are_keywords(name):
         assert (parameter.default or None) == (action.default or None), option
 
 
-@pytest.mark.parametrize("name", ["simulate", "batch", "rare", "stability", "describe"])
+@pytest.mark.parametrize("name", ["simulate", "batch", "rare", "worst", "stability", "describe"])
 def test_system_options_are_spelled_out_with_their_types(name):
     function = getattr(perilune, name)
     parameters, hints = inspect.signature(function).parameters, get_type_hints(function)

@@ -9,11 +9,11 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from perilune.analysis.batch.samples import SampleFlights
 from perilune.analysis.campaign.draw_space import DrawSpace
 from perilune.analysis.campaign.plan import read_plan
 from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
+from perilune.analysis.samples.flights import SampleFlights
 from perilune.analysis.system.options import SystemOptions
 from tests.support.foreign.odd_fmu import odd_system
 

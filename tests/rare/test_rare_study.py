@@ -67,14 +67,14 @@ def test_workers_do_not_matter(found, linear):
     other = perilune.rare(*linear, failure=f"total > {LIMIT}", samples=SAMPLES, workers=2)
     assert other.document() == result.document()
     assert other.flown.points.tobytes() == result.flown.points.tobytes()
-    assert other.flown.margins.tobytes() == result.flown.margins.tobytes()
+    assert other.flown.values.tobytes() == result.flown.values.tobytes()
 
 
 def test_what_is_written(found):
     folder, result = found
     document = json.loads((folder / "rare.json").read_text())
     assert document["probability"] == result.probability
-    assert document["flights"] == sum(1 for _ in result.flown.margins) == result.flights
+    assert document["flights"] == sum(1 for _ in result.flown.values) == result.flights
     assert document["levels"][0]["samples"] == SAMPLES
     table = pyarrow.parquet.read_table(folder / "flights.parquet")
     assert table.num_rows == result.flights

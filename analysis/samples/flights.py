@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
+from ..batch.flyer import Flyer
+from ..batch.runner import provenance
+from ..batch.trials import Trials, joined
+from ..batch.workers import FlyerPool, worker_count
 from ..campaign.campaign import Record
 from ..campaign.draws import Columns
 from ..campaign.given import GivenDraws
 from ..campaign.plan import BatchPlan, check_draws, check_plan
 from ..errors import InputError
 from ..progress import progress_bar
-from .flyer import Flyer
-from .runner import provenance
-from .trials import Trials, joined
-from .workers import FlyerPool, worker_count
 
 OWN = ("trials", "record", "group", "draws_sha256")  # facts of a batch that a study of samples has not
 
