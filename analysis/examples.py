@@ -38,6 +38,11 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
             "perilune batch lunar_terminal_guidance --campaign paper --replay 7 --output replay",
             "one trial again, with all signals",
         ),
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--sensitivity 64",
+            "which draws drive the metrics",
+        ),
     ),
     "rare": (
         (

@@ -12,7 +12,7 @@ from .errors import InputError
 PAGES = (".html", ".htm")
 RESULTS = (
     "trials.parquet", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json",
-    "rare.json", "worst.json", "flights.parquet", "failures.parquet", "worst.parquet",
+    "rare.json", "worst.json", "sensitivity.json", "flights.parquet", "failures.parquet", "worst.parquet",
 )  # fmt: skip
 
 

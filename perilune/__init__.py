@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .analysis.api.own import new_block, new_system
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
     from .analysis.api.samples.rare import RareResult, rare
+    from .analysis.api.samples.sensitivity import SensitivityResult, sensitivity
     from .analysis.api.samples.worst import WorstResult, worst
     from .analysis.api.stability import StabilityReport, stability
     from .analysis.api.timing import benchmark
@@ -86,6 +87,7 @@ __all__ = [
     "PlanError",
     "RareResult",
     "Result",
+    "SensitivityResult",
     "StabilityReport",
     "State",
     "StudyError",
@@ -114,6 +116,7 @@ __all__ = [
     "plan_hover_transfer",
     "plan_landing_bound",
     "rare",
+    "sensitivity",
     "simulate",
     "stability",
     "synthesize",
@@ -133,6 +136,7 @@ _HOMES = {
     "analysis.api.own": ("new_block", "new_system"),
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
     "analysis.api.samples.rare": ("RareResult", "rare"),
+    "analysis.api.samples.sensitivity": ("SensitivityResult", "sensitivity"),
     "analysis.api.samples.worst": ("WorstResult", "worst"),
     "analysis.api.stability": ("StabilityReport", "stability"),
     "analysis.api.timing": ("benchmark",),

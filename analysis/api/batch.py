@@ -21,6 +21,7 @@ from ..reports.batch.batch_report import write_batch_report
 from ..reports.batch.distributions import sort_metrics
 from ..reports.batch.plots import metric_plot
 from ..reports.kit.quantities import number
+from ..sensitivity.ranks import rank_correlations
 from ..ssp.parameter_sets import SetValue
 from ..system.faults import Fault, faults_of
 from ..system.in_flight.series import Given, read_series
@@ -44,6 +45,16 @@ class BatchResult(results.BatchResult):
         """`table` as a pandas.DataFrame, a row per variant and trial; needs pandas."""
         require_pandas()
         return self.table().to_pandas()
+
+    def rank_correlations(self, variant: str | None = None) -> dict[str, dict[str, float | None]]:
+        """Spearman's rank correlations of one variant's metrics with the draws, by metric and draw; of the first one.
+
+        Over all trials in which the metric is a number; None where there are too few, or one of the two does not vary.
+        Raises KeyError for a variant that the batch does not have.
+        """
+        trials = next(iter(self.trials.values())) if variant is None else self.trials[variant]
+        names = [name for draw in self.plan.campaign.draws for name in draw.names]
+        return rank_correlations({name: self.plan.draws.columns[name] for name in names}, trials.metrics)
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune batch --report`: one HTML file."""

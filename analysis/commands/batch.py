@@ -23,6 +23,7 @@ from ..flight.results import TIMED_OUT
 from ..reports.batch.batch_report import write_batch_report
 from ..system.status_words import with_meaning
 from ..targets import PAGES, Results, check_file, check_folder
+from .batches import sensitivity
 from .common.in_flight import series, watch
 from .common.options import check_json, faults, json_number, pairs, system_options, write_json
 from .common.remarks import say_stale
@@ -30,6 +31,9 @@ from .common.requirements import check_requirements, read_requirements
 
 
 def run(options: argparse.Namespace) -> int:
+    if options.sensitivity is not None:
+        return sensitivity.run(options)
+    sensitivity.refuse_alone(options)
     compare = None
     if options.compare is not None:
         found = pairs(options.compare, "--compare", "SLOT=A,B,C")

@@ -11,6 +11,7 @@ from ..common.completers import campaigns, completed
 from ..common.in_flight import add_input, add_watch
 from ..common.options import add_faults, add_json, add_system
 from ..common.requirements import add_requirements
+from ..common.samples import add_held
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -36,5 +37,12 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--replay", type=int, metavar="K", help="fly trial K only, with all signals to --output DIR")
     parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
     parser.add_argument("--overwrite", action="store_true", help="put the results in place of those in --output DIR")
+    parser.add_argument(
+        "--sensitivity",
+        type=int,
+        metavar="N",
+        help="Sobol' indices of the metrics instead, by N times the number of draws and 2 flights; N a power of two",
+    )
+    add_held(parser)
     add_requirements(parser, "the summary's numbers")
     add_json(parser)

@@ -23,6 +23,14 @@ def add_samples(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--compare", action="append", metavar="SLOT=FMU", help="which FMU flies in a slot that the campaign compares"
     )
+    add_held(parser)
+    parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
+    parser.add_argument("--workers", type=int, metavar="N", help="flights in parallel; default: one per processor")
+    parser.add_argument("--overwrite", action="store_true", help="put the results in place of those in --output DIR")
+
+
+def add_held(parser: argparse.ArgumentParser) -> None:
+    """What does not vary; read with `held` of sample_plans."""
     parser.add_argument(
         "--hold",
         action="append",
@@ -33,9 +41,6 @@ def add_samples(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--noise-trial", type=int, default=0, metavar="K", help="the trial whose noise all flights have; default: 0"
     )
-    parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
-    parser.add_argument("--workers", type=int, metavar="N", help="flights in parallel; default: one per processor")
-    parser.add_argument("--overwrite", action="store_true", help="put the results in place of those in --output DIR")
 
 
 def add_folder(parser: argparse.ArgumentParser, names: str) -> None:

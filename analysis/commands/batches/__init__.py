@@ -1,0 +1,1 @@
+"""What `perilune batch` does instead of its trials."""
