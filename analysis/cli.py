@@ -26,6 +26,8 @@ VERBS = {
     "batch": "fly a campaign: many trials, variants compared on the same draws",
     "shard": "fly some shards of a campaign that perilune batch --prepare, or a batch that ended early, has left",
     "merge": "put the flown shards of a campaign together: summary, page, requirements",
+    "rare": "the probability of a rare failure over a campaign's draws, and the likeliest draws that make it",
+    "worst": "the draws within a campaign's box that make a number worst",
     "compare": "compare the variants of one or several stored batches on the same trials",
     "law": "print a network operator's law as a formula, or write it as parameter set or drawing",
     "synthesize": "search for a control law, every candidate flown in its system",
@@ -37,7 +39,7 @@ VERBS = {
 }
 
 # Verbs whose files lie in rooms of their own.
-ROOMS = {"batch": "campaigns", "shard": "campaigns", "merge": "campaigns"}
+ROOMS = dict.fromkeys(("batch", "shard", "merge", "rare", "worst"), "campaigns")
 
 # What exit status 1 means besides an interruption, of which all verbs make it; 0 is done, 2 wrong input.
 FAILURES = {
@@ -46,6 +48,8 @@ FAILURES = {
     "batch": "a requirement is not met, or a flight took longer than --timeout",
     "shard": "worker processes ended again and again",
     "merge": "a requirement is not met, or a flight took longer than --timeout",
+    "rare": "a requirement is not met",
+    "worst": "a requirement is not met",
     "synthesize": "no law was found with every trial a success",
     "stability": "a requirement is not met, or a point could not be studied",
 }

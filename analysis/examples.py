@@ -38,6 +38,30 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
             "perilune batch lunar_terminal_guidance --campaign paper --replay 7 --output replay",
             "one trial again, with all signals",
         ),
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--sensitivity 64",
+            "which draws drive the metrics",
+        ),
+    ),
+    "rare": (
+        (
+            "perilune rare lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--failure 'flight_time > 220' --samples 500 --output long_flights",
+            "how likely a long flight is, by few flights a level",
+        ),
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--draws long_flights/failures.parquet",
+            "the likeliest long flights again",
+        ),
+    ),
+    "worst": (
+        (
+            "perilune worst lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--metric flight_time --flights 600 --output longest",
+            "the longest flight from anywhere in the box",
+        ),
     ),
     "shard": (
         (

@@ -10,7 +10,10 @@ from pathlib import Path
 from .errors import InputError
 
 PAGES = (".html", ".htm")
-RESULTS = ("manifest.json", "trials", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json")
+RESULTS = (
+    "manifest.json", "trials", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json",
+    "rare.json", "worst.json", "sensitivity.json", "flights.parquet", "failures.parquet", "worst.parquet",
+)  # fmt: skip
 
 
 def check_file(option: str, path: Path | None, suffixes: Collection[str] = ()) -> None:

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from .analysis.api.laws import Law, law, synthesize
     from .analysis.api.own import new_block, new_system
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
+    from .analysis.api.samples.rare import RareResult, rare
+    from .analysis.api.samples.sensitivity import SensitivityResult, sensitivity
+    from .analysis.api.samples.worst import WorstResult, worst
     from .analysis.api.stability import StabilityReport, stability
     from .analysis.api.timing import benchmark
     from .analysis.api.validate import validate
@@ -82,7 +85,9 @@ __all__ = [
     "Output",
     "Parameter",
     "PlanError",
+    "RareResult",
     "Result",
+    "SensitivityResult",
     "StabilityReport",
     "State",
     "StudyError",
@@ -94,6 +99,7 @@ __all__ = [
     "Vector3",
     "Vector4",
     "Vehicle",
+    "WorstResult",
     "batch",
     "benchmark",
     "compare",
@@ -110,12 +116,15 @@ __all__ = [
     "norm",
     "plan_hover_transfer",
     "plan_landing_bound",
+    "rare",
+    "sensitivity",
     "shard",
     "simulate",
     "stability",
     "synthesize",
     "validate",
     "vector",
+    "worst",
 ]
 
 _HOMES = {
@@ -128,6 +137,9 @@ _HOMES = {
     "analysis.api.laws": ("Law", "law", "synthesize"),
     "analysis.api.own": ("new_block", "new_system"),
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
+    "analysis.api.samples.rare": ("RareResult", "rare"),
+    "analysis.api.samples.sensitivity": ("SensitivityResult", "sensitivity"),
+    "analysis.api.samples.worst": ("WorstResult", "worst"),
     "analysis.api.stability": ("StabilityReport", "stability"),
     "analysis.api.timing": ("benchmark",),
     "analysis.api.validate": ("validate",),

@@ -20,6 +20,7 @@ from ..reports.batch.batch_report import write_batch_report
 from ..reports.batch.distributions import sort_metrics
 from ..reports.batch.plots import metric_plot
 from ..reports.kit.quantities import number
+from ..sensitivity.ranks import rank_correlations
 from ..ssp.parameter_sets import SetValue
 from ..system.faults import Fault, faults_of
 from ..system.in_flight.series import Given, read_series
@@ -43,6 +44,16 @@ class BatchResult(results.BatchResult):
         """`table` as a pandas.DataFrame, a row per variant and trial; needs pandas."""
         require_pandas()
         return self.table().to_pandas()
+
+    def rank_correlations(self, variant: str | None = None) -> dict[str, dict[str, float | None]]:
+        """Spearman's rank correlations of one variant's metrics with the draws, by metric and draw; of the first one.
+
+        Over all trials in which the metric is a number; None where there are too few, or one of the two does not vary.
+        Raises KeyError for a variant that the batch does not have.
+        """
+        trials = next(iter(self.trials.values())) if variant is None else self.trials[variant]
+        names = [name for draw in self.plan.campaign.draws for name in draw.names]
+        return rank_correlations({name: self.plan.draws.columns[name] for name in names}, trials.metrics)
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune batch --report`: one HTML file."""
@@ -109,6 +120,7 @@ def batch(
     set: Mapping[str, SetValue] | None = None,
     faults: Sequence[Fault | str] = (),
     input: Given | None = None,
+    draws: FilePath | None = None,
     log: Literal["error", "warning", "info", "all"] | None = None,
     timeout: float | None = None,
     step: float | None = None,
@@ -128,7 +140,8 @@ def batch(
     ``until_decided`` ends with the first shard after which the campaign's requirements are met, or are not;
     ``engine`` is what flies side by side, threads or processes; ``faults`` fly in every trial,
     after the campaign's own, and every trial has the same ``input``; one that takes longer than ``timeout`` (s, wall
-    clock) ends ``timed_out``, is no success, and the next one flies. The rest is as in `simulate`. Raises InputError.
+    clock) ends ``timed_out``, is no success, and the next one flies; ``draws`` is a Parquet file of draws to fly, a
+    trial for each row. The rest is as in `simulate`. Raises InputError.
     """
     folder = Path(output) if output is not None else None
     if resume and folder is None:
@@ -143,6 +156,7 @@ def batch(
         Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults_of(faults),
         series=None if input is None else read_series(input), watch=Watch(timeout, log),
         until_decided=until_decided,
+        draws=None if draws is None else Path(draws),
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder
         flown = runner.run_batch(plan, workers=workers, output=folder, resume=resume, engine=engine)

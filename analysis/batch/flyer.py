@@ -37,6 +37,7 @@ class Flyer:
 
     def __init__(self, plan: BatchPlan) -> None:
         self.plan = plan
+        self.drawn = plan  # whose draws and faults fly: the plan's own, or others for its system
         self.variants = {variant.name: variant for variant in plan.campaign.variants()}
         self._ready: dict[str, tuple[Simulation, VariantNames]] = {}
         self._logs: dict[str, Log] = {}
@@ -100,8 +101,8 @@ class Flyer:
         simulation, names = self.simulation(variant)
         if variant in self._logs:
             self._logs[variant].place = f"{variant}: trial {trial}: "
-        simulation.set_faults(self.plan.faults_of(trial))
-        parameters = {**self.plan.parameters(simulation.prepared, trial), **(overlay or {})}
+        simulation.set_faults(self.drawn.faults_of(trial))
+        parameters = {**self.drawn.parameters(simulation.prepared, trial), **(overlay or {})}
         try:
             flight = run(simulation, parameters, self.plan.watch.timeout)
         except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
@@ -115,8 +116,8 @@ class Flyer:
         names = variant_names(self.plan, prepared)
         faults, log = self.plan.declared_faults(), self._log_of(variant)
         with Simulation(prepared, varied=names.varied, faults=faults, log=log) as simulation:
-            simulation.set_faults(self.plan.faults_of(trial))
-            simulation.set(self.plan.parameters(prepared, trial))
+            simulation.set_faults(self.drawn.faults_of(trial))
+            simulation.set(self.drawn.parameters(prepared, trial))
             result = fly(simulation, self.plan.watch.timeout)
         return result, self._judge(result, names, trial)
 
@@ -126,7 +127,7 @@ class Flyer:
         metrics = {metric.name: float("nan") for metric in campaign.metrics}
         success = False
         if result.complete:
-            constants = names.constants | self.plan.draws.row(trial)
+            constants = names.constants | self.drawn.draws.row(trial)
             metrics = evaluate_metrics(campaign.metrics, result.time, result.signals, constants)
             success = succeeded(campaign.success, metrics)
         return TrialResult(

@@ -12,7 +12,8 @@ import pyarrow
 
 from ..atomic import write_atomically
 from ..campaign.plan import BatchPlan
-from .shards import SUMMARY, Numbering, clear, shard_size, trial_table, write_draws, write_shard
+from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
+from .shards.numbering import Numbering, shard_size
 from .summary import summarise
 from .tables import faults_line, summary_text
 from .trials import Trials

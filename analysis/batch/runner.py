@@ -20,9 +20,10 @@ from .manifest.gather import gather
 from .manifest.manifest import Manifest, read_manifest
 from .manifest.restore import restore
 from .results import BatchResult, batch_digest, make_result
-from .shard_flights import fly_shards, task_size
-from .shards import Numbering, is_flown, spans, write_shard
-from .stored_shards import read_shard
+from .shards.files import is_flown, write_shard
+from .shards.flights import fly_shards, task_size
+from .shards.numbering import Numbering, spans
+from .shards.reading import read_shard
 from .trials import Trials, joined
 from .workers import FlyerPool, worker_count
 

@@ -21,8 +21,8 @@ from ..system.names import parted
 from .manifest.manifest import FILE as MANIFEST
 from .manifest.manifest import WRITE
 from .results import batch_digest
-from .shards import DRAWS, FOLDER, SUMMARY, about_of, described, shard_path, trace_path
-from .stored_shards import AGAIN, numbers, read_table, trials_of, unreadable
+from .shards.files import DRAWS, FOLDER, SUMMARY, about_of, described, shard_path, trace_path
+from .shards.reading import AGAIN, numbers, read_table, trials_of, unreadable
 from .trials import Trials, joined
 
 FACTS = (

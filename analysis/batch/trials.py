@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -37,6 +37,20 @@ class Trials(TrialColumns):
             messages={trial: text for trial, text in self.messages.items() if trial in numbers},
             final={name: values[rows] for name, values in self.final.items()},
             traces={trial: traces for trial, traces in self.traces.items() if trial in numbers},
+        )
+
+    @property
+    def flown(self) -> np.ndarray:
+        """Which flights came to their end (trials,)."""
+        return np.array([int(trial) not in self.messages for trial in self.trial])
+
+    def counted_from(self, first: int) -> Trials:
+        """The same with other numbers, as many higher."""
+        return replace(
+            self,
+            trial=self.trial + first,
+            messages={trial + first: text for trial, text in self.messages.items()},
+            traces={trial + first: traces for trial, traces in self.traces.items()},
         )
 
 

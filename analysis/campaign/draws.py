@@ -31,7 +31,12 @@ class DrawTable:
 
     def of_first(self, trials: int) -> DrawTable:
         """Those of the first ``trials`` trials."""
-        return DrawTable(trials, {name: column[:trials] for name, column in self.columns.items()})
+        return self.of_part(range(trials))
+
+    def of_part(self, trials: range) -> DrawTable:
+        """Those of trials in a row, which are counted from 0 then."""
+        rows = slice(trials.start, trials.stop)
+        return DrawTable(len(trials), {name: column[rows] for name, column in self.columns.items()})
 
     def row(self, trial: int) -> dict[str, float]:
         """Every value of one trial."""
@@ -125,14 +130,23 @@ def draw_table(campaign: Campaign) -> DrawTable:
     found |= _grid(designs["grid"], trials, campaign.file)
     found |= _latin_hypercube(designs["latin_hypercube"], trials, seed)
     found |= _sobol(designs["sobol"], trials, seed, campaign.file)
-    columns = {name: found[name] for draw in campaign.draws for name in draw.names}
+    return table_of(campaign, found)
+
+
+def table_of(campaign: Campaign, drawn: Mapping[str, np.ndarray]) -> DrawTable:
+    """The table with these draws, an array (trials,) by name, and what the campaign derives of them.
+
+    Raises InputError where a derived value is not finite.
+    """
+    names = [name for draw in campaign.draws for name in draw.names]
+    columns: Columns = {name: drawn[name] for name in (*names, *(other for other in drawn if other not in names))}
     for name, formula in campaign.derived.items():
-        columns[name] = np.array(np.broadcast_to(formula.evaluate(columns), (trials,)))
+        columns[name] = np.array(np.broadcast_to(formula.evaluate(columns), (campaign.trials,)))
         wrong = np.flatnonzero(~np.isfinite(columns[name]))
         if wrong.size:
             problem = f"{formula.text!r} is {columns[name][wrong[0]]} in trial {wrong[0]}"
             raise InputError(*formula.where, problem, "keep the expression finite over the range of the draws")
-    return DrawTable(trials, columns)
+    return DrawTable(campaign.trials, columns)
 
 
 class StreamNumbers(NamedTuple):

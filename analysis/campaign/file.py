@@ -15,7 +15,8 @@ from .requirements import read_requirements
 from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, read_toml, sequence, text
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
-COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})  # of records and of the results' table
+# of records, of the results' table and of files of draws
+COLUMNS = frozenset({"time", "trial", "variant", "status", "success", "streams_of"})
 REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that go with one reduction only
 SCATTER = ("x", "y", "circle", "title")
 

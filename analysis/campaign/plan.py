@@ -19,9 +19,10 @@ from ..system.in_flight.watch import UNWATCHED, Watch
 from ..system.options import Layer, SystemOptions
 from ..system.prepared import PreparedSystem, prepare_system
 from .campaign import Campaign, Variant
-from .draws import DrawTable, draw_table, stream_numbers
+from .draws import DrawTable, draw_table, stream_numbers, table_of
 from .faults import DrawnFault, check_drawn, drawn_fault
 from .file import parse_campaign
+from .given import GivenDraws, read_given
 from .groups import Group, groups_of
 from .metrics import names_needed
 from .toml_table import Table
@@ -35,7 +36,7 @@ class BatchPlan:
     win over parameter sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names
     parameters that whoever flies the plan gives anew with every flight. ``faults`` are the user's, which fly in
     every trial after the campaign's own, ``series`` the inputs over time that all trials have; ``watch`` is how each
-    is watched.
+    is watched. ``given`` are draws that fly in place of drawn ones.
     """
 
     system: str
@@ -46,6 +47,7 @@ class BatchPlan:
     faults: tuple[Fault, ...] = ()
     series: InputSeries | None = None
     watch: Watch = UNWATCHED
+    given: GivenDraws | None = None
     compared_by: str = ""  # what errors name for the compared FMUs: --compare, or the campaign's file
     campaign_data: bytes = b""  # the campaign's file
     until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
@@ -54,6 +56,8 @@ class BatchPlan:
     @cached_property
     def draws(self) -> DrawTable:
         """The table of draws of all trials. Raises InputError."""
+        if self.given is not None:
+            return table_of(self.campaign, self.given.table)
         try:
             return draw_table(self.campaign)
         except MemoryError as error:
@@ -62,9 +66,18 @@ class BatchPlan:
 
     def of_first(self, trials: int) -> BatchPlan:
         """A plan of the first ``trials`` trials, with the draws that they have in this one."""
-        part = replace(self, campaign=replace(self.campaign, trials=trials))
-        part.__dict__["draws"] = self.draws.of_first(trials)  # in cached_property's place: drawn anew they may differ
+        return self.of_part(range(trials))
+
+    def of_part(self, trials: range) -> BatchPlan:
+        """A plan of trials in a row, with the draws that they have in this one; from 1 on, those must be given."""
+        given = None if self.given is None else self.given.of_part(trials)
+        part = replace(self, campaign=replace(self.campaign, trials=len(trials)), given=given)
+        part.__dict__["draws"] = self.draws.of_part(trials)  # in cached_property's place: drawn anew they may differ
         return part
+
+    def of_samples(self, given: GivenDraws) -> BatchPlan:
+        """A plan that flies given draws, a trial for each: values derived of them, faults and metrics follow."""
+        return replace(self, campaign=replace(self.campaign, trials=given.trials), given=given)
 
     @cached_property
     def groups(self) -> list[Group]:
@@ -103,7 +116,8 @@ class BatchPlan:
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of one trial: draws, and seed and stream of every component that has them."""
-        streams = stream_numbers(self.campaign.seed, trial, prepared.network.fmus, self.campaign.file)
+        whose = trial if self.given is None else self.given.stream_of(trial)
+        streams = stream_numbers(self.campaign.seed, whose, prepared.network.fmus, self.campaign.file)
         values: dict[str, float | int] = dict(self.draws.parameters(trial))
         for name, fmu in prepared.network.fmus.items():
             if {"seed", "stream"} <= set(fmu.variables):
@@ -132,10 +146,12 @@ def read_plan(
     series: InputSeries | None = None,
     watch: Watch | None = None,
     until_decided: bool = False,
+    draws: Path | None = None,
 ) -> BatchPlan:
     """Read a campaign by name or path, with the command line's changes. Raises InputError.
 
-    ``compare`` replaces the campaign's own comparison, ``faults`` come after its own, ``series`` are inputs over time.
+    ``compare`` replaces the campaign's own comparison, ``faults`` come after its own, ``series`` are inputs over time,
+    ``draws`` is a file of draws to fly in place of drawn ones.
     """
     archive = open_system(system)
     data, label = archive.campaign(campaign)
@@ -151,11 +167,13 @@ def read_plan(
         changes["seed"] = seed
     if compare is not None:
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
+    if draws is not None and trials is not None:
+        raise InputError("--trials", str(trials), "the file of --draws says how many", "leave one of the two out")
     changed = replace(read, **changes)
     if until_decided and not changed.requirements:
         remedy = "declare what is to be decided: [requirement.NAME]"
         raise InputError(label, "--until-decided", "the campaign has no requirement", remedy)
-    return BatchPlan(
+    plan = BatchPlan(
         str(system),
         changed,
         options,
@@ -167,6 +185,7 @@ def read_plan(
         campaign_data=data,
         until_decided=until_decided,
     )
+    return plan if draws is None else plan.of_samples(read_given(draws, changed))
 
 
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
@@ -175,13 +194,18 @@ def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
     _refuse_conflicts(plan)
     systems = {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
     for prepared in systems.values():
-        for name in variant_names(plan, prepared).varied:
-            _check_varied(plan, prepared, name)
-        for drawn in plan.drawn_faults:
-            check_drawn(drawn, prepared.network)
+        check_draws(plan, prepared)
         for fault in plan.faults:
             check_fault(prepared.network, fault)
     return systems
+
+
+def check_draws(plan: BatchPlan, prepared: PreparedSystem) -> None:
+    """Refuse draws and drawn faults that a prepared system cannot have. Raises InputError."""
+    for name in variant_names(plan, prepared).varied:
+        _check_varied(plan, prepared, name)
+    for drawn in plan.drawn_faults:
+        check_drawn(drawn, prepared.network)
 
 
 def _refuse_conflicts(plan: BatchPlan) -> None:

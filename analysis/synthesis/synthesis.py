@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..batch.flyer import Flyer
-from ..batch.shards import write_draws
+from ..batch.shards.files import write_draws
 from ..batch.workers import worker_count
 from ..campaign.plan import BatchPlan, check_plan
 from ..errors import InputError, suggestion

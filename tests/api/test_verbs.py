@@ -15,22 +15,26 @@ import pytest
 import perilune
 from perilune.analysis.cli import VERBS
 from perilune.analysis.commands.asked import describe, export, run, stability, synthesize
-from perilune.analysis.commands.asked.campaigns import batch, shard
+from perilune.analysis.commands.asked.campaigns import batch, rare, shard, worst
 from perilune.analysis.system.options import SystemOptions
 
 FUNCTIONS = {
     "list": "inventory", "describe": "describe", "validate": "validate", "run": "simulate", "batch": "batch",
-    "shard": "shard", "merge": "merge", "compare": "compare", "law": "law", "synthesize": "synthesize",
-    "plan": "plan_hover_transfer", "stability": "stability", "new": "new_block",
+    "shard": "shard", "merge": "merge", "rare": "rare", "worst": "worst", "compare": "compare", "law": "law",
+    "synthesize": "synthesize", "plan": "plan_hover_transfer", "stability": "stability", "new": "new_block",
     "benchmark": "benchmark", "export": "export",
 }  # fmt: skip
 # Options that are something else in Python: methods of the result, its values, or another name.
 PRINTED = {"help", "json", "report", "require", "replay", "output", "prepare"}
+APART = {"batch": {"sensitivity", "hold", "noise_trial"}}  # a function of its own
+
 NAMES = {"loop": "loops", "fault": "faults", "platform": "platforms"}
 COMMANDS = {
     "simulate": run,
     "batch": batch,
     "shard": shard,
+    "rare": rare,
+    "worst": worst,
     "stability": stability,
     "describe": describe,
     "export": export,
@@ -52,14 +56,14 @@ def test_options_of_the_command_are_keywords(name):
     options = {action.dest: action for action in parser._actions if action.option_strings and not action.required}
     keywords = inspect.signature(getattr(perilune, name)).parameters
     for option, action in options.items():
-        if option in PRINTED:
+        if option in PRINTED | APART.get(name, set()):
             continue
         parameter = keywords[NAMES.get(option, option)]
         assert parameter.kind is inspect.Parameter.KEYWORD_ONLY
         assert (parameter.default or None) == (action.default or None), option
 
 
-@pytest.mark.parametrize("name", ["simulate", "batch", "stability", "describe"])
+@pytest.mark.parametrize("name", ["simulate", "batch", "rare", "worst", "sensitivity", "stability", "describe"])
 def test_system_options_are_spelled_out_with_their_types(name):
     function = getattr(perilune, name)
     parameters, hints = inspect.signature(function).parameters, get_type_hints(function)

@@ -10,7 +10,8 @@ import pyarrow.parquet
 
 from ...campaign.plan import BatchPlan
 from ...errors import InputError
-from ..shards import DRAWS, FOLDER, SUMMARY, Numbering, clear, write_draws
+from ..shards.files import DRAWS, FOLDER, SUMMARY, clear, write_draws
+from ..shards.numbering import Numbering
 from .contents import store
 from .manifest import CONTENTS, FILE, Manifest, differences, read_manifest
 

@@ -9,15 +9,15 @@ from importlib.metadata import version
 from pathlib import PurePath
 from typing import Any
 
+import numpy as np
 import pyarrow
 import pyarrow.parquet
 
 from ...campaign.plan import BatchPlan
 from ...flight.instances.reset_test import reset_verdict
 from ...ssp.archive import SystemArchive
-from ...system.in_flight.series import InputSeries
 from ...system.prepared import PreparedSystem
-from ..shards import shard_size
+from ..shards.numbering import shard_size
 from .contents import name_of
 from .manifest import Manifest
 
@@ -45,7 +45,12 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         }
     series = None
     if plan.series is not None:
-        series = _series(plan.series) | {"content": keep(_table(plan.series), ".parquet")}
+        content = keep(_table({"time": plan.series.time, **plan.series.columns}), ".parquet")
+        series = {"label": plan.series.file, "sha256": plan.series.sha256, "content": content}
+    draws = None
+    if plan.given is not None:
+        content = keep(_table(plan.given.table), ".parquet")
+        draws = {"label": plan.given.file, "sha256": plan.given.sha256, "content": content}
     campaign = plan.campaign
     options = {name: value for name, value in asdict(plan.options).items() if name not in NOT_ASKED}
     fmus = {fmu.digest: fmu for prepared in systems.values() for fmu in prepared.network.fmus.values()}
@@ -62,6 +67,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         options=options,
         faults=[str(fault) for fault in plan.faults],
         series=series,
+        draws=draws,
         timeout=plan.watch.timeout,
         fmus={
             variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
@@ -86,14 +92,10 @@ def _system(archive: SystemArchive) -> dict[str, Any]:
     }
 
 
-def _series(series: InputSeries) -> dict[str, str]:
-    return {"label": series.file, "sha256": series.sha256}
-
-
-def _table(series: InputSeries) -> bytes:
-    """Inputs over time as Parquet, every bit of them."""
+def _table(columns: Mapping[str, np.ndarray]) -> bytes:
+    """Columns as Parquet, every bit of them."""
     sink = pyarrow.BufferOutputStream()
-    pyarrow.parquet.write_table(pyarrow.table({"time": series.time, **series.columns}), sink)
+    pyarrow.parquet.write_table(pyarrow.table(dict(columns)), sink)
     return bytes(sink.getvalue())
 
 

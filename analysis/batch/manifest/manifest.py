@@ -25,9 +25,9 @@ class Manifest:
     ``system`` has name, label, description, sha256 and ``files``, contents by archive name; ``elsewhere`` are contents
     that lay outside of it, by what asks for them. ``campaign`` has label, content and what the command line compares.
     ``options`` are the system options, ``faults`` the user's, ``series`` the inputs over time (label, sha256, content),
-    ``timeout`` is in s. ``fmus`` are hashes by variant and component, ``resets`` the verdicts of reset tests by hash.
-    ``until_decided`` says that it ends with the shard at whose end its requirements are decided.
-    ``shard_size`` is in trials, each of which every variant flies.
+    ``draws`` likewise those that are given instead of drawn, ``timeout`` is in s. ``fmus`` are hashes by variant and
+    component, ``resets`` the verdicts of reset tests by hash. ``until_decided`` says that it ends with the shard at
+    whose end its requirements are decided. ``shard_size`` is in trials, each of which every variant flies.
     """
 
     perilune: str
@@ -37,6 +37,7 @@ class Manifest:
     options: Mapping[str, Any]
     faults: list[str]
     series: Mapping[str, str] | None
+    draws: Mapping[str, str] | None
     timeout: float | None
     fmus: Mapping[str, Mapping[str, str]]
     resets: Mapping[str, Mapping[str, Any]]

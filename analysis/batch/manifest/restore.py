@@ -7,9 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pyarrow.parquet
 
 from ...campaign.draws import DrawTable
+from ...campaign.given import STREAMS, GivenDraws
 from ...campaign.plan import BatchPlan, campaign_of
 from ...errors import InputError
 from ...flight.instances.reset_test import ResetVerdict, known
@@ -18,7 +20,7 @@ from ...system.faults import parse_fault
 from ...system.in_flight.series import InputSeries
 from ...system.in_flight.watch import Watch
 from ...system.options import SystemOptions
-from ..shards import DRAWS
+from ..shards.files import DRAWS
 from .contents import AGAIN, stored
 from .manifest import CONTENTS, Manifest
 
@@ -52,7 +54,12 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None) -> BatchPl
         until_decided=manifest.until_decided,
         archive=_archive(contents, manifest),
     )
-    plan.__dict__["draws"] = _draws(folder / DRAWS, plan)  # in cached_property's place: drawn anew they could differ
+    if manifest.draws is not None:
+        plan = plan.of_samples(_given(contents, manifest.draws)).of_first(manifest.trials)
+    else:
+        plan.__dict__["draws"] = _draws(
+            folder / DRAWS, plan
+        )  # in cached_property's place: drawn anew they could differ
     for digest, verdict in manifest.resets.items():
         known(digest, ResetVerdict(**verdict))
     return plan
@@ -77,6 +84,14 @@ def _series(contents: Path, series: Mapping[str, str]) -> InputSeries:
     table = pyarrow.parquet.read_table(stored(contents, series["content"]))
     columns = {name: table[name].to_numpy() for name in table.column_names}
     return InputSeries(series["label"], series["sha256"], columns.pop("time"), columns)
+
+
+def _given(contents: Path, given: Mapping[str, str]) -> GivenDraws:
+    table = pyarrow.parquet.read_table(stored(contents, given["content"]))
+    columns = {name: table[name].to_numpy() for name in table.column_names}
+    streams = columns.pop(STREAMS, None)
+    whose = None if streams is None else streams.astype(np.int64)
+    return GivenDraws(columns, whose, given["label"], given["sha256"])
 
 
 def _draws(path: Path, plan: BatchPlan) -> DrawTable:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from . import hover_transfer, landing_bound
+from .plans import hover_transfer, landing_bound
 
 PLANS = {"hover-transfer": hover_transfer, "landing-bound": landing_bound}
 

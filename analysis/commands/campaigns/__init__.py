@@ -1,1 +1,1 @@
-"""The commands about campaigns: flown, in one go or in shards, and put together."""
+"""The commands about campaigns: flown, in one go or in shards, put together, and what else their draws tell."""

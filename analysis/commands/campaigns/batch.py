@@ -16,10 +16,14 @@ from ...targets import PAGES, Results, check_file, check_folder
 from ..common.in_flight import series, watch
 from ..common.options import check_json, faults, json_number, pairs, system_options, write_json
 from ..common.remarks import say_stale
+from . import sensitivity
 from .telling import asked_requirements, said_how_to_go_on, tell
 
 
 def run(options: argparse.Namespace) -> int:
+    if options.sensitivity is not None:
+        return sensitivity.run(options)
+    sensitivity.refuse_alone(options)
     compare = None
     if options.compare is not None:
         found = pairs(options.compare, "--compare", "SLOT=A,B,C")
@@ -40,6 +44,7 @@ def run(options: argparse.Namespace) -> int:
         series=series(options),
         watch=watch(options),
         until_decided=options.until_decided,
+        draws=options.draws,
     )
     say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
     if options.replay is not None:

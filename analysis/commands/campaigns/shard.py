@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from ...batch.runner import fly_campaign, open_folder
-from ...batch.shards import numbers_of
+from ...batch.shards.numbering import numbers_of
 from .telling import said_how_to_go_on
 
 

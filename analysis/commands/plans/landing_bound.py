@@ -17,7 +17,7 @@ from ...reports.plan.landing_page import write_landing_page
 from ...system.options import SystemOptions
 from ...system.prepared import PreparedSystem, prepare_system
 from ...targets import PAGES, Results, check_file
-from ..asked.landing_bound import PLACES
+from ..asked.plans.landing_bound import PLACES
 from ..common.options import check_json, system_options, write_json
 from ..common.vehicle import burns_text, enough, given
 

@@ -9,6 +9,7 @@ from ...batch.results import BatchResult
 from ...campaign.campaign import Campaign
 from ..kit.page import write_page
 from .distributions import distribution_panels, legend_of, sort_metrics
+from .drivers import drivers
 from .failures import failure_panels, telling_scores
 from .rates import rates_figure
 from .replays import extremes_to_replay, failures_to_replay
@@ -44,6 +45,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         extremes=extremes_to_replay(result),
         seen=seen_statuses(result),
         scores={variant: found for variant, found in scores.items() if found},
+        drivers=drivers(result),
         drawn_names=[name for draw in campaign.draws for name in draw.names],
         draws=draw_rows(campaign),
         fmus=fmu_rows(result.provenance["fmus"]),

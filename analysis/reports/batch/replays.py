@@ -78,7 +78,8 @@ def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
     campaign, options = plan.campaign, plan.options
     inside = campaign.file.partition("!")[2]  # of a system's own campaign
     words = ["perilune", "batch", plan.system, "--campaign", PurePosixPath(inside).stem if inside else campaign.file]
-    words += ["--trials", str(campaign.trials), "--seed", str(campaign.seed)]
+    words += ["--trials", str(campaign.trials)] if plan.given is None else ["--draws", plan.given.file]
+    words += ["--seed", str(campaign.seed)]
     words += [word for name, fmu in variant.use.items() for word in ("--compare", f"{name}={fmu}")]
     words += [word for option, text in _options(options) for word in (option, text)]
     words += [word for fault in plan.faults for word in ("--fault", str(fault))]

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from perilune.analysis.batch.results import BatchResult, make_result
-from perilune.analysis.batch.shards import write_draws
+from perilune.analysis.batch.shards.files import write_draws
 from perilune.analysis.batch.trials import Trials
 from perilune.analysis.campaign.file import parse_campaign
 from perilune.analysis.campaign.plan import BatchPlan

@@ -5,10 +5,13 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from argcomplete.completers import FilesCompleter
+
 from ...common.completers import campaigns, completed
 from ...common.in_flight import add_input, add_watch
 from ...common.options import add_faults, add_json, add_system
 from ...common.requirements import add_requirements
+from ...common.samples import add_held
 from .shard import add_engine
 
 
@@ -23,6 +26,10 @@ def add(parser: argparse.ArgumentParser) -> None:
     completed(campaign, campaigns)
     parser.add_argument("--trials", type=int, metavar="N", help="instead of the campaign's number")
     parser.add_argument("--seed", type=int, metavar="S", help="instead of the campaign's root seed")
+    draws = parser.add_argument(
+        "--draws", type=Path, metavar="F.parquet", help="fly these draws, a trial for each row, and draw none"
+    )
+    completed(draws, FilesCompleter(("parquet",)))
     parser.add_argument(
         "--compare", action="append", metavar="SLOT=A,B,C", help="fly these FMUs in a slot, on the same draws"
     )
@@ -38,5 +45,12 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--replay", type=int, metavar="K", help="fly trial K only, with all signals to --output DIR")
     parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
     parser.add_argument("--overwrite", action="store_true", help="put the results in place of those in --output DIR")
+    parser.add_argument(
+        "--sensitivity",
+        type=int,
+        metavar="N",
+        help="Sobol' indices of the metrics instead, by N times the number of draws and 2 flights; N a power of two",
+    )
+    add_held(parser)
     add_requirements(parser, "the summary's numbers")
     add_json(parser)

@@ -6,11 +6,11 @@ import argparse
 import math
 from pathlib import Path
 
-from ...planning.vehicle import HOVER_MARGINS as MARGINS
-from ...planning.vehicle import HOVER_TRANSFER as TRANSFER
-from ...planning.vehicle import HOVER_VEHICLE as VEHICLE
-from ..common.options import add_json
-from ..common.vehicle import add_vehicle, number, whole
+from ....planning.vehicle import HOVER_MARGINS as MARGINS
+from ....planning.vehicle import HOVER_TRANSFER as TRANSFER
+from ....planning.vehicle import HOVER_VEHICLE as VEHICLE
+from ...common.options import add_json
+from ...common.vehicle import add_vehicle, number, whole
 
 HELP = "plan a transfer between two hovers: simplified programme, true optimum, point-mass bound"
 

@@ -9,10 +9,10 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from ..campaign.plan import BatchPlan
-from ..errors import InputError
-from .shards import described, shard_path, trace_path
-from .trials import Trials
+from ...campaign.plan import BatchPlan
+from ...errors import InputError
+from ..trials import Trials
+from .files import described, shard_path, trace_path
 
 AGAIN = "fly the batch again into an empty folder"
 COLUMNS = ("variant", "trial", "status", "success", "end_time")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from .flyer import Flyer
-from .shards import Numbering
-from .trials import Trials, joined
-from .workers import FlyerPool
+from ..flyer import Flyer
+from ..trials import Trials, joined
+from ..workers import FlyerPool
+from .numbering import Numbering
 
 MOST_IN_THREAD, MOST_IN_PROCESS = 50, 10  # trials of a task: enough to send, few enough to share out or lose
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...planning.bounds import LANDING
-from ...planning.vehicle import LANDING_VEHICLE
-from ..common.options import add_json, add_system
-from ..common.vehicle import add_vehicle, number, whole
+from ....planning.bounds import LANDING
+from ....planning.vehicle import LANDING_VEHICLE
+from ...common.options import add_json, add_system
+from ...common.vehicle import add_vehicle, number, whole
 
 PLACES = {
     "range": "m along the ground from the site to the start",

@@ -1,0 +1,1 @@
+"""Studies that choose a campaign's draws themselves, from Python."""

@@ -1,0 +1,74 @@
+"""Rare failures from Python."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import chdir
+from pathlib import Path
+from typing import Literal
+
+from ...rare.outcome import RareResult
+from ...rare.study import LEAST, SAMPLES, rare_failure
+from ...ssp.parameter_sets import SetValue
+from ...system.faults import Fault
+from ...system.in_flight.series import Given
+from ...targets import check_folder
+from ..options import FilePath
+from .plans import sample_plan
+
+
+def rare(
+    system: FilePath,
+    campaign: FilePath,
+    *,
+    failure: str | None = None,
+    samples: int | None = None,
+    least: float | None = None,
+    hold: Mapping[str, float] | None = None,
+    noise_trial: int = 0,
+    compare: Mapping[str, str] | None = None,
+    seed: int | None = None,
+    workers: int | None = None,
+    output: FilePath | None = None,
+    overwrite: bool = False,
+    use: Mapping[str, FilePath] | None = None,
+    parameters: Sequence[FilePath] = (),
+    set: Mapping[str, SetValue] | None = None,
+    faults: Sequence[Fault | str] = (),
+    input: Given | None = None,
+    log: Literal["error", "warning", "info", "all"] | None = None,
+    timeout: float | None = None,
+    step: float | None = None,
+    stop_time: float | None = None,
+    algorithm: Literal["sequential", "jacobi"] | None = None,
+    variant: str | None = None,
+    flavour: Literal["native", "python"] | None = None,
+    allow_unmatched: bool = False,
+    strict: bool = False,
+    open_inputs: Literal["refuse", "start"] = "refuse",
+    no_feedthrough: Sequence[str] = (),
+) -> RareResult:
+    """The probability of a rare failure over a campaign's draws, by subset simulation: `perilune rare`.
+
+    ``failure`` is an expression over metrics and draws, by default that a trial is no success; ``samples`` are the
+    flights of a level, by default 4500, and a failure less likely than ``least``, by default 1e-9, is given up.
+    ``hold`` gives draws one value in all flights, ``noise_trial`` is the trial whose noise all have, ``compare`` says
+    which FMU flies in a slot that the campaign compares; ``output`` is a folder for rare.json, flights.parquet and
+    failures.parquet. The rest is as in `batch`. Raises InputError.
+    """
+    folder = Path(output).absolute() if output is not None else None
+    check_folder("output", folder, overwrite=overwrite)
+    plan = sample_plan(
+        system, campaign, compare=compare, seed=seed, use=use, parameters=parameters, set=set, faults=faults,
+        input=input, log=log, timeout=timeout, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
+        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+        no_feedthrough=no_feedthrough,
+    )  # fmt: skip
+    with chdir(Path.cwd()):  # an FMU may change the folder
+        result = rare_failure(
+            plan, failure, hold=hold, noise_trial=noise_trial, workers=workers,
+            samples=SAMPLES if samples is None else samples, least=LEAST if least is None else least,
+        )  # fmt: skip
+    if folder is not None:
+        result.write(folder)
+    return result

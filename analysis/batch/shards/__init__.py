@@ -1,0 +1,1 @@
+"""Runs of consecutive trials, each flown as a whole, in a file of its own."""

@@ -1,0 +1,34 @@
+"""perilune rare: the probability of a rare failure."""
+
+from __future__ import annotations
+
+import argparse
+
+from ...rare.study import LEAST, SAMPLES, rare_failure
+from ...targets import Results, check_folder
+from ..common.options import check_json, tell
+from ..common.remarks import say_stale
+from ..common.requirements import check_requirements, read_requirements
+from ..common.sample_plans import held, read_samples
+
+NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")
+
+
+def run(options: argparse.Namespace) -> int:
+    check_folder("--output", options.output, overwrite=options.overwrite)
+    check_json(options)
+    requirements = read_requirements(options.require, NUMBERS)
+    plan = read_samples(options)
+    say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
+    files = Results()
+    result = rare_failure(
+        plan,
+        options.failure,
+        samples=SAMPLES if options.samples is None else options.samples,
+        least=LEAST if options.least is None else options.least,
+        **held(options),
+    )
+    files.write(options.output, result.write)
+    status = tell(result.document(), options, lambda: print(result.text()), files)
+    met = check_requirements(requirements, result.values())
+    return status or int(not met)

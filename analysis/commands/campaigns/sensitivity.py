@@ -1,0 +1,40 @@
+"""perilune batch --sensitivity N: what drives the metrics of a campaign."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from ...errors import InputError
+from ...sensitivity.study import sensitivity
+from ...targets import Results, check_folder
+from ..common.options import check_json, tell
+from ..common.remarks import say_stale
+from ..common.sample_plans import held, read_samples
+
+NOT_WITH = ("trials", "draws", "replay", "report", "require")
+
+
+def run(options: argparse.Namespace) -> int:
+    for name in NOT_WITH:
+        if getattr(options, name) not in (None, []):
+            raise InputError("--sensitivity", f"--{name}", "does not go with it", "leave one of them out")
+    check_folder("--output", options.output, overwrite=options.overwrite)
+    check_json(options)
+    plan = read_samples(options)
+    say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
+    files = Results()
+    result = sensitivity(
+        plan, options.sensitivity, **held(options), tell=lambda price: print(f"perilune: {price}", file=sys.stderr)
+    )
+    files.write(options.output, result.write)
+    return tell(result.document(), options, lambda: print(result.text()), files)
+
+
+def refuse_alone(options: argparse.Namespace) -> None:
+    """Refuse options that go with --sensitivity only."""
+    for name, given in (("--hold", options.hold), ("--noise-trial", options.noise_trial)):
+        if given:
+            text = str(given[0] if isinstance(given, list) else given)
+            problem = "a batch draws all of its trials"
+            raise InputError(name, text, problem, "give --sensitivity N too, or leave it out")

@@ -1,0 +1,62 @@
+"""How sure a probability by subset simulation is: correlation within chains, and within families of chains."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.stats import binomtest, t
+
+CONFIDENCE = 0.95
+
+
+class Interval(NamedTuple):
+    """A confidence interval and the coefficient of variation that it is made of."""
+
+    low: float
+    high: float
+    variation: float
+
+
+def binomial_interval(failures: int, samples: int, confidence: float) -> Interval:
+    """Clopper and Pearson's interval, of independent samples."""
+    ends = binomtest(failures, samples).proportion_ci(confidence, method="exact")
+    share = failures / samples
+    return Interval(float(ends.low), float(ends.high), float(np.sqrt((1.0 - share) / (share * samples))))
+
+
+def chain_correlation(inside: np.ndarray) -> float:
+    """The factor gamma of Au and Beck (2001, equation 29), of whether the points of chains are inside an event.
+
+    ``inside`` (chains, length) is true or false. The variance of their mean is 1 + gamma times that of independent
+    points, were the chains independent of each other.
+    """
+    length = inside.shape[1]
+    mean = float(inside.mean())
+    if length == 1 or mean in (0.0, 1.0):
+        return 0.0
+    values = inside.astype(float)
+    variance = mean * (1.0 - mean)
+    total = 0.0
+    for lag in range(1, length):
+        covariance = float(np.mean(values[:, :-lag] * values[:, lag:])) - mean**2
+        total += (1.0 - lag / length) * covariance / variance
+    return max(2.0 * total, -1.0)
+
+
+def family_interval(probability: float, families: np.ndarray, first: int, confidence: float) -> Interval:
+    """The interval of a probability by levels, whose failed points belong to ``families`` of ``first`` first points.
+
+    The failed descendants of each first point are as one draw, independent of those of the others: the relative
+    variance of their mean is that of the estimate, with all correlation in chains, between chains of one origin and
+    from level to level (the genealogical estimator: Chan and Lai 2013; Lee and Whiteley 2018, section 2.3). The
+    interval is log-normal, with Student's t of as many degrees of freedom as the sum of squares has (Satterthwaite).
+    """
+    _, sizes = np.unique(families, return_counts=True)
+    shares = sizes / sizes.sum()
+    squares = shares**2
+    variance = max(float(squares.sum()) - 1.0 / first, 0.0)
+    freedom = max(2.0 * float(squares.sum()) ** 2 / float((squares**2).sum()) - 1.0, 1.0)
+    deviation = np.sqrt(np.log1p(variance))  # of the logarithm, where that is normal
+    factor = float(np.exp(t.ppf(0.5 + confidence / 2.0, freedom) * deviation))
+    return Interval(probability / factor, min(probability * factor, 1.0), float(np.sqrt(variance)))

@@ -1,0 +1,32 @@
+"""Which draws go with which metrics, for the page of a batch."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ...batch.results import BatchResult
+from ...sensitivity.ranks import rank_correlations
+
+TOLD = 3  # draws of a metric
+
+
+class Driver(NamedTuple):
+    """A metric of a variant, and the draws that it goes with most: their names and rank correlations."""
+
+    variant: str
+    metric: str
+    draws: list[tuple[str, float]]
+
+
+def drivers(result: BatchResult) -> list[Driver]:
+    """A row for every metric of every variant that has any rank correlation, the largest first."""
+    names = [name for draw in result.plan.campaign.draws for name in draw.names]
+    draws = {name: result.plan.draws.columns[name] for name in names}
+    rows = []
+    for variant, trials in result.trials.items():
+        for metric, found in rank_correlations(draws, trials.metrics).items():
+            known = [(name, rho) for name, rho in found.items() if rho is not None]
+            known.sort(key=lambda item: -abs(item[1]))
+            if known:
+                rows.append(Driver(variant, metric, known[:TOLD]))
+    return rows

@@ -1,0 +1,1 @@
+"""Flights of draws that a study chooses: who flies them, and what has been flown."""

@@ -1,0 +1,100 @@
+"""Flights of given draws, as many times as a study asks for them, by workers that stay."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..batch.flyer import Flyer
+from ..batch.runner import provenance
+from ..batch.trials import Trials, joined
+from ..batch.workers import FlyerPool, worker_count
+from ..campaign.campaign import Record
+from ..campaign.draws import Columns
+from ..campaign.given import GivenDraws
+from ..campaign.plan import BatchPlan, check_draws, check_plan
+from ..errors import InputError
+from ..progress import progress_bar
+
+OWN = ("trials", "record", "group", "draws_sha256")  # facts of a batch that a study of samples has not
+
+
+class SampleFlights:
+    """Flies draws of one variant of a campaign that somebody chooses. Use it as a context manager: it holds workers.
+
+    ``first`` are draws with which everything is checked before anything flies; ``noise_trial`` is the trial of the
+    campaign whose random streams all flights have. ``workers`` (default: one per processor) does not change results.
+    Raises InputError, also for a campaign that compares FMUs.
+    """
+
+    def __init__(self, plan: BatchPlan, first: Columns, *, noise_trial: int = 0, workers: int | None = None) -> None:
+        variants = plan.campaign.variants()
+        if len(variants) != 1:
+            slot, fmus = next(iter(plan.campaign.compare.items()))
+            problem = f"{len(variants)} variants, and a study like this flies one"
+            raise InputError(plan.campaign.file, "compare", problem, f"choose: --compare {slot}={fmus[0]}")
+        if noise_trial < 0:
+            raise InputError("--noise-trial", str(noise_trial), "no such trial", "give 0 or more")
+        self._noise_trial = noise_trial
+        self._count = worker_count(workers)
+        plain = replace(plan.campaign, record=Record(), group=None, scatters=())
+        self.plan = replace(plan, campaign=plain).of_samples(self._given(first))
+        systems = check_plan(self.plan)
+        self.variant, self.prepared = next(iter(systems.items()))
+        self.facts = {name: fact for name, fact in provenance(self.plan, systems).items() if name not in OWN}
+        self.flown = 0
+        self._pool = FlyerPool(self.plan, self._count, self.prepared.flies_in_threads)
+        self._progress = progress_bar(unit="flight")
+
+    @property
+    def noisy(self) -> list[str]:
+        """Components that draw random numbers themselves."""
+        return [name for name, fmu in self.prepared.network.fmus.items() if {"seed", "stream"} <= set(fmu.variables)]
+
+    def noise(self) -> str:
+        """What results say of the random numbers that components draw themselves."""
+        if not self.noisy:
+            return ""
+        whose = f"that of trial {self._noise_trial}, seed {self.plan.campaign.seed}"
+        return f"noise of {', '.join(self.noisy)} held: {whose}"
+
+    def given(self, columns: Columns) -> Mapping[str, np.ndarray]:
+        """Draws as a file of them has them (`analysis.campaign.given`), with the trial whose noise they have."""
+        return self._given(columns).table
+
+    def fly(self, columns: Columns) -> tuple[Trials, Mapping[str, np.ndarray]]:
+        """The trials of given draws, in their order, and the drawn and derived values. Raises InputError."""
+        plan = self.plan.of_samples(self._given(columns))
+        check_draws(plan, self.prepared)
+        trials = plan.campaign.trials
+        size = max(1, min(50 if self.prepared.flies_in_threads else 10, trials // (4 * self._count)))
+        pieces = [range(first, min(first + size, trials)) for first in range(0, trials, size)]
+        found: dict[int, Trials] = {}
+        for place, flown in self._pool.work(_fly, [(self.variant, plan.of_part(piece)) for piece in pieces]):
+            if flown is None:
+                raise KeyboardInterrupt
+            found[place] = flown.counted_from(pieces[place].start)
+            self._progress.update(len(pieces[place]))
+        self.flown += trials
+        return joined(found.values()), plan.draws.columns
+
+    def _given(self, columns: Columns) -> GivenDraws:
+        count = len(next(iter(columns.values())))
+        return GivenDraws(columns, np.full(count, self._noise_trial))
+
+    def __enter__(self) -> SampleFlights:
+        self._pool.__enter__()
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self._progress.close()
+        self._pool.__exit__(*error)
+
+
+def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> Trials | None:
+    """The trials of a plan for the system that a worker flies."""
+    flyer.drawn = plan
+    return flyer.fly(variant, range(plan.campaign.trials))

@@ -1,0 +1,69 @@
+"""Sobol' indices: the share of a number's variance that each draw makes, alone and with others.
+
+Saltelli et al. (2010): two independent tables of draws, A and B, and for each draw A with that column of B.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import bootstrap, qmc, sobol_indices
+
+CONFIDENCE = 0.95
+RESAMPLES = 999
+
+
+@dataclass(frozen=True, eq=False)
+class Indices:
+    """First-order and total indices (numbers, draws) with their 95 % intervals (2, numbers, draws), low and high.
+
+    The first-order index is the share of the variance that a draw makes by itself; the total one is the share that is
+    left when all other draws are known.
+    """
+
+    first: np.ndarray
+    total: np.ndarray
+    first_interval: np.ndarray
+    total_interval: np.ndarray
+
+
+def saltelli_points(base: int, dimensions: int, random: np.random.Generator) -> np.ndarray:
+    """Points of the unit cube (base * (dimensions + 2), dimensions): A, B, and A with each column of B in turn.
+
+    ``base`` is a power of two, that of the scrambled Sobol' sequence in twice as many dimensions.
+    """
+    both = qmc.Sobol(2 * dimensions, scramble=True, bits=64, rng=random).random(base)
+    first, second = both[:, :dimensions], both[:, dimensions:]
+    mixed = np.tile(first, (dimensions, 1, 1))
+    places = np.arange(dimensions)
+    mixed[places, :, places] = second.T
+    return np.concatenate([first, second, *mixed])
+
+
+def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indices:
+    """Indices of numbers (numbers, base * (dimensions + 2)) at the points of `saltelli_points`.
+
+    They are finite, and none is the same everywhere. The intervals are percentiles of a bootstrap over the rows.
+    """
+    pages = values.reshape(len(values), -1, base)  # numbers, A B AB..., rows
+
+    def statistic(rows: np.ndarray) -> np.ndarray:
+        part = pages[:, :, rows]
+        parts = {"f_A": part[:, 0], "f_B": part[:, 1], "f_AB": part[:, 2:].swapaxes(0, 1)}
+        found = sobol_indices(func=parts, n=base)
+        shape = (len(part), -1)  # which a single number has lost
+        return np.stack([found.first_order.reshape(shape), found.total_order.reshape(shape)])
+
+    whole = statistic(np.arange(base))
+    spread = bootstrap(
+        (np.arange(base),),
+        statistic,
+        n_resamples=RESAMPLES,
+        vectorized=False,
+        method="percentile",
+        confidence_level=CONFIDENCE,
+        rng=random,
+    ).confidence_interval
+    ends = np.stack([spread.low, spread.high])
+    return Indices(whole[0], whole[1], ends[:, 0], ends[:, 1])

@@ -1,0 +1,1 @@
+"""Worst cases: the draws of a box that make a number largest."""

@@ -1,0 +1,47 @@
+"""What is to be worst: a number of every trial, the larger the worse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..campaign.campaign import Campaign
+from ..campaign.expressions import Expression
+from ..campaign.failure import failure_of
+from ..errors import InputError, suggestion
+
+
+@dataclass(frozen=True)
+class Badness:
+    """A number of every trial: called with values by name (trials,) and which flights came to their end (trials,).
+
+    It is inf where a flight did not, or where the number is not finite. ``text`` says what it is.
+    """
+
+    text: str
+    of: Callable[[Mapping[str, np.ndarray], np.ndarray], np.ndarray]
+
+    def __call__(self, values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
+        return self.of(values, flown)
+
+
+def badness_of(campaign: Campaign, text: str | None) -> Badness:
+    """Of an expression over metrics and draws, or without one of the margin by which a trial is no success.
+
+    Raises InputError.
+    """
+    if text is None:
+        failure = failure_of(campaign, None)
+        return Badness(f"margin of {failure.text}", failure.margins)
+    expression = Expression(text, ("--metric", text))
+    known = [metric.name for metric in campaign.metrics] + campaign.drawn_names()
+    for name in sorted(expression.names - set(known)):
+        raise InputError("--metric", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
+
+    def of(values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
+        found = np.broadcast_to(expression.evaluate(values), flown.shape)
+        return np.where(flown & np.isfinite(found), found, np.inf)
+
+    return Badness(expression.text, of)

@@ -1,0 +1,106 @@
+"""The largest value of a function over the unit cube, in as many evaluations as one may spend.
+
+Differential evolution (Storn and Price 1997; scipy's, a generation at a time) finds the region. There COBYQA (Ragonneau
+and Zhang 2023) climbs what is smooth, and Nelder and Mead's simplex (1965, as Gao and Han 2012 adapt it) climbs stairs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.optimize import differential_evolution, minimize
+from scipy.stats import qmc
+
+Function = Callable[[np.ndarray], np.ndarray]
+GLOBAL = 0.75  # of the evaluations are those of the evolution
+PER_DIMENSION, FEWEST = 5, 20  # members of a generation
+RADII = (0.1, 1e-4)  # of COBYQA's trust region, in edges of the cube
+LEAST = 100  # evaluations
+
+
+class _EndError(Exception):
+    """Nothing is left to do: the evaluations are spent, or something is infinite, than which nothing is larger."""
+
+
+class _Counted:
+    """The function with the best point so far; ends at the last evaluation, and at an infinite value."""
+
+    def __init__(self, function: Function, points: np.ndarray, values: np.ndarray, evaluations: int) -> None:
+        self._function = function
+        self.left = evaluations
+        best = int(np.argmax(values))
+        self.point, self.value = points[best], float(values[best])
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        if self.left <= 0 or self.value == np.inf:
+            raise _EndError
+        points = np.clip(points, 0.0, 1.0)[: self.left]
+        values = self._function(points)
+        self.left -= len(points)
+        best = int(np.argmax(values))
+        if values[best] > self.value:
+            self.point, self.value = points[best], float(values[best])
+        return values
+
+
+def largest(
+    function: Function, points: np.ndarray, values: np.ndarray, evaluations: int, random: np.random.Generator
+) -> tuple[np.ndarray, float]:
+    """The point (dimensions,) of the unit cube with the largest value that is found, and that value.
+
+    ``function`` maps points (points, dimensions) to values (points,), of which none is nan and inf ends the search;
+    ``points`` and ``values`` are known ones to begin with, one or more; ``evaluations`` are spent besides.
+    """
+    counted = _Counted(function, points, values, evaluations)
+    try:
+        _evolve(counted, points, values, random)
+        _climb(counted)
+    except _EndError:
+        pass
+    return counted.point, counted.value
+
+
+def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: np.random.Generator) -> None:
+    dimensions = points.shape[1]
+    members = max(PER_DIMENSION * dimensions, FEWEST)
+    generations = int(GLOBAL * counted.left / members)
+    if generations < 2:
+        return
+    known = points[np.argsort(-values, kind="stable")[: members // 2]]
+    spread = qmc.LatinHypercube(dimensions, rng=random).random(members - len(known))
+
+    def badly(columns: np.ndarray) -> np.ndarray:
+        found = counted(columns.T)
+        if found.size < columns.shape[1]:
+            raise _EndError
+        return -found
+
+    differential_evolution(
+        badly,
+        [(0.0, 1.0)] * dimensions,
+        init=np.concatenate([known, spread]),
+        maxiter=generations - 1,
+        tol=0.0,
+        polish=False,
+        vectorized=True,
+        updating="deferred",
+        rng=random,
+    )
+
+
+def _climb(counted: _Counted) -> None:
+    """From the best point, with the evaluations that are left."""
+
+    def badly(point: np.ndarray) -> float:
+        return -float(counted(point[np.newaxis])[0])
+
+    bounds = [(0.0, 1.0)] * counted.point.size
+    smooth = {"maxfev": counted.left // 2, "initial_tr_radius": RADII[0], "final_tr_radius": RADII[1]}
+    if smooth["maxfev"] > 2 * counted.point.size + 1:  # what its first model takes
+        minimize(badly, counted.point, method="COBYQA", bounds=bounds, options=smooth)
+    while counted.left > 0:
+        before = counted.value
+        minimize(badly, counted.point, method="Nelder-Mead", bounds=bounds, options={"adaptive": True, "fatol": 0.0})
+        if counted.value == before:
+            return
