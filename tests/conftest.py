@@ -145,6 +145,14 @@ def comparison(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
+def mission_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of a flight through phases, with all figures that a system can ask for, written once per test run."""
+    from tests.support.pages.written import write_mission
+
+    return made_once(tmp_path_factory, "mission", write_mission) / "page.html"
+
+
+@pytest.fixture(scope="session")
 def browser() -> str:
     """The path of chromium."""
     return find_browser()
