@@ -4,6 +4,11 @@ BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
 QUIET := $(shell [ -t 2 ] || echo --quiet)
 
+# The tests start hundreds of processes, each quicker with the bytecode kept; and two workers leave no processor over
+# for a second thread of BLAS, which would spin.
+unexport PYTHONDONTWRITEBYTECODE
+test quick long explore: export OPENBLAS_NUM_THREADS = 1
+
 demo: .venv/ready
 	$(BIN)/python -m perilune.analysis.demo.demo
 

@@ -18,11 +18,11 @@ from perilune.fmus_src.export.command import main as build_fmus
 from perilune.fmus_src.places import BUILD, built_fmu
 from tests.support.built import native_are_current
 from tests.support.lengths import LONG, either
-from tests.support.locks import one_process_at_a_time
+from tests.support.locks import made_once, one_process_at_a_time
 from tests.support.pages.browser import NO_BROWSER, find_browser
 
 # The same examples in every run, so that main is not red by chance; `make explore` draws new ones.
-hypothesis.settings.register_profile("same", derandomize=True, deadline=None, max_examples=either(100, 40))
+hypothesis.settings.register_profile("same", derandomize=True, deadline=None, max_examples=either(100, 25))
 hypothesis.settings.register_profile("explore", deadline=None)
 hypothesis.settings.load_profile("explore" if os.environ.get("PERILUNE_EXPLORE") == "1" else "same")
 
@@ -77,14 +77,18 @@ def _is_current(name: str, package: str) -> bool:
         return any(f"/{package}/" in entry for entry in archive.namelist())
 
 
-@pytest.fixture(scope="session")
-def fmus() -> Path:
-    """The folder of this repository's Python FMUs, built with the native ones if missing or of older sources."""
+def _build_where_old(_: Path) -> None:
     with one_process_at_a_time(BUILD / ".lock"):
         blocks = catalogue()
         native = native_are_current([name for name, block in blocks.items() if not block.python_only])
         if not native or not all(_is_current(name, closure_of(block).package) for name, block in blocks.items()):
             assert build_fmus([]) == 0
+
+
+@pytest.fixture(scope="session")
+def fmus(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of this repository's Python FMUs, built with the native ones if missing or of older sources."""
+    made_once(tmp_path_factory, "fmus_looked_at", _build_where_old)
     return built_fmu("x", "python").parent
 
 
@@ -93,14 +97,7 @@ def tiny_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The tiny FMUs of cosim/builders.py in folders `python` and `native`, built once per test run."""
     from tests.support.builders import build_tiny_fmus
 
-    base = tmp_path_factory.getbasetemp()
-    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "tiny_fmus"
-    with one_process_at_a_time(folder.with_name("tiny_fmus.lock")):
-        if not folder.is_dir():
-            partial = folder.with_name("tiny_fmus.part")
-            build_tiny_fmus(partial)
-            partial.rename(folder)
-    return folder
+    return made_once(tmp_path_factory, "tiny_fmus", build_tiny_fmus)
 
 
 @pytest.fixture(params=["python", "native"])
@@ -114,14 +111,7 @@ def exact_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The FMUs of stability/exact_blocks.py in folders `python` and `native`, built once per test run."""
     from tests.support.loops.exact_blocks import build_exact_fmus
 
-    base = tmp_path_factory.getbasetemp()
-    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "exact_fmus"
-    with one_process_at_a_time(folder.with_name("exact_fmus.lock")):
-        if not folder.is_dir():
-            partial = folder.with_name("exact_fmus.part")
-            build_exact_fmus(partial)
-            partial.rename(folder)
-    return folder
+    return made_once(tmp_path_factory, "exact_fmus", build_exact_fmus)
 
 
 @pytest.fixture(scope="session")
@@ -133,13 +123,33 @@ def exact_fmus(exact_folder: Path) -> Path:
 @pytest.fixture(scope="session")
 def studies(exact_fmus: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
     """Reports of tiny systems as `perilune stability` makes them, studied once per test run."""
-    from tests.support.loops.studies import kept, make_studies
+    from tests.support.loops.studies import keep_studies, kept_studies
 
-    base = tmp_path_factory.getbasetemp()
-    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "studies"
-    folder.mkdir(exist_ok=True)
-    with one_process_at_a_time(folder.with_name("studies.lock")):
-        return kept(folder / "studies.pickle", lambda: make_studies(folder, exact_fmus))
+    return kept_studies(made_once(tmp_path_factory, "studies", lambda folder: keep_studies(folder, exact_fmus)))
+
+
+@pytest.fixture(scope="session")
+def stability_page(studies: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of all these studies at once, written once per test run."""
+    from tests.support.pages.written import write_studies
+
+    return made_once(tmp_path_factory, "stability", lambda folder: write_studies(studies, folder)) / "page.html"
+
+
+@pytest.fixture(scope="session")
+def comparison(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a batch made by hand, `quiet`, and the page that compares its variants, written once per run."""
+    from tests.support.pages.written import write_comparison
+
+    return made_once(tmp_path_factory, "comparison", write_comparison)
+
+
+@pytest.fixture(scope="session")
+def mission_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of a flight through phases, with all figures that a system can ask for, written once per test run."""
+    from tests.support.pages.written import write_mission
+
+    return made_once(tmp_path_factory, "mission", write_mission) / "page.html"
 
 
 @pytest.fixture(scope="session")

@@ -27,66 +27,87 @@ def stems(folder):
     return {path.stem for path in (SYSTEMS / "lunar_terminal_guidance" / folder).iterdir()}
 
 
+# A process of its own, which parts for each line: argcomplete ends the one that it answers in.
+COMPLETE = """
+import os, sys
+from perilune.analysis.cli import run
+for number, line in enumerate(sys.argv[1:]):
+    if os.fork() == 0:
+        os.environ |= {"COMP_LINE": line, "COMP_POINT": str(len(line))}
+        os.environ["_ARGCOMPLETE_STDOUT_FILENAME"] = f"answer{number}"
+        run()
+    assert os.wait()[1] == 0
+"""
+
+
 @pytest.fixture
 def offered(tmp_path):
-    """What follows a line; its last word is what is typed so far."""
+    """What follows each of some lines; their last word is what is typed so far."""
     (tmp_path / "mine.toml").write_text("")
     (tmp_path / "notes.txt").write_text("")
 
-    def complete(line):
-        answer = tmp_path / "answer"
+    def complete(*lines):
         environment = os.environ | {
             "_ARGCOMPLETE": "1",
             "_ARGCOMPLETE_SHELL": "bash",
             "_ARGCOMPLETE_IFS": "\n",
-            "_ARGCOMPLETE_STDOUT_FILENAME": str(answer),
             "_ARGCOMPLETE_COMP_WORDBREAKS": " \t\n\"'><;|&(:",
-            "COMP_LINE": line,
-            "COMP_POINT": str(len(line)),
         }
-        command = [sys.executable, "-X", "importtime", "-c", "from perilune.analysis.cli import run; run()"]
+        command = [sys.executable, "-X", "importtime", "-c", COMPLETE, *lines]
         done = subprocess.run(
             command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True, stdin=subprocess.DEVNULL
         )
         imported = {row.rpartition("|")[2].strip().split(".")[0] for row in done.stderr.splitlines()}
         assert "argcomplete" in imported
         assert not imported & set(HEAVY)
-        return {word.strip() for word in answer.read_text().splitlines()}
+        answers = [(tmp_path / f"answer{number}").read_text() for number in range(len(lines))]
+        return [{word.strip() for word in answer.splitlines()} for answer in answers]
 
     return complete
 
 
 def test_verbs(offered):
-    assert set(VERBS) <= offered("perilune ")
-    assert offered("perilune sta") == {"stability"}
+    verbs, one = offered("perilune ", "perilune sta")
+    assert set(VERBS) <= verbs
+    assert one == {"stability"}
 
 
 def test_options_of_a_verb(offered):
-    assert {"--use", "--report", "--require", "--fault"} <= offered(f"{RUN} --")
-    assert offered(f"{RUN} --flavour ") == {"native", "python"}
-    assert {"--t7", "--optimum"} <= offered("perilune plan hover-transfer --")
+    options, flavours, of_a_plan = offered(f"{RUN} --", f"{RUN} --flavour ", "perilune plan hover-transfer --")
+    assert {"--use", "--report", "--require", "--fault"} <= options
+    assert flavours == {"native", "python"}
+    assert {"--t7", "--optimum"} <= of_a_plan
 
 
 def test_systems_and_fmus(offered):
-    assert offered("perilune run ") >= SYSTEM_NAMES
-    assert offered("perilune stability robot_r") == {"robot_rendezvous"}
-    assert offered("perilune describe astar_g") == {"astar_guidance"}
-    assert SYSTEM_NAMES | set(catalogue()) <= offered("perilune export ")
+    flown, studied, described, exported = offered(
+        "perilune run ", "perilune stability robot_r", "perilune describe astar_g", "perilune export "
+    )
+    assert flown >= SYSTEM_NAMES
+    assert studied == {"robot_rendezvous"}
+    assert described == {"astar_guidance"}
+    assert SYSTEM_NAMES | set(catalogue()) <= exported
 
 
 def test_what_a_system_has(offered):
-    campaigns = offered("perilune batch lunar_terminal_guidance --campaign ")
+    campaigns, sets, slots, fitting = offered(
+        "perilune batch lunar_terminal_guidance --campaign ",
+        f"{RUN} --parameters ",
+        f"{RUN} --use ",
+        f"{RUN} --use guidance=astar",
+    )
     assert stems("campaigns") | {"mine.toml"} <= campaigns
     assert "notes.txt" not in campaigns
-    assert {"noisy.ssv", "exact.ssv"} <= offered(f"{RUN} --parameters ")
-    assert offered(f"{RUN} --use ") == {"plant=", "navigation=", "guidance=", "allocation="}
-    assert "guidance=astar_guidance" in offered(f"{RUN} --use guidance=astar")
+    assert {"noisy.ssv", "exact.ssv"} <= sets
+    assert slots == {"plant=", "navigation=", "guidance=", "allocation="}
+    assert "guidance=astar_guidance" in fitting
 
 
 def test_laws_and_slots(offered):
-    assert {path.stem for path in LAWS.glob("*.json")} <= offered("perilune law ")
-    assert offered("perilune new block mine --slot ") == set(block_slots())
+    laws, slots = offered("perilune law ", "perilune new block mine --slot ")
+    assert {path.stem for path in LAWS.glob("*.json")} <= laws
+    assert slots == set(block_slots())
 
 
 def test_a_system_that_is_not_there_offers_nothing_of_its_own(offered):
-    assert offered("perilune run nowhere --use ") == set()
+    assert offered("perilune run nowhere --use ") == [set()]

@@ -32,8 +32,8 @@ def test_list(capsys):
 
 
 def test_everything_of_ours_is_valid(capsys):
-    paths = [str(path) for path in sorted(BUILD.glob("fmus/*/*.fmu"))[::6]]  # all of them: test_fmus_elsewhere.py
-    assert len(paths) > 10
+    paths = [str(path) for path in sorted(BUILD.glob("fmus/*/*.fmu"))[::24]]  # all of them: test_fmus_elsewhere.py
+    assert len(paths) > 4
     paths += [str(path) for path in sorted(SYSTEMS.glob("*/*.ssv"))]
     paths += [str(path) for path in sorted(SYSTEMS.glob("*/campaigns/*.toml"))]
     paths += ["lunar_terminal_guidance", str(BUILD / "ssp" / "lunar_terminal_guidance.ssp")]

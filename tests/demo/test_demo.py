@@ -10,6 +10,7 @@ from perilune.analysis.demo.page import PUBLISHED
 from perilune.analysis.demo.readme_figure import draw_readme_figure
 from perilune.fmus_src.places import ROOT
 from tests.papers.test_fomichev_li import TABLE
+from tests.support.lengths import LONG
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 
 TRIALS = 12
@@ -67,9 +68,10 @@ def test_the_landing_arrives(demo):
 
 def test_figure_of_the_readme_is_reproduced(fmus, tmp_path):
     draw_readme_figure(tmp_path / "a.svg")
-    draw_readme_figure(tmp_path / "b.svg")
     first = (tmp_path / "a.svg").read_bytes()
-    assert first == (tmp_path / "b.svg").read_bytes()
+    if LONG:
+        draw_readme_figure(tmp_path / "b.svg")
+        assert first == (tmp_path / "b.svg").read_bytes()
     assert b"<dc:date>" not in first
     kept, drawn = (etree.parse(path).getroot() for path in (ROOT / "docs/images/landing.svg", tmp_path / "a.svg"))
     assert kept.get("viewBox") == drawn.get("viewBox")

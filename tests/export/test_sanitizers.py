@@ -21,14 +21,7 @@ from tests.support.lengths import LONG
 
 DRIVER = Path(kernels.__file__).with_name("sanitize_fmu.c")
 # Those with the most lists, random numbers, searches and vectors between them.
-DENSE = (
-    "kalman_navigation",
-    "jet_allocation_least_propellant",
-    "network_operator_guidance",
-    "rendezvous_guidance",
-    "free_flying_robot",
-    "orbital_observer_discrete",
-)
+DENSE = ("kalman_navigation", "jet_allocation_least_propellant", "free_flying_robot")
 BLOCKS = [block for block in catalogue().values() if not block.python_only and (LONG or block.fmu_name in DENSE)]
 STEPS = samples.size(200)
 # Kernels divide and convert through checked helpers, so these two, allowed by IEEE 754 or left out of

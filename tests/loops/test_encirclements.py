@@ -8,6 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 
 from perilune.analysis.loops.encirclements import encirclements
+from tests.support.lengths import either
 from tests.support.loops.sampled_loops import (
     HeldDoubleIntegrator,
     delay,
@@ -26,7 +27,7 @@ def count(system: control.StateSpace, low: float = 1e-5, **options) -> int:
 
 
 @given(random_loops())
-@settings(max_examples=120)
+@settings(max_examples=either(120, 30))
 def test_open_loop_poles_less_closed_loop_poles(system: control.StateSpace) -> None:
     assume(nearest_to_circle(system) > 1e-3)
     integrators = int(np.sum(np.abs(system.poles() - 1.0) < 1e-9))
@@ -36,7 +37,7 @@ def test_open_loop_poles_less_closed_loop_poles(system: control.StateSpace) -> N
 
 
 @given(random_loops(channels=2))
-@settings(max_examples=60)
+@settings(max_examples=either(60, 20))
 def test_determinant_of_two_channels(system: control.StateSpace) -> None:
     assume(nearest_to_circle(system) > 1e-3)
     assert count(system) == outside(system, 0.0) - outside(system)

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from perilune.analysis.loops.curves import dense
 from perilune.analysis.loops.margins import classical, disk_gain, disk_phase, robust
+from tests.support.lengths import either
 from tests.support.loops.sampled_loops import (
     HeldDoubleIntegrator,
     delay,
@@ -130,7 +131,7 @@ def test_equals_python_control_between_the_ends(system: control.StateSpace) -> N
 
 
 @given(random_loops())
-@settings(max_examples=60)
+@settings(max_examples=either(60, 20))
 def test_poles_cross_the_circle_at_the_gain_margins_and_nowhere_else(system: control.StateSpace) -> None:
     """The number of unstable closed-loop poles over the gain is constant between margins and changes at each."""
     found = classical(response_of(system), 1e-5 / system.dt, np.pi / system.dt, system.dt, None)
@@ -159,7 +160,7 @@ def test_scaling_the_loop_divides_the_gain_margins(system: control.StateSpace, s
 
 
 @given(random_loops())
-@settings(max_examples=60)
+@settings(max_examples=either(60, 20))
 def test_the_delay_margin_makes_the_loop_marginal(system: control.StateSpace) -> None:
     response = response_of(system)
     found = classical(response, 1e-5 / system.dt, np.pi / system.dt, system.dt, None)

@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from scipy import stats
 
 from perilune.fmus_src.mathlib.rng import M1, M2, multiply_modulo, normal, normals, seed_streams, uniform
+from tests.support.lengths import either
 
 P1 = 2**32 - 209
 P2 = 2**32 - 22853
@@ -131,13 +132,13 @@ def test_streams_are_jumps_of_the_recurrences(seed, stream):
     st.integers(0, 2**32 - 1),
     st.sampled_from([P1, P2]),
 )
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=either(300, 75), deadline=None)
 def test_multiply_modulo_is_exact(a, s, c, modulus):
     assert multiply_modulo(float(a), float(s), float(c), float(modulus)) == (a * s + c) % modulus
 
 
 @given(st.integers(1, 2**21), st.sampled_from([P1, P2]), st.integers(-2, 2))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=either(300, 75), deadline=None)
 def test_multiply_modulo_is_exact_beside_multiples_of_the_modulus(multiple, modulus, offset):
     value = multiple * modulus + offset
     assert multiply_modulo(1.0, float(modulus), float(value - modulus), float(modulus)) == value % modulus

@@ -4,6 +4,8 @@ Truth: the published and derived figures (hold, attitude, range at the end of th
 conditions, momentum (the jets' impulse against the velocity gained), and the equality of runs cut differently.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -14,7 +16,7 @@ SYSTEM = "robot_rendezvous"
 ALLOCATIONS = ["jet_allocation_pseudo_inverse", "jet_allocation_least_propellant", "jet_allocation_quantised"]
 # Hold (m), attitude rms and largest in the turn (arcsec): what is asked for; the hold error has to be half of it.
 ASKED = {"paper": (0.03, 0.5, 2.0), "kalman": (0.015, 0.5, 2.0), "best": (0.006, 0.5, 2.0)}
-SEEDS = either(8, 2)
+SEEDS = either(8, 1)
 pytestmark = pytest.mark.usefixtures("fmus")
 
 
@@ -23,10 +25,16 @@ def vector(flight, name, size=3):
     return np.stack([flight[f"{name}[{i + 1}]"] for i in range(size)], axis=1)
 
 
+@pytest.fixture(scope="module")
+def seeds(fmus):
+    """The trials of other seeds by allocation, flown once for each parameter set."""
+    return cache(lambda name: perilune.batch(SYSTEM, "seeds", parameters=[f"{name}.ssv"], trials=SEEDS).trials)
+
+
 @pytest.mark.parametrize("name", ASKED)
-def test_other_seeds_hold_place_and_attitude(name):
+def test_other_seeds_hold_place_and_attitude(seeds, name):
     hold, attitude, turn = ASKED[name]
-    for trials in perilune.batch(SYSTEM, "seeds", parameters=[f"{name}.ssv"], trials=SEEDS).trials.values():
+    for trials in seeds(name).values():
         assert len(trials.trial) == SEEDS
         assert trials.success.all()
         assert np.max(trials.metrics["hold_error"]) < 0.5 * hold
@@ -35,23 +43,22 @@ def test_other_seeds_hold_place_and_attitude(name):
 
 
 def test_jets_wrong_by_five_percent_hold_within_two_centimetres():
-    for trials in perilune.batch(SYSTEM, "thruster_errors", trials=either(None, 4)).trials.values():
+    for trials in perilune.batch(SYSTEM, "thruster_errors", trials=either(None, 2)).trials.values():
         assert np.max(trials.metrics["hold_error"]) < 0.02
 
 
-def test_least_propellant_spends_least():
-    trials = perilune.batch(SYSTEM, "seeds", parameters=["best.ssv"], trials=2).trials
-    impulse = {name: np.mean(trials[name].metrics["impulse"]) for name in ALLOCATIONS}
+def test_least_propellant_spends_least(seeds):
+    impulse = {name: np.mean(seeds("best")[name].metrics["impulse"]) for name in ALLOCATIONS}
     assert min(impulse, key=impulse.get) == "jet_allocation_least_propellant"
 
 
 def test_starts_beside_the_plan_come_back_to_it():
-    trials = perilune.batch(SYSTEM, "initial_errors", trials=either(10, 4)).trials["jet_allocation_quantised"]
+    trials = perilune.batch(SYSTEM, "initial_errors", trials=either(10, 2)).trials["jet_allocation_quantised"]
     assert np.max(trials.metrics["position_error_max"]) > 0.5
     assert np.max(trials.metrics["hold_error"]) < 0.01
 
 
-@pytest.mark.parametrize("name", ASKED)
+@pytest.mark.parametrize("name", either(list(ASKED), ["kalman"]))
 def test_a_communication_step_of_half_the_size_gives_the_same_bits(name):
     options = {"parameters": [f"{name}.ssv"], "stop_time": 1600.0}
     whole = perilune.simulate(SYSTEM, **options)

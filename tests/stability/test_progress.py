@@ -42,6 +42,6 @@ def test_other_processes_tell_their_steps(exact_fmus, tmp_path, monkeypatch):
     assert bars.moves == [expected]
 
 
-def test_nothing_is_written_where_nobody_watches(late, capsys):
-    assert main(["stability", late]) in (0, 1)
+def test_nothing_is_written_where_nobody_watches(exact_fmus, tmp_path, capsys):
+    assert main(["stability", str(LATE.packed(tmp_path, exact_fmus))]) in (0, 1)
     assert "step" not in capsys.readouterr().err

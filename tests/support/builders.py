@@ -213,7 +213,7 @@ NAMESPACES = """xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescripti
 
 def build_tiny_fmus(folder: Path) -> None:
     """Build the FMUs above into ``folder``/FLAVOUR, with retouched ones beside them."""
-    folder.mkdir(parents=True)
+    folder.mkdir(parents=True, exist_ok=True)
     blocks = folder / "tiny_blocks.py"
     blocks.write_text(BLOCKS)
     build_own_blocks(blocks, folder, FLAVOURS, [fmpy.platform])

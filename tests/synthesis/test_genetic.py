@@ -5,6 +5,7 @@ already); what a population must keep.
 """
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from perilune.analysis.synthesis.candidate import Phenotype
 from perilune.analysis.synthesis.genetic import Search, SearchState
 from perilune.analysis.synthesis.search_settings import SearchSettings
 from tests.support.laws.regression import POINTS, TOLERANCE, FormulaEvaluator, near
+from tests.support.lengths import either
 from tests.synthesis.test_pareto import dominates
 
 BASIC = read_law(named_law("diveev_2013_basic"))
@@ -34,7 +36,7 @@ def finished(*arguments, **keywords):
     return found
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(either(3, 1)))
 def test_it_finds_a_formula(seed):
     """Within some thousand evaluations, where one of 420 variations and three parameters have to be found."""
     found = finished(seed, SearchSettings(population=64, generations=60, crossovers=48))
@@ -49,9 +51,12 @@ def test_it_finds_a_formula(seed):
     assert found.state.flights == found.evaluator.points
 
 
-@pytest.mark.parametrize("seed", range(3))
+first = cache(finished)  # by seed; what comes of a search is looked at, not changed
+
+
+@pytest.mark.parametrize("seed", range(either(3, 1)))
 def test_giving_up_early_does_not_change_the_search(seed):
-    hasty, thorough = finished(seed), finished(seed, evaluator=FormulaEvaluator(near, hasty=False))
+    hasty, thorough = first(seed), finished(seed, evaluator=FormulaEvaluator(near, hasty=False))
     assert hasty.state.population == thorough.state.population
     assert hasty.state.front == thorough.state.front
     assert hasty.state.champion == thorough.state.champion
@@ -61,8 +66,8 @@ def test_giving_up_early_does_not_change_the_search(seed):
 
 
 def test_the_same_seed_gives_the_same_search_and_another_another():
-    assert finished(1).state.history == finished(1).state.history
-    assert finished(1).state.history != finished(2).state.history
+    assert finished(0).state.history == first(0).state.history
+    assert first(0).state.history != first(1).state.history
 
 
 def test_the_front_is_the_pareto_set_of_all_that_was_let_past_the_bar():

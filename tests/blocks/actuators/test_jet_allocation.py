@@ -18,6 +18,7 @@ from perilune.fmus_src.actuators.jet_allocation_least_propellant import JetAlloc
 from perilune.fmus_src.actuators.jet_allocation_pseudo_inverse import JetAllocationPseudoInverse
 from perilune.fmus_src.actuators.jet_allocation_quantised import JetAllocationQuantised
 from perilune.fmus_src.runtime import Component
+from tests.support.lengths import either
 
 BLOCKS = [JetAllocationPseudoInverse, JetAllocationLeastPropellant, JetAllocationQuantised]
 CONTINUOUS = BLOCKS[:2]
@@ -128,7 +129,7 @@ def test_time_counts_from_the_start_of_the_flight(block_class):
 
 @pytest.mark.parametrize("block_class", CONTINUOUS)
 @given(seeds)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_force_is_inertial_and_torque_is_of_the_body(block_class, seed):
     random = np.random.default_rng(seed)
     attitude = Rotation.random(rng=random)
@@ -173,7 +174,7 @@ def test_least_propellant_gives_what_the_rule_of_the_paper_must_scale():
 
 
 @given(seeds)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_propellant_of_a_force_is_that_of_all_axes_or_of_two(seed):
     """Sums of thrusts: |F1| + |F2| + |F3| over the axes' cosines by the paper's rule, the two largest at best."""
     force = np.random.default_rng(seed).uniform(-0.38, 0.38, 3)
@@ -214,7 +215,7 @@ def test_geometry_that_cannot_give_a_component_says_so(block_class):
 
 
 @given(seeds, st.floats(0.0, 0.35))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=either(100, 25), deadline=None)
 def test_quantised_force_has_whole_levels_no_torque_and_the_right_mean(seed, size):
     """Over turning attitudes and both periods: what is owed never exceeds the cell's radius times the period."""
     random = np.random.default_rng(seed)
@@ -257,7 +258,7 @@ def test_quantised_constant_force_is_exact_in_the_mean():
 
 
 @given(seeds, st.floats(1.0, 50.0))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=either(100, 25), deadline=None)
 def test_quantised_saturation_is_graceful(seed, size):
     """Beyond the attainable set: largest levels kept, direction within a cell, status 1, and no debt of it later."""
     force = size * np.random.default_rng(seed).normal(size=3)

@@ -18,6 +18,7 @@ from scipy.spatial.transform import Rotation
 
 from perilune.fmus_src.actuators.thrust_allocation import ThrustAllocation
 from perilune.fmus_src.plants.spherical_moon_lander import SphericalMoonLander
+from tests.support.lengths import either
 
 MASS = 940.0
 DEMAND = [0.6, 0.0, 0.8]
@@ -94,7 +95,7 @@ def test_status_returns_to_good():
     st.sampled_from([0.05, 0.1, 1.0]),
     st.sampled_from([0.01, 0.1, 0.37, 5.0]),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_lag_is_the_exact_response_to_a_staircase(demands, step, lag):
     """A superposition of steps: each demand holds from its communication point to the next."""
     block = allocation(demands[0], thrust_lag=lag)
@@ -169,7 +170,7 @@ def test_slew_turns_at_the_limit_along_the_great_circle(limit):
 
 
 @given(st.integers(0, 2**32 - 1), st.floats(0.01, 1.0), st.sampled_from([0.05, 0.2, 1.0]))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_slew_never_exceeds_its_limit(seed, limit, step):
     generator = np.random.default_rng(seed)
     block = allocation(slew_rate_limit=limit)

@@ -30,6 +30,7 @@ from tests.support.flights.terminal_guidance import (
     see,
     states_of_the_box,
 )
+from tests.support.lengths import either
 
 RADIUS = 1.7374e6
 MU = 4.9028e12
@@ -146,7 +147,7 @@ def test_the_constant_gravity_assumed_drops_out(guidance_class):
 @pytest.mark.parametrize("guidance_class", ALL)
 def test_in_a_field_so_large_that_it_is_constant_nothing_changes(guidance_class):
     radius = 1e13
-    for position, velocity in states_of_the_box(20, 16):
+    for position, velocity in states_of_the_box(either(20, 8), 16):
         plain = commanded(guidance_class, position, velocity)
         other = commanded(
             guidance_class,
@@ -163,7 +164,7 @@ def test_in_a_field_so_large_that_it_is_constant_nothing_changes(guidance_class)
 
 @pytest.mark.parametrize("guidance_class", ALL)
 @given(radius=st.floats(1.0, 1e7), parameter=st.floats(0.0, 1e14))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=either(20, 10), deadline=None)
 def test_without_the_correction_the_field_does_not_matter(guidance_class, radius, parameter):
     plain = commanded(guidance_class)
     other = commanded(guidance_class, moon_radius=radius, gravitational_parameter=parameter)
@@ -229,7 +230,7 @@ def test_the_last_burn_is_timed_from_the_corrected_time(guidance_class):
 # ---- flights -------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("ground_range", [256e3, 300e3])
+@pytest.mark.parametrize("ground_range", either([256e3, 300e3], [256e3]))
 def test_exact_analytic_flights_arrive_with_and_without_and_need_less_thrust_with(ground_range):
     """About 0.15 m/s2 less at most, for 0.2 to 0.6 kg more propellant: the flight takes 3 to 5 s longer."""
     start = braking_start(ground_range)

@@ -28,6 +28,7 @@ from tests.support.flights.terminal_guidance import (
     impulse_and_miss,
     linear_thrust,
 )
+from tests.support.lengths import either
 
 
 @pytest.mark.parametrize(
@@ -63,7 +64,7 @@ def test_pitch_programme_of_the_test_state(guidance_class, acceleration, pitch, 
 
 
 @given(box)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_analytic_command_is_the_linear_thrust_without_the_growth_of_its_horizontal_part(state):
     """Time from the quadratic; exact direction and yaw rate; the pitch rate holds cos(pitch) at its start."""
     position, velocity = state
@@ -82,7 +83,7 @@ def test_analytic_command_is_the_linear_thrust_without_the_growth_of_its_horizon
 
 
 @given(box)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_exact_analytic_command_is_the_linear_thrust_and_its_rate(state):
     position, velocity = state
     guidance = commanded(AnalyticExactGuidance, position, velocity)

@@ -26,6 +26,7 @@ from tests.support.flights.terminal_guidance import (
     command_of,
     commanded,
 )
+from tests.support.lengths import either
 
 
 def turned(vector, azimuth):
@@ -35,7 +36,7 @@ def turned(vector, azimuth):
 
 @pytest.mark.parametrize("guidance_class", [AnalyticGuidance, AnalyticExactGuidance])
 @given(state=box, azimuth=st.integers(-3141, 3141).map(lambda number: number / 1000.0))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_analytic_commands_turn_with_the_frame_about_the_vertical(guidance_class, state, azimuth):
     position, velocity = state
     plain = commanded(guidance_class, position, velocity)

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
+from tests.support.lengths import either
 
 GRAVITY = 1.62
 MASS = 940.0
@@ -97,7 +98,7 @@ def test_constant_thrust_is_a_parabola(step):
 
 
 @given(st.integers(1, 999), st.sampled_from([0.3, 1.0, 4.0]), st.sampled_from([0.0, 123.4]))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_thrust_ends_inside_a_step(thousandths, step, since):
     """Thrust to command_time + burn_duration, then a free fall to the end of the step."""
     duration = thousandths / 1000.0 * step
@@ -113,7 +114,7 @@ def test_thrust_ends_inside_a_step(thousandths, step, since):
 
 
 @given(st.integers(1, 3999))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_latch_keeps_the_state_where_thrust_ends(thousandths):
     duration = thousandths / 1000.0
     plant = thrusting(lander(latch_at_burn_end=True), duration=duration)
@@ -224,7 +225,7 @@ def test_results_do_not_depend_on_how_communication_cuts_them(cuts, burn_thousan
 
 
 @given(st.floats(-math.pi, math.pi))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=either(60, 20), deadline=None)
 def test_motion_turns_with_the_frame_about_the_vertical(azimuth):
     turn = np.array(
         [

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from perilune.fmus_src.sequencing.flight_monitor import FlightMonitor
+from tests.support.lengths import either
 
 moments = st.tuples(st.booleans(), st.integers(-1, 5).map(lambda k: 500.0 * k), st.integers(0, 10).map(float))
 
@@ -19,7 +20,7 @@ def see(monitor, finished, altitude, speed):
 
 @pytest.mark.parametrize("handover_speed", [0.0, 6.0])
 @given(flight=st.lists(moments, min_size=1, max_size=6))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=either(200, 50), deadline=None)
 def test_outputs_are_latched_conditions(handover_speed, flight):
     monitor = FlightMonitor(handover_speed=handover_speed)
     for n, moment in enumerate(flight):

@@ -7,21 +7,15 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from perilune.analysis.compare.side_by_side import compare
-from perilune.analysis.reports.compare.page import write_comparison_page
 from tests.support.lengths import either
 from tests.support.pages.browser import start
-from tests.support.pages.comparison_samples import write_sample
 
 COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115))  # of the three variants
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("browser")
-    write_sample(folder / "out")
-    write_comparison_page(compare([folder / "out"]), folder / "page.html", "perilune compare out")
-    return folder / "page.html"
+def page(comparison):
+    return comparison / "page.html"
 
 
 @pytest.mark.slow

@@ -10,7 +10,6 @@ from matplotlib import image
 from perilune.analysis.reports.run.run_report import write_run_report
 from tests.support.lengths import either
 from tests.support.pages.browser import start
-from tests.support.pages.mission_samples import FIGURES, mission
 from tests.support.pages.own_samples import ANGLES, ERROR, PULSES, angles, errors, flown, pulses
 
 
@@ -31,9 +30,8 @@ def test_page_renders_wide_and_narrow(browser, tmp_path, width, height):
 
 
 @pytest.mark.parametrize(("width", "height"), either([(1100, 5600), (400, 10000)], [(1100, 5600)]))
-def test_a_flight_through_phases_renders_wide_and_narrow(browser, tmp_path, width, height):
-    page = tmp_path / "page.html"
-    write_run_report(mission(), page, "Mission", FIGURES)
+def test_a_flight_through_phases_renders_wide_and_narrow(browser, mission_page, tmp_path, width, height):
+    page = mission_page
     picture = tmp_path / "page.png"
     dom = start(browser, page, tmp_path, "--dump-dom", f"--window-size={width},{height}", f"--screenshot={picture}")
     assert dom.count('class="figure') == page.read_text(encoding="utf-8").count('class="figure') > 2 + 2 + 2

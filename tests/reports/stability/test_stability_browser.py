@@ -28,24 +28,29 @@ addEventListener("load", () => {
 </script></body>"""
 
 
+def unfolded(page):
+    """The text of a page with all that is folded away unfolded."""
+    text = page.read_text(encoding="utf-8")
+    assert "<script" not in text
+    return re.sub(r"<details(?! open)(?! class=\"printed\" open)", "<details open", text)
+
+
 @pytest.fixture(scope="module")
-def page(studies, tmp_path_factory):
-    """The page with all that is folded away unfolded."""
+def few(studies, tmp_path_factory):
+    """A page so short that a picture holds it."""
     path = tmp_path_factory.mktemp("stability") / "page.html"
     everything = studies.everything
-    few = replace(everything, loops=tuple(loop for loop in everything.loops if loop.loop != "pair"))
-    write_stability_page(few, path)
-    text = path.read_text(encoding="utf-8")
-    assert "<script" not in text
-    path.write_text(re.sub(r"<details(?! open)(?! class=\"printed\" open)", "<details open", text), encoding="utf-8")
+    loops = tuple(loop for loop in everything.loops if loop.loop != "pair")
+    write_stability_page(replace(everything, loops=loops), path)
+    path.write_text(unfolded(path), encoding="utf-8")
     return path
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("width", "height"), either([(1200, 14000), (400, 30000)], [(1200, 14000)]))
-def test_page_renders_wide_and_narrow(browser, page, tmp_path, width, height):
+def test_page_renders_wide_and_narrow(browser, few, tmp_path, width, height):
     size = f"--window-size={width},{height}"
-    start(browser, page, tmp_path, size, f"--screenshot={tmp_path / 'page.png'}")
+    start(browser, few, tmp_path, size, f"--screenshot={tmp_path / 'page.png'}")
     pixels = image.imread(tmp_path / "page.png")[..., :3] * 255.0
     assert pixels.shape[:2] == (height, width)
     for colour in COLOURS:
@@ -55,12 +60,12 @@ def test_page_renders_wide_and_narrow(browser, page, tmp_path, width, height):
     assert not inked[-40:].any()  # the whole page was seen
 
 
-def test_nothing_overflows_and_no_script_fails(browser, page, tmp_path):
+def test_nothing_overflows_and_no_script_fails(browser, stability_page, tmp_path):
     measured = tmp_path / "measured.html"
-    measured.write_text(page.read_text(encoding="utf-8").replace("</body>", MEASURE), encoding="utf-8")
+    measured.write_text(unfolded(stability_page).replace("</body>", MEASURE), encoding="utf-8")
     dom = start(browser, measured, tmp_path, "--window-size=500,2000", "--dump-dom")
     assert re.search(r"<body[^>]* data-overflow=\"0\"", dom)
     assert re.search(r"<body[^>]* data-wide=\"\"", dom)
     assert re.search(r"<body[^>]* data-closed=\"0\"", dom)
     assert not re.search(r"<body[^>]* data-error", dom)
-    assert dom.count('class="figure"') == page.read_text(encoding="utf-8").count('class="figure"') > 20
+    assert dom.count('class="figure"') == stability_page.read_text(encoding="utf-8").count('class="figure"') > 20

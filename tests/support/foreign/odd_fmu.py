@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import subprocess
-import tempfile
-from functools import cache
 from pathlib import Path
 
 import fmpy
 
-from perilune.fmus_src.export.compilers import FLAGS, compilers_for
 from tests.support.builders import component, document, pack, system, write_zip
+from tests.support.foreign.library import library
 
 DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="{name}" guid="by hand">
@@ -41,7 +38,6 @@ DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
 <InitialUnknowns><Unknown index="4"/><Unknown index="5"/><Unknown index="6"/></InitialUnknowns></ModelStructure>
 </fmiModelDescription>
 """
-SOURCE = Path(__file__).with_name("odd.c")
 ENDS = "input u Real; output y Real; output tolerance Real; output length Real"
 
 
@@ -63,19 +59,8 @@ def odd_fmu(
     )
     binary = f"binaries/{fmpy.platform}/{name}{fmpy.sharedLibraryExtension}"
     path = folder / f"{name}.fmu"
-    write_zip(path, {"modelDescription.xml": description, binary: _library(macros)})
+    write_zip(path, {"modelDescription.xml": description, binary: library("odd", macros)})
     return path
-
-
-@cache
-def _library(macros: tuple[str, ...]) -> bytes:
-    """The shared library, compiled once for each choice of quirks."""
-    headers = Path(fmpy.__file__).parent / "c-code"
-    with tempfile.TemporaryDirectory() as folder:
-        library = Path(folder) / "odd"
-        command = [*compilers_for(fmpy.platform)[0], *FLAGS, *macros, f"-I{headers}", "-o", library, SOURCE]
-        subprocess.run(command, check=True)
-        return library.read_bytes()
 
 
 def odd_system(folder: Path, stop: float = 1.0, **quirks: object) -> Path:

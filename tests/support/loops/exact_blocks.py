@@ -263,7 +263,7 @@ class NoisyCounter(Block):
 
 def build_exact_fmus(folder: Path) -> None:
     """Build the blocks above into ``folder``/native and ``folder``/python."""
-    folder.mkdir(parents=True)
+    folder.mkdir(parents=True, exist_ok=True)
     blocks = folder / "exact_blocks.py"
     blocks.write_text(BLOCKS)
     build_own_blocks(blocks, folder, FLAVOURS, [fmpy.platform])

@@ -7,7 +7,6 @@ into instability; two coupled channels; a relay; a loop of FMUs that are not our
 from __future__ import annotations
 
 import pickle
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -37,6 +36,7 @@ reduction = "final"
 [success]
 expression = "abs(position) < 100"
 """
+KEPT = "studies.pickle"
 LATE = late_double_integrator()
 PAIR = coupled_pair()
 
@@ -105,12 +105,13 @@ def make_studies(folder: Path, fmus: Path) -> Studies:
     )
 
 
-def kept(path: Path, make: Callable[[], Studies]) -> Studies:
-    """What ``make`` makes, or what an earlier call kept at ``path``."""
-    if not path.is_file():
-        partial = path.with_suffix(".part")
-        partial.write_bytes(pickle.dumps(make()))
-        partial.rename(path)
-    found = pickle.loads(path.read_bytes())
+def keep_studies(folder: Path, fmus: Path) -> None:
+    """Make them, and keep them in ``folder``."""
+    (folder / KEPT).write_bytes(pickle.dumps(make_studies(folder, fmus)))
+
+
+def kept_studies(folder: Path) -> Studies:
+    """What `keep_studies` kept there."""
+    found = pickle.loads((folder / KEPT).read_bytes())
     assert isinstance(found, Studies)
     return found

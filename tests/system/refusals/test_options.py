@@ -1,0 +1,72 @@
+"""Options that do not fit the system are refused, and a time or a step that no one gives is asked for.
+
+Truth: the table of refusals in docs/command_line.md and the FMI 2.0 and SSP 1.0 standards, which the broken files here
+break in one place each. They go through the command line's `main` in this process.
+"""
+
+import re
+
+import pytest
+
+from perilune.analysis.cli import main
+from tests.support.builders import document, inline, retouched, system
+from tests.support.refused import PLAIN, RAMP, ssp
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--set", "gain.factor=101"], ["--set: gain.factor", "maximum"]),
+        (["--set", "gain.factor=x"], ["--set: gain.factor", "'x' is not of type Real"]),
+        (["--set", "gain.factor=nan"], ["--set: gain.factor", "not finite"]),
+        (["--set", "ramp.flag_at=1.5"], ["--set: ramp.flag_at", "not of type Integer"]),
+        (["--set", "ramp.first_count=3000000000"], ["--set: ramp.first_count", "32 bits"]),
+        (["--set", "ramp.inverted=yes"], ["--set: ramp.inverted", "write true or false"]),
+        (["--set", "ramp.stort=1"], ["--set: ramp.stort", "matches no parameter", "ramp.start"]),
+        (["--set", "ramp.start"], ["--set: ramp.start", "not of the form"]),
+        (["--set", "=1"], ["--set: =1", "not of the form"]),
+        (["--use", "gain"], ["--use: gain", "not of the form SLOT=FMU"]),
+        (["--use", "gian=gain"], ["--use: gian", "no such component", "gain, ramp"]),
+        (["--use", "gain=nothing_of_this_name"], ["--use: nothing_of_this_name", "no such FMU is built"]),
+        (["--use", "gain=nowhere/x.fmu"], ["--use: nowhere/x.fmu", "no such file"]),
+        (["--parameters", "nowhere.ssv"], ["--parameters", "no nowhere.ssv"]),
+        (["--variant", "other"], ["--variant", "no variant other", "SystemStructure"]),
+        (["--stop-time", "1.1"], ["--stop-time", "whole number of steps", "for instance --stop-time 1"]),
+        (["--stop-time", "-1"], ["--stop-time"]),
+        (["--step", "0"], ["--step", "not a positive number"]),
+        (["--step", "-0.1"], ["--step", "not a positive number"]),
+        (["--step", "0.3"], ["--stop-time", "whole number of steps of 0.3 s"]),
+        (["--step", "1e-13"], ["--step", "rows do not fit"]),
+        (["--step", "1e-320"], ["--step", "does not advance a time of 1 s"]),
+        (["--stop-time", "1e300"], ["--stop-time", "does not advance", "earlier times"]),
+        (["--no-feedthrough", "nobody"], ["--no-feedthrough: nobody", "use one of gain, ramp"]),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) and value[0].startswith("--") else "",
+)
+def test_options(tmp_path, tiny, refused, options, words):
+    refused(ssp(tmp_path, tiny), *words, options=options)
+
+
+def test_allow_unmatched_lets_parameters_pass(tmp_path, tiny, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = ssp(tmp_path, tiny, system(RAMP, bindings=inline("ramp.stort=Real:1; romp.x=Real:1")))
+    assert main(["run", str(path), "--allow-unmatched", "--set", "a.b=1"]) == 0
+
+
+def test_stop_time_that_is_missing(tmp_path, tiny, refused):
+    refused(ssp(tmp_path, tiny, stop=None), "stopTime", "give --stop-time SECONDS")
+
+
+def test_step_that_no_one_proposes(tmp_path, tiny, refused):
+    def forget(text):
+        return re.sub(r'<DefaultExperiment[^>]*stepSize="[^"]*"[^>]*/>', "", text)
+
+    retouched(tiny / "ramp.fmu", tmp_path / "ramp.fmu", forget)
+    fmu = (tmp_path / "ramp.fmu").read_bytes()
+    path = ssp(tmp_path, tiny, system(RAMP), step=None, files={"resources___ramp__fmu": fmu})
+    refused(path, "step", "neither the SSD nor an FMU", "give --step SECONDS")
+
+
+def test_step_annotation_that_is_no_number(tmp_path, tiny, refused):
+    text = document(PLAIN).replace('size="0.25"', 'size="often"')
+    refused(ssp(tmp_path, tiny, files={"SystemStructure__ssd": text}), "CommunicationStep", "positive number")
