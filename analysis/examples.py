@@ -44,6 +44,22 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
             "which draws drive the metrics",
         ),
     ),
+    "shard": (
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --trials 100 --output parts --prepare",
+            "what flies, written down",
+        ),
+        ("perilune shard parts 0-2", "three of its four shards, here or on another machine"),
+        ("perilune shard parts 3", "the last one"),
+    ),
+    "merge": (
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output shared --prepare",
+            "what flies, written down",
+        ),
+        ("perilune shard shared 0-1", "both of its shards, on one machine or another"),
+        ("perilune merge shared --report merged.html", "their result"),
+    ),
     "rare": (
         (
             "perilune rare lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
@@ -62,22 +78,6 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
             "--metric flight_time --flights 600 --output longest",
             "the longest flight from anywhere in the box",
         ),
-    ),
-    "shard": (
-        (
-            "perilune batch lunar_terminal_guidance --campaign paper --trials 100 --output parts --prepare",
-            "what flies, written down",
-        ),
-        ("perilune shard parts 0-2", "three of its four shards, here or on another machine"),
-        ("perilune shard parts 3", "the last one"),
-    ),
-    "merge": (
-        (
-            "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output shared --prepare",
-            "what flies, written down",
-        ),
-        ("perilune shard shared 0-1", "both of its shards, on one machine or another"),
-        ("perilune merge shared --report merged.html", "their result"),
     ),
     "compare": (
         ("perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results", "what is compared"),
