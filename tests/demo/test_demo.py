@@ -15,7 +15,7 @@ from tests.support.pages.checks import assert_self_contained, data_values, parse
 
 TRIALS = 12
 FILES = {"landing.html", "comparison.html", "landing.csv", "landing.csv.json"}
-FILES |= {"trials", "draws.parquet", "summary.json"}
+FILES |= {"draws.parquet", "summary.json"}
 
 
 @pytest.fixture(scope="module")
