@@ -32,3 +32,8 @@ class Decision:
             if decided_after(self._plan.campaign.requirements, variants) is not None:
                 self.shards = self._looked
         return self.shards is not None
+
+    def trials(self) -> dict[str, Trials]:
+        """The trials of the shards that decide it, or else of all that there are, by variant."""
+        kept = [self._parts[shard] for shard in sorted(self._parts) if self.shards is None or shard < self.shards]
+        return {variant: joined(part[variant] for part in kept) for variant in (kept[0] if kept else ())}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -24,7 +25,7 @@ from .shards.files import is_flown, write_shard
 from .shards.flights import fly_shards, task_size
 from .shards.numbering import Numbering, spans
 from .shards.reading import read_shard
-from .trials import Trials, joined
+from .trials import Trials
 from .workers import FlyerPool, worker_count
 
 
@@ -67,6 +68,14 @@ class Campaign:
         batch = batch_digest(self.provenance)
         return [shard for shard in shards if not is_flown(self.folder, batch, shard, self.numbering.of(shard))]
 
+    def held(self) -> dict[int, dict[str, Trials]]:
+        """The trials of the shards that its folder holds, by variant."""
+        if self.folder is None:
+            return {}
+        batch, missing = batch_digest(self.provenance), set(self.missing())
+        there = [shard for shard in range(self.numbering.count) if shard not in missing]
+        return {shard: read_shard(self.folder, batch, shard, self.plan) for shard in there}
+
     def checked(self, shards: Iterable[int]) -> list[int]:
         """Those of some shards that its folder does not hold. Raises InputError for a number that is none's."""
         wanted = set(shards)
@@ -76,13 +85,14 @@ class Campaign:
         return sorted(wanted & set(self.missing()))
 
 
-def open_campaign(plan: BatchPlan, output: Path | None, *, resume: bool = False) -> Campaign:
+def open_campaign(plan: BatchPlan, output: Path | None, *, resume: bool = False, engine: str | None = None) -> Campaign:
     """Check a plan and write down what it flies. Raises InputError before anything is written or flown.
 
     With ``output`` a campaign begins in that folder, in place of what is there, or goes on there with ``resume``; what
     flies are the files that the folder then holds, whatever becomes of their originals.
     """
     systems = check_plan(plan)
+    in_threads(systems.values(), engine)  # refused before anything is written
     manifest, contents = gather(plan, systems)
     if output is None:
         return Campaign(plan, plan, systems, manifest, None)
@@ -113,24 +123,27 @@ def run_batch(
     threads where the FMUs can fly in them). With ``output`` every shard is written there as soon as it is flown, and
     the summary at the end: whatever ends it early, ``resume`` goes on from there. Without it Ctrl-C leaves nothing.
     """
-    worker_count(workers), in_threads((), engine)  # looked at before anything is written
-    campaign = open_campaign(plan, output, resume=resume)
+    worker_count(workers)  # looked at before anything is written
+    campaign = open_campaign(plan, output, resume=resume, engine=engine)
     trials = fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine)
-    return finish(campaign.of_first(len(next(iter(trials.values())).trial)), trials)
+    return finish(campaign, trials)
 
 
 def merge(campaign: Campaign) -> BatchResult:
     """The result of a campaign whose shards all lie in its folder. Raises InputError where some are missing."""
-    missing = campaign.missing()
+    parts = campaign.held()
+    decision = Decision(campaign.plan, parts)
+    missing = [] if decision.is_made() else [shard for shard in range(campaign.numbering.count) if shard not in parts]
     if missing:
         count = f"{len(missing)} of {campaign.numbering.count} shards are missing"
         remedy = f"perilune shard {campaign.folder} {spans(missing)} flies them"
         raise InputError(str(campaign.folder), f"shards {spans(missing)}", count, remedy)
-    return finish(campaign, fly_campaign(campaign, []))
+    return finish(campaign, decision.trials())
 
 
 def finish(campaign: Campaign, trials: dict[str, Trials]) -> BatchResult:
-    """The result of all trials, by variant; its summary makes the campaign's folder whole, if it has one."""
+    """The result of the first trials, by variant; its summary makes the campaign's folder whole, if it has one."""
+    campaign = campaign.of_first(len(next(iter(trials.values())).trial))
     result = make_result(campaign.plan, trials, campaign.provenance)
     if campaign.folder is not None:
         result.write_summary(campaign.folder)
@@ -149,10 +162,7 @@ def fly_campaign(
     count = worker_count(workers)
     threads = in_threads(campaign.systems.values(), engine)
     batch = batch_digest(campaign.provenance)
-    parts: dict[int, dict[str, Trials]] = {}
-    for shard in set(range(numbering.count)) - set(shards):
-        if folder is not None and is_flown(folder, batch, shard, numbering.of(shard)):
-            parts[shard] = read_shard(folder, batch, shard, plan)
+    parts = campaign.held()
     decision = Decision(plan, parts)
     flights = sum(len(numbering.of(shard)) for shard in shards) * len(plan.campaign.variants())
     size = task_size(numbering.trials, count, threads)
@@ -160,17 +170,16 @@ def fly_campaign(
     with (
         progress_bar(total=flights, unit="trial") as progress,
         FlyerPool(campaign.flown, min(count, max(tasks, 1)), threads, apart=engine == "processes") as pool,
+        closing(fly_shards(numbering, shards, pool, size)) as flown,
     ):
-        flown = () if decision.shards is not None else fly_shards(numbering, shards, pool, size)
-        for shard, found in flown:
+        for shard, found in () if decision.is_made() else flown:
             if folder is not None:
                 write_shard(folder, batch, shard, plan, found)
             parts[shard] = found
             progress.update(sum(len(trials.trial) for trials in found.values()))
             if decision.is_made():
                 break
-    kept = [parts[shard] for shard in sorted(parts) if decision.shards is None or shard < decision.shards]
-    return {variant: joined(found[variant] for found in kept) for variant in (kept[0] if kept else ())}
+    return decision.trials()
 
 
 def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:

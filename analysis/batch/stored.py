@@ -22,7 +22,7 @@ from .manifest.manifest import FILE as MANIFEST
 from .manifest.manifest import WRITE
 from .results import batch_digest
 from .shards.files import DRAWS, FOLDER, SUMMARY, about_of, described, shard_path, trace_path
-from .shards.reading import AGAIN, numbers, read_table, trials_of, unreadable
+from .shards.reading import AGAIN, numbers, read_table, trials_of
 from .trials import Trials, joined
 
 FACTS = (
@@ -216,15 +216,8 @@ def _traced(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, li
         traced[variant] = []
         for path in sorted(trace_path(folder, variant, 0).parent.glob("*.parquet")):
             trial = int(path.stem) if path.stem.isdecimal() else -1
-            if _described(path) == {"batch": batch, "variant": variant, "trial": trial}:
+            if described(path) == {"batch": batch, "variant": variant, "trial": trial}:
                 traced[variant].append(trial)
             else:
                 strangers += 1
     return traced, strangers
-
-
-def _described(path: Path) -> Any:
-    try:
-        return described(path)
-    except (OSError, pyarrow.ArrowException) as error:
-        raise unreadable(path, error) from error

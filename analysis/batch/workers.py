@@ -26,6 +26,7 @@ from .flyer import Flyer
 
 Result = TypeVar("Result")
 WAITING = 4  # tasks that are handed out ahead, for each worker
+LOOK_UP = 1.0  # s, between looks at whether the process that is worked for is there
 MOST_DEATHS = 3  # of workers in a row, without a task done
 _local = threading.local()
 _flyers: list[Flyer] = []  # of this process's threads
@@ -141,7 +142,7 @@ def _is_broken(future: Future) -> bool:
 
 
 def _how(error: BaseException) -> str:
-    """How worker processes ended, from loky's message: its last line names signals and exit codes."""
+    """How worker processes ended, which loky says in several lines, in one."""
     return " ".join(str(error).split())
 
 
@@ -168,7 +169,7 @@ def _start_process(plan: BatchPlan) -> None:
 def _leave_with(parent: int) -> None:
     """End this process where the one that it works for is killed, since no one else would."""
     while os.getppid() == parent:
-        time.sleep(PATIENCE)
+        time.sleep(LOOK_UP)
     leave(1)
 
 

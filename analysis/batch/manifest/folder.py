@@ -10,7 +10,7 @@ import pyarrow.parquet
 
 from ...campaign.plan import BatchPlan
 from ...errors import InputError
-from ..shards.files import DRAWS, FOLDER, SUMMARY, clear, write_draws
+from ..shards.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
 from ..shards.numbering import Numbering
 from .contents import store
 from .manifest import CONTENTS, FILE, Manifest, differences, read_manifest
@@ -49,12 +49,16 @@ def go_on(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: Ba
 
 
 def cut(folder: Path, manifest: Manifest, plan: BatchPlan) -> Manifest:
-    """The folder of a campaign of fewer trials, those of the plan: whole shards, as far as there are more."""
+    """The folder of a campaign of fewer trials, those of the plan: whole shards, and the traces of these."""
     manifest = replace(manifest, trials=plan.campaign.trials)
     numbering = Numbering(manifest.trials, manifest.shard_size)
     for path in (folder / FOLDER).glob("[0-9]*.parquet"):
         if int(path.stem) >= numbering.count:
             path.unlink()
+    for variant in plan.campaign.variants():
+        for path in trace_path(folder, variant.name, 0).parent.glob("[0-9]*.parquet"):
+            if int(path.stem) >= manifest.trials:
+                path.unlink()
     manifest.write(folder)
     write_draws(plan, folder)
     return manifest

@@ -14,6 +14,7 @@ import pyarrow.parquet
 
 from ...atomic import whole_file
 from ...campaign.plan import BatchPlan
+from ...errors import InputError
 from ..trials import Trials
 
 FOLDER = "trials"
@@ -111,12 +112,22 @@ def _described(table: pyarrow.Table, about: Mapping[str, Any]) -> pyarrow.Table:
 def described(path: Path) -> Any:
     """What a file that `write_shard` wrote says of itself; None where it says nothing, or is not there.
 
-    Raises OSError and pyarrow's errors for one that is damaged.
+    Raises InputError for one that is damaged.
     """
     if not path.is_file():
         return None
-    with pyarrow.parquet.ParquetFile(path) as file:
-        return about_of(file.schema_arrow)
+    try:
+        with pyarrow.parquet.ParquetFile(path) as file:
+            return about_of(file.schema_arrow)
+    except (OSError, pyarrow.ArrowException) as error:
+        raise unreadable(path, error) from error
+
+
+def unreadable(path: Path, error: Exception) -> InputError:
+    """What is said of a file that is damaged."""
+    reason = str(error).split(": ")[-1] or type(error).__name__
+    problem = f"cannot be read as parquet ({' '.join(reason.split())})"
+    return InputError(path, "", problem, "remove it: the batch's command with --resume flies what is missing")
 
 
 def about_of(schema: pyarrow.Schema) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 
 from ..flyer import Flyer
 from ..trials import Trials, joined
@@ -14,7 +14,7 @@ MOST_IN_THREAD, MOST_IN_PROCESS = 50, 10  # trials of a task: enough to send, fe
 
 def fly_shards(
     numbering: Numbering, shards: Sequence[int], pool: FlyerPool, size: int
-) -> Iterator[tuple[int, dict[str, Trials]]]:
+) -> Generator[tuple[int, dict[str, Trials]]]:
     """Fly shards of the pool's plan, in tasks of ``size`` trials.
 
     Each one's trials come by variant, as soon as all are there, in any order of shards.

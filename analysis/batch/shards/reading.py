@@ -12,7 +12,7 @@ import pyarrow.parquet
 from ...campaign.plan import BatchPlan
 from ...errors import InputError
 from ..trials import Trials
-from .files import described, shard_path, trace_path
+from .files import described, shard_path, trace_path, unreadable
 
 AGAIN = "fly the batch again into an empty folder"
 COLUMNS = ("variant", "trial", "status", "success", "end_time")
@@ -26,12 +26,6 @@ def read_table(path: Path, columns: Collection[str] | None = None) -> pyarrow.Ta
             return file.read(names if columns is None else [name for name in names if name in columns])
     except (OSError, pyarrow.ArrowException) as error:
         raise unreadable(path, error) from error
-
-
-def unreadable(path: Path, error: Exception) -> InputError:
-    """What is said of a file that is damaged."""
-    reason = str(error).split(": ")[-1] or type(error).__name__
-    return InputError(path, "", f"cannot be read as parquet ({' '.join(reason.split())})", AGAIN)
 
 
 def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:

@@ -71,6 +71,12 @@ def _refuse_what_does_not_go_together(options: argparse.Namespace) -> None:
             raise InputError(f"--{name}", "", "there is no folder to do it in", "give --output DIR")
         if getattr(options, name) and options.replay is not None:
             raise InputError(f"--{name}", "--replay", "does not go with it", "leave one of them out")
+    if options.until_decided and options.replay is not None:
+        raise InputError("--until-decided", "--replay", "does not go with it", "leave one of them out")
+    for name in ("report", "require", "json", "workers", "engine"):
+        if options.prepare and getattr(options, name) not in (None, []):
+            remedy = "give it to perilune shard" if name in ("workers", "engine") else "give it to perilune merge"
+            raise InputError("--prepare", f"--{name}", "nothing flies yet", remedy)
     if options.resume and options.overwrite:
         raise InputError("--resume", "--overwrite", "one keeps what is there, one does not", "leave one of them out")
 

@@ -12,13 +12,18 @@ from ..common.options import check_json, tell
 from ..common.remarks import say_stale
 from ..common.sample_plans import held, read_samples
 
-NOT_WITH = ("trials", "draws", "replay", "report", "require")
+NOT_WITH = (
+    "trials", "draws", "replay", "report", "require", "resume", "prepare", "until_decided", "engine",
+)  # fmt: skip
 
 
 def run(options: argparse.Namespace) -> int:
     for name in NOT_WITH:
-        if getattr(options, name) not in (None, []):
-            raise InputError("--sensitivity", f"--{name}", "does not go with it", "leave one of them out")
+        value = getattr(options, name)
+        if value is not None and value is not False and value != []:
+            raise InputError(
+                "--sensitivity", f"--{name.replace('_', '-')}", "does not go with it", "leave one of them out"
+            )
     check_folder("--output", options.output, overwrite=options.overwrite)
     check_json(options)
     plan = read_samples(options)

@@ -4,6 +4,7 @@ Truth: every file that the same campaign leaves in another folder, flown in one 
 """
 
 import random
+import shutil
 
 import pytest
 
@@ -173,3 +174,40 @@ def test_what_flies_is_what_the_folder_holds(begun, tmp_path, capsys):
     assert bytes_of(copy / "trials") == bytes_of(folder / "trials")
     assert main(["shard", str(copy), "2"]) == 2
     assert "shard: 2: no such shard; give 0 to 1" in capsys.readouterr().err
+
+
+def test_a_damaged_shard_is_named_and_flown_again_once_removed(begun, tmp_path, capsys):
+    command, folder = begun
+    copy = shutil.copytree(folder, tmp_path / "copy")
+    shard = copy / "trials" / "000001.parquet"
+    shard.write_bytes(shard.read_bytes()[:-60])
+    again = [*command[:-1], str(copy), "--resume"]
+    assert main(again) == 2
+    said = capsys.readouterr().err
+    assert f"{shard}: cannot be read as parquet" in said
+    assert "remove it: the batch's command with --resume flies what is missing" in said
+    shard.unlink()
+    assert main(again) == 0
+    assert bytes_of(copy) == bytes_of(folder)
+
+
+MISTAKES = {
+    "threads": (["--overwrite", "--flavour", "python", "--engine", "threads"], "--engine: threads: Python FMUs"),
+    "prepare and a page": (
+        ["--overwrite", "--prepare", "--report", "p.html"],
+        "--prepare: --report: nothing flies yet",
+    ),
+    "resume and overwrite": (["--overwrite", "--resume"], "--resume: --overwrite: one keeps what is there"),
+    "resume and replay": (["--resume", "--replay", "1"], "--resume: --replay: does not go with it"),
+    "neither": ([], "holds results already (manifest.json, trials, draws.parquet, summary.json)"),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_a_mistake_costs_no_results(begun, capsys, name):
+    command, folder = begun
+    options, words = MISTAKES[name]
+    before = bytes_of(folder)
+    assert main([*command, *options]) == 2
+    assert words in capsys.readouterr().err
+    assert bytes_of(folder) == before

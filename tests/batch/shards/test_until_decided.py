@@ -18,6 +18,7 @@ from tests.support.campaigns import bytes_of, shards_in
 pytestmark = pytest.mark.usefixtures("fmus")
 SYSTEM = "lunar_terminal_guidance"
 PAPER = SYSTEMS / SYSTEM / "campaigns" / "paper.toml"
+SAMPLED = '[record]\nevery = 500\nsignals = ["plant.mass"]'
 REQUIREMENT = """
 [requirement.lands]
 expression = "success"
@@ -30,7 +31,7 @@ TRIALS, SHARD = 200, 25
 @pytest.fixture(scope="module")
 def campaign(tmp_path_factory):
     path = tmp_path_factory.mktemp("campaign") / "c.toml"
-    path.write_text(PAPER.read_text() + REQUIREMENT)
+    path.write_text(PAPER.read_text().replace("[record]", SAMPLED) + REQUIREMENT)
     return path
 
 
@@ -60,6 +61,7 @@ def test_it_ends_where_it_is_decided(campaign, whole, tmp_path, capsys):
     assert shards_in(tmp_path / "one") == end // SHARD
     document = json.loads((tmp_path / "one" / "summary.json").read_text())
     assert document["trials"] == end
+    assert {int(path.stem) for path in (tmp_path / "one" / "traces").rglob("*.parquet")} == set(range(end))
     for variant, found in document["variants"].items():
         lands = found["requirements"]["lands"]
         assert lands["verdict"] == ("met" if variant == "analytic_guidance" else "not met")
