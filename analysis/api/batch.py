@@ -11,8 +11,10 @@ from typing import Any, Literal
 from matplotlib.figure import Figure as Plot
 
 from ..batch import results, runner
+from ..batch.rows import whole_column
 from ..batch.summary import CONFIDENCE, summary_rows
 from ..batch.tables import requirement_rows, who_cells, who_heads
+from ..campaign.drawing.declared import drawn_names
 from ..campaign.plan import read_plan
 from ..errors import InputError, suggestion
 from ..flight.results import require_pandas
@@ -51,16 +53,20 @@ class BatchResult(results.BatchResult):
         Over all trials in which the metric is a number; None where there are too few, or one of the two does not vary.
         Raises KeyError for a variant that the batch does not have.
         """
-        trials = next(iter(self.trials.values())) if variant is None else self.trials[variant]
-        names = [name for draw in self.plan.campaign.draws for name in draw.names]
-        return rank_correlations({name: self.plan.draws.columns[name] for name in names}, trials.metrics)
+        rows = next(iter(self.rows.values())) if variant is None else self.rows[variant]
+        campaign = self.plan.campaign
+        draws = {name: whole_column(rows, f"draw.{name}") for name in drawn_names(campaign)}
+        metrics = {metric.name: whole_column(rows, f"metric.{metric.name}") for metric in campaign.metrics}
+        return rank_correlations(draws, metrics)
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune batch --report`: one HTML file."""
         write_batch_report(self, Path(path), self.provenance["system"])
 
     def plot(self, *metrics: str) -> Plot:
-        """How metrics are distributed over all trials, variant beside variant; of none named all that vary.
+        """How metrics are distributed over trials, variant beside variant; of none named all that vary.
+
+        Of more than 100 000 trials the first are drawn.
 
         Raises KeyError for a metric that the campaign does not have, and ValueError where there is none to draw.
         """
@@ -160,7 +166,7 @@ def batch(
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder
         flown = runner.run_batch(plan, workers=workers, output=folder, resume=resume, engine=engine)
-        return BatchResult(**vars(flown))
+        return _told(flown)
 
 
 def shard(
@@ -183,4 +189,9 @@ def shard(
 def merge(folder: FilePath) -> BatchResult:
     """Put the shards of a campaign's folder together: `perilune merge`. Raises InputError where some are missing."""
     with chdir(Path.cwd()):
-        return BatchResult(**vars(runner.merge(runner.open_folder(Path(folder)))))
+        return _told(runner.merge(runner.open_folder(Path(folder))))
+
+
+def _told(flown: results.BatchResult) -> BatchResult:
+    """A result with what Python users have of it."""
+    return BatchResult(flown.plan, flown.rows, flown.summary, flown.provenance)

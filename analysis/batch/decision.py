@@ -4,36 +4,45 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from ..campaign.plan import BatchPlan
-from .trials import Trials, joined
-from .verdicts import decided_after
+from .rows import TrialRows
+from .verdicts import decided_after, kept
 
 
 class Decision:
     """Looks at the shards of a campaign in order of number, whatever the order in which they come.
 
-    ``parts`` are the trials of each by variant, to which others add; ``shards`` is how many of the first ones decide
-    the campaign, None as long as they do not: so it depends neither on workers nor on what else has flown.
+    ``shards`` is how many of the first ones decide the campaign, None as long as they do not: so it depends neither on
+    workers nor on what else has flown. A campaign that is not to end early is never decided.
     """
 
-    def __init__(self, plan: BatchPlan, parts: Mapping[int, Mapping[str, Trials]]) -> None:
+    def __init__(self, plan: BatchPlan) -> None:
         self._plan = plan
-        self._parts = parts
+        self._ahead: dict[int, dict[str, list[np.ndarray]]] = {}  # of shards behind one that is missing
+        self._kept: dict[str, list[np.ndarray]] = {}  # by variant, for each requirement
         self._looked = 0
         self.shards: int | None = None
-        self.is_made()
 
+    @property
     def is_made(self) -> bool:
-        """Look at the shards that follow without a gap; whether one of them is the last that is needed."""
-        while self._plan.until_decided and self.shards is None and self._looked in self._parts:
-            self._looked += 1
-            first = [self._parts[shard] for shard in range(self._looked)]
-            variants = {variant: joined(part[variant] for part in first) for variant in first[0]}
-            if decided_after(self._plan.campaign.requirements, variants) is not None:
-                self.shards = self._looked
         return self.shards is not None
 
-    def trials(self) -> dict[str, Trials]:
-        """The trials of the shards that decide it, or else of all that there are, by variant."""
-        kept = [self._parts[shard] for shard in sorted(self._parts) if self.shards is None or shard < self.shards]
-        return {variant: joined(part[variant] for part in kept) for variant in (kept[0] if kept else ())}
+    def add(self, shard: int, variants: Mapping[str, TrialRows]) -> None:
+        """Look at the trials of a shard by variant, as soon as all before it are there."""
+        if not self._plan.until_decided:
+            return
+        requirements = self._plan.campaign.requirements
+        self._ahead[shard] = {
+            name: [kept(requirement, trials) for requirement in requirements] for name, trials in variants.items()
+        }
+        while not self.is_made and self._looked in self._ahead:
+            for name, found in self._ahead.pop(self._looked).items():
+                before = self._kept.get(name)
+                self._kept[name] = (
+                    found if before is None else [np.concatenate(both) for both in zip(before, found, strict=True)]
+                )
+            self._looked += 1
+            if decided_after(requirements, self._kept) is not None:
+                self.shards = self._looked

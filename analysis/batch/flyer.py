@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..campaign.checks import VariantNames, variant_names
+from ..campaign.drawn import DrawnTrials
 from ..campaign.metrics import evaluate_metrics, succeeded
-from ..campaign.plan import BatchPlan, VariantNames, variant_names
+from ..campaign.plan import BatchPlan
 from ..flight.instances.library import LOADING
 from ..flight.instances.log import Log
 from ..flight.interruptible import StuckError, fly, nothing_flown, run
@@ -17,6 +19,8 @@ from ..flight.simulation import Simulation
 from ..ssp.parameter_sets import ParameterValue
 from .status_texts import trial_status
 from .trials import Trials
+
+AROUND = 4096  # trials whose draws are read together
 
 
 @dataclass
@@ -37,7 +41,7 @@ class Flyer:
 
     def __init__(self, plan: BatchPlan) -> None:
         self.plan = plan
-        self.drawn = plan  # whose draws and faults fly: the plan's own, or others for its system
+        self._drawn: DrawnTrials | None = None
         self.variants = {variant.name: variant for variant in plan.campaign.variants()}
         self._ready: dict[str, tuple[Simulation, VariantNames]] = {}
         self._logs: dict[str, Log] = {}
@@ -66,6 +70,22 @@ class Flyer:
         self._logs[variant] = Log(self.plan.watch.log)
         self._logs[variant].place = f"{variant}: "
         return self._logs[variant]
+
+    def drawn_for(self, trial: int) -> DrawnTrials:
+        """What is drawn for a trial and those around it."""
+        if self._drawn is None or trial not in self._drawn.numbers:
+            first = trial - trial % AROUND
+            self._drawn = self.plan.drawn(range(first, min(first + AROUND, self.plan.campaign.trials)))
+        return self._drawn
+
+    def fly_others(self, variant: str, plan: BatchPlan) -> Trials:
+        """Fly all trials of another plan for the same system. Raises KeyboardInterrupt after an `interrupt`."""
+        trials = range(plan.campaign.trials)
+        self._drawn = plan.drawn(trials)
+        try:
+            return self.fly(variant, trials)
+        finally:
+            self._drawn = None
 
     def interrupt(self) -> None:
         """End what flies in another thread at its next communication point."""
@@ -101,8 +121,9 @@ class Flyer:
         simulation, names = self.simulation(variant)
         if variant in self._logs:
             self._logs[variant].place = f"{variant}: trial {trial}: "
-        simulation.set_faults(self.drawn.faults_of(trial))
-        parameters = {**self.drawn.parameters(simulation.prepared, trial), **(overlay or {})}
+        drawn = self.drawn_for(trial)
+        simulation.set_faults(drawn.faults_of(trial))
+        parameters = {**drawn.parameters(simulation.prepared, trial), **(overlay or {})}
         try:
             flight = run(simulation, parameters, self.plan.watch.timeout)
         except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
@@ -116,8 +137,9 @@ class Flyer:
         names = variant_names(self.plan, prepared)
         faults, log = self.plan.declared_faults(), self._log_of(variant)
         with Simulation(prepared, varied=names.varied, faults=faults, log=log) as simulation:
-            simulation.set_faults(self.drawn.faults_of(trial))
-            simulation.set(self.drawn.parameters(prepared, trial))
+            drawn = self.drawn_for(trial)
+            simulation.set_faults(drawn.faults_of(trial))
+            simulation.set(drawn.parameters(prepared, trial))
             result = fly(simulation, self.plan.watch.timeout)
         return result, self._judge(result, names, trial)
 
@@ -127,7 +149,7 @@ class Flyer:
         metrics = {metric.name: float("nan") for metric in campaign.metrics}
         success = False
         if result.complete:
-            constants = names.constants | self.drawn.draws.row(trial)
+            constants = names.constants | self.drawn_for(trial).row(trial)
             metrics = evaluate_metrics(campaign.metrics, result.time, result.signals, constants)
             success = succeeded(campaign.success, metrics)
         return TrialResult(

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +16,8 @@ from ..atomic import write_atomically
 from ..campaign.plan import BatchPlan
 from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
 from .shards.numbering import Numbering, shard_size
+from .shown import Shown, shown
+from .store import FlownRows
 from .summary import summarise
 from .tables import faults_line, summary_text
 from .trials import Trials
@@ -22,12 +26,24 @@ from .verdicts import add_verdicts
 
 @dataclass
 class BatchResult:
-    """All trials of all variants, in order of trial within each variant."""
+    """All trials of all variants, ``rows`` in order of trial, which may lie in a folder and not in memory."""
 
     plan: BatchPlan
-    trials: dict[str, Trials]
+    rows: Mapping[str, FlownRows]
     summary: dict[str, Any]
     provenance: dict[str, Any]
+
+    @cached_property
+    def trials(self) -> dict[str, Trials]:
+        """All of them in memory, traces too."""
+        return {variant: rows.whole() for variant, rows in self.rows.items()}
+
+    @cached_property
+    def shown(self) -> dict[str, Shown]:
+        """What figures show of each variant."""
+        campaign = self.plan.campaign
+        metrics = [metric.name for metric in campaign.metrics]
+        return {variant: shown(rows, campaign.drawn_names(), metrics) for variant, rows in self.rows.items()}
 
     def table(self) -> pyarrow.Table:
         """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics."""
@@ -51,7 +67,7 @@ class BatchResult:
         """
         batch = batch_digest(self.provenance)
         numbering = Numbering(self.plan.campaign.trials, shard_size(self.plan.campaign.trials))
-        write_draws(self.plan, folder)
+        write_draws(self.plan, folder, numbering.size)
         clear(folder)
         for shard in range(numbering.count):
             part = {variant: trials.part(numbering.of(shard)) for variant, trials in self.trials.items()}
@@ -72,8 +88,8 @@ def batch_digest(provenance: dict[str, Any]) -> str:
     return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
 
 
-def make_result(plan: BatchPlan, trials: dict[str, Trials], provenance: dict[str, Any]) -> BatchResult:
-    """The result with its summary; ``trials`` by variant, each in order of trial."""
-    summary = summarise(trials, plan.campaign.metrics, plan.groups)
-    add_verdicts(summary, plan.campaign.requirements, trials, plan.until_decided)
-    return BatchResult(plan, trials, summary, provenance)
+def make_result(plan: BatchPlan, rows: Mapping[str, FlownRows], provenance: dict[str, Any]) -> BatchResult:
+    """The result with its summary; ``rows`` by variant, each in order of trial."""
+    summary = summarise(rows, plan.campaign.metrics, plan.groups, plan.campaign.group or "")
+    add_verdicts(summary, plan.campaign.requirements, rows, plan.until_decided)
+    return BatchResult(plan, rows, summary, provenance)

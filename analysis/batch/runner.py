@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from functools import cached_property
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from ..campaign.plan import BatchPlan, check_plan
+from ..campaign.checks import check_plan, prepare_variants
+from ..campaign.plan import BatchPlan
 from ..errors import InputError
-from ..progress import progress_bar
 from ..system.prepared import PreparedSystem
 from .decision import Decision
 from .engines import in_threads
@@ -20,12 +21,12 @@ from .manifest.folder import begin, cut, go_on
 from .manifest.gather import gather
 from .manifest.manifest import Manifest, read_manifest
 from .manifest.restore import restore
+from .progress import flight_progress
 from .results import BatchResult, batch_digest, make_result
-from .shards.files import is_flown, write_shard
+from .shards.files import is_flown
 from .shards.flights import fly_shards, task_size
 from .shards.numbering import Numbering, spans
-from .shards.reading import read_shard
-from .trials import Trials
+from .store import FlownRows, HeldShards, StoredShards
 from .workers import FlyerPool, worker_count
 
 
@@ -60,21 +61,21 @@ class Campaign:
     def numbering(self) -> Numbering:
         return Numbering(self.manifest.trials, self.manifest.shard_size)
 
+    @cached_property
+    def batch(self) -> str:
+        """What tells its files from those of others."""
+        return batch_digest(self.provenance)
+
+    def store(self) -> HeldShards | StoredShards:
+        """Where its shards go."""
+        return HeldShards(self.plan) if self.folder is None else StoredShards(self.flown, self.folder, self.batch)
+
     def missing(self) -> list[int]:
         """The shards that its folder does not hold."""
         shards = range(self.numbering.count)
         if self.folder is None:
             return list(shards)
-        batch = batch_digest(self.provenance)
-        return [shard for shard in shards if not is_flown(self.folder, batch, shard, self.numbering.of(shard))]
-
-    def held(self) -> dict[int, dict[str, Trials]]:
-        """The trials of the shards that its folder holds, by variant."""
-        if self.folder is None:
-            return {}
-        batch, missing = batch_digest(self.provenance), set(self.missing())
-        there = [shard for shard in range(self.numbering.count) if shard not in missing]
-        return {shard: read_shard(self.folder, batch, shard, self.plan) for shard in there}
+        return [shard for shard in shards if not is_flown(self.folder, self.batch, shard, self.numbering.of(shard))]
 
     def checked(self, shards: Iterable[int]) -> list[int]:
         """Those of some shards that its folder does not hold. Raises InputError for a number that is none's."""
@@ -98,15 +99,17 @@ def open_campaign(plan: BatchPlan, output: Path | None, *, resume: bool = False,
         return Campaign(plan, plan, systems, manifest, None)
     folder = output.absolute()  # FMUs may change the working folder
     manifest = (go_on if resume else begin)(folder, manifest, contents, plan)
-    return Campaign(plan, restore(folder, manifest, plan.watch.log), systems, manifest, folder)
+    flown = restore(folder, manifest, plan.watch.log)
+    plan.__dict__["draws"] = flown.draws  # which lie in the folder, and not in memory
+    return Campaign(plan, flown, systems, manifest, folder)
 
 
 def open_folder(folder: Path) -> Campaign:
     """The campaign whose manifest lies in a folder. Raises InputError."""
     folder = folder.absolute()
     manifest = read_manifest(folder)
-    plan = restore(folder, manifest)
-    return Campaign(plan, plan, check_plan(plan), manifest, folder)
+    plan = restore(folder, manifest)  # whose draws were looked at when the folder was made
+    return Campaign(plan, plan, prepare_variants(plan), manifest, folder)
 
 
 def run_batch(
@@ -125,26 +128,24 @@ def run_batch(
     """
     worker_count(workers)  # looked at before anything is written
     campaign = open_campaign(plan, output, resume=resume, engine=engine)
-    trials = fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine)
-    return finish(campaign, trials)
+    return finish(campaign, fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine))
 
 
 def merge(campaign: Campaign) -> BatchResult:
     """The result of a campaign whose shards all lie in its folder. Raises InputError where some are missing."""
-    parts = campaign.held()
-    decision = Decision(campaign.plan, parts)
-    missing = [] if decision.is_made() else [shard for shard in range(campaign.numbering.count) if shard not in parts]
-    if missing:
+    missing = campaign.missing()
+    decision = _decision(campaign, missing)
+    if missing and not decision.is_made:
         count = f"{len(missing)} of {campaign.numbering.count} shards are missing"
         remedy = f"perilune shard {campaign.folder} {spans(missing)} flies them"
         raise InputError(str(campaign.folder), f"shards {spans(missing)}", count, remedy)
-    return finish(campaign, decision.trials())
+    return finish(campaign, _rows(campaign, campaign.store(), decision))
 
 
-def finish(campaign: Campaign, trials: dict[str, Trials]) -> BatchResult:
+def finish(campaign: Campaign, rows: Mapping[str, FlownRows]) -> BatchResult:
     """The result of the first trials, by variant; its summary makes the campaign's folder whole, if it has one."""
-    campaign = campaign.of_first(len(next(iter(trials.values())).trial))
-    result = make_result(campaign.plan, trials, campaign.provenance)
+    campaign = campaign.of_first(len(next(iter(rows.values()))))
+    result = make_result(campaign.plan, rows, campaign.provenance)
     if campaign.folder is not None:
         result.write_summary(campaign.folder)
     return result
@@ -152,34 +153,48 @@ def finish(campaign: Campaign, trials: dict[str, Trials]) -> BatchResult:
 
 def fly_campaign(
     campaign: Campaign, shards: Sequence[int], *, workers: int | None = None, engine: str | None = None
-) -> dict[str, Trials]:
+) -> Mapping[str, FlownRows]:
     """Fly some shards of a campaign, and write them where it has a folder; all of its trials by variant then.
 
-    Those of shards that were neither flown now nor before are missing; where the campaign ends as soon as it is
-    decided, so are those behind the shard at whose end it was, however many of them have flown.
+    Where the campaign ends as soon as it is decided, those behind the shard at whose end it was are missing, however
+    many of them have flown.
     """
-    plan, numbering, folder = campaign.plan, campaign.numbering, campaign.folder
+    plan, numbering, store = campaign.plan, campaign.numbering, campaign.store()
     count = worker_count(workers)
     threads = in_threads(campaign.systems.values(), engine)
-    batch = batch_digest(campaign.provenance)
-    parts = campaign.held()
-    decision = Decision(plan, parts)
+    decision = _decision(campaign, campaign.missing())
     flights = sum(len(numbering.of(shard)) for shard in shards) * len(plan.campaign.variants())
     size = task_size(numbering.trials, count, threads)
     tasks = -(-flights // size)
     with (
-        progress_bar(total=flights, unit="trial") as progress,
+        flight_progress(flights) as progress,
         FlyerPool(campaign.flown, min(count, max(tasks, 1)), threads, apart=engine == "processes") as pool,
         closing(fly_shards(numbering, shards, pool, size)) as flown,
     ):
-        for shard, found in () if decision.is_made() else flown:
-            if folder is not None:
-                write_shard(folder, batch, shard, plan, found)
-            parts[shard] = found
-            progress.update(sum(len(trials.trial) for trials in found.values()))
-            if decision.is_made():
+        for shard, found in () if decision.is_made else flown:
+            store.add(shard, found)
+            decision.add(shard, found)
+            progress.add(found)
+            if decision.is_made:
                 break
-    return decision.trials()
+    return _rows(campaign, store, decision)
+
+
+def _decision(campaign: Campaign, missing: Collection[int]) -> Decision:
+    """What the shards decide that lie in a campaign's folder."""
+    decision, store, numbering = Decision(campaign.plan), campaign.store(), campaign.numbering
+    if campaign.plan.until_decided and isinstance(store, StoredShards):
+        for shard in sorted(set(range(numbering.count)) - set(missing)):
+            decision.add(shard, store.rows(numbering, range(shard, shard + 1)))
+    return decision
+
+
+def _rows(campaign: Campaign, store: HeldShards | StoredShards, decision: Decision) -> dict[str, FlownRows]:
+    """The trials of the shards that decide a campaign, or else of all, by variant."""
+    numbering = campaign.numbering
+    if decision.shards is not None:
+        numbering = replace(numbering, trials=numbering.of(decision.shards - 1).stop)
+    return store.rows(numbering)
 
 
 def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:

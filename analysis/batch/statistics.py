@@ -2,42 +2,68 @@
 
 from __future__ import annotations
 
+import itertools
+import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+
+from ..verdicts.order_statistics import Blocks, order_statistics
 
 QUANTILES = {"p5": 5, "p50": 50, "p95": 95, "p99": 99}  # %
 STATISTICS = ("mean", "std", "rms", "min", *QUANTILES, "max")  # as tables show them
 INFINITE = ("inf", "-inf")  # strict JSON has no such numbers
 
 
-def statistics(values: np.ndarray, unit: str) -> dict[str, Any]:
-    """Statistics of ``values`` (trials,).
+def statistics(column: Blocks, unit: str) -> dict[str, Any]:
+    """Statistics of a column over trials, in memory that their number does not change.
 
-    ``count`` is of the finite ones, and so are ``mean``, sample deviation ``std``, ``rms``, ``max`` and ``min``.
-    Quantiles are over all but nan, infinite ones included, which are then "inf" or "-inf": the least of the
-    values that the share of them does not exceed, so each is that of a trial (the inverse of the empirical
-    distribution function; Hyndman and Fan 1996, definition 1). What cannot be had from so few values (the
-    deviation from one, everything from none) is None.
+    ``count`` is of the finite ones, and so are ``mean``, sample deviation ``std``, ``rms``, ``max`` and ``min``. Sums
+    are rounded once, whatever the blocks. Quantiles are over all but nan, infinite ones included, which are then "inf"
+    or "-inf": the least of the values that the share of them does not exceed, so each is that of a trial (the inverse
+    of the empirical distribution function; Hyndman and Fan 1996, definition 1). What cannot be had from so few values
+    (the deviation from one, everything from none) is None.
     """
-    finite = values[np.isfinite(values)]
-    known = values[~np.isnan(values)]
-    some = finite.size > 0
+    count, known, least, most = 0, 0, math.inf, -math.inf
+    for values in column():
+        finite = values[np.isfinite(values)]
+        count += finite.size
+        known += int(np.count_nonzero(~np.isnan(values)))
+        if finite.size:
+            least, most = min(least, float(finite.min())), max(most, float(finite.max()))
+    some = count > 0
+    mean = _sum(column, lambda values: values) / count if some else 0.0
+    squares = _sum(column, lambda values: np.square(values - mean)) if count > 1 else 0.0
     return {
-        "count": int(finite.size),
-        "mean": float(np.mean(finite)) if some else None,
-        "std": float(np.std(finite, ddof=1)) if finite.size > 1 else None,
-        "max": float(np.max(finite)) if some else None,
-        "min": float(np.min(finite)) if some else None,
-        "rms": float(np.sqrt(np.mean(np.square(finite)))) if some else None,
-        **_quantiles(known),
+        "count": count,
+        "mean": mean if some else None,
+        "std": math.sqrt(squares / (count - 1)) if count > 1 else None,
+        "max": most if some else None,
+        "min": least if some else None,
+        "rms": math.sqrt(_sum(column, np.square) / count) if some else None,
+        **_quantiles(column, known),
         "unit": unit,
     }
 
 
-def _quantiles(values: np.ndarray) -> dict[str, float | str | None]:
-    if not values.size:
+def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:
+    """The sum of a function of the finite values, rounded once."""
+    found = (of(values[np.isfinite(values)]).tolist() for values in column())
+    try:
+        return math.fsum(itertools.chain.from_iterable(found))
+    except OverflowError:
+        return math.inf
+
+
+def _quantiles(column: Blocks, known: int) -> dict[str, float | str | None]:
+    if not known:
         return dict.fromkeys(QUANTILES)
-    shares = [percent / 100.0 for percent in QUANTILES.values()]
-    found = np.quantile(values, shares, method="inverted_cdf").tolist()
-    return {key: value if np.isfinite(value) else str(value) for key, value in zip(QUANTILES, found, strict=True)}
+    ranks = [quantile_rank(percent / 100.0, known) for percent in QUANTILES.values()]
+    found = order_statistics(column, ranks)
+    return {key: value if math.isfinite(value) else str(value) for key, value in zip(QUANTILES, found, strict=True)}
+
+
+def quantile_rank(share: float, count: int) -> int:
+    """The rank, from 0, of the least of ``count`` values that a ``share`` of them does not exceed."""
+    return max(0, math.ceil(share * count - 1.0))

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pyarrow
+import pyarrow.compute
 
 from ..campaign.campaign import Metric
 from ..campaign.expressions import Expression
@@ -71,7 +72,7 @@ class StoredBatch:
             return []
         if self.group not in self.draws:
             raise InputError(*where, f"{self.group} is not a column of draws.parquet", AGAIN)
-        return groups_of(self.draws[self.group], where)
+        return groups_of([self.draws[self.group]], where)
 
     def parted(self, name: str) -> tuple[str, str]:
         """Component and variable of a signal or parameter of any variant."""
@@ -88,7 +89,7 @@ class StoredBatch:
 
 def read_batch(folder: Path) -> StoredBatch:
     """The batch in a folder. Raises InputError for what is missing, damaged, or of two batches."""
-    for name in (SUMMARY, FOLDER, DRAWS):
+    for name in (SUMMARY, FOLDER):
         if not (folder / name).exists():
             raise InputError(folder, name, "not found", _how_to_end(folder))
     document = _read_summary(folder / SUMMARY)
@@ -96,13 +97,27 @@ def read_batch(folder: Path) -> StoredBatch:
     batch = batch_digest(provenance)
     shards = _read_shards(folder, batch, document["trials"])
     metrics = _metrics(document, folder / SUMMARY)
-    draws = read_table(folder / DRAWS)
-    columns = {name: numbers(draws, name, folder / DRAWS) for name in draws.column_names}
+    columns = _draws(folder, shards)
     variants = _variants(shards, document["trials"], metrics, columns)
     _check_summary(document, variants, folder / SUMMARY)
     traced, strangers = _traced(folder, list(variants), batch)
     columns.pop("trial")
     return StoredBatch(folder, document, metrics, columns, variants, traced, strangers)
+
+
+def _draws(folder: Path, shards: Mapping[Path, pyarrow.Table]) -> dict[str, np.ndarray]:
+    """The draws of all trials, of the table or, where they have none, of the shards' first variant."""
+    if (folder / DRAWS).exists():
+        drawn = read_table(folder / DRAWS)
+        return {name: numbers(drawn, name, folder / DRAWS) for name in drawn.column_names}
+    columns: dict[str, list[np.ndarray]] = {}
+    for path, table in shards.items():
+        first = pyarrow.compute.equal(table["variant"], table["variant"][0])
+        rows = table.filter(first)
+        for name in rows.column_names:
+            if name == "trial" or name.startswith("draw."):
+                columns.setdefault(name.removeprefix("draw."), []).append(numbers(rows, name, path))
+    return {name: np.concatenate(parts) for name, parts in columns.items()}
 
 
 def _how_to_end(folder: Path) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -12,6 +12,7 @@ from scipy.stats import binomtest
 
 from ..campaign.campaign import Metric
 from ..campaign.groups import Group
+from .rows import Part, TrialRows, blocks
 from .statistics import INFINITE, QUANTILES, statistics
 
 CONFIDENCE = 0.95
@@ -28,55 +29,58 @@ def success_interval(successes: int, trials: int, confidence: float = 0.95) -> t
     return float(interval.low), float(interval.high)
 
 
-@dataclass(frozen=True)
-class TrialColumns:
-    """The trials of one variant, one entry per trial: status, success and every metric by name."""
-
-    statuses: Sequence[str]
-    success: np.ndarray
-    metrics: Mapping[str, np.ndarray]
-
-    def among(self, trials: np.ndarray) -> TrialColumns:
-        """Some of the trials, by their places in the columns."""
-        return TrialColumns(
-            [self.statuses[trial] for trial in trials],
-            np.asarray(self.success)[trials],
-            {name: np.asarray(column)[trials] for name, column in self.metrics.items()},
-        )
-
-
-def summarise_variant(trials: TrialColumns, metrics: Iterable[Metric]) -> dict[str, Any]:
-    """The summary of one variant; ``metrics`` are over successful trials, ``metrics_all`` over all."""
-    success = np.asarray(trials.success, dtype=bool)
-    columns = {metric.name: (np.asarray(trials.metrics[metric.name], dtype=float), metric.unit) for metric in metrics}
-    successes = int(success.sum())
+def _summary(trials: TrialRows, metrics: Sequence[Metric]) -> dict[str, Any]:
+    count, successes = 0, 0
+    statuses: Counter[str] = Counter()
+    for part in trials.parts("success", "status"):
+        count += len(part["success"])
+        successes += int(np.count_nonzero(part["success"]))
+        statuses.update(part["status"].tolist())
+    columns = {metric.name: (f"metric.{metric.name}", metric.unit) for metric in metrics}
     return {
-        "trials": len(success),
-        "success_rate": successes / len(success),
-        "success_interval": list(success_interval(successes, len(success), CONFIDENCE)),
+        "trials": count,
+        "success_rate": successes / count,
+        "success_interval": list(success_interval(successes, count, CONFIDENCE)),
         "confidence": CONFIDENCE,
-        "statuses": dict(sorted(Counter(trials.statuses).items())),
+        "statuses": dict(sorted(statuses.items())),
         "metrics_over": "successful trials",
-        "metrics": {name: statistics(column[success], unit) for name, (column, unit) in columns.items()},
-        "metrics_all": {name: statistics(column, unit) for name, (column, unit) in columns.items()},
+        "metrics": {
+            name: statistics(blocks(trials, column, "success"), unit) for name, (column, unit) in columns.items()
+        },
+        "metrics_all": {name: statistics(blocks(trials, column), unit) for name, (column, unit) in columns.items()},
     }
 
 
 def summarise(
-    variants: Mapping[str, TrialColumns], metrics: Sequence[Metric], groups: Sequence[Group] = ()
+    variants: Mapping[str, TrialRows], metrics: Sequence[Metric], groups: Sequence[Group] = (), by: str = ""
 ) -> dict[str, Any]:
     """The summaries of all variants by name. Every variant has one trial or more.
 
-    With ``groups`` a variant has ``groups`` too, by their labels: the same over the trials of each, and its ``value``.
+    With ``groups`` a variant has ``groups`` too, by their labels: the same over the trials of each, and its ``value``;
+    ``by`` is the draw by whose values they are.
     """
-    found = {name: summarise_variant(trials, metrics) for name, trials in variants.items()}
+    found = {name: _summary(trials, metrics) for name, trials in variants.items()}
     if groups:
         for name, trials in variants.items():
             found[name]["groups"] = {
-                group.label: {"value": group.value, **summarise_variant(trials.among(group.trials), metrics)}
+                group.label: {"value": group.value, **_summary(_Members(trials, f"draw.{by}", group), metrics)}
                 for group in groups
             }
     return found
+
+
+@dataclass(frozen=True)
+class _Members:
+    """The trials of a variant that are in a group."""
+
+    rows: TrialRows
+    column: str
+    group: Group
+
+    def parts(self, *names: str) -> Iterator[Part]:
+        for part in self.rows.parts(*dict.fromkeys((*names, self.column))):
+            members = self.group.has(part[self.column])
+            yield {name: part[name][members] for name in names}
 
 
 class SummaryRow(NamedTuple):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .summary import TrialColumns
+from .rows import TrialColumns
 
 
 @dataclass(frozen=True)
@@ -24,6 +24,22 @@ class Trials(TrialColumns):
     final: dict[str, np.ndarray]
     traces: dict[int, dict[str, np.ndarray]]
 
+    def __len__(self) -> int:
+        return len(self.trial)
+
+    def whole(self) -> Trials:
+        """All of them, which they are."""
+        return self
+
+    def column(self, name: str) -> np.ndarray:
+        """A column by the name that files of trials give it. Raises KeyError."""
+        kind, _, own = name.partition(".")
+        if kind == "final":
+            return self.final[own]
+        if name == "message":
+            return np.array([self.messages.get(trial, "") for trial in self.trial.tolist()], dtype=object)
+        return getattr(self, name) if name in ("trial", "end_time") else super().column(name)
+
     def part(self, numbers: range) -> Trials:
         """Those with some consecutive numbers; trials are in order of number."""
         first, end = (int(np.searchsorted(self.trial, number)) for number in (numbers.start, numbers.stop))
@@ -37,6 +53,7 @@ class Trials(TrialColumns):
             messages={trial: text for trial, text in self.messages.items() if trial in numbers},
             final={name: values[rows] for name, values in self.final.items()},
             traces={trial: traces for trial, traces in self.traces.items() if trial in numbers},
+            draws={name: values[rows] for name, values in self.draws.items()},
         )
 
     @property
@@ -67,4 +84,5 @@ def joined(parts: Iterable[Trials]) -> Trials:
         messages={trial: text for part in ordered for trial, text in part.messages.items()},
         final={name: np.concatenate([part.final[name] for part in ordered]) for name in first.final},
         traces={trial: traces for part in ordered for trial, traces in part.traces.items()},
+        draws={name: np.concatenate([part.draws[name] for part in ordered]) for name in first.draws},
     )

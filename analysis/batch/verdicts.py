@@ -11,21 +11,24 @@ from ..campaign.requirements import SUCCESS, Requirement
 from ..verdicts.acceptance import FURTHER, FixedSize, Verdict
 from ..verdicts.stopping import StoppingRule, stopping_rule
 from ..verdicts.tolerance import tolerance_bound
-from .summary import TrialColumns
+from .rows import TrialRows, blocks
 
 FIXED_SIZE, UNTIL_DECIDED = "fixed size", "until decided"
 
 
-def kept(requirement: Requirement, trials: TrialColumns) -> np.ndarray:
+def kept(requirement: Requirement, trials: TrialRows) -> np.ndarray:
     """In which trials a requirement was kept, booleans; where a metric of it is not finite it was not."""
-    columns = {name: np.asarray(trials.metrics[name], dtype=float) for name in requirement.expression.names - {SUCCESS}}
-    columns[SUCCESS] = np.asarray(trials.success, dtype=float)
-    values = np.asarray(requirement.expression.evaluate(columns))
-    finite = np.isfinite([values, *(columns[name] for name in requirement.expression.names)])
-    return np.all(finite, axis=0) & (values != 0.0)
+    names = {name: f"metric.{name}" for name in requirement.expression.names} | {SUCCESS: "success"}
+    found = []
+    for part in trials.parts(*names.values()):
+        columns = {name: np.asarray(part[column], dtype=float) for name, column in names.items()}
+        values = np.broadcast_to(requirement.expression.evaluate(columns), columns[SUCCESS].shape)
+        finite = np.isfinite([values, *(columns[name] for name in requirement.expression.names)])
+        found.append(np.all(finite, axis=0) & (values != 0.0))
+    return np.concatenate(found)
 
 
-def requirement_verdict(requirement: Requirement, trials: TrialColumns, until_decided: bool = False) -> dict[str, Any]:
+def requirement_verdict(requirement: Requirement, trials: TrialRows, until_decided: bool = False) -> dict[str, Any]:
     """The verdict on one requirement by a variant's trials, in order of trial.
 
     ``text``, ``share``, ``confidence``, ``rule`` ("fixed size", "until decided"), ``flights``, ``failures``,
@@ -52,7 +55,7 @@ def requirement_verdict(requirement: Requirement, trials: TrialColumns, until_de
         "verdict": str(decision.verdict),
         "decided_after": decision.flights if decided else None,
         "flights_to_decide": {str(more): number for more, number in missing.items()},
-        "bound": None if requirement.metric is None else _bound(requirement, trials, rule),
+        "bound": None if requirement.metric is None else _bound(requirement, trials, flights, rule),
     }
 
 
@@ -60,30 +63,31 @@ def _fixed(requirement: Requirement) -> FixedSize:
     return FixedSize(requirement.share, requirement.confidence)
 
 
-def _bound(requirement: Requirement, trials: TrialColumns, rule: FixedSize | StoppingRule) -> dict[str, Any]:
+def _bound(requirement: Requirement, trials: TrialRows, total: int, rule: FixedSize | StoppingRule) -> dict[str, Any]:
     """The tolerance bound of a requirement's metric: ``metric``, ``side``, and ``value``, "inf" or "-inf" if infinite.
 
     ``rank`` says that it is the worst value, 1, or the second worst, 2, and so on, of the first ``flights``. Value and
     rank are None where the flights are too few, and ``flights_to_decide`` is how many more would have one.
     """
     assert requirement.metric is not None
-    values = np.asarray(trials.metrics[requirement.metric], dtype=float)
-    flights, permitted = rule.permitted(len(values))
-    value = tolerance_bound(values[:flights], permitted, requirement.bound == "upper")
+    flights, permitted = rule.permitted(total)
+    value = tolerance_bound(
+        blocks(trials, f"metric.{requirement.metric}"), flights, permitted, requirement.bound == "upper"
+    )
     return {
         "metric": requirement.metric,
         "side": requirement.bound,
         "value": value if value is None or np.isfinite(value) else str(value),
         "rank": None if value is None else permitted + 1,
         "flights": flights,
-        "flights_to_decide": rule.flights_to_meet(len(values), 0)[0] if value is None else 0,
+        "flights_to_decide": rule.flights_to_meet(total, 0)[0] if value is None else 0,
     }
 
 
 def add_verdicts(
     summary: Mapping[str, dict[str, Any]],
     requirements: Sequence[Requirement],
-    variants: Mapping[str, TrialColumns],
+    variants: Mapping[str, TrialRows],
     until_decided: bool = False,
 ) -> None:
     """Put ``requirements`` into the summary of each variant, the verdicts by name; nothing where there are none."""
@@ -95,16 +99,17 @@ def add_verdicts(
             }
 
 
-def decided_after(requirements: Sequence[Requirement], variants: Mapping[str, TrialColumns]) -> int | None:
+def decided_after(requirements: Sequence[Requirement], flown: Mapping[str, Sequence[np.ndarray]]) -> int | None:
     """After how many trials every requirement of every variant is decided; None while one is not.
 
-    ``variants`` are their first trials, in order of trial and without a gap, as many as have flown: the answer
-    does not depend on how many more there are. Every one decided is the last look that any of them took.
+    ``flown`` says by variant in which of their first trials each requirement was `kept`, in order of trial and without
+    a gap, of as many as have flown: the answer does not depend on how many more there are. Every one decided is the
+    last look that any of them took.
     """
     found = [
-        stopping_rule(requirement.share, requirement.confidence).decision(kept(requirement, trials))
-        for requirement in requirements
-        for trials in variants.values()
+        stopping_rule(requirement.share, requirement.confidence).decision(passed)
+        for trials in flown.values()
+        for requirement, passed in zip(requirements, trials, strict=True)
     ]
     if not found or any(decision.verdict is Verdict.UNDECIDED for decision in found):
         return None

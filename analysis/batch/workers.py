@@ -9,7 +9,7 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
 from functools import partial
@@ -63,7 +63,7 @@ class FlyerPool:
             self._make = partial(kind, workers, initializer=start, initargs=(plan,))
             self._executor = self._make()
 
-    def work(self, function: Callable[..., Result], tasks: Sequence[tuple]) -> Iterator[tuple[int, Result]]:
+    def work(self, function: Callable[..., Result], tasks: Iterable[tuple]) -> Iterator[tuple[int, Result]]:
         """Call ``function(flyer, *task)`` for every task: (place of the task, result), in any order.
 
         The function is defined at the top of a module; tasks and results can be pickled. What has not
@@ -78,14 +78,15 @@ class FlyerPool:
                     raise KeyboardInterrupt
                 yield place, found
             return
-        left = dict(enumerate(tasks))
+        fresh = enumerate(tasks)
+        held: dict[int, tuple] = {}  # handed out, and not done
         deaths = 0
-        while left:
+        while True:
             try:
-                for place, found in self._handed_out(function, left):
+                for done in self._handed_out(function, held, fresh):
                     deaths = 0
-                    del left[place]
-                    yield place, found
+                    yield done
+                return
             except TerminatedWorkerError as error:
                 deaths += 1
                 if deaths == MOST_DEATHS:
@@ -93,20 +94,25 @@ class FlyerPool:
                 assert self._make is not None
                 self._executor = self._make()
 
-    def _handed_out(self, function: Callable[..., Result], left: dict[int, tuple]) -> Iterator[tuple[int, Result]]:
-        """The results of the tasks that are left, so few at a time that their number costs no memory."""
+    def _handed_out(
+        self, function: Callable[..., Result], held: dict[int, tuple], fresh: Iterator[tuple[int, tuple]]
+    ) -> Iterator[tuple[int, Result]]:
+        """The results of tasks, those that are held and then fresh ones; so few at a time that all cost no memory."""
         assert self._executor is not None
-        waiting = iter(list(left.items()))
+        waiting = itertools.chain(list(held.items()), fresh)
         futures: dict[Future, int] = {}
         try:
             while True:
                 for place, task in itertools.islice(waiting, WAITING * self._workers - len(futures)):
+                    held[place] = task
                     futures[self._executor.submit(_call, function, task)] = place
                 if not futures:
                     return
                 done = wait_for(futures, return_when=FIRST_COMPLETED).done
                 for future in sorted(done, key=_is_broken):  # what was done before a worker died is not done again
-                    yield futures.pop(future), future.result()
+                    place, found = futures.pop(future), future.result()
+                    del held[place]
+                    yield place, found
         except KeyboardInterrupt:
             self._halt(list(futures))
             raise

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from ..errors import InputError
 from ..system.options import Layer
-from .distributions import Draw
+from .drawing.declared import Draw, drawn_names
 from .expressions import Expression
 from .faults import CampaignFault
 from .requirements import Requirement
@@ -71,6 +71,9 @@ class Scatter:
     title: str = ""
 
 
+SCHEMES = ("table", "counter")  # one table of all trials, or every trial by itself: other values
+
+
 @dataclass(frozen=True)
 class Variant:
     """One way to build the system: which FMU flies in each compared slot."""
@@ -86,7 +89,8 @@ class Campaign:
     ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are
     expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
     [compare], ``group`` is the drawn or derived value by which [group] sums trials up, ``faults`` are [fault],
-    ``scatters`` [scatter], ``requirements`` [requirement]. ``file`` is what errors name.
+    ``scatters`` [scatter], ``requirements`` [requirement], ``draw_scheme`` is one of `SCHEMES`. ``file`` is what errors
+    name.
     """
 
     file: str
@@ -106,6 +110,7 @@ class Campaign:
     faults: tuple[CampaignFault, ...] = ()
     scatters: tuple[Scatter, ...] = ()
     requirements: tuple[Requirement, ...] = ()
+    draw_scheme: str = "table"
 
     def __post_init__(self) -> None:
         if self.trials < 1:
@@ -126,7 +131,7 @@ class Campaign:
 
     def drawn_names(self) -> list[str]:
         """Names of all drawn and derived values."""
-        return [name for draw in self.draws for name in draw.names] + list(self.derived)
+        return drawn_names(self) + list(self.derived)
 
     def variants(self) -> list[Variant]:
         """Every combination of the compared FMUs, named by them; one named ``default`` without [compare]."""

@@ -2,31 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from .drawing.declared import Draw
 from .toml_table import Table, choice_of, integer, names, number, sequence
 
 NUMBERS = sequence(number)
 MATRIX = sequence(NUMBERS)
-
-
-@dataclass(frozen=True)
-class Draw:
-    """One draw: the values it fills (``names``), its distribution and that one's arguments.
-
-    ``names`` is the draw's own name, except for correlated_normal, which fills several. A name
-    with a dot is a component's parameter; others are for [derive] and the metrics only.
-    ``arguments`` are floats, or tuples of floats, under the keys of the campaign file.
-    """
-
-    name: str
-    distribution: str
-    names: tuple[str, ...]
-    arguments: Mapping[str, Any]
 
 
 def _interval(table: Table) -> dict[str, Any]:

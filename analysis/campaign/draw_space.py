@@ -15,8 +15,7 @@ from scipy.special import ndtr, ndtri
 
 from ..errors import InputError, suggestion
 from .campaign import Campaign
-from .distributions import Draw
-from .draws import Columns
+from .drawing.declared import Columns, Draw
 
 INTERVALS = ("uniform", "latin_hypercube", "sobol")  # of which the last two are uniform, with a design
 FLAT = 1e-12  # of the largest eigenvalue of a covariance, below which nothing varies

@@ -88,7 +88,7 @@ def _formula(table: Table, key: str, value: Any) -> Expression:
 
 @dataclass(frozen=True)
 class DrawnFault:
-    """A campaign's fault in all trials: arrays with an entry for each.
+    """A campaign's fault in trials in a row: arrays with an entry for each.
 
     ``flies`` says in which trials there is a fault; ``value`` (in the connector's unit), ``start`` and ``end`` (s) are
     nan in the others, ``end`` is inf where it has none. A Boolean's value is a bool array. A freeze has no ``value``.
@@ -101,7 +101,7 @@ class DrawnFault:
     end: np.ndarray
 
     def in_trial(self, trial: int) -> Fault | None:
-        """The fault of one trial, if it flies."""
+        """The fault in one of them, counted from 0, if it flies."""
         if not self.flies[trial]:
             return None
         value = 0.0 if self.value is None else self.value[trial].item()
@@ -115,18 +115,19 @@ class DrawnFault:
         return {name: self.flies, **value, f"{name}.start": self.start, f"{name}.end": self.end}
 
 
-def drawn_fault(declared: CampaignFault, draws: Mapping[str, np.ndarray], trials: int) -> DrawnFault:
-    """A fault worked out for all trials from their ``draws``.
+def drawn_fault(declared: CampaignFault, draws: Mapping[str, np.ndarray], numbers: range) -> DrawnFault:
+    """A fault worked out for trials in a row, of these ``numbers``, from their ``draws``.
 
     Raises InputError where an expression is not finite or a window is empty in a trial in which the fault flies.
     """
+    trials = len(numbers)
     everywhere = np.ones(trials, dtype=bool)
 
     def values(key: str, formula: Expression, flies: np.ndarray) -> np.ndarray:
         column = np.broadcast_to(formula.evaluate(draws), (trials,))
         wrong = np.flatnonzero(flies & ~np.isfinite(column))
         if wrong.size:
-            problem = f"{formula.text!r} is {column[wrong[0]]} in trial {wrong[0]}"
+            problem = f"{formula.text!r} is {column[wrong[0]]} in trial {numbers[wrong[0]]}"
             raise InputError(*declared.where(key), problem, "every value must be finite")
         return np.where(flies, column, math.nan)
 
@@ -137,7 +138,9 @@ def drawn_fault(declared: CampaignFault, draws: Mapping[str, np.ndarray], trials
     end = np.where(flies, math.inf, math.nan) if declared.end is None else values("end", declared.end, flies)
     empty = np.flatnonzero(flies & ~(start < end))
     if empty.size:
-        problem = f"{end[empty[0]]:.10g} s is not after the start, {start[empty[0]]:.10g} s, in trial {empty[0]}"
+        problem = (
+            f"{end[empty[0]]:.10g} s is not after the start, {start[empty[0]]:.10g} s, in trial {numbers[empty[0]]}"
+        )
         raise InputError(*declared.where("end"), problem, "give an end after the start")
     column = values("value", value, flies) if isinstance(value, Expression) else None
     if isinstance(value, bool):

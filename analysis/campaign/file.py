@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, suggestion
-from .campaign import REDUCTIONS, TRACES, Campaign, Metric, Record, Scatter, Setting
-from .distributions import Draw, read_draw
+from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting
+from .distributions import read_draw
+from .drawing.declared import Draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
 from .requirements import read_requirements
@@ -194,7 +195,7 @@ def parse_campaign(table: Table) -> Campaign:
     if SYNTHESIS in table.content:
         remedy = "search with perilune synthesize, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
-    keys = ["system", "description", "trials", "seed", "parameters"]
+    keys = ["system", "description", "trials", "seed", "parameters", "draw_scheme"]
     tables = ["set", "compare", "draw", "derive", "fault", "group", "metric", "record", "success", "requirement"]
     table.only([*keys, *tables, "scatter"])
     draws = _draws(table.table("draw"))
@@ -206,6 +207,7 @@ def parse_campaign(table: Table) -> Campaign:
         system=table.get("system", text),
         trials=table.get("trials", integer),
         seed=table.get("seed", integer),
+        draw_scheme=table.get("draw_scheme", choice_of(*SCHEMES), SCHEMES[0]),
         success=_success(table.table("success"), metrics),
         metrics=metrics,
         draws=draws,

@@ -4,28 +4,30 @@ from __future__ import annotations
 
 import hashlib
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-import numpy as np
-
-from ..errors import InputError, suggestion
+from ..errors import InputError
 from ..ssp.archive import SystemArchive, open_system
-from ..system.faults import Fault, check_fault
+from ..system.faults import Fault
 from ..system.in_flight.series import InputSeries
 from ..system.in_flight.watch import UNWATCHED, Watch
 from ..system.options import Layer, SystemOptions
 from ..system.prepared import PreparedSystem, prepare_system
 from .campaign import Campaign, Variant
-from .draws import DrawTable, draw_table, stream_numbers, table_of
-from .faults import DrawnFault, check_drawn, drawn_fault
+from .drawing.counted import CountedDraws
+from .drawing.given import GivenDraws, read_given
+from .drawing.streams import StreamNumbers
+from .drawing.table import Draws, DrawTable, draw_parts, draw_table, parted, table_of
+from .drawn import DrawnTrials, with_streams
+from .faults import drawn_fault
 from .file import parse_campaign
-from .given import GivenDraws, read_given
 from .groups import Group, groups_of
-from .metrics import names_needed
 from .toml_table import Table
+
+PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
 
 
 @dataclass(frozen=True)
@@ -54,15 +56,33 @@ class BatchPlan:
     archive: SystemArchive | None = None  # flown instead of what `system` names, for which it stands
 
     @cached_property
-    def draws(self) -> DrawTable:
-        """The table of draws of all trials. Raises InputError."""
+    def draws(self) -> Draws:
+        """What is drawn for all trials. Raises InputError."""
         if self.given is not None:
             return table_of(self.campaign, self.given.table)
-        try:
-            return draw_table(self.campaign)
-        except MemoryError as error:
-            problem = f"the draws of {self.campaign.trials} trials do not fit into memory"
-            raise InputError(self.campaign.file, "trials", problem, "give fewer") from error
+        return CountedDraws(self.campaign) if self.is_counted else draw_table(self.campaign)
+
+    @property
+    def is_counted(self) -> bool:
+        """Whether draws are made for each trial by itself, without a table."""
+        return self.given is None and self.campaign.draw_scheme == "counter"
+
+    def draw_parts(self, size: int = PART) -> Iterator[DrawTable]:
+        """What is drawn for all trials, ``size`` of them at a time, none of it held. Raises InputError."""
+        if self.given is None and not self.is_counted and "draws" not in self.__dict__:
+            yield from draw_parts(self.campaign, size)
+            return
+        for part in parted(self.campaign.trials, size):
+            yield self.draws.of_part(part)
+
+    def drawn(self, trials: range) -> DrawnTrials:
+        """All that is drawn for trials in a row. Raises InputError."""
+        return self.drawn_from(self.draws.of_part(trials), trials)
+
+    def drawn_from(self, table: DrawTable, trials: range) -> DrawnTrials:
+        """The same from their table of draws. Raises InputError."""
+        faults = [drawn_fault(fault, table.columns, trials) for fault in self.campaign.faults]
+        return DrawnTrials(self, trials, table, faults)
 
     def of_first(self, trials: int) -> BatchPlan:
         """A plan of the first ``trials`` trials, with the draws that they have in this one."""
@@ -72,7 +92,9 @@ class BatchPlan:
         """A plan of trials in a row, with the draws that they have in this one; from 1 on, those must be given."""
         given = None if self.given is None else self.given.of_part(trials)
         part = replace(self, campaign=replace(self.campaign, trials=len(trials)), given=given)
-        part.__dict__["draws"] = self.draws.of_part(trials)  # in cached_property's place: drawn anew they may differ
+        if not self.is_counted:
+            # in cached_property's place: drawn anew they may differ
+            part.__dict__["draws"] = self.draws.of_part(trials) if trials.start else self.draws.of_first(trials.stop)
         return part
 
     def of_samples(self, given: GivenDraws) -> BatchPlan:
@@ -84,12 +106,8 @@ class BatchPlan:
         """The groups of trials that results are summed up by; none without [group]. Raises InputError."""
         if self.campaign.group is None:
             return []
-        return groups_of(self.draws.columns[self.campaign.group], (self.campaign.file, "group.by"))
-
-    @cached_property
-    def drawn_faults(self) -> list[DrawnFault]:
-        """The campaign's faults in all trials. Raises InputError."""
-        return [drawn_fault(fault, self.draws.columns, self.draws.trials) for fault in self.campaign.faults]
+        parts = (part.columns[self.campaign.group] for part in self.draw_parts())
+        return groups_of(parts, (self.campaign.file, "group.by"))
 
     def declared_faults(self) -> list[Fault]:
         """All faults, the campaign's first, with their connectors and kinds; value and times are a trial's."""
@@ -97,7 +115,7 @@ class BatchPlan:
 
     def faults_of(self, trial: int) -> list[Fault | None]:
         """The faults of one trial, in the order of `declared_faults`; None for one that does not fly in it."""
-        return [*(fault.in_trial(trial) for fault in self.drawn_faults), *self.faults]
+        return self.drawn(range(trial, trial + 1)).faults_of(trial)
 
     def fault_texts(self) -> list[str]:
         """All faults as results name them."""
@@ -116,13 +134,12 @@ class BatchPlan:
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of one trial: draws, and seed and stream of every component that has them."""
-        whose = trial if self.given is None else self.given.stream_of(trial)
-        streams = stream_numbers(self.campaign.seed, whose, prepared.network.fmus, self.campaign.file)
-        values: dict[str, float | int] = dict(self.draws.parameters(trial))
-        for name, fmu in prepared.network.fmus.items():
-            if {"seed", "stream"} <= set(fmu.variables):
-                values[f"{name}.seed"], values[f"{name}.stream"] = streams[name]
-        return values
+        return self.drawn(range(trial, trial + 1)).parameters(prepared, trial)
+
+    def parameter_names(self, prepared: PreparedSystem) -> set[str]:
+        """The names of `parameters`, which are those of every trial."""
+        drawn = {name for name in self.campaign.drawn_names() if "." in name}
+        return drawn | {f"{name}.{number}" for name in with_streams(prepared) for number in StreamNumbers._fields}
 
 
 def campaign_of(data: bytes, label: str) -> Campaign:
@@ -186,124 +203,3 @@ def read_plan(
         until_decided=until_decided,
     )
     return plan if draws is None else plan.of_samples(read_given(draws, changed))
-
-
-def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
-    """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
-    _ = plan.draws, plan.groups, plan.drawn_faults
-    _refuse_conflicts(plan)
-    systems = {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
-    for prepared in systems.values():
-        check_draws(plan, prepared)
-        for fault in plan.faults:
-            check_fault(prepared.network, fault)
-    return systems
-
-
-def check_draws(plan: BatchPlan, prepared: PreparedSystem) -> None:
-    """Refuse draws and drawn faults that a prepared system cannot have. Raises InputError."""
-    for name in variant_names(plan, prepared).varied:
-        _check_varied(plan, prepared, name)
-    for drawn in plan.drawn_faults:
-        check_drawn(drawn, prepared.network)
-
-
-def _refuse_conflicts(plan: BatchPlan) -> None:
-    """Refuse options that the campaign would overrule: FMUs of a compared slot, values that are drawn."""
-    for slot in plan.campaign.compare:
-        if slot in plan.options.use:
-            raise InputError("--use", slot, "the campaign compares FMUs in this slot", f"give --compare {slot}=A,B")
-    for name in plan.options.set:
-        drawn = any(column == name or column.startswith(f"{name}[") for column in plan.draws.columns)
-        if drawn or name.endswith((".seed", ".stream")):
-            raise InputError("--set", name, "the campaign draws it in every trial", "change the campaign, or --seed")
-
-
-def _check_varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> None:
-    """Refuse a draw for what is no parameter, or with a value that the parameter cannot have."""
-    known: list[str] = []
-    for component, fmu in prepared.network.fmus.items():
-        known += [
-            f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in ("parameter", "input")
-        ]
-    if name not in known:
-        raise InputError(plan.campaign.file, name, "no such parameter in the system", suggestion(name, known))
-    if name in prepared.network.driven:
-        problem = f"is driven by column {prepared.network.driven[name]} of the inputs over time"
-        raise InputError(plan.campaign.file, name, problem, "leave out the column or the draw")
-    if name not in plan.draws.columns:  # seed, stream or overlaid
-        return
-    values = np.asarray(plan.draws.columns[name], dtype=float)
-    component = max((part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len)
-    variable = prepared.network.fmus[component].variables[name.removeprefix(f"{component}.")]
-    if variable.type == "String":
-        raise InputError(plan.campaign.file, name, "a String cannot be drawn", "draw numbers only")
-    if variable.type != "Real" and np.any(values != np.round(values)):
-        raise InputError(plan.campaign.file, name, f"drawn values are not whole, it is {variable.type}", "use a choice")
-    low, high = (
-        limit if bound is None else float(bound) for bound, limit in ((variable.min, -np.inf), (variable.max, np.inf))
-    )
-    outside = np.flatnonzero((values < low) | (values > high))
-    if outside.size:
-        problem = f"{values[outside[0]]:g} in trial {outside[0]} is outside {low:g} to {high:g}"
-        raise InputError(plan.campaign.file, name, problem, "draw values that the parameter can have")
-
-
-@dataclass(frozen=True)
-class VariantNames:
-    """What one variant varies, records and holds constant, by name."""
-
-    varied: list[str]
-    signals: list[str]
-    statuses: list[str]
-    constants: dict[str, float]
-
-
-def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
-    """Names that a variant's simulation needs. Raises InputError for one that does not exist."""
-    campaign = plan.campaign
-    needed = names_needed(campaign.metrics, plan.draws.columns)
-    recorded = {*campaign.record.final, *campaign.record.signals}
-    needed |= recorded
-    signals: list[str] = []
-    constants: dict[str, float] = {}
-    for name in sorted(needed):
-        if _is_signal(prepared, name) or _is_output(prepared, name):
-            signals.append(name)
-        elif name in recorded:
-            known = [other for other in prepared.network.nodes if _is_signal(prepared, other)]
-            raise InputError(campaign.file, f"record: {name}", "not a signal of the system", suggestion(name, known))
-        else:
-            constants[name] = _constant(plan, prepared, name)
-    statuses = [f"{name}.status" for name in prepared.network.fmus if _is_output(prepared, f"{name}.status")]
-    return VariantNames(sorted({*plan.parameters(prepared, 0), *plan.overlaid}), signals, statuses, constants)
-
-
-def _is_signal(prepared: PreparedSystem, name: str) -> bool:
-    """Whether a connector's value comes from a connection or is a system's input."""
-    if name in prepared.network.driven:
-        return True
-    node = prepared.network.nodes.get(name)
-    if node is None or node.kind in ("parameter", "calculatedParameter"):
-        return False
-    return name in prepared.network.driver or name in prepared.settings.nodes
-
-
-def _is_output(prepared: PreparedSystem, name: str) -> bool:
-    return any(
-        name.startswith(f"{component}.")
-        and getattr(fmu.variables.get(name[len(component) + 1 :]), "causality", "") == "output"
-        for component, fmu in prepared.network.fmus.items()
-    )
-
-
-def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:
-    """The value of a parameter that metrics refer to."""
-    for component, fmu in prepared.network.fmus.items():
-        variable = fmu.variables.get(name.removeprefix(f"{component}."))
-        if name.startswith(f"{component}.") and variable is not None and variable.start is not None:
-            value = prepared.settings.variables.get((component, variable.name), variable.start)
-            return float({"true": 1, "false": 0}.get(str(value).lower(), value))
-    known = [f"{component}.{key}" for component, fmu in prepared.network.fmus.items() for key in fmu.variables]
-    problem = "neither a signal nor a parameter of the system"
-    raise InputError(plan.campaign.file, name, problem, suggestion(name, known))

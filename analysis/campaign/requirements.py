@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import suggestion
-from .distributions import Draw
+from .drawing.declared import Draw
 from .expressions import Expression
 from .toml_table import REQUIRED, Table, choice_of, expression, number, text
 

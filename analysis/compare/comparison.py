@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from ..batch.rows import TrialColumns
 from ..batch.stored import StoredBatch
-from ..batch.summary import CONFIDENCE, TrialColumns, success_interval, summarise, summary_rows
+from ..batch.summary import CONFIDENCE, success_interval, summarise, summary_rows
 from ..batch.tables import aligned, faults_line, metric_lines, who_cells, who_heads
 from ..batch.trials import Trials
 from ..campaign.campaign import Metric
@@ -118,16 +119,19 @@ class Comparison:
     @cached_property
     def summary(self) -> dict[str, Any]:
         """Per contender what a batch's summary has, and ``rates``: count, rate and interval by name; groups too."""
+        grouping = self._grouping
+        by = {} if grouping is None or grouping.group is None else {grouping.group: grouping.draws[grouping.group]}
         columns = {
             label: TrialColumns(
                 contender.trials.statuses,
                 contender.trials.success,
                 {metric.name: self.values(label, metric.name) for metric in self.metrics},
+                draws=by,
             )
             for label, contender in self.contenders.items()
         }
-        found = summarise(columns, self.metrics, self.groups)
-        members = {group.label: group.trials for group in self.groups}
+        found = summarise(columns, self.metrics, self.groups, self.group or "")
+        members = {group.label: np.flatnonzero(group.has(values)) for group in self.groups for values in by.values()}
         for label, group, entry in summary_rows(found):
             trials = slice(None) if group is None else members[group]
             entry["rates"] = {name_of(rate): self._rate(label, rate, trials) for rate in self.rates}

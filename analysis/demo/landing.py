@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..campaign.campaign import Variant
-from ..campaign.plan import BatchPlan, variant_names
+from ..campaign.checks import variant_names
+from ..campaign.plan import BatchPlan
 from ..flight.results import Result
 from ..flight.simulation import Simulation
 from ..reports.kit.panels import is_slim

@@ -13,9 +13,10 @@ from ..batch.runner import provenance
 from ..batch.trials import Trials, joined
 from ..batch.workers import FlyerPool, worker_count
 from ..campaign.campaign import Record
-from ..campaign.draws import Columns
-from ..campaign.given import GivenDraws
-from ..campaign.plan import BatchPlan, check_draws, check_plan
+from ..campaign.checks import check_draws, check_plan
+from ..campaign.drawing.declared import Columns
+from ..campaign.drawing.given import GivenDraws
+from ..campaign.plan import BatchPlan
 from ..errors import InputError
 from ..progress import progress_bar
 
@@ -68,7 +69,7 @@ class SampleFlights:
     def fly(self, columns: Columns) -> tuple[Trials, Mapping[str, np.ndarray]]:
         """The trials of given draws, in their order, and the drawn and derived values. Raises InputError."""
         plan = self.plan.of_samples(self._given(columns))
-        check_draws(plan, self.prepared)
+        check_draws(plan, [self.prepared])
         trials = plan.campaign.trials
         size = max(1, min(50 if self.prepared.flies_in_threads else 10, trials // (4 * self._count)))
         pieces = [range(first, min(first + size, trials)) for first in range(0, trials, size)]
@@ -79,7 +80,7 @@ class SampleFlights:
             found[place] = flown.counted_from(pieces[place].start)
             self._progress.update(len(pieces[place]))
         self.flown += trials
-        return joined(found.values()), plan.draws.columns
+        return joined(found.values()), plan.draws.of_part(range(trials)).columns
 
     def _given(self, columns: Columns) -> GivenDraws:
         count = len(next(iter(columns.values())))
@@ -96,5 +97,4 @@ class SampleFlights:
 
 def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> Trials | None:
     """The trials of a plan for the system that a worker flies."""
-    flyer.drawn = plan
-    return flyer.fly(variant, range(plan.campaign.trials))
+    return flyer.fly_others(variant, plan)

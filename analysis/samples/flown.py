@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pyarrow
 
-from ..campaign.given import STREAMS
+from ..campaign.drawing.given import STREAMS
 
 
 class _Part(NamedTuple):

@@ -11,7 +11,8 @@ import numpy as np
 from ..batch.flyer import Flyer
 from ..batch.shards.files import write_draws
 from ..batch.workers import worker_count
-from ..campaign.plan import BatchPlan, check_plan
+from ..campaign.checks import check_plan
+from ..campaign.plan import BatchPlan
 from ..errors import InputError, suggestion
 from ..laws.parameter_set import law_parameters
 from ..progress import progress_bar
@@ -54,7 +55,7 @@ def run_synthesis(
     if resume and checkpoint is not None:
         state = read_checkpoint(checkpoint, stored)
     elif output is not None:
-        write_draws(plan, output)
+        write_draws(plan, output, plan.campaign.trials)
     objectives = tuple(synthesis.objectives.values())
     with (
         progress_bar(initial=state.evaluations, unit="law") as progress,

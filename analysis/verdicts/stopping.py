@@ -71,14 +71,14 @@ class StoppingRule:
         Undecided, it is of the last look, or of no flights where there was none. The consumer's risk is the
         probability of having met the requirement at an earlier look, or with no more failures at this.
         """
-        failures = np.concatenate([[0], np.cumsum(~np.asarray(kept, dtype=bool))])
-        last = 0
+        failed = np.flatnonzero(~np.asarray(kept, dtype=bool))
+        last = failures = 0
         for flights in self.looks(len(kept)):
-            last = flights
-            verdict = self.decide(flights, int(failures[flights]))
+            last, failures = flights, int(np.searchsorted(failed, flights))
+            verdict = self.decide(flights, failures)
             if verdict is not Verdict.UNDECIDED:
-                return self._decision(verdict, flights, int(failures[flights]))
-        return self._decision(Verdict.UNDECIDED, last, int(failures[last]))
+                return self._decision(verdict, flights, failures)
+        return self._decision(Verdict.UNDECIDED, last, failures)
 
     def permitted(self, flights: int) -> tuple[int, int]:
         """The last look in so many flights, and with how many failures it meets the requirement, -1 for none."""

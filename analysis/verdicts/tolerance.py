@@ -8,11 +8,15 @@ Beard, NASA/TP-2010-216447).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
+from .order_statistics import Blocks, order_statistics
 
-def tolerance_bound(values: np.ndarray, permitted: int, upper: bool) -> float | None:
-    """The bound from ``values`` (flights,) of a metric: their (``permitted`` + 1)-th largest, or smallest.
+
+def tolerance_bound(column: Blocks, flights: int, permitted: int, upper: bool) -> float | None:
+    """The bound from the first ``flights`` values of a metric: their (``permitted`` + 1)-th largest, or smallest.
 
     ``permitted`` are the failures with which that many flights meet a requirement of the bound's share and
     confidence; where it is negative the flights are too few and there is no bound, None. What is not finite
@@ -21,5 +25,12 @@ def tolerance_bound(values: np.ndarray, permitted: int, upper: bool) -> float | 
     if permitted < 0:
         return None
     worst = np.inf if upper else -np.inf
-    ordered = np.sort(np.where(np.isfinite(values), values, worst))
-    return float(ordered[-1 - permitted] if upper else ordered[permitted])
+
+    def counted() -> Iterator[np.ndarray]:
+        left = flights
+        for values in column():
+            yield np.where(np.isfinite(values), values, worst)[:left]
+            left = max(0, left - len(values))
+
+    (bound,) = order_statistics(counted, [flights - 1 - permitted if upper else permitted])
+    return bound

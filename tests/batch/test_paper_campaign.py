@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from perilune.analysis.campaign.draws import draw_table
+from perilune.analysis.campaign.drawing.table import draw_table
 from perilune.analysis.campaign.file import read_campaign
 from perilune.fmus_src.catalogue import catalogue
 

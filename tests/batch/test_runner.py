@@ -16,7 +16,7 @@ import perilune
 from perilune.analysis.batch.results import batch_digest
 from perilune.analysis.batch.runner import run_batch
 from perilune.analysis.batch.summary import requirement_values
-from perilune.analysis.campaign.draws import draw_table
+from perilune.analysis.campaign.drawing.table import draw_table
 from perilune.analysis.campaign.expressions import Expression
 from perilune.analysis.campaign.file import read_campaign
 from perilune.analysis.campaign.plan import read_plan

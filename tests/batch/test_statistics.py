@@ -13,10 +13,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import ecdf
 
-from perilune.analysis.batch.statistics import QUANTILES, STATISTICS, statistics
+from perilune.analysis.batch.statistics import QUANTILES, STATISTICS
+from perilune.analysis.batch.statistics import statistics as of_blocks
 
 NUMBERS = st.floats(-1e6, 1e6)
 ANY = NUMBERS | st.sampled_from([math.inf, -math.inf, math.nan])
+
+
+def statistics(values, unit):
+    """Statistics of a column in one block."""
+    return of_blocks(lambda: [values], unit)
 
 
 def counted(values, percent):
@@ -70,3 +76,11 @@ def test_one_trial_in_twenty_that_never_settles():
     found = statistics(settled, "s")
     assert (found["count"], found["max"], found["p95"], found["p99"]) == (19, 19.0, 19.0, "inf")
     assert statistics(settled[:-1], "s")["p95"] == "inf"
+
+
+@given(st.lists(st.lists(ANY, max_size=20), min_size=1, max_size=6), st.randoms(use_true_random=False))
+def test_blocks_change_no_bit_and_neither_does_their_order(lists, chance):
+    parts = [np.array(values, dtype=float) for values in lists]
+    whole = statistics(np.concatenate(parts), "1")
+    chance.shuffle(parts)
+    assert of_blocks(lambda: parts, "1") == whole

@@ -2,11 +2,13 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from perilune.analysis.batch.summary import TrialColumns, requirement_values, success_interval, summarise
+from perilune.analysis.batch.rows import TrialColumns
+from perilune.analysis.batch.summary import requirement_values, success_interval, summarise
 from perilune.analysis.campaign.campaign import Metric
 from perilune.analysis.campaign.expressions import Expression
 from perilune.analysis.campaign.groups import Group
@@ -69,24 +71,26 @@ def test_requirements_see_what_is_infinite():
     json.dumps(summary, allow_nan=False)
 
 
-GROUPS = [Group("0.5", 0.5, np.array([0, 3])), Group("2", 2.0, np.array([1, 2]))]
+CASES = np.array([0.5, 2.0, 2.0, 0.5])
+GROUPS = [Group("0.5", 0.5), Group("2", 2.0)]
+PARTED = replace(GOOD, draws={"case": CASES})
 
 
 def test_groups_are_summed_up_as_the_whole():
-    summary = summarise({"good": GOOD}, METRICS, GROUPS)
+    summary = summarise({"good": PARTED}, METRICS, GROUPS, "case")
     found = summary["good"].pop("groups")
     assert summary == summarise({"good": GOOD}, METRICS)
     assert list(found) == ["0.5", "2"]
     for group in GROUPS:
-        column = GOOD.metrics["miss"][group.trials]
-        alone = TrialColumns(["finished"] * 2, GOOD.success[group.trials], {"miss": column})
+        own = [trial for trial, case in enumerate(CASES) if case == group.value]
+        alone = TrialColumns(["finished"] * 2, GOOD.success[own], {"miss": GOOD.metrics["miss"][own]})
         entry = found[group.label]
         assert entry.pop("value") == group.value
         assert entry == summarise({"x": alone}, METRICS)["x"]
 
 
 def test_requirements_reach_groups_by_their_value():
-    values = requirement_values(summarise({"good": GOOD}, METRICS, GROUPS))
+    values = requirement_values(summarise({"good": PARTED}, METRICS, GROUPS, "case"))
     text = 'good.groups["0.5"].success_rate == 0.5 and good.groups["2"].metrics.miss.p95 == 6'
     assert Expression(text).names <= set(values)
     assert Expression(text).evaluate(values) == 1.0

@@ -1,11 +1,13 @@
 """perilune.analysis.batch.tables: summaries on a terminal."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from perilune.analysis.batch.summary import TrialColumns, summarise
+from perilune.analysis.batch.rows import TrialColumns
+from perilune.analysis.batch.summary import summarise
 from perilune.analysis.batch.tables import summary_text
 from perilune.analysis.campaign.campaign import Metric
 from perilune.analysis.campaign.expressions import Expression
@@ -43,8 +45,9 @@ def test_without_metrics():
 
 
 def test_a_line_per_group_beside_the_whole():
-    groups = [Group("1", 1.0, np.array([0, 3])), Group("2.5", 2.5, np.array([1, 2]))]
-    lines = summary_text(summarise({"good": GOOD}, METRICS, groups), "case").splitlines()
+    groups = [Group("1", 1.0), Group("2.5", 2.5)]
+    good = replace(GOOD, draws={"case": np.array([1.0, 2.5, 2.5, 1.0])})
+    lines = summary_text(summarise({"good": good}, METRICS, groups, "case"), "case").splitlines()
     assert lines[0].split()[:3] == ["variant", "case", "trials"]
     assert [line.split()[:4] for line in lines[1:4]] == [
         ["good", "all", "4", "75.00"],

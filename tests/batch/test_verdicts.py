@@ -12,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import binom
 
-from perilune.analysis.batch.summary import TrialColumns, requirement_values, summarise
+from perilune.analysis.batch.rows import TrialColumns
+from perilune.analysis.batch.summary import requirement_values, summarise
 from perilune.analysis.batch.tables import summary_text
 from perilune.analysis.batch.verdicts import (
     add_verdicts,
@@ -45,6 +46,12 @@ def columns(miss, mass=None, success=None):
 def flights(count, failures):
     """A variant whose first flights miss."""
     return columns(np.where(np.arange(count) < failures, 2.0, 0.5))
+
+
+def decided(requirements, **variants):
+    """After how many of these trials all requirements are decided."""
+    flown = {name: [kept(requirement, trials) for requirement in requirements] for name, trials in variants.items()}
+    return decided_after(requirements, flown)
 
 
 @given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=1, max_size=20))
@@ -113,12 +120,12 @@ def test_until_decided_only_the_looks_count():
 def test_all_of_all_variants_have_to_be_decided():
     rule = stopping_rule(0.9, 0.9)
     first = next(count for count in rule.looks(100) if rule.permitted_failures(count) >= 0)
-    assert decided_after([HEAVY], {"a": flights(200, 0)}) == first
-    assert decided_after([NEAR, HEAVY], {"a": flights(2400, 0)}) == 2300
-    assert decided_after([NEAR, HEAVY], {"a": flights(2299, 0)}) is None
-    assert decided_after([NEAR], {"a": flights(2400, 0), "b": flights(2400, 1)}) is None
-    assert decided_after([NEAR], {"a": flights(4100, 0), "b": flights(4100, 1)}) == 4000
-    assert decided_after([], {"a": flights(10, 0)}) is None
+    assert decided([HEAVY], a=flights(200, 0)) == first
+    assert decided([NEAR, HEAVY], a=flights(2400, 0)) == 2300
+    assert decided([NEAR, HEAVY], a=flights(2299, 0)) is None
+    assert decided([NEAR], a=flights(2400, 0), b=flights(2400, 1)) is None
+    assert decided([NEAR], a=flights(4100, 0), b=flights(4100, 1)) == 4000
+    assert decided([], a=flights(10, 0)) is None
     assert looks([NEAR, HEAVY], 300) == sorted({*rule.looks(300), 100, 200, 300})
 
 
@@ -126,11 +133,12 @@ def test_parts_that_arrive_change_nothing():
     """However many trials have flown when it is asked, the answer is the same once there is one."""
     source = np.random.default_rng(6)
     trials = columns(np.where(source.uniform(size=6000) < 0.0004, 2.0, 0.5), source.uniform(4.7, 9.0, 6000))
-    whole = decided_after([NEAR, HEAVY], {"a": trials})
+    miss, mass = trials.metrics.values()
+    whole = decided([NEAR, HEAVY], a=trials)
     assert whole is not None
     for count in (whole, whole + 1, 6000):
-        assert decided_after([NEAR, HEAVY], {"a": trials.among(np.arange(count))}) == whole
-    assert decided_after([NEAR, HEAVY], {"a": trials.among(np.arange(whole - 1))}) is None
+        assert decided([NEAR, HEAVY], a=columns(miss[:count], mass[:count])) == whole
+    assert decided([NEAR, HEAVY], a=columns(miss[: whole - 1], mass[: whole - 1])) is None
 
 
 @pytest.fixture(scope="module")

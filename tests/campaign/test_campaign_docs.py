@@ -8,7 +8,7 @@ import numpy as np
 import perilune
 from perilune.analysis.campaign.campaign import REDUCTIONS, TRACES
 from perilune.analysis.campaign.distributions import DISTRIBUTIONS
-from perilune.analysis.campaign.draws import draw_table
+from perilune.analysis.campaign.drawing.table import draw_table
 from perilune.analysis.campaign.expressions import FUNCTIONS
 from perilune.analysis.campaign.faults import KEYS
 from perilune.analysis.campaign.file import REDUCTION_OF, SCATTER

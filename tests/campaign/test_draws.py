@@ -7,7 +7,9 @@ from hypothesis import strategies as st
 from scipy import stats
 from scipy.stats import qmc
 
-from perilune.analysis.campaign.draws import draw_table, generator, stream_numbers
+from perilune.analysis.campaign.drawing.independent import generator
+from perilune.analysis.campaign.drawing.streams import stream_numbers
+from perilune.analysis.campaign.drawing.table import draw_table
 from perilune.analysis.errors import InputError
 
 RANDOM = """

@@ -14,7 +14,12 @@ from scipy.stats import beta, quantile_test
 
 from perilune.analysis.verdicts.acceptance import permitted_failures
 from perilune.analysis.verdicts.stopping import StoppingRule
-from perilune.analysis.verdicts.tolerance import tolerance_bound
+from perilune.analysis.verdicts.tolerance import tolerance_bound as of_blocks
+
+
+def tolerance_bound(values, permitted, upper):
+    """The bound from all of some values, which come in two blocks."""
+    return of_blocks(lambda: (values[:7], values[7:]), len(values), permitted, upper)
 
 
 @given(st.integers(1, 4000), st.floats(0.5, 0.9999), st.floats(0.5, 0.999))
@@ -72,3 +77,9 @@ def test_what_is_not_finite_is_worst(odd):
     assert tolerance_bound(values, 1, upper=True) == 91.0
     assert tolerance_bound(values, 0, upper=False) == -math.inf
     assert tolerance_bound(values, 1, upper=False) == 0.0
+
+
+def test_only_the_first_flights_count():
+    values = np.arange(100.0)
+    assert of_blocks(lambda: (values[:30], values[30:70], values[70:]), 60, 1, True) == 58.0
+    assert of_blocks(lambda: (-values[:30], -values[30:70], -values[70:]), 60, 1, False) == -58.0

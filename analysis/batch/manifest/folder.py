@@ -6,10 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet
 
 from ...campaign.plan import BatchPlan
 from ...errors import InputError
+from ..shards.draws import stored_draws
 from ..shards.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
 from ..shards.numbering import Numbering
 from .contents import store
@@ -36,16 +36,27 @@ def go_on(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: Ba
     if manifest.trials < held.trials:
         problem = f"holds a campaign of {held.trials} trials, {manifest.trials} are asked for"
         raise InputError(folder / FILE, "trials", problem, f"give --trials {held.trials} or more")
-    drawn = pyarrow.parquet.read_table(folder / DRAWS)
-    for name, column in plan.draws.columns.items():
-        before = drawn[name].to_numpy()[: held.trials]
-        if not np.array_equal(before, column[: held.trials], equal_nan=True):
-            problem = f"{manifest.trials} trials draw other values of {name} in the first {held.trials}, as designs do"
-            raise InputError(folder / DRAWS, name, problem, "fly them into another --output")
+    if not plan.is_counted:
+        _check_draws(folder, held, plan)
     if manifest.trials > held.trials:
         (folder / SUMMARY).unlink(missing_ok=True)
         _write(folder, manifest, contents, plan)
     return manifest
+
+
+def _check_draws(folder: Path, held: Manifest, plan: BatchPlan) -> None:
+    """Refuse a plan that does not draw for the first trials what is held for them."""
+    names = plan.campaign.drawn_names()
+    stored, first = stored_draws(folder, held.trials, names), 0
+    for part in plan.draw_parts(held.shard_size):
+        known = stored.of_part(range(first, min(first + part.trials, held.trials)))
+        for name in names:
+            if not np.array_equal(known.columns[name], part.columns[name][: known.trials], equal_nan=True):
+                problem = f"{plan.campaign.trials} trials draw other values of {name} in the first {held.trials}"
+                raise InputError(folder / DRAWS, name, f"{problem}, as designs do", "fly them into another --output")
+        first += part.trials
+        if first >= held.trials:
+            return
 
 
 def cut(folder: Path, manifest: Manifest, plan: BatchPlan) -> Manifest:
@@ -60,11 +71,11 @@ def cut(folder: Path, manifest: Manifest, plan: BatchPlan) -> Manifest:
             if int(path.stem) >= manifest.trials:
                 path.unlink()
     manifest.write(folder)
-    write_draws(plan, folder)
+    write_draws(plan, folder, manifest.shard_size)
     return manifest
 
 
 def _write(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> None:
     store(folder / CONTENTS, contents)
-    write_draws(plan, folder)
+    write_draws(plan, folder, manifest.shard_size)
     manifest.write(folder)

@@ -10,18 +10,16 @@ from typing import Any
 import numpy as np
 import pyarrow.parquet
 
-from ...campaign.draws import DrawTable
-from ...campaign.given import STREAMS, GivenDraws
+from ...campaign.drawing.given import STREAMS, GivenDraws
 from ...campaign.plan import BatchPlan, campaign_of
-from ...errors import InputError
 from ...flight.instances.reset_test import ResetVerdict, known
 from ...ssp.archive import SystemArchive
 from ...system.faults import parse_fault
 from ...system.in_flight.series import InputSeries
 from ...system.in_flight.watch import Watch
 from ...system.options import SystemOptions
-from ..shards.files import DRAWS
-from .contents import AGAIN, stored
+from ..shards.draws import stored_draws
+from .contents import stored
 from .manifest import CONTENTS, Manifest
 
 
@@ -56,10 +54,9 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None) -> BatchPl
     )
     if manifest.draws is not None:
         plan = plan.of_samples(_given(contents, manifest.draws)).of_first(manifest.trials)
-    else:
-        plan.__dict__["draws"] = _draws(
-            folder / DRAWS, plan
-        )  # in cached_property's place: drawn anew they could differ
+    elif not plan.is_counted:
+        held = stored_draws(folder.absolute(), manifest.trials, plan.campaign.drawn_names())
+        plan.__dict__["draws"] = held  # in cached_property's place: drawn anew they could differ
     for digest, verdict in manifest.resets.items():
         known(digest, ResetVerdict(**verdict))
     return plan
@@ -92,16 +89,3 @@ def _given(contents: Path, given: Mapping[str, str]) -> GivenDraws:
     streams = columns.pop(STREAMS, None)
     whose = None if streams is None else streams.astype(np.int64)
     return GivenDraws(columns, whose, given["label"], given["sha256"])
-
-
-def _draws(path: Path, plan: BatchPlan) -> DrawTable:
-    try:
-        table = pyarrow.parquet.read_table(path).slice(0, plan.campaign.trials)
-    except (OSError, pyarrow.ArrowException) as error:
-        raise InputError(path, "", "cannot be read as parquet", AGAIN) from error
-    names = plan.campaign.drawn_names()
-    missing = [name for name in names if name not in table.column_names]
-    if missing or table.num_rows < plan.campaign.trials:
-        problem = f"lacks column {missing[0]}" if missing else f"has {table.num_rows} rows for {plan.campaign.trials}"
-        raise InputError(path, "", problem, AGAIN)
-    return DrawTable(plan.campaign.trials, {name: table[name].to_numpy() for name in names})

@@ -43,7 +43,8 @@ def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: M
             write_parquet(_described(pyarrow.table(traces), about), trace_path(folder, variant, trial))
     numbers = next(iter(trials.values())).trial
     about = {"batch": batch, "shard": shard, "trials": [int(numbers[0]), int(numbers[-1]) + 1]}
-    write_parquet(_described(trial_table(plan, trials), about), shard_path(folder, shard))
+    table = _described(trial_table(plan, trials), about)
+    write_parquet(table, shard_path(folder, shard), len(numbers))  # each variant a row group
 
 
 def clear(folder: Path) -> None:
@@ -52,10 +53,26 @@ def clear(folder: Path) -> None:
         shutil.rmtree(folder / FOLDER)
 
 
-def write_draws(plan: BatchPlan, folder: Path) -> None:
-    """Write the table of draws to ``folder``/draws.parquet, a row per trial."""
-    columns = {"trial": list(range(plan.campaign.trials)), **plan.draws.columns}
-    write_parquet(pyarrow.table(columns), folder / DRAWS)
+def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
+    """Write the table of draws to ``folder``/draws.parquet, a row per trial, ``size`` of them a row group.
+
+    Draws that are made for each trial by itself have no table; files of trials hold them.
+    """
+    if plan.is_counted:
+        (folder / DRAWS).unlink(missing_ok=True)
+        return
+    with whole_file(folder / DRAWS) as partial:
+        writer, first = None, 0
+        try:
+            for part in plan.draw_parts(size):
+                numbers = np.arange(first, first + part.trials)
+                table = pyarrow.table({"trial": numbers, **part.columns})
+                writer = writer or pyarrow.parquet.ParquetWriter(partial, table.schema, write_page_checksum=True)
+                writer.write_table(table)
+                first += part.trials
+        finally:
+            if writer is not None:
+                writer.close()
 
 
 def is_flown(folder: Path, batch: str, shard: int, trials: range) -> bool:
@@ -70,10 +87,11 @@ def is_flown(folder: Path, batch: str, shard: int, trials: range) -> bool:
 def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
     """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
 
-    Every variant has the same trials.
+    Every variant has the same trials, which are in a row.
     """
     found = list(trials.values())
     numbers = found[0].trial
+    drawn = plan.drawn(range(int(numbers[0]), int(numbers[-1]) + 1))
     columns: dict[str, Any] = {
         "variant": pyarrow.array([name for name, part in trials.items() for _ in part.trial], pyarrow.string()),
         "trial": _joined(found, lambda part: part.trial),
@@ -84,10 +102,10 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
         ),
         "end_time": _joined(found, lambda part: part.end_time),
     }
-    for name, values in plan.draws.columns.items():
-        columns[f"draw.{name}"] = np.tile(values[numbers], len(found))
-    for fault in plan.drawn_faults:
-        columns |= {name: np.tile(values[numbers], len(found)) for name, values in fault.columns().items()}
+    for name, values in drawn.table.columns.items():
+        columns[f"draw.{name}"] = np.tile(values, len(found))
+    for fault in drawn.faults:
+        columns |= {name: np.tile(values, len(found)) for name, values in fault.columns().items()}
     for name in found[0].final:
         columns[f"final.{name}"] = _joined(found, lambda part, name=name: part.final[name])
     for name in found[0].metrics:
@@ -99,10 +117,13 @@ def _joined(parts: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.nd
     return np.concatenate([column(part) for part in parts])
 
 
-def write_parquet(table: pyarrow.Table, path: Path) -> None:
-    """A table with a checksum on every page, so that a damaged file is found out when it is read."""
+def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> None:
+    """A table with a checksum on every page, so that a damaged file is found out when it is read.
+
+    ``rows`` are those of a row group; None for one of all.
+    """
     with whole_file(path) as partial:
-        pyarrow.parquet.write_table(table, partial, write_page_checksum=True)
+        pyarrow.parquet.write_table(table, partial, row_group_size=rows, write_page_checksum=True)
 
 
 def _described(table: pyarrow.Table, about: Mapping[str, Any]) -> pyarrow.Table:

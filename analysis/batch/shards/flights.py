@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
+import itertools
+from collections.abc import Generator, Iterator, Sequence
 
 from ..flyer import Flyer
 from ..trials import Trials, joined
@@ -20,21 +21,27 @@ def fly_shards(
     Each one's trials come by variant, as soon as all are there, in any order of shards.
     """
     variants = [variant.name for variant in pool.plan.campaign.variants()]
-    tasks: list[tuple[str, range]] = []
-    owners: list[int] = []
+    owners: dict[int, tuple[int, str]] = {}  # of tasks that are handed out: shard and variant
     missing: dict[int, int] = {}
-    for shard in shards:
-        trials = numbering.of(shard)
-        pieces = [trials[first : first + size] for first in range(0, len(trials), size)]
-        tasks += [(variant, piece) for piece in pieces for variant in variants]
-        missing[shard] = len(pieces) * len(variants)
-        owners += [shard] * missing[shard]
+
+    def tasks() -> Iterator[tuple[str, range]]:
+        places = itertools.count()
+        for shard in shards:
+            trials = numbering.of(shard)
+            pieces = [trials[first : first + size] for first in range(0, len(trials), size)]
+            missing[shard] = len(pieces) * len(variants)
+            for piece in pieces:
+                for variant in variants:
+                    owners[next(places)] = shard, variant
+                    yield variant, piece
+
     parts: dict[int, dict[str, list[Trials]]] = {}
-    for place, found in pool.work(Flyer.fly, tasks):
-        shard = owners[place]
-        parts.setdefault(shard, {name: [] for name in variants})[tasks[place][0]].append(found)
+    for place, found in pool.work(Flyer.fly, tasks()):
+        shard, variant = owners.pop(place)
+        parts.setdefault(shard, {name: [] for name in variants})[variant].append(found)
         missing[shard] -= 1
         if not missing[shard]:
+            del missing[shard]
             yield shard, {name: joined(pieces) for name, pieces in parts.pop(shard).items()}
 
 

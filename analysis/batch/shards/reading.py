@@ -9,10 +9,9 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from ...campaign.plan import BatchPlan
 from ...errors import InputError
 from ..trials import Trials
-from .files import described, shard_path, trace_path, unreadable
+from .files import unreadable
 
 AGAIN = "fly the batch again into an empty folder"
 COLUMNS = ("variant", "trial", "status", "success", "end_time")
@@ -64,17 +63,4 @@ def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[
             final={name.removeprefix("final."): mine[name] for name in mine if name.startswith("final.")},
             traces={},
         )
-    return found
-
-
-def read_shard(folder: Path, batch: str, shard: int, plan: BatchPlan) -> dict[str, Trials]:
-    """The trials of one shard by variant, with their traces. Raises InputError."""
-    path = shard_path(folder, shard)
-    found = trials_of(read_table(path), [metric.name for metric in plan.campaign.metrics], path)
-    for variant, trials in found.items():
-        for trial in trials.trial.tolist():
-            place = trace_path(folder, variant, trial)
-            if described(place) == {"batch": batch, "variant": variant, "trial": trial}:
-                table = read_table(place)
-                trials.traces[trial] = {name: numbers(table, name, place) for name in table.column_names}
     return found

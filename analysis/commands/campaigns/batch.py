@@ -9,7 +9,8 @@ from typing import Any
 from ...batch.flyer import Flyer
 from ...batch.runner import open_campaign, run_batch
 from ...batch.tables import aligned, faults_line
-from ...campaign.plan import BatchPlan, check_plan, read_plan
+from ...campaign.checks import check_plan
+from ...campaign.plan import BatchPlan, read_plan
 from ...errors import InputError
 from ...flight.interruptible import StuckError
 from ...targets import PAGES, Results, check_file, check_folder

@@ -6,15 +6,15 @@ import argparse
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from ...batch.manifest.manifest import FILE as MANIFEST
 from ...batch.results import BatchResult
+from ...batch.rows import TrialColumns
 from ...batch.status_texts import worst_statuses
-from ...batch.summary import TrialColumns, requirement_values, summarise
+from ...batch.summary import requirement_values, summarise
 from ...batch.verdicts import add_verdicts, unmet_lines
 from ...batch.workers import WorkersDiedError
 from ...campaign.expressions import Expression
@@ -59,11 +59,8 @@ def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Ex
     files.write(options.report, lambda path: write_batch_report(result, path, result.provenance["system"]))
     if options.json != "-":
         files.say()
-    for variant, trials in result.trials.items():
-        for trial, message in list(trials.messages.items())[:1]:
-            print(
-                f"perilune: {variant}: {len(trials.messages)} flights failed; trial {trial}: {message}", file=sys.stderr
-            )
+    for line in _failures(result):
+        print(f"perilune: {line}", file=sys.stderr)
     late = timed_out(result)
     for variant, count in late.items():
         limit = f"{plan.watch.timeout:g} s of --timeout"
@@ -78,11 +75,26 @@ def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Ex
     return 2 if files.failed else 0 if met and not unmet and not late else 1
 
 
+def _failures(result: BatchResult) -> list[str]:
+    """How many flights of each variant failed, and the first one with its message; those without any are left out."""
+    lines = []
+    for variant, rows in result.rows.items():
+        count, first = 0, ""
+        for part in rows.parts("trial", "message"):
+            failed = np.flatnonzero(part["message"] != "")
+            if failed.size and not count:
+                first = f"trial {part['trial'][failed[0]]}: {part['message'][failed[0]]}"
+            count += failed.size
+        if count:
+            lines.append(f"{variant}: {count} flights failed; {first}")
+    return lines
+
+
 def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
     """What each status that a trial reported means, once, as its FMU says."""
     found: dict[str, None] = {}
     for variant in plan.campaign.variants():
-        texts = dict.fromkeys(text for text in result.trials[variant.name].statuses if worst_statuses(text))
+        texts = dict.fromkeys(text for text in result.summary[variant.name]["statuses"] if worst_statuses(text))
         if texts:
             network = plan.prepare(variant).network
             seen = {item: None for text in texts for item in worst_statuses(text).items()}
@@ -93,11 +105,13 @@ def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
 def asked_requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
     """Requirements; those on numbers that the summary will not have are refused before anything flies."""
     nothing = np.full(1, np.nan)
-    blank = TrialColumns([""], np.zeros(1, dtype=bool), {metric.name: nothing for metric in plan.campaign.metrics})
+    metrics = {metric.name: nothing for metric in plan.campaign.metrics}
+    blank = TrialColumns([""], np.zeros(1, dtype=bool), metrics)
     variants = [variant.name for variant in plan.campaign.variants()]
-    groups = [replace(group, trials=np.zeros(1, dtype=int)) for group in plan.groups]
     columns = dict.fromkeys(variants, blank)
-    summary = summarise(columns, plan.campaign.metrics, groups)
+    summary = summarise(columns, plan.campaign.metrics)
+    for name in variants if plan.groups else ():
+        summary[name]["groups"] = {group.label: {**summary[name], "value": group.value} for group in plan.groups}
     add_verdicts(summary, plan.campaign.requirements, columns)
     known = requirement_values(summary)
     statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
@@ -107,7 +121,7 @@ def asked_requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
 def timed_out(result: BatchResult) -> dict[str, int]:
     """How many flights of each variant took longer than they may; those without any are left out."""
     counts = {
-        variant: sum(status.startswith(TIMED_OUT) for status in trials.statuses)
-        for variant, trials in result.trials.items()
+        variant: sum(count for status, count in entry["statuses"].items() if status.startswith(TIMED_OUT))
+        for variant, entry in result.summary.items()
     }
     return {variant: count for variant, count in counts.items() if count}

@@ -7,6 +7,7 @@ from typing import Any
 
 from ...batch.results import BatchResult
 from ...campaign.campaign import Campaign
+from ...campaign.drawing.declared import drawn_names
 from ..kit.page import write_page
 from .distributions import distribution_panels, legend_of, sort_metrics
 from .drivers import drivers
@@ -22,7 +23,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
     """Write one self-contained HTML page about a batch; the same result gives the same bytes."""
     campaign = result.plan.campaign
     drawn, still, empty = sort_metrics(result)
-    scores = {variant: telling_scores(result, variant) for variant in result.trials}
+    scores = {variant: telling_scores(result, variant) for variant in result.rows}
     write_page(
         path,
         Path(__file__).with_name("batch_report.html"),
@@ -35,6 +36,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         requirements=verdict_rows(result.summary, campaign),
         statistics=HEADINGS,
         rates=rates_figure(result),
+        left_out={variant: seen.note for variant, seen in result.shown.items() if seen.note},
         looks=legend_of(result),
         distributions=distribution_panels(result, drawn),
         still=still,
@@ -46,7 +48,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         seen=seen_statuses(result),
         scores={variant: found for variant, found in scores.items() if found},
         drivers=drivers(result),
-        drawn_names=[name for draw in campaign.draws for name in draw.names],
+        drawn_names=drawn_names(campaign),
         draws=draw_rows(campaign),
         fmus=fmu_rows(result.provenance["fmus"]),
     )

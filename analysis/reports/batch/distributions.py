@@ -19,20 +19,21 @@ TAIL = 0.01  # on it, this share of the smallest values may lie left of the axis
 
 
 def metric_values(result: BatchResult, metric: str) -> dict[str, np.ndarray]:
-    """A metric by variant, one value per trial, nan and inf included."""
-    return {name: found.metrics[metric] for name, found in result.trials.items()}
+    """A metric by variant, one value per trial that figures show, nan and inf included."""
+    return {name: found.first.metrics[metric] for name, found in result.shown.items()}
 
 
 def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
     """Metrics worth a panel; those with one value in every trial, and it; those that are nowhere finite."""
     drawn, still, empty = [], [], []
     for metric in result.plan.campaign.metrics:
-        values = np.concatenate(list(metric_values(result, metric.name).values()))
-        finite = values[np.isfinite(values)]
-        if not finite.size:
+        found = [entry["metrics_all"][metric.name] for entry in result.summary.values()]
+        trials = sum(entry["trials"] for entry in result.summary.values())
+        ends = {entry[end] for entry in found for end in ("min", "max") if entry["count"]}
+        if not ends:
             empty.append(metric)
-        elif finite.size == values.size > 1 and np.all(finite == finite[0]):
-            still.append((metric, float(finite[0])))
+        elif len(ends) == 1 and sum(entry["count"] for entry in found) == trials > 1:
+            still.append((metric, ends.pop()))
         else:
             drawn.append(metric)
     return drawn, still, empty
@@ -40,7 +41,7 @@ def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, 
 
 def distribution_panels(result: BatchResult, metrics: Sequence[Metric]) -> list[Panel]:
     """Empirical distributions over all trials: the share of trials with at most that value."""
-    looks = [look(index) for index in range(len(result.trials))]
+    looks = [look(index) for index in range(len(result.rows))]
 
     def drawing(metric: Metric) -> Callable[[Axes], None]:
         def draw(axes: Axes) -> None:
@@ -57,7 +58,7 @@ def distribution_panels(result: BatchResult, metrics: Sequence[Metric]) -> list[
 
 def legend_of(result: BatchResult) -> list[tuple[Markup, str]]:
     """Variants with the looks that they are drawn with."""
-    return [(swatch(look(index)), variant) for index, variant in enumerate(result.trials)]
+    return [(swatch(look(index)), variant) for index, variant in enumerate(result.rows)]
 
 
 def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray], looks: Sequence[Look]) -> None:

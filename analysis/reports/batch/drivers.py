@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ...batch.results import BatchResult
+from ...campaign.drawing.declared import drawn_names
 from ...sensitivity.ranks import rank_correlations
 
 TOLD = 3  # draws of a metric
@@ -20,10 +21,11 @@ class Driver(NamedTuple):
 
 def drivers(result: BatchResult) -> list[Driver]:
     """A row for every metric of every variant that has any rank correlation, the largest first."""
-    names = [name for draw in result.plan.campaign.draws for name in draw.names]
-    draws = {name: result.plan.draws.columns[name] for name in names}
+    names = drawn_names(result.plan.campaign)
     rows = []
-    for variant, trials in result.trials.items():
+    for variant, seen in result.shown.items():
+        trials = seen.first
+        draws = {name: trials.draws[name] for name in names}
         for metric, found in rank_correlations(draws, trials.metrics).items():
             known = [(name, rho) for name, rho in found.items() if rho is not None]
             known.sort(key=lambda item: -abs(item[1]))

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ...batch.results import BatchResult
+from ...campaign.drawing.declared import drawn_names
 from ..kit.panels import Panel, panel
 from ..kit.style import GRID, VERMILION, plain_ticks
 
@@ -17,8 +18,8 @@ MANY = 3000  # points of a panel from which on they are stored as an image, not 
 
 
 def successes(result: BatchResult, variant: str) -> np.ndarray:
-    """Whether each trial of a variant was a success."""
-    return result.trials[variant].success
+    """Whether each trial of a variant that figures show was a success."""
+    return result.shown[variant].dots.success
 
 
 def telling_scores(result: BatchResult, variant: str) -> dict[str, float]:
@@ -32,19 +33,18 @@ def telling_scores(result: BatchResult, variant: str) -> dict[str, float]:
     if good.min() == good.max():
         return {}
     scores = {}
-    for draw in result.plan.campaign.draws:
-        for name in draw.names:
-            values = result.plan.draws.columns[name]
-            candidates = (values, np.abs(values - values.mean()))
-            found = [abs(float(np.corrcoef(good, column)[0, 1])) for column in candidates if np.ptp(column) > 0.0]
-            if found:
-                scores[name] = max(found)
+    for name in drawn_names(result.plan.campaign):
+        values = result.shown[variant].dots.draws[name]
+        candidates = (values, np.abs(values - values.mean()))
+        found = [abs(float(np.corrcoef(good, column)[0, 1])) for column in candidates if np.ptp(column) > 0.0]
+        if found:
+            scores[name] = max(found)
     return dict(sorted(scores.items(), key=lambda item: -item[1]))
 
 
 def failure_panels(result: BatchResult) -> list[Panel]:
     """Failures and successes over the two most telling draws of each variant for which something can be told."""
-    chosen = {variant: list(telling_scores(result, variant))[:2] for variant in result.trials}
+    chosen = {variant: list(telling_scores(result, variant))[:2] for variant in result.rows}
 
     def drawing(variant: str, names: list[str]) -> Callable[[Axes], None]:
         return lambda axes: _draw_panel(axes, result, variant, names)
@@ -68,8 +68,9 @@ def _words(variant: str, names: list[str]) -> str:
 
 def _draw_panel(axes: Axes, result: BatchResult, variant: str, names: list[str]) -> None:
     good = successes(result, variant)
-    x = result.plan.draws.columns[names[0]]
-    y = result.plan.draws.columns[names[1]] if len(names) > 1 else np.arange(good.size, dtype=float)
+    drawn = result.shown[variant].dots.draws
+    x = drawn[names[0]]
+    y = drawn[names[1]] if len(names) > 1 else np.arange(good.size, dtype=float)
     image = good.size > MANY
     size = max(0.35, min(1.0, (500.0 / good.size) ** 0.5))
     axes.plot(

@@ -18,8 +18,8 @@ HEIGHT = 2.3  # in, of a panel
 
 
 def metric_plot(result: BatchResult, metrics: list[Metric]) -> Figure:
-    """Empirical distributions over all trials, a panel per metric, a line per variant."""
-    looks = {name: look(index) for index, name in enumerate(result.trials)}
+    """Empirical distributions over the trials that figures show, a panel per metric, a line per variant."""
+    looks = {name: look(index) for index, name in enumerate(result.rows)}
     return distribution_plot({metric: metric_values(result, metric.name) for metric in metrics}, looks)
 
 

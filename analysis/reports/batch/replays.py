@@ -11,6 +11,7 @@ import numpy as np
 from markupsafe import Markup
 
 from ...batch.results import BatchResult
+from ...batch.rows import TrialRows
 from ...campaign.campaign import Variant
 from ...campaign.plan import BatchPlan
 from ...system.options import SystemOptions
@@ -54,23 +55,35 @@ def _replays(result: BatchResult, choose: Callable[[BatchResult, str], list[tupl
 
 
 def _failures(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
-    trials = result.trials[variant]
-    rows = np.flatnonzero(~np.asarray(trials.success, dtype=bool))[:FAILURES]
-    return [(int(trials.trial[row]), Markup("{}").format(trials.statuses[row])) for row in rows]
+    found: list[tuple[int, Markup]] = []
+    for part in result.rows[variant].parts("trial", "success", "status"):
+        for row in np.flatnonzero(~part["success"])[: FAILURES - len(found)]:
+            found.append((int(part["trial"][row]), Markup("{}").format(part["status"][row])))
+        if len(found) == FAILURES:
+            break
+    return found
 
 
 def _extremes(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
     """Where a metric is largest, unless several trials share that value."""
-    trials = result.trials[variant]
     found = []
     for metric in result.plan.campaign.metrics:
-        values = np.where(np.isnan(trials.metrics[metric.name]), -np.inf, trials.metrics[metric.name])
-        (rows,) = np.nonzero(values == values.max())
-        if rows.size == 1:
-            largest = exact(float(values[rows[0]]), metric.unit)
-            reason = Markup("{}: {} {}").format(metric.name, largest, shown_unit(metric.unit))
-            found.append((int(trials.trial[rows[0]]), reason))
+        most, where = _largest(result.rows[variant], f"metric.{metric.name}")
+        if len(where) == 1:
+            reason = Markup("{}: {} {}").format(metric.name, exact(most, metric.unit), shown_unit(metric.unit))
+            found.append((where[0], reason))
     return found
+
+
+def _largest(rows: TrialRows, column: str) -> tuple[float, list[int]]:
+    """The largest value of a column, nan the least of all, and two at most of the trials that have it."""
+    most, where = -np.inf, list[int]()
+    for part in rows.parts("trial", column):
+        values = np.where(np.isnan(part[column]), -np.inf, part[column])
+        if values.max() > most:
+            most, where = float(values.max()), []
+        where += part["trial"][np.flatnonzero(values == most)[: 2 - len(where)]].tolist()
+    return most, where
 
 
 def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:

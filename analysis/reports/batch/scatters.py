@@ -39,8 +39,8 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
     metrics = {metric.name: metric for metric in result.plan.campaign.metrics}
     pair = (metrics[scatter.x], metrics[scatter.y])
     points = {
-        variant: np.stack([trials.metrics[metric.name] * shown_factor(metric.unit) for metric in pair])
-        for variant, trials in result.trials.items()
+        variant: np.stack([seen.dots.metrics[metric.name] * shown_factor(metric.unit) for metric in pair])
+        for variant, seen in result.shown.items()
     }
     title = scatter.title or f"{scatter.y} over {scatter.x}"
     everything = np.concatenate(list(points.values()), axis=1)
@@ -50,7 +50,7 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
         limits = _square(limits)
 
     def drawing(variant: str) -> Callable[[Axes], None]:
-        good = np.asarray(result.trials[variant].success, dtype=bool)
+        good = result.shown[variant].dots.success
         return lambda axes: _draw_panel(axes, points[variant], good, pair, scatter, limits, to_scale)
 
     panels = [

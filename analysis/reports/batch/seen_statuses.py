@@ -21,11 +21,12 @@ class SeenStatus(NamedTuple):
 
 def seen_statuses(result: BatchResult) -> list[SeenStatus]:
     """Counts by variant, signal and status; none where no trial reported two, as the table of ends tells all then."""
-    reports = {name: [worst_statuses(text) for text in trials.statuses] for name, trials in result.trials.items()}
-    if not any(len(found) > 1 for rows in reports.values() for found in rows):
+    if not any(len(worst_statuses(text)) > 1 for entry in result.summary.values() for text in entry["statuses"]):
         return []
-    return [
-        SeenStatus(variant, signal, status, count, len(rows))
-        for variant, rows in reports.items()
-        for (signal, status), count in sorted(Counter(entry for found in rows for entry in found.items()).items())
-    ]
+    found = []
+    for variant, entry in result.summary.items():
+        counts: Counter[tuple[str, int]] = Counter()
+        for text, trials in entry["statuses"].items():
+            counts.update(dict.fromkeys(worst_statuses(text).items(), trials))
+        found += [SeenStatus(variant, *status, count, entry["trials"]) for status, count in sorted(counts.items())]
+    return found

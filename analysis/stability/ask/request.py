@@ -8,7 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ...campaign.plan import BatchPlan, check_plan, read_plan
+from ...campaign.checks import check_plan
+from ...campaign.plan import BatchPlan, read_plan
 from ...errors import InputError, suggestion
 from ...ssp.archive import open_system
 from ...ssp.description import Description

@@ -1,6 +1,7 @@
 """Batches made by hand, without flying, and written as `perilune batch` writes them: what a comparison is given."""
 
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -164,12 +165,13 @@ def sample_batch(
         "seed": seed, "step": 0.5, "algorithm": "sequential", "perilune": "0.0.1",
         "fmus": {variant: {"ship": DIGEST, "pilot": variant.ljust(64, "0")} for variant in variants},
     } | facts(campaign, variants, targets)  # fmt: skip
-    return make_result(plan, found, provenance)
+    drawn = plan.draws.columns
+    return make_result(plan, {name: replace(rows, draws=drawn) for name, rows in found.items()}, provenance)
 
 
 def write_sample(folder: Path, **options) -> BatchResult:
     """A sample batch in a folder, as `perilune batch --output` leaves it."""
     result = sample_batch(**options)
-    write_draws(result.plan, folder)
+    write_draws(result.plan, folder, result.plan.campaign.trials)
     result.write(folder)
     return result

@@ -127,7 +127,9 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
         "fmus": {variant: {"ship": DIGEST, "guidance": variant} for variant in outcomes},
         "perilune": "0.0.1",
     }
-    return make_result(BatchPlan("ship", campaign, SystemOptions()), found, provenance)
+    plan = BatchPlan("ship", campaign, SystemOptions())
+    drawn = plan.draws.columns
+    return make_result(plan, {name: replace(rows, draws=drawn) for name, rows in found.items()}, provenance)
 
 
 def grouped_batch(trials: int = 60) -> BatchResult:

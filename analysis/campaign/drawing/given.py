@@ -11,8 +11,8 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
-from ..errors import InputError, suggestion
-from .campaign import Campaign
+from ...errors import InputError, suggestion
+from .declared import Declared, drawn_names
 
 STREAMS = "streams_of"  # the column that says whose random streams a row flies with
 TRIAL = "trial"
@@ -53,7 +53,7 @@ class GivenDraws:
         return replace(self, columns={name: values[rows] for name, values in self.columns.items()}, streams=streams)
 
 
-def read_given(path: Path, campaign: Campaign) -> GivenDraws:
+def read_given(path: Path, campaign: Declared) -> GivenDraws:
     """The draws of a campaign in a Parquet file, a row per trial, as draws.parquet of a batch. Raises InputError.
 
     The column ``streams_of``, where there is one, says with which trial's random streams a row flies; else that is the
@@ -66,7 +66,7 @@ def read_given(path: Path, campaign: Campaign) -> GivenDraws:
         raise InputError(path, "", error.strerror or str(error), "give a Parquet file of draws") from error
     except pyarrow.ArrowInvalid as error:
         raise InputError(path, "", f"not Parquet: {error}", "give a Parquet file of draws") from error
-    drawn = [name for draw in campaign.draws for name in draw.names]
+    drawn = drawn_names(campaign)
     for name in drawn:
         if name not in table.column_names:
             raise InputError(path, name, "is drawn, and no column has it", "add the column")

@@ -1,0 +1,65 @@
+"""The trials that figures are drawn of: all of a campaign, or of a long one the first, and failures behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .rows import Part, TrialColumns, TrialRows
+
+FIRST = 100_000  # trials of a variant
+FAILURES = 20_000  # behind those
+
+
+@dataclass(frozen=True)
+class Shown:
+    """``first`` are the first trials of a variant, ``dots`` the same and failures behind them; of ``trials`` in all.
+
+    ``failures`` is how many failures there are in all. Both have metrics and draws, no statuses.
+    """
+
+    first: TrialColumns
+    dots: TrialColumns
+    trials: int
+    failures: int
+
+    @property
+    def note(self) -> str:
+        """What is left out, in words; nothing where nothing is."""
+        if self.trials == len(self.first.success):
+            return ""
+        seen = int(np.count_nonzero(~self.dots.success))
+        failures = "all failures" if seen == self.failures else f"{seen} of {self.failures} failures"
+        return f"the first {FIRST} of {self.trials} trials; those over two values {failures}, too"
+
+
+def shown(rows: TrialRows, draws: list[str], metrics: list[str]) -> Shown:
+    """What figures show of a variant's trials, with some draws and metrics."""
+    names = ["success", *(f"metric.{name}" for name in metrics), *(f"draw.{name}" for name in draws)]
+    first: list[Part] = []
+    behind: list[Part] = []
+    trials = taken = failures = kept = 0
+    for part in rows.parts(*names):
+        success = part["success"]
+        trials += len(success)
+        failures += int(np.count_nonzero(~success))
+        room = min(FIRST - taken, len(success))
+        if room:
+            first.append({name: values[:room] for name, values in part.items()})
+            taken += room
+        failed = room + np.flatnonzero(~success[room:])[: FAILURES - kept]
+        if failed.size:
+            behind.append({name: values[failed] for name, values in part.items()})
+            kept += failed.size
+    return Shown(_columns(first), _columns(first + behind), trials, failures)
+
+
+def _columns(parts: list[Part]) -> TrialColumns:
+    columns: Mapping[str, np.ndarray] = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+    def of(kind: str) -> dict[str, np.ndarray]:
+        return {name.removeprefix(kind): values for name, values in columns.items() if name.startswith(kind)}
+
+    return TrialColumns([], columns["success"], of("metric."), draws=of("draw."))

@@ -1,0 +1,1 @@
+"""What is drawn for the trials of a campaign."""
