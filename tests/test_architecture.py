@@ -51,7 +51,7 @@ ROOMS = table()
 
 
 def room_of(module: str) -> str:
-    """The most particular room of the table that a module, ``analysis.batch.flyer``, lies in."""
+    """The most particular room of the table that a module, ``analysis.batch.flying.flyer``, lies in."""
     path = module.replace(".", "/")
     inside = [room for room in (*ROOMS, *EVERYWHERE) if path == room or path.startswith(f"{room}/")]
     return max(inside, key=len)

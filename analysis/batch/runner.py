@@ -15,19 +15,19 @@ from ..campaign.plan import BatchPlan
 from ..errors import InputError
 from ..system.prepared import PreparedSystem
 from .decision import Decision
-from .engines import in_threads
 from .facts import campaign_facts
+from .flying.engines import in_threads
+from .flying.progress import flight_progress
+from .flying.workers import FlyerPool, worker_count
 from .manifest.folder import begin, cut, go_on
 from .manifest.gather import gather
 from .manifest.manifest import Manifest, read_manifest
 from .manifest.restore import restore
-from .progress import flight_progress
 from .results import BatchResult, batch_digest, make_result
 from .shards.files import is_flown
 from .shards.flights import fly_shards, task_size
 from .shards.numbering import Numbering, spans
 from .store import FlownRows, HeldShards, StoredShards
-from .workers import FlyerPool, worker_count
 
 
 @dataclass(frozen=True)

@@ -90,14 +90,13 @@ class StoredBatch:
 def read_batch(folder: Path) -> StoredBatch:
     """The batch in a folder. Raises InputError for what is missing, damaged, or of two batches."""
     for name in (SUMMARY, FOLDER):
-        if not (folder / name).exists():
-            raise InputError(folder, name, "not found", _how_to_end(folder))
+        _check_there(folder, name)
     document = _read_summary(folder / SUMMARY)
     provenance = {key: value for key, value in document.items() if key != "variants"}
     batch = batch_digest(provenance)
     shards = _read_shards(folder, batch, document["trials"])
     metrics = _metrics(document, folder / SUMMARY)
-    columns = _draws(folder, shards)
+    columns = _draws(folder, shards, document.get("draw_scheme") == "counter")
     variants = _variants(shards, document["trials"], metrics, columns)
     _check_summary(document, variants, folder / SUMMARY)
     traced, strangers = _traced(folder, list(variants), batch)
@@ -105,9 +104,10 @@ def read_batch(folder: Path) -> StoredBatch:
     return StoredBatch(folder, document, metrics, columns, variants, traced, strangers)
 
 
-def _draws(folder: Path, shards: Mapping[Path, pyarrow.Table]) -> dict[str, np.ndarray]:
-    """The draws of all trials, of the table or, where they have none, of the shards' first variant."""
-    if (folder / DRAWS).exists():
+def _draws(folder: Path, shards: Mapping[Path, pyarrow.Table], is_counted: bool) -> dict[str, np.ndarray]:
+    """The draws of all trials: of their table or, where they were drawn without one, of the shards' first variant."""
+    if not is_counted:
+        _check_there(folder, DRAWS)
         drawn = read_table(folder / DRAWS)
         return {name: numbers(drawn, name, folder / DRAWS) for name in drawn.column_names}
     columns: dict[str, list[np.ndarray]] = {}
@@ -118,6 +118,11 @@ def _draws(folder: Path, shards: Mapping[Path, pyarrow.Table]) -> dict[str, np.n
             if name == "trial" or name.startswith("draw."):
                 columns.setdefault(name.removeprefix("draw."), []).append(numbers(rows, name, path))
     return {name: np.concatenate(parts) for name, parts in columns.items()}
+
+
+def _check_there(folder: Path, name: str) -> None:
+    if not (folder / name).exists():
+        raise InputError(folder, name, "not found", _how_to_end(folder))
 
 
 def _how_to_end(folder: Path) -> str:

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ..batch.flyer import Flyer
+from ..batch.flying.flyer import Flyer
+from ..batch.flying.workers import FlyerPool, worker_count
 from ..batch.runner import provenance
 from ..batch.trials import Trials, joined
-from ..batch.workers import FlyerPool, worker_count
 from ..campaign.campaign import Record
 from ..campaign.checks import check_draws, check_plan
 from ..campaign.drawing.declared import Columns

@@ -12,7 +12,7 @@ from typing import Any
 from loky import ProcessPoolExecutor
 from loky.backend.queues import SimpleQueue
 
-from ..batch.workers import worker_count
+from ..batch.flying.workers import worker_count
 from ..errors import InputError
 from ..system.prepared import PreparedSystem
 from .ask.channels import Channel

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ..batch.flyer import Flyer, TrialResult
-from ..batch.workers import FlyerPool
+from ..batch.flying.flyer import Flyer, TrialResult
+from ..batch.flying.workers import FlyerPool
 from ..campaign.expressions import Expression
 from ..campaign.plan import BatchPlan
 from ..errors import InputError

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ..batch.flyer import Flyer
+from ..batch.flying.flyer import Flyer
+from ..batch.flying.workers import worker_count
 from ..batch.shards.files import write_draws
-from ..batch.workers import worker_count
 from ..campaign.checks import check_plan
 from ..campaign.plan import BatchPlan
 from ..errors import InputError, suggestion

@@ -12,7 +12,7 @@ import pyarrow.parquet
 import pytest
 
 import perilune
-from perilune.analysis.batch.flyer import Flyer
+from perilune.analysis.batch.flying.flyer import Flyer
 from perilune.analysis.batch.stored import read_batch
 from perilune.analysis.campaign.plan import read_plan
 from perilune.analysis.errors import InputError

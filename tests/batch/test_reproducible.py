@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.batch.flyer import Flyer
+from perilune.analysis.batch.flying.flyer import Flyer
 from perilune.analysis.batch.trials import joined
 from perilune.analysis.campaign.plan import read_plan
 from perilune.analysis.system.options import SystemOptions

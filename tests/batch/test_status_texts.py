@@ -6,7 +6,7 @@ Truth: flights made by hand, whose worst statuses are seen.
 import numpy as np
 import pytest
 
-from perilune.analysis.batch.status_texts import trial_status, worst_statuses
+from perilune.analysis.batch.flying.status_texts import trial_status, worst_statuses
 from perilune.analysis.flight.results import Flight
 
 

@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from perilune.analysis.batch.workers import FlyerPool
+from perilune.analysis.batch.flying.workers import FlyerPool
 from perilune.analysis.campaign.plan import read_plan
 from perilune.analysis.system.options import SystemOptions
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import itertools
 from collections.abc import Generator, Iterator, Sequence
 
-from ..flyer import Flyer
+from ..flying.flyer import Flyer
+from ..flying.workers import FlyerPool
 from ..trials import Trials, joined
-from ..workers import FlyerPool
 from .numbering import Numbering
 
 MOST_IN_THREAD, MOST_IN_PROCESS = 50, 10  # trials of a task: enough to send, few enough to share out or lose

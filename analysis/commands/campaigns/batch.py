@@ -6,7 +6,7 @@ import argparse
 import sys
 from typing import Any
 
-from ...batch.flyer import Flyer
+from ...batch.flying.flyer import Flyer
 from ...batch.runner import open_campaign, run_batch
 from ...batch.tables import aligned, faults_line
 from ...campaign.checks import check_plan

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
+from ...batch.flying.status_texts import worst_statuses
+from ...batch.flying.workers import WorkersDiedError
 from ...batch.manifest.manifest import FILE as MANIFEST
 from ...batch.results import BatchResult
 from ...batch.rows import TrialColumns
-from ...batch.status_texts import worst_statuses
 from ...batch.summary import requirement_values, summarise
 from ...batch.verdicts import add_verdicts, unmet_lines
-from ...batch.workers import WorkersDiedError
 from ...campaign.expressions import Expression
 from ...campaign.plan import BatchPlan
 from ...errors import EndedError

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from typing import NamedTuple
 
+from ...batch.flying.status_texts import worst_statuses
 from ...batch.results import BatchResult
-from ...batch.status_texts import worst_statuses
 
 
 class SeenStatus(NamedTuple):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from ..errors import InputError, suggestion
+from ...errors import InputError, suggestion
 
 if TYPE_CHECKING:
-    from ..system.prepared import PreparedSystem
+    from ...system.prepared import PreparedSystem
 
 ENGINES = ("threads", "processes")
 

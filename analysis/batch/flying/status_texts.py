@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..flight.results import Flight
+from ...flight.results import Flight
 
 WORST = re.compile(r"([^\s(),]+) (-?\d+)[,)]")
 

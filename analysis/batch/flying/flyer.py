@@ -7,18 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..campaign.checks import VariantNames, variant_names
-from ..campaign.drawn import DrawnTrials
-from ..campaign.metrics import evaluate_metrics, succeeded
-from ..campaign.plan import BatchPlan
-from ..flight.instances.library import LOADING
-from ..flight.instances.log import Log
-from ..flight.interruptible import StuckError, fly, nothing_flown, run
-from ..flight.results import Flight, Result
-from ..flight.simulation import Simulation
-from ..ssp.parameter_sets import ParameterValue
+from ...campaign.checks import VariantNames, variant_names
+from ...campaign.drawn import DrawnTrials
+from ...campaign.metrics import evaluate_metrics, succeeded
+from ...campaign.plan import BatchPlan
+from ...flight.instances.library import LOADING
+from ...flight.instances.log import Log
+from ...flight.interruptible import StuckError, fly, nothing_flown, run
+from ...flight.results import Flight, Result
+from ...flight.simulation import Simulation
+from ...ssp.parameter_sets import ParameterValue
+from ..trials import Trials
 from .status_texts import trial_status
-from .trials import Trials
 
 AROUND = 4096  # trials whose draws are read together
 

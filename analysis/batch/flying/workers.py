@@ -18,10 +18,10 @@ from typing import Any, TypeVar
 from loky import ProcessPoolExecutor, cpu_count
 from loky.process_executor import TerminatedWorkerError
 
-from ..campaign.plan import BatchPlan
-from ..errors import InputError, warn_in_one_line
-from ..flight.interruptible import PATIENCE, wait
-from ..process_end import leave
+from ...campaign.plan import BatchPlan
+from ...errors import InputError, warn_in_one_line
+from ...flight.interruptible import PATIENCE, wait
+from ...process_end import leave
 from .flyer import Flyer
 
 Result = TypeVar("Result")

@@ -7,8 +7,8 @@ from contextlib import contextmanager
 
 from tqdm.std import tqdm as text_bar
 
-from ..progress import progress_bar
-from .trials import Trials
+from ...progress import progress_bar
+from ..trials import Trials
 
 
 class FlightProgress:

@@ -1,0 +1,1 @@
+"""Who flies trials: a flyer, workers that have one each, how far they are."""
