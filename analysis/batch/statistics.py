@@ -13,6 +13,7 @@ from ..verdicts.order_statistics import Blocks, order_statistics
 
 QUANTILES = {"p5": 5, "p50": 50, "p95": 95, "p99": 99}  # %
 STATISTICS = ("mean", "std", "rms", "min", *QUANTILES, "max")  # as tables show them
+HELD = 2**20  # values of a column, 8 MB
 INFINITE = ("inf", "-inf")  # strict JSON has no such numbers
 
 
@@ -25,6 +26,7 @@ def statistics(column: Blocks, unit: str) -> dict[str, Any]:
     of the empirical distribution function; Hyndman and Fan 1996, definition 1). What cannot be had from so few values
     (the deviation from one, everything from none) is None.
     """
+    column = _read_once(column)
     count, known, least, most = 0, 0, math.inf, -math.inf
     for values in column():
         finite = values[np.isfinite(values)]
@@ -45,6 +47,16 @@ def statistics(column: Blocks, unit: str) -> dict[str, Any]:
         **_quantiles(column, known),
         "unit": unit,
     }
+
+
+def _read_once(column: Blocks) -> Blocks:
+    """The same column, held in memory unless it is a very long one."""
+    held: list[np.ndarray] = []
+    for values in column():
+        held.append(values)
+        if sum(map(len, held)) > HELD:
+            return column
+    return lambda: held
 
 
 def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:

@@ -26,30 +26,32 @@ def order_statistics(column: Blocks, ranks: Sequence[int]) -> list[float]:
         size += held[-1].size
         if size > HELD:
             del held[:]
-            return [_select(column, rank) for rank in ranks]
+            return _select(column, ranks)
     ordered = np.sort(np.concatenate([np.empty(0), *held]))
     return [float(ordered[rank]) for rank in ranks]
 
 
-def _select(column: Blocks, rank: int) -> float:
-    """The value of a rank, by its bits from the highest."""
-    found, left = np.uint64(0), rank
+def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
+    """The values of some ranks, by their bits from the highest: what they begin with, and their ranks among such."""
+    found, left = [0] * len(ranks), list(ranks)
     for place in range(64 - DIGIT, -1, -DIGIT):
-        counts = np.zeros(1 << DIGIT, dtype=np.int64)
+        counts = {start: np.zeros(1 << DIGIT, dtype=np.int64) for start in found}
         for values in column():
-            keys = _ordered(values[~np.isnan(values)])
-            above = np.uint64(place + DIGIT)
-            mine = keys if place == 64 - DIGIT else keys[keys >> above == found >> above]
-            digits = (mine >> np.uint64(place)) & np.uint64((1 << DIGIT) - 1)
-            counts += np.bincount(digits.astype(np.int64), minlength=1 << DIGIT)
-        reached = np.cumsum(counts)
-        if left >= reached[-1]:
-            raise IndexError(f"no value of rank {rank}")
-        digit = int(np.searchsorted(reached, left, side="right"))
-        left -= int(reached[digit] - counts[digit])
-        found |= np.uint64(digit << place)
-    bits = found ^ SIGN if found & SIGN else ~found
-    return float(np.array(bits, dtype=np.uint64).view(np.float64))
+            keys = _ordered(values[~np.isnan(values)]) >> np.uint64(place)
+            digits = (keys & np.uint64((1 << DIGIT) - 1)).astype(np.int64)
+            starts = None if len(counts) == 1 and 0 in counts else keys >> np.uint64(DIGIT)
+            for start, count in counts.items():
+                mine = digits if starts is None else digits[starts == start]
+                count += np.bincount(mine, minlength=1 << DIGIT) if mine.size else 0
+        for index, start in enumerate(found):
+            reached = np.cumsum(counts[start])
+            if left[index] >= reached[-1]:
+                raise IndexError(f"no value of rank {ranks[index]}")
+            digit = int(np.searchsorted(reached, left[index], side="right"))
+            left[index] -= int(reached[digit] - counts[start][digit])
+            found[index] = start << DIGIT | digit
+    bits = np.array(found, dtype=np.uint64)
+    return np.where(bits & SIGN, bits ^ SIGN, ~bits).view(np.float64).tolist()
 
 
 def _ordered(values: np.ndarray) -> np.ndarray:
