@@ -16,15 +16,16 @@ TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 def campaign_facts(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
     """Facts of a batch that its numbers do not show; ``systems`` are the prepared ones by variant.
 
-    ``group``, ``faults`` and ``draws_sha256`` of given draws (each where there are any), ``description``, ``success``
-    (expression), ``metrics`` (expression, reduction, unit, description, whether the value is true or false, and what
-    else its reduction has), ``record`` (every, signals, trials, traces), ``signals`` (unit and FMI type of what is
-    recorded), ``targets`` (parameters target_position and target_velocity by variant).
+    ``group``, ``faults``, ``sweep`` and ``draws_sha256`` of given draws (each where there are any), ``description``,
+    ``success`` (expression), ``metrics`` (expression, reduction, unit, description, whether the value is true or false,
+    and what else its reduction has), ``record`` (every, signals, trials, traces), ``signals`` (unit and FMI type of
+    what is recorded), ``targets`` (parameters target_position and target_velocity by variant).
     """
     campaign = plan.campaign
     signals = _signals(systems)
     given = "" if plan.given is None else plan.given.sha256
-    some = {"group": campaign.group, "faults": plan.fault_texts(), "draws_sha256": given}
+    swept = dict(campaign.sweeps)
+    some = {"group": campaign.group, "faults": plan.fault_texts(), "sweep": swept, "draws_sha256": given}
     return {name: fact for name, fact in some.items() if fact} | {
         "description": campaign.description,
         "success": campaign.success.text,

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import InputError
+from ..system.assignments import SINGLE
 from ..system.options import Layer
 from .distributions import Draw
 from .expressions import Expression
@@ -86,7 +87,8 @@ class Campaign:
     ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are
     expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
     [compare], ``group`` is the drawn or derived value by which [group] sums trials up, ``faults`` are [fault],
-    ``scatters`` [scatter], ``requirements`` [requirement]. ``file`` is what errors name.
+    ``scatters`` [scatter], ``requirements`` [requirement]. ``file`` is what errors name. ``sweeps`` are the draws that
+    the command line has added, as texts by name (sweeps.py).
     """
 
     file: str
@@ -106,6 +108,7 @@ class Campaign:
     faults: tuple[CampaignFault, ...] = ()
     scatters: tuple[Scatter, ...] = ()
     requirements: tuple[Requirement, ...] = ()
+    sweeps: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.trials < 1:
@@ -127,6 +130,10 @@ class Campaign:
     def drawn_names(self) -> list[str]:
         """Names of all drawn and derived values."""
         return [name for draw in self.draws for name in draw.names] + list(self.derived)
+
+    def place_of(self, drawn: str) -> str:
+        """Where a drawn value is asked for, as errors name it: the file, or the option that sweeps it."""
+        return SINGLE if drawn in self.sweeps else self.file
 
     def variants(self) -> list[Variant]:
         """Every combination of the compared FMUs, named by them; one named ``default`` without [compare]."""

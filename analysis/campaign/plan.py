@@ -25,6 +25,7 @@ from .file import parse_campaign
 from .given import GivenDraws, read_given
 from .groups import Group, groups_of
 from .metrics import names_needed
+from .sweeps import with_sweeps
 from .toml_table import Table
 
 
@@ -147,11 +148,12 @@ def read_plan(
     watch: Watch | None = None,
     until_decided: bool = False,
     draws: Path | None = None,
+    sweeps: Mapping[str, str] | None = None,
 ) -> BatchPlan:
     """Read a campaign by name or path, with the command line's changes. Raises InputError.
 
     ``compare`` replaces the campaign's own comparison, ``faults`` come after its own, ``series`` are inputs over time,
-    ``draws`` is a file of draws to fly in place of drawn ones.
+    ``draws`` is a file of draws to fly in place of drawn ones, ``sweeps`` are parameters with their low:high:step.
     """
     archive = open_system(system)
     data, label = archive.campaign(campaign)
@@ -169,7 +171,9 @@ def read_plan(
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
     if draws is not None and trials is not None:
         raise InputError("--trials", str(trials), "the file of --draws says how many", "leave one of the two out")
-    changed = replace(read, **changes)
+    if draws is not None and sweeps:
+        raise InputError("--set", "=".join(next(iter(sweeps.items()))), "a sweep beside --draws", "leave one out")
+    changed = with_sweeps(replace(read, **changes), sweeps or {})
     if until_decided and not changed.requirements:
         remedy = "declare what is to be decided: [requirement.NAME]"
         raise InputError(label, "--until-decided", "the campaign has no requirement", remedy)
@@ -221,32 +225,34 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
 
 def _check_varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> None:
     """Refuse a draw for what is no parameter, or with a value that the parameter cannot have."""
+    place = plan.campaign.place_of(name)
     known: list[str] = []
     for component, fmu in prepared.network.fmus.items():
         known += [
             f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in ("parameter", "input")
         ]
     if name not in known:
-        raise InputError(plan.campaign.file, name, "no such parameter in the system", suggestion(name, known))
+        raise InputError(place, name, "no such parameter in the system", suggestion(name, known))
     if name in prepared.network.driven:
         problem = f"is driven by column {prepared.network.driven[name]} of the inputs over time"
-        raise InputError(plan.campaign.file, name, problem, "leave out the column or the draw")
+        raise InputError(place, name, problem, "leave out the column or the draw")
     if name not in plan.draws.columns:  # seed, stream or overlaid
         return
     values = np.asarray(plan.draws.columns[name], dtype=float)
     component = max((part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len)
     variable = prepared.network.fmus[component].variables[name.removeprefix(f"{component}.")]
     if variable.type == "String":
-        raise InputError(plan.campaign.file, name, "a String cannot be drawn", "draw numbers only")
+        raise InputError(place, name, "a String cannot be drawn", "draw numbers only")
     if variable.type != "Real" and np.any(values != np.round(values)):
-        raise InputError(plan.campaign.file, name, f"drawn values are not whole, it is {variable.type}", "use a choice")
+        remedy = "sweep whole numbers" if name in plan.campaign.sweeps else "use a choice"
+        raise InputError(place, name, f"drawn values are not whole, it is {variable.type}", remedy)
     low, high = (
         limit if bound is None else float(bound) for bound, limit in ((variable.min, -np.inf), (variable.max, np.inf))
     )
     outside = np.flatnonzero((values < low) | (values > high))
     if outside.size:
         problem = f"{values[outside[0]]:g} in trial {outside[0]} is outside {low:g} to {high:g}"
-        raise InputError(plan.campaign.file, name, problem, "draw values that the parameter can have")
+        raise InputError(place, name, problem, "draw values that the parameter can have")
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ import pyarrow.parquet
 from ...campaign.draws import DrawTable
 from ...campaign.given import STREAMS, GivenDraws
 from ...campaign.plan import BatchPlan, campaign_of
+from ...campaign.sweeps import with_sweeps
 from ...errors import InputError
 from ...flight.instances.reset_test import ResetVerdict, known
 from ...ssp.archive import SystemArchive
@@ -32,12 +33,13 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None) -> BatchPl
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     content = stored(contents, manifest.campaign["content"])
-    campaign = replace(
+    read = replace(
         campaign_of(content.read_bytes(), manifest.campaign["label"]),
         trials=manifest.trials,
         seed=manifest.seed,
         compare={slot: tuple(names) for slot, names in manifest.campaign["compare"].items()},
     )
+    campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
     options: dict[str, Any] = {
         name: tuple(value) if isinstance(value, list) else value for name, value in manifest.options.items()
     }
