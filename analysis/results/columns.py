@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
+from ..campaign.given import STREAMS
+
 
 class Column(NamedTuple):
     """A column of trials/. ``unit`` is None where the results say none, "1" where there is none to say."""
@@ -48,5 +50,7 @@ def _column(name: str, provenance: Mapping[str, Any]) -> Column:
         if end is None:
             return Column("1", f"whether the fault {rest} flew")
         return Column(FAULT[end].unit, f"fault {rest.removesuffix(end)}: {FAULT[end].meaning}")
+    if rest == STREAMS:
+        return Column("1", "number of the trial whose random streams it flew with")
     swept = provenance.get("sweep", {}).get(rest)
     return Column(None, f"drawn or derived: {rest}" if swept is None else f"swept: {rest}, {swept}")
