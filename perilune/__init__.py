@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from .analysis.api.laws import Law, law, synthesize
     from .analysis.api.own import new_block, new_system
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
+    from .analysis.api.results.plots import plot_results
+    from .analysis.api.results.stored import StoredResults, open_results
     from .analysis.api.samples.rare import RareResult, rare
     from .analysis.api.samples.sensitivity import SensitivityResult, sensitivity
     from .analysis.api.samples.worst import WorstResult, worst
@@ -90,6 +92,7 @@ __all__ = [
     "SensitivityResult",
     "StabilityReport",
     "State",
+    "StoredResults",
     "StudyError",
     "SynthesisResult",
     "TerminalGuidance",
@@ -114,8 +117,10 @@ __all__ = [
     "new_block",
     "new_system",
     "norm",
+    "open_results",
     "plan_hover_transfer",
     "plan_landing_bound",
+    "plot_results",
     "rare",
     "sensitivity",
     "shard",
@@ -137,6 +142,8 @@ _HOMES = {
     "analysis.api.laws": ("Law", "law", "synthesize"),
     "analysis.api.own": ("new_block", "new_system"),
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
+    "analysis.api.results.plots": ("plot_results",),
+    "analysis.api.results.stored": ("StoredResults", "open_results"),
     "analysis.api.samples.rare": ("RareResult", "rare"),
     "analysis.api.samples.sensitivity": ("SensitivityResult", "sensitivity"),
     "analysis.api.samples.worst": ("WorstResult", "worst"),

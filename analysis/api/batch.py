@@ -16,6 +16,7 @@ from ..batch.summary import CONFIDENCE, summary_rows
 from ..batch.tables import requirement_rows, who_cells, who_heads
 from ..campaign.drawing.declared import drawn_names
 from ..campaign.plan import read_plan
+from ..campaign.sweeps import part_sweeps
 from ..errors import InputError, suggestion
 from ..flight.results import require_pandas
 from ..reports.batch.batch_report import write_batch_report
@@ -147,7 +148,7 @@ def batch(
     ``engine`` is what flies side by side, threads or processes; ``faults`` fly in every trial,
     after the campaign's own, and every trial has the same ``input``; one that takes longer than ``timeout`` (s, wall
     clock) ends ``timed_out``, is no success, and the next one flies; ``draws`` is a Parquet file of draws to fly, a
-    trial for each row. The rest is as in `simulate`. Raises InputError.
+    trial for each row. In ``set`` a text "low:high:step" is a sweep. The rest is as in `simulate`. Raises InputError.
     """
     folder = Path(output) if output is not None else None
     if resume and folder is None:
@@ -158,11 +159,13 @@ def batch(
         flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     check_list("faults", faults)
+    options, sweeps = part_sweeps(options)
     plan = read_plan(
         Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults_of(faults),
         series=None if input is None else read_series(input), watch=Watch(timeout, log),
         until_decided=until_decided,
         draws=None if draws is None else Path(draws),
+        sweeps=sweeps,
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder
         flown = runner.run_batch(plan, workers=workers, output=folder, resume=resume, engine=engine)

@@ -16,18 +16,23 @@ TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 def campaign_facts(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
     """Facts of a batch that its numbers do not show; ``systems`` are the prepared ones by variant.
 
-    ``group``, ``faults``, ``draws_sha256`` of given draws and a ``draw_scheme`` (each where there is any; a table of
-    draws is none), ``description``, ``success``
-    (expression), ``metrics`` (expression, reduction, unit, description, whether the value is true or false, and what
-    else its reduction has), ``record`` (every, signals, trials, traces), ``signals`` (unit and FMI type of what is
-    recorded), ``targets`` (parameters target_position and target_velocity by variant).
+    ``group``, ``faults``, ``sweep``, ``draws_sha256`` of given draws and a ``draw_scheme`` that is no table (each where
+    there is any), ``description``, ``success`` (expression), ``metrics`` (expression, reduction, unit, description,
+    whether the value is true or false, and what else its reduction has), ``record`` (every, signals, trials, traces),
+    ``signals`` (unit and FMI type of what is recorded), ``targets`` (parameters target_position and target_velocity by
+    variant).
     """
     campaign = plan.campaign
     signals = _signals(systems)
     given = "" if plan.given is None else plan.given.sha256
-    scheme = campaign.draw_scheme if plan.is_counted else ""
-    some = {"group": campaign.group, "faults": plan.fault_texts(), "draws_sha256": given, "draw_scheme": scheme}
-    return {name: fact for name, fact in some.items() if fact} | {
+    optional = {
+        "group": campaign.group,
+        "faults": plan.fault_texts(),
+        "sweep": dict(campaign.sweeps),
+        "draws_sha256": given,
+        "draw_scheme": campaign.draw_scheme if plan.is_counted else "",
+    }
+    return {name: fact for name, fact in optional.items() if fact} | {
         "description": campaign.description,
         "success": campaign.success.text,
         "metrics": {metric.name: _metric(metric, signals) for metric in campaign.metrics},

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ..errors import InputError
+from ..system.assignments import SINGLE
 from ..system.options import Layer
 from .drawing.declared import Draw, drawn_names
 from .expressions import Expression
@@ -90,7 +91,7 @@ class Campaign:
     expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
     [compare], ``group`` is the drawn or derived value by which [group] sums trials up, ``faults`` are [fault],
     ``scatters`` [scatter], ``requirements`` [requirement], ``draw_scheme`` is one of `SCHEMES`. ``file`` is what errors
-    name.
+    name. ``sweeps`` are the draws that the command line has added, as texts by name (sweeps.py).
     """
 
     file: str
@@ -111,6 +112,7 @@ class Campaign:
     scatters: tuple[Scatter, ...] = ()
     requirements: tuple[Requirement, ...] = ()
     draw_scheme: str = "table"
+    sweeps: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.trials < 1:
@@ -132,6 +134,10 @@ class Campaign:
     def drawn_names(self) -> list[str]:
         """Names of all drawn and derived values."""
         return drawn_names(self) + list(self.derived)
+
+    def place_of(self, drawn: str) -> str:
+        """Where a drawn value is asked for, as errors name it: the file, or the option that sweeps it."""
+        return SINGLE if drawn in self.sweeps else self.file
 
     def variants(self) -> list[Variant]:
         """Every combination of the compared FMUs, named by them; one named ``default`` without [compare]."""

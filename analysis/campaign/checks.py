@@ -69,34 +69,37 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
 
 def _varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> Any:
     """The variable that is varied under a name; refused where it is no parameter, or cannot be drawn."""
+    place = plan.campaign.place_of(name)
     known: list[str] = []
     for component, fmu in prepared.network.fmus.items():
         known += [
             f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in ("parameter", "input")
         ]
     if name not in known:
-        raise InputError(plan.campaign.file, name, "no such parameter in the system", suggestion(name, known))
+        raise InputError(place, name, "no such parameter in the system", suggestion(name, known))
     if name in prepared.network.driven:
         problem = f"is driven by column {prepared.network.driven[name]} of the inputs over time"
-        raise InputError(plan.campaign.file, name, problem, "leave out the column or the draw")
+        raise InputError(place, name, problem, "leave out the column or the draw")
     component = max((part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len)
     variable = prepared.network.fmus[component].variables[name.removeprefix(f"{component}.")]
     if variable.type == "String" and name in plan.campaign.drawn_names():
-        raise InputError(plan.campaign.file, name, "a String cannot be drawn", "draw numbers only")
+        raise InputError(place, name, "a String cannot be drawn", "draw numbers only")
     return variable
 
 
 def _check_values(plan: BatchPlan, name: str, variable: Any, values: np.ndarray, first: int) -> None:
     """Refuse values that a parameter cannot have, of trials from ``first`` on."""
+    place = plan.campaign.place_of(name)
     if variable.type != "Real" and np.any(values != np.round(values)):
-        raise InputError(plan.campaign.file, name, f"drawn values are not whole, it is {variable.type}", "use a choice")
+        remedy = "sweep whole numbers" if name in plan.campaign.sweeps else "use a choice"
+        raise InputError(place, name, f"drawn values are not whole, it is {variable.type}", remedy)
     low, high = (
         limit if bound is None else float(bound) for bound, limit in ((variable.min, -np.inf), (variable.max, np.inf))
     )
     outside = np.flatnonzero((values < low) | (values > high))
     if outside.size:
         problem = f"{values[outside[0]]:g} in trial {first + outside[0]} is outside {low:g} to {high:g}"
-        raise InputError(plan.campaign.file, name, problem, "draw values that the parameter can have")
+        raise InputError(place, name, problem, "draw values that the parameter can have")
 
 
 @dataclass(frozen=True)

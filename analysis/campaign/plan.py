@@ -25,6 +25,7 @@ from .drawn import DrawnTrials, with_streams
 from .faults import drawn_fault
 from .file import parse_campaign
 from .groups import Group, groups_of
+from .sweeps import with_sweeps
 from .toml_table import Table
 
 PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
@@ -164,11 +165,12 @@ def read_plan(
     watch: Watch | None = None,
     until_decided: bool = False,
     draws: Path | None = None,
+    sweeps: Mapping[str, str] | None = None,
 ) -> BatchPlan:
     """Read a campaign by name or path, with the command line's changes. Raises InputError.
 
     ``compare`` replaces the campaign's own comparison, ``faults`` come after its own, ``series`` are inputs over time,
-    ``draws`` is a file of draws to fly in place of drawn ones.
+    ``draws`` is a file of draws to fly in place of drawn ones, ``sweeps`` are parameters with their low:high:step.
     """
     archive = open_system(system)
     data, label = archive.campaign(campaign)
@@ -186,7 +188,9 @@ def read_plan(
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
     if draws is not None and trials is not None:
         raise InputError("--trials", str(trials), "the file of --draws says how many", "leave one of the two out")
-    changed = replace(read, **changes)
+    if draws is not None and sweeps:
+        raise InputError("--set", "=".join(next(iter(sweeps.items()))), "a sweep beside --draws", "leave one out")
+    changed = with_sweeps(replace(read, **changes), sweeps or {})
     if until_decided and not changed.requirements:
         remedy = "declare what is to be decided: [requirement.NAME]"
         raise InputError(label, "--until-decided", "the campaign has no requirement", remedy)

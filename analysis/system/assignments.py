@@ -21,6 +21,7 @@ SETTABLE = ("parameter", "input")
 SINGLE = "--set"  # where single values come from, unless a file says them
 TEXT = "Text"  # type of a single value, which takes that of its target
 ELEMENTS = ","  # between the values of a vector
+RANGE = ":"  # between the numbers of a sweep, which is no single value
 INDEX = re.compile(r"\[[\d,]+\]$")
 
 
@@ -237,6 +238,10 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
 
 def _parsed(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     """A single value, which is a bare number in the variable's unit."""
+    if type_name in ("Real", "Integer", "Boolean") and RANGE in str(assignment.value):
+        unit = f", in {node.unit.name}" if node.unit is not None else ""
+        remedy = f"give one{unit}; low:high:step, a sweep, is what perilune batch --campaign flies"
+        raise InputError(assignment.file, assignment.where, f"{assignment.value!r} is no single value", remedy)
     try:
         return parse_value(str(assignment.value), type_name, assignment.file, assignment.where)
     except InputError as error:

@@ -63,6 +63,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
             "content": keep(plan.campaign_data, campaign.file),
             "compare": {slot: list(names) for slot, names in campaign.compare.items()},
             "compared_by": plan.compared_by,
+            **({"sweep": dict(campaign.sweeps)} if campaign.sweeps else {}),
         },
         options=options,
         faults=[str(fault) for fault in plan.faults],

@@ -23,7 +23,8 @@ class Manifest:
     """A campaign to be flown in shards; every value can be written as JSON.
 
     ``system`` has name, label, description, sha256 and ``files``, contents by archive name; ``elsewhere`` are contents
-    that lay outside of it, by what asks for them. ``campaign`` has label, content and what the command line compares.
+    that lay outside of it, by what asks for them. ``campaign`` has label, content and what the command line compares,
+    and sweeps if it does.
     ``options`` are the system options, ``faults`` the user's, ``series`` the inputs over time (label, sha256, content),
     ``draws`` likewise those that are given instead of drawn, ``timeout`` is in s. ``fmus`` are hashes by variant and
     component, ``resets`` the verdicts of reset tests by hash. ``until_decided`` says that it ends with the shard at

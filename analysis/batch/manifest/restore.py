@@ -12,6 +12,7 @@ import pyarrow.parquet
 
 from ...campaign.drawing.given import STREAMS, GivenDraws
 from ...campaign.plan import BatchPlan, campaign_of
+from ...campaign.sweeps import with_sweeps
 from ...flight.instances.reset_test import ResetVerdict, known
 from ...ssp.archive import SystemArchive
 from ...system.faults import parse_fault
@@ -30,12 +31,13 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None) -> BatchPl
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     content = stored(contents, manifest.campaign["content"])
-    campaign = replace(
+    read = replace(
         campaign_of(content.read_bytes(), manifest.campaign["label"]),
         trials=manifest.trials,
         seed=manifest.seed,
         compare={slot: tuple(names) for slot, names in manifest.campaign["compare"].items()},
     )
+    campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
     options: dict[str, Any] = {
         name: tuple(value) if isinstance(value, list) else value for name, value in manifest.options.items()
     }

@@ -11,6 +11,7 @@ from ...batch.runner import open_campaign, run_batch
 from ...batch.tables import aligned, faults_line
 from ...campaign.checks import check_plan
 from ...campaign.plan import BatchPlan, read_plan
+from ...campaign.sweeps import part_sweeps
 from ...errors import InputError
 from ...flight.interruptible import StuckError
 from ...targets import PAGES, Results, check_file, check_folder
@@ -34,10 +35,11 @@ def run(options: argparse.Namespace) -> int:
     check_folder("--output", options.output, overwrite=anything, otherwise="--resume to go on, or --overwrite")
     check_file("--report", options.report, PAGES)
     check_json(options)
+    asked, sweeps = part_sweeps(system_options(options))
     plan = read_plan(
         options.system,
         options.campaign,
-        system_options(options),
+        asked,
         trials=options.trials,
         seed=options.seed,
         compare=compare,
@@ -46,6 +48,7 @@ def run(options: argparse.Namespace) -> int:
         watch=watch(options),
         until_decided=options.until_decided,
         draws=options.draws,
+        sweeps=sweeps,
     )
     say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
     if options.replay is not None:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 import sys
 
+from ...campaign.sweeps import part_sweeps
 from ...errors import InputError
 from ...sensitivity.study import sensitivity
 from ...targets import Results, check_folder
-from ..common.options import check_json, tell
+from ..common.options import check_json, system_options, tell
 from ..common.remarks import say_stale
 from ..common.sample_plans import held, read_samples
 
@@ -24,6 +25,8 @@ def run(options: argparse.Namespace) -> int:
             raise InputError(
                 "--sensitivity", f"--{name.replace('_', '-')}", "does not go with it", "leave one of them out"
             )
+    for name, text in part_sweeps(system_options(options))[1].items():
+        raise InputError("--sensitivity", f"--set {name}={text}", "does not go with a sweep", "give one value")
     check_folder("--output", options.output, overwrite=options.overwrite)
     check_json(options)
     plan = read_samples(options)

@@ -51,7 +51,11 @@ def add_system_options(parser: argparse.ArgumentParser) -> None:
     )
     completed(sets, parameter_sets)
     group.add_argument(
-        "--set", action="append", default=[], metavar="COMPONENT.VARIABLE=VALUE", help="set one parameter or input"
+        "--set",
+        action="append",
+        default=[],
+        metavar="COMPONENT.VARIABLE=VALUE",
+        help="set one parameter or input; in a batch LOW:HIGH:STEP sweeps it",
     )
     group.add_argument("--step", type=_seconds, metavar="H", help="communication step, s")
     group.add_argument("--stop-time", type=_seconds, metavar="T", help="end of the flight, s")

@@ -94,6 +94,7 @@ def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
     words += ["--trials", str(campaign.trials)] if plan.given is None else ["--draws", plan.given.file]
     words += ["--seed", str(campaign.seed)]
     words += [word for name, fmu in variant.use.items() for word in ("--compare", f"{name}={fmu}")]
+    words += [word for name, text in campaign.sweeps.items() for word in ("--set", f"{name}={text}")]
     words += [word for option, text in _options(options) for word in (option, text)]
     words += [word for fault in plan.faults for word in ("--fault", str(fault))]
     words += ["--allow-unmatched"] if options.allow_unmatched else []

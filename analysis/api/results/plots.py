@@ -1,0 +1,104 @@
+"""The same metrics of several campaigns in one figure: `plot_results`."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pyarrow.compute
+from matplotlib.figure import Figure as Plot
+
+from ...batch.results import BatchResult
+from ...campaign.campaign import Metric
+from ...campaign.expressions import Expression
+from ...errors import InputError, suggestion
+from ...reports.batch.plots import distribution_plot
+from ...reports.kit.style import look
+from ...results.folder import read_folder
+from ...results.opened import OpenedResults
+from ..options import FilePath
+
+Results = OpenedResults | BatchResult
+
+
+def plot_results(results: Mapping[str, FilePath | Results], metrics: Sequence[str] | None = None) -> Plot:
+    """How metrics of several campaigns are distributed over all trials: a panel per metric, a line per variant.
+
+    ``results`` are folders that `batch` wrote, or what `batch` or `open_results` gave, by their labels; they may be of
+    different systems and draws, since only the metrics' names and units are put together. Without ``metrics`` it is
+    all that every campaign has and that vary. Raises KeyError for a metric that a campaign does not have, InputError
+    for units that differ and for what is no results, ValueError where there is none to draw.
+    """
+    if not results:
+        raise InputError("plot_results", "", "no results", "give folders that batch(..., output=...) wrote, by labels")
+    opened = {
+        label: OpenedResults(read_folder(Path(given))) if isinstance(given, str | os.PathLike) else given
+        for label, given in results.items()
+    }
+    return distributions(opened, metrics)
+
+
+def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None) -> Plot:
+    """The figure of `plot_results`; a label may be empty where it is the only one."""
+    declared = {label: _metrics(found) for label, found in results.items()}
+    common = [name for name in next(iter(declared.values())) if all(name in found for found in declared.values())]
+    for name in metrics or ():
+        for label, known in declared.items():
+            if name not in known:
+                raise KeyError(f"no metric {name}{f' in {label}' if label else ''}; {suggestion(name, known)}")
+    shown: dict[Metric, dict[str, np.ndarray]] = {}
+    for name in common if metrics is None else dict.fromkeys(metrics):
+        metric = _of_one_unit(name, declared)
+        values = {line: column for label, found in results.items() for line, column in _lines(label, found, name)}
+        if _varies(np.concatenate(list(values.values()))) or (metrics is not None and _is_somewhere(values)):
+            shown[metric] = values
+    if not shown:
+        raise ValueError(f"{', '.join(filter(None, results)) or 'the campaign'}: no metric that varies and is finite")
+    lines = list(dict.fromkeys(line for values in shown.values() for line in values))
+    return distribution_plot(shown, {line: look(index) for index, line in enumerate(lines)})
+
+
+def _metrics(results: Results) -> dict[str, Metric]:
+    if isinstance(results, BatchResult):
+        return {metric.name: metric for metric in results.plan.campaign.metrics}
+    facts = results.provenance["metrics"]
+    return {
+        name: Metric(name, Expression(fact["expression"]), fact["reduction"], unit=fact["unit"])
+        for name, fact in facts.items()
+    }
+
+
+def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Metric:
+    """A metric of all campaigns. Raises InputError where its units differ."""
+    (first, metric), *others = ((label, known[name]) for label, known in declared.items())
+    for label, other in others:
+        if other.unit != metric.unit:
+            problem = f"in {other.unit}, in {metric.unit} in {first}"
+            raise InputError(label, f"metric {name}", problem, "plot metrics of one unit, by naming them")
+    return metric
+
+
+def _lines(label: str, results: Results, metric: str) -> list[tuple[str, np.ndarray]]:
+    """The values of a metric by what their lines are called: the label, the variant, or both."""
+    if isinstance(results, BatchResult):
+        found = {variant: trials.metrics[metric] for variant, trials in results.trials.items()}
+    else:
+        table = results.arrow(["variant", f"metric.{metric}"])
+        column = table.column(1).to_numpy().astype(np.float64)
+        found = {
+            variant: column[pyarrow.compute.equal(table.column(0), variant).to_numpy()] for variant in results.variants
+        }
+    if not label:
+        return list(found.items())
+    return [(label if len(found) == 1 else f"{label}: {variant}", values) for variant, values in found.items()]
+
+
+def _varies(values: np.ndarray) -> bool:
+    finite = values[np.isfinite(values)]
+    return bool(finite.size) and not (finite.size == values.size > 1 and np.all(finite == finite[0]))
+
+
+def _is_somewhere(values: Mapping[str, np.ndarray]) -> bool:
+    return any(np.any(np.isfinite(found)) for found in values.values())

@@ -1,0 +1,28 @@
+"""Folders of many trials, written as a batch writes them and without flying."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from perilune.analysis.batch.results import batch_digest
+from perilune.analysis.batch.shards.files import write_shard
+from tests.support.pages.comparison_samples import sample_batch
+
+SIZE = 5000  # trials of a shard: a batch's shards have no more
+
+
+def write_large(folder: Path, trials: int) -> None:
+    """``trials`` trials of one variant, alpha, whose metric miss is the square of a normal number."""
+    sample = sample_batch(trials=min(trials, SIZE), variants=("alpha",), traced=0)
+    plan = replace(sample.plan, campaign=replace(sample.plan.campaign, trials=trials))
+    provenance = {**sample.provenance, "trials": trials}
+    source, digest = np.random.default_rng(1), batch_digest(provenance)
+    alpha = sample.trials["alpha"]
+    for shard in range(-(-trials // SIZE)):
+        numbers = np.arange(shard * SIZE, min((shard + 1) * SIZE, trials))
+        part = alpha.part(range(numbers.size))
+        metrics = {**part.metrics, "miss": source.normal(size=numbers.size) ** 2}
+        write_shard(folder, digest, shard, plan, {"alpha": replace(part, trial=numbers, metrics=metrics)})
+    (folder / "summary.json").write_text(json.dumps({**provenance, "variants": {"alpha": {}}}))
