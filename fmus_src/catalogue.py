@@ -8,6 +8,7 @@ import importlib.util
 import inspect
 import pkgutil
 import sys
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 
@@ -32,6 +33,11 @@ def catalogue() -> dict[str, type[Block]]:
 
     Raises ValueError when two blocks have one FMU name.
     """
+    return dict(_catalogue())
+
+
+@cache
+def _catalogue() -> dict[str, type[Block]]:
     found: dict[str, type[Block]] = {}
     for kind in KINDS:
         for module in pkgutil.iter_modules([str(HERE / kind)]):

@@ -11,6 +11,7 @@ import zipfile
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,7 @@ from ..ssp.units import Unit, units_of_fmu
 
 DESCRIPTION = "modelDescription.xml"
 MOST_FLAWS = 3  # named in one line
+MOST_DESCRIPTIONS = 32  # kept at once
 
 
 @dataclass
@@ -83,7 +85,13 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     version = root.get("fmiVersion")
     if version != "2.0":
         raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
-    description, flaws = _read_description(data, root, label)
+    description, flaws = _read_description(archive.read(DESCRIPTION))
+    if description is None:
+        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU")
+    names = Counter(variable.name for variable in description.modelVariables)
+    twice = [name for name, count in names.items() if count > 1]
+    if twice:
+        raise InputError(label, str(twice[0]), "two variables of this name", "mend the FMU's modelDescription.xml")
     if flaws and strict:
         raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU, or fly without --strict")
     if description.coSimulation is None:
@@ -98,49 +106,58 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
         remedy = "take its native flavour" if runs_python else "compile the FMU's sources for it"
         raise InputError(label, binary, "no binary for this platform", remedy)
     folder = Path(tempfile.mkdtemp(prefix="perilune_"))
-    archive.extractall(folder)
-    fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder, flaws=flaws)
+    fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder, flaws=list(flaws))
+    # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.
+    archive.extractall(folder, _needed(archive.namelist()) if fmu.is_own else None)
     fmu.variables = {variable.name: variable for variable in description.modelVariables}
     fmu.units = units_of_fmu(description)
     weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
     return fmu
 
 
-def _read_description(data: bytes, root: etree._Element, label: str) -> tuple[ModelDescription, list[str]]:
-    """What an FMU says of itself, and the rules that it breaks in saying so; raises InputError if it is unreadable.
+def _needed(names: Sequence[str]) -> list[str]:
+    """Which files of an FMU built by Perilune a flight on this platform reads."""
+    kept = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
+    return [name for name in names if name.startswith(kept)]
 
-    ``root`` is its modelDescription.xml.
+
+@lru_cache(maxsize=MOST_DESCRIPTIONS)
+def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, ...]]:
+    """What an FMU's modelDescription.xml says, None if unreadable, and the rules that it breaks in saying so.
+
+    It is the most of loading an FMU, and nobody changes what it gives: a system that is prepared again shares it.
     """
-    flaws: list[str] = []
     try:
-        return read_model_description(io.BytesIO(data), validate=True), flaws
+        return read_model_description(_zipped(xml), validate=True), ()
     except ValidationError as error:
-        flaws = [" ".join(problem.split()) for problem in error.problems]
+        flaws = tuple(" ".join(problem.split()) for problem in error.problems)
     except Exception as error:  # fmpy raises bare Exception and lxml's errors
-        flaws = [" ".join(str(error).split())]
+        flaws = (" ".join(str(error).split()),)
     try:
-        description = read_model_description(io.BytesIO(_with_fixed_parameters(root)), validate=False)
-    except Exception as error:
-        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU") from error
-    names = Counter(variable.name for variable in description.modelVariables)
-    twice = [name for name, count in names.items() if count > 1]
-    if twice:
-        raise InputError(label, str(twice[0]), "two variables of this name", "mend the FMU's modelDescription.xml")
-    return description, flaws
+        return read_model_description(_zipped(_with_fixed_parameters(xml)), validate=False), flaws
+    except Exception:
+        return None, flaws
 
 
-def _with_fixed_parameters(root: etree._Element) -> bytes:
-    """The description, zipped, with parameters that vary, as stock pythonfmu writes them, declared fixed.
+def _with_fixed_parameters(xml: bytes) -> bytes:
+    """The description with parameters that vary, as stock pythonfmu writes them, declared fixed.
 
     fmpy does not read them otherwise, and they are set before a flight begins only.
     """
+    root = parse_xml(xml, DESCRIPTION)
     for variable in root.iterfind("ModelVariables/ScalarVariable[@causality='parameter']"):
         if variable.get("variability", "continuous") not in ("fixed", "tunable"):
             variable.set("variability", "fixed")
+    return etree.tostring(root)
+
+
+def _zipped(xml: bytes) -> io.BytesIO:
+    """A description as fmpy reads it: in an FMU."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
-        archive.writestr(DESCRIPTION, etree.tostring(root))
-    return content.getvalue()
+        archive.writestr(DESCRIPTION, xml)
+    content.seek(0)
+    return content
 
 
 def _some(flaws: Sequence[str]) -> str:

@@ -13,6 +13,7 @@ import inspect
 import re
 import sys
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from .. import __name__ as SOURCE_PACKAGE  # noqa: N812
@@ -57,7 +58,7 @@ def closure_of(block_class: type[Block]) -> Closure:
     """
     files: dict[str, bytes] = {}
     module = sys.modules[block_class.__module__]
-    allowed = {"numpy", "pythonfmu", *block_class.requires} | set(sys.stdlib_module_names)
+    allowed = frozenset({"numpy", "pythonfmu", *block_class.requires} | sys.stdlib_module_names)
     if module.__name__.startswith(f"{SOURCE_PACKAGE}."):
         block_module = module.__name__.removeprefix(f"{SOURCE_PACKAGE}.")
         _collect(block_module, files, allowed)
@@ -76,7 +77,7 @@ def closure_of(block_class: type[Block]) -> Closure:
     return Closure(files, block_module, digest.hexdigest())
 
 
-def _collect(module: str, files: dict[str, bytes], allowed: set[str]) -> None:
+def _collect(module: str, files: dict[str, bytes], allowed: frozenset[str]) -> None:
     """Add a module of the source package (dotted name below it), its packages and its imports."""
     parts = module.split(".") if module else []
     for depth in range(len(parts)):
@@ -113,10 +114,11 @@ def _home(name: str, path: Path, line: int) -> str:
     return HOME_OF[name]
 
 
-def _imported(text: bytes, module: str, path: Path, allowed: set[str]) -> list[str]:
+@cache  # all blocks share most of their files
+def _imported(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> tuple[str, ...]:
     """Modules of the source package that a file imports, as dotted names below it."""
     package = module.rsplit(".", 1)[0].split(".") if "." in module else []
-    found = []
+    found: list[str] = []
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.ImportFrom) and node.level > 0:
             base = package[: len(package) - (node.level - 1)]
@@ -133,4 +135,4 @@ def _imported(text: bytes, module: str, path: Path, allowed: set[str]) -> list[s
                         f"{path}:{node.lineno}: import of {name}: not packed into the FMU; "
                         f"import from {FACE_PACKAGE}, or name the library in the block's requires"
                     )
-    return found
+    return tuple(found)

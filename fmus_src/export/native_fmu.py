@@ -41,6 +41,11 @@ def native_sources(block_class: type[Block], guid: str) -> dict[str, bytes]:
     return files
 
 
+def native_guid(block_class: type[Block]) -> str:
+    """The GUID of a block's native FMU: a hash of its sources and its description."""
+    return content_guid(_files(block_class, guid=""))
+
+
 def build_native_fmu(
     block_class: type[Block],
     path: Path,
@@ -55,7 +60,7 @@ def build_native_fmu(
     again. ``portable`` compiles with zig even where the system has a compiler. Raises
     `SubsetError`, `CompilerMissing` and `CompilationFailed`.
     """
-    guid = content_guid(_files(block_class, guid=""))
+    guid = native_guid(block_class)
     files = _files(block_class, guid)
     sources = native_sources(block_class, guid)
     name = block_class.fmu_name

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from perilune.analysis.benchmark.contestants.contestant import Unavailable
 from perilune.analysis.benchmark.contestants.course import Course
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import blocks_in_file
-from tests.support.builders import component, connection, document, inline, pack, system
+from tests.support.builders import component, connection, document, inline, pack, retouched, system
 
 
 @pytest.fixture
@@ -106,6 +107,26 @@ def test_a_component_that_is_no_block_is_refused_by_name(tmp_path: Path, tiny_fo
     )
     with pytest.raises(Unavailable, match="source: its FMU ramp is no block of the catalogue"):
         fused_limit.prepare(flown)
+
+
+def test_an_fmu_of_other_sources_is_refused_by_name(
+    tmp_path: Path, tiny_folder: Path, blocks: dict[str, type[Block]]
+) -> None:
+    """Truth: the GUID, which is a hash of the sources."""
+    fmus = tmp_path / "native"
+    fmus.mkdir()
+    (fmus / "ramp.fmu").write_bytes((tiny_folder / "native" / "ramp.fmu").read_bytes())
+    older = re.compile(r'guid="[^"]*"')
+    retouched(tiny_folder / "native" / "gain.fmu", fmus / "gain.fmu", lambda text: older.sub('guid="older"', text))
+    flown = course(
+        tmp_path,
+        tmp_path,
+        component("source", "ramp", "output y Real m"),
+        component("gain", "gain", "input u Real m; output y Real m"),
+        connections=wired(("source.y", "gain.u")),
+    )
+    with pytest.raises(Unavailable, match="gain: its FMU gain is of other sources"):
+        fused_limit.prepare(flown, blocks)
 
 
 def bits(values: dict[str, float]) -> dict[str, str]:

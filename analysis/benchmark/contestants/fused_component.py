@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ....fmus_src.block import Block, Output, State
-from ....fmus_src.export.native_fmu import native_sources
+from ....fmus_src.export.native_fmu import native_guid
 from ....fmus_src.export.write.names import literal, member
 from ....fmus_src.export.write.translate import translate
 from ...ssp.parameter_sets import ParameterValue
@@ -109,11 +109,8 @@ def write_part(
 
 def _check_sources(component: str, fmu: Fmu, block_class: type[Block]) -> None:
     """Refuse a native FMU compiled from other sources than ours now: it would be compared with another program."""
-    folder = fmu.folder / "sources"
-    if folder.is_dir():
-        compiled = {path.name: path.read_bytes() for path in folder.iterdir()}
-        if compiled != native_sources(block_class, fmu.description.guid):
-            raise Unavailable(f"{component}: its FMU {fmu.name} is of other sources; run build_fmus.py")
+    if fmu.is_native and fmu.description.guid != native_guid(block_class):
+        raise Unavailable(f"{component}: its FMU {fmu.name} is of other sources; run build_fmus.py")
 
 
 def _members(block_class: type[Block]) -> dict[str, dict[str, str]]:

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import matplotlib
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
+
+IMAGE_DPI = 200  # of what is no vector
 
 
 class Picture(Figure):
@@ -20,6 +25,24 @@ def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
     """A figure as an SVG document without date or version; ``name`` salts its identifiers."""
     buffer = io.BytesIO()
     settings: Any = {"svg.hashsalt": name, "svg.fonttype": "path" if text_as_paths else "none"}
-    with matplotlib.rc_context(settings):
-        figure.savefig(buffer, format="svg", dpi=200, metadata={"Date": None, "Creator": None})
+    with matplotlib.rc_context(settings), _laid_out(figure) as canvas:
+        canvas.print_svg(buffer, metadata={"Date": None, "Creator": None})
     return buffer.getvalue()
+
+
+@contextmanager
+def _laid_out(figure: Figure) -> Iterator[FigureCanvasSVG]:
+    """The figure's SVG, with its layout made: savefig would draw the whole once more to have it made."""
+    before, dpi, engine = figure.canvas, figure.dpi, figure.get_layout_engine()
+    canvas = FigureCanvasSVG(figure)  # whose text the layout measures
+    try:
+        if engine is not None:
+            engine.execute(figure)
+            figure.set_layout_engine("none")
+        figure.dpi = IMAGE_DPI
+        yield canvas
+    finally:
+        if engine is not None:
+            figure.set_layout_engine(engine)
+        figure.set_canvas(before)
+        figure.dpi = dpi
