@@ -31,7 +31,7 @@ def written():
 @pytest.fixture(scope="module")
 def folder(written, tmp_path_factory):
     place = tmp_path_factory.mktemp("traces")
-    write_draws(written.plan, place)
+    write_draws(written.plan, place, 50)
     written.write(place)
     return place
 

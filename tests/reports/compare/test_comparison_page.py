@@ -401,7 +401,7 @@ def test_traces_of_failures_only_are_called_biased(tmp_path):
     result.write(tmp_path / "other")
     from perilune.analysis.batch.shards.files import write_draws
 
-    write_draws(result.plan, tmp_path / "other")
+    write_draws(result.plan, tmp_path / "other", 50)
     page = write([tmp_path / "other"], tmp_path / "page.html")
     assert "do not compare their spread" in text_of(page)
     assert "pilot.thrust_direction above the horizontal" in text_of(page)
