@@ -33,7 +33,7 @@ _flyers: list[Flyer] = []  # of this process's threads
 
 
 class WorkersDiedError(RuntimeError):
-    """Worker processes end one after the other, before they have done anything."""
+    """Workers end one after the other, before they have done anything, or none is left."""
 
 
 def worker_count(workers: int | None) -> int:
@@ -89,7 +89,7 @@ class FlyerPool:
             except TerminatedWorkerError as error:
                 deaths += 1
                 if deaths == MOST_DEATHS:
-                    raise WorkersDiedError(_how(error)) from error
+                    raise WorkersDiedError(f"worker processes end again and again: {_how(error)}") from error
                 assert self._make is not None
                 self._executor = self._make()
 

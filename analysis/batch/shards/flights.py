@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 
 from ..flyer import Flyer
-from ..trials import Trials, joined
+from ..trials import Trials
 from ..workers import FlyerPool
 from .numbering import Numbering
+from .parts import Parts
 
 MOST_IN_THREAD, MOST_IN_PROCESS = 50, 10  # trials of a task: enough to send, few enough to share out or lose
 
@@ -22,20 +23,16 @@ def fly_shards(
     variants = [variant.name for variant in pool.plan.campaign.variants()]
     tasks: list[tuple[str, range]] = []
     owners: list[int] = []
-    missing: dict[int, int] = {}
     for shard in shards:
         trials = numbering.of(shard)
         pieces = [trials[first : first + size] for first in range(0, len(trials), size)]
         tasks += [(variant, piece) for piece in pieces for variant in variants]
-        missing[shard] = len(pieces) * len(variants)
-        owners += [shard] * missing[shard]
-    parts: dict[int, dict[str, list[Trials]]] = {}
+        owners += [shard] * len(pieces) * len(variants)
+    parts = Parts(numbering, variants)
     for place, found in pool.work(Flyer.fly, tasks):
-        shard = owners[place]
-        parts.setdefault(shard, {name: [] for name in variants})[tasks[place][0]].append(found)
-        missing[shard] -= 1
-        if not missing[shard]:
-            yield shard, {name: joined(pieces) for name, pieces in parts.pop(shard).items()}
+        whole = parts.add(owners[place], tasks[place][0], found)
+        if whole is not None:
+            yield owners[place], whole
 
 
 def task_size(trials: int, workers: int, threads: bool) -> int:

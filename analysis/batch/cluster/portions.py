@@ -1,0 +1,54 @@
+"""How much is flown in one task: so many trials as take some seconds."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..shards.numbering import Numbering
+
+FIRST = 4  # trials of a task as long as nobody knows how long one takes
+LONGEST, SHORTEST = 3.0, 0.5  # s of a task: little to lose with a worker, and long beside the 10 ms that sending costs
+ROUNDS = 2  # tasks that each thread is to get at least of what is left, so that all end together
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Trials of one variant within one shard."""
+
+    shard: int
+    variant: str
+    trials: range
+
+
+class Portions:
+    """Parts shards into tasks, the larger the quicker trials turn out to be; ``trials`` are so many as are left."""
+
+    def __init__(self, numbering: Numbering, shards: Sequence[int], variants: Sequence[str]) -> None:
+        self._left = deque(Piece(shard, variant, numbering.of(shard)) for shard in shards for variant in variants)
+        self.trials = sum(len(piece.trials) for piece in self._left)
+        self._seconds: dict[str, float] = {}  # of a trial, by variant
+
+    def measured(self, piece: Piece, seconds: float) -> None:
+        """Remember how long a piece took in a worker."""
+        self._seconds[piece.variant] = seconds / len(piece.trials)
+
+    def next(self, threads: int) -> list[Piece]:
+        """What the next task flies, where so many threads are there; empty where nothing is left."""
+        slowest = max(self._seconds.values(), default=0.0)
+        budget = min(LONGEST, max(SHORTEST, self.trials * slowest / (ROUNDS * threads)))
+        found: list[Piece] = []
+        while self._left and (budget > 0.0 or not found):
+            first = self._left.popleft()
+            seconds = self._seconds.get(first.variant)
+            if seconds is None and found:  # not known how long: a task of its own
+                self._left.appendleft(first)
+                break
+            count = FIRST if seconds is None else max(1, int(budget / max(seconds, 1e-6)))
+            found.append(Piece(first.shard, first.variant, first.trials[:count]))
+            if first.trials[count:]:
+                self._left.appendleft(Piece(first.shard, first.variant, first.trials[count:]))
+            budget = 0.0 if seconds is None else budget - seconds * len(found[-1].trials)
+        self.trials -= sum(len(piece.trials) for piece in found)
+        return found

@@ -1,0 +1,68 @@
+"""What a worker elsewhere is sent of a campaign: its manifest, the contents that it names, its draws."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from ....fmus_src.places import PACKAGE
+from ...errors import InputError
+from ..engines import in_threads
+from ..manifest.contents import stored
+from ..manifest.gather import gather
+from ..manifest.manifest import CONTENTS, Manifest
+from ..runner import Campaign
+from ..shards.files import DRAWS, write_draws
+
+ROOMS = ("analysis", "fmus_src")
+
+
+@dataclass(frozen=True)
+class Sent:
+    """A campaign for a worker that sees nothing of the sender's files.
+
+    ``contents`` are the files by hash, ``draws`` is draws.parquet, ``log`` the level of the FMUs' messages; ``threads``
+    says whether several of its flights can be in one process at a time. ``key`` tells it from others.
+    """
+
+    key: str
+    manifest: Manifest
+    contents: Mapping[str, bytes]
+    draws: bytes
+    log: str | None
+    threads: bool
+
+
+def sent_of(campaign: Campaign) -> Sent:
+    """A campaign as workers are sent it: from its folder, or what it has read where it has none. Raises InputError."""
+    manifest, folder = campaign.manifest, campaign.folder
+    if folder is not None:
+        contents = {name: stored(folder / CONTENTS, name).read_bytes() for name in manifest.names()}
+        draws = (folder / DRAWS).read_bytes()
+    else:
+        found, contents = gather(campaign.plan, campaign.systems)
+        if found != manifest:
+            raise InputError(campaign.plan.system, "", "its files change while it is read", "fly it again")
+        with TemporaryDirectory() as place:
+            write_draws(campaign.plan, Path(place))
+            draws = (Path(place) / DRAWS).read_bytes()
+    key = hashlib.sha256(json.dumps(manifest.document(), sort_keys=True).encode() + draws).hexdigest()
+    threads = in_threads(campaign.systems.values(), None)
+    return Sent(key, manifest, contents, draws, campaign.plan.watch.log, threads)
+
+
+@cache
+def identity() -> tuple[str, str]:
+    """The version of this perilune, and the SHA-256 of its sources: what flights are the same with, to the bit."""
+    total = hashlib.sha256()
+    for room in ROOMS:
+        place = (PACKAGE / room).resolve()  # a link in a checkout
+        for path in sorted(place.rglob("*.py")):
+            total.update(path.relative_to(place).as_posix().encode() + b"\0" + path.read_bytes())
+    return version("perilune"), total.hexdigest()
