@@ -10,7 +10,7 @@ from typing import Any
 
 from ...errors import InputError
 from .flights import Cluster
-from .sent import identity
+from .identity import identity, refuse_others
 
 OPTION = "--scheduler"
 ANSWER = 10.0  # s that a scheduler has to answer
@@ -77,16 +77,3 @@ def _look_at_workers(client: Any, address: str) -> None:
     ours = identity()
     for worker, theirs in sorted(client.run(identity, on_error="return").items()):
         refuse_others(ours, theirs, worker)
-
-
-def refuse_others(ours: tuple[str, str], theirs: Any, worker: str) -> None:
-    """Raise InputError unless a worker has the same perilune; ``theirs`` is an exception where it has none."""
-    if isinstance(theirs, BaseException):
-        problem = f"worker {worker} cannot load perilune: {' '.join(str(theirs).split())}"
-    elif theirs[0] != ours[0]:
-        problem = f"worker {worker} has perilune {theirs[0]}, this is {ours[0]}"
-    elif theirs != ours:
-        problem = f"worker {worker} has other sources of perilune {ours[0]}"
-    else:
-        return
-    raise InputError(OPTION, "", problem, "install the same in its environment, then start it again")

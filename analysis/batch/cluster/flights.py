@@ -10,6 +10,7 @@ from concurrent.futures import CancelledError
 from contextlib import suppress
 from typing import Any
 
+from ...errors import InputError
 from ..runner import Campaign
 from ..shards.parts import Parts
 from ..trials import Trials
@@ -80,6 +81,9 @@ class Cluster:
                         whole = parts.add(piece.shard, piece.variant, trials)
                         if whole is not None:
                             yield piece.shard, whole
+        except ImportError as error:
+            problem = f"a worker cannot load perilune: {error}"
+            raise InputError("--scheduler", "", problem, "install the same in its environment") from error
         except (CancelledError, OSError) as error:
             if client.status == "running" and not isinstance(error, (CancelledError, CommClosedError)):
                 raise  # a worker's disk is full, say

@@ -10,6 +10,7 @@ from ..shards.numbering import Numbering
 
 FIRST = 4  # trials of a task as long as nobody knows how long one takes
 LONGEST, SHORTEST = 3.0, 0.5  # s of a task: little to lose with a worker, and long beside the 10 ms that sending costs
+QUICKEST = 1e-6  # s of a trial, below which a clock says nothing
 ROUNDS = 2  # tasks that each thread is to get at least of what is left, so that all end together
 
 
@@ -39,16 +40,19 @@ class Portions:
         slowest = max(self._seconds.values(), default=0.0)
         budget = min(LONGEST, max(SHORTEST, self.trials * slowest / (ROUNDS * threads)))
         found: list[Piece] = []
-        while self._left and (budget > 0.0 or not found):
-            first = self._left.popleft()
+        while self._left:
+            first = self._left[0]
             seconds = self._seconds.get(first.variant)
-            if seconds is None and found:  # not known how long: a task of its own
-                self._left.appendleft(first)
+            count = FIRST if seconds is None else int(budget / max(seconds, QUICKEST))
+            if found and (seconds is None or not count):
                 break
-            count = FIRST if seconds is None else max(1, int(budget / max(seconds, 1e-6)))
-            found.append(Piece(first.shard, first.variant, first.trials[:count]))
-            if first.trials[count:]:
-                self._left.appendleft(Piece(first.shard, first.variant, first.trials[count:]))
-            budget = 0.0 if seconds is None else budget - seconds * len(found[-1].trials)
+            piece = Piece(first.shard, first.variant, first.trials[: max(count, 1)])
+            found.append(piece)
+            self._left.popleft()
+            if len(piece.trials) < len(first.trials):
+                self._left.appendleft(Piece(first.shard, first.variant, first.trials[len(piece.trials) :]))
+            if seconds is None:
+                break
+            budget -= seconds * len(piece.trials)
         self.trials -= sum(len(piece.trials) for piece in found)
         return found

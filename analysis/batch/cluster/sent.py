@@ -6,12 +6,9 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from ....fmus_src.places import PACKAGE
 from ...errors import InputError
 from ..engines import in_threads
 from ..manifest.contents import stored
@@ -19,8 +16,7 @@ from ..manifest.gather import gather
 from ..manifest.manifest import CONTENTS, Manifest
 from ..runner import Campaign
 from ..shards.files import DRAWS, write_draws
-
-ROOMS = ("analysis", "fmus_src")
+from .identity import Identity, identity
 
 
 @dataclass(frozen=True)
@@ -28,10 +24,12 @@ class Sent:
     """A campaign for a worker that sees nothing of the sender's files.
 
     ``contents`` are the files by hash, ``draws`` is draws.parquet, ``log`` the level of the FMUs' messages; ``threads``
-    says whether several of its flights can be in one process at a time. ``key`` tells it from others.
+    says whether several of its flights can be in one process at a time. ``key`` tells it from others, ``identity`` is
+    of the perilune that sends it.
     """
 
     key: str
+    identity: Identity
     manifest: Manifest
     contents: Mapping[str, bytes]
     draws: bytes
@@ -54,15 +52,4 @@ def sent_of(campaign: Campaign) -> Sent:
             draws = (Path(place) / DRAWS).read_bytes()
     key = hashlib.sha256(json.dumps(manifest.document(), sort_keys=True).encode() + draws).hexdigest()
     threads = in_threads(campaign.systems.values(), None)
-    return Sent(key, manifest, contents, draws, campaign.plan.watch.log, threads)
-
-
-@cache
-def identity() -> tuple[str, str]:
-    """The version of this perilune, and the SHA-256 of its sources: what flights are the same with, to the bit."""
-    total = hashlib.sha256()
-    for room in ROOMS:
-        place = (PACKAGE / room).resolve()  # a link in a checkout
-        for path in sorted(place.rglob("*.py")):
-            total.update(path.relative_to(place).as_posix().encode() + b"\0" + path.read_bytes())
-    return version("perilune"), total.hexdigest()
+    return Sent(key, identity(), manifest, contents, draws, campaign.plan.watch.log, threads)

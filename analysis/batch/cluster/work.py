@@ -20,6 +20,7 @@ from ..manifest.manifest import CONTENTS
 from ..manifest.restore import restore
 from ..shards.files import DRAWS
 from ..trials import Trials
+from .identity import identity, refuse_others
 from .portions import Piece
 from .sent import Sent
 
@@ -44,10 +45,15 @@ class _Held:
 
 
 def fly(sent: Sent, pieces: Sequence[Piece]) -> list[tuple[Trials, float]]:
-    """Fly some trials; those of each piece, and the seconds that they took without what comes before the first one."""
+    """Fly some trials; those of each piece, and the seconds that they took without what comes before the first one.
+
+    Raises InputError in a worker that has another perilune, which may come at any time.
+    """
     from distributed import get_worker
 
-    folder = Path(get_worker().local_directory).absolute() / FOLDER
+    worker = get_worker()
+    refuse_others(sent.identity, identity(), worker.address)
+    folder = Path(worker.local_directory).absolute() / FOLDER
     found = []
     with nullcontext() if sent.threads else _one_flight, _flyer(sent, folder) as flyer:
         for piece in pieces:
