@@ -29,7 +29,7 @@ class DaskCluster:
         self._processes = []
         file = place / "scheduler.json"
         self._start("scheduler", ["--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(file)])
-        until(file.is_file)
+        until(lambda: file.is_file() and file.read_text().endswith("}"))
         self.address = json.loads(file.read_text())["address"]
 
     def _start(self, kind, options, environment=None, hidden=None):

@@ -15,6 +15,7 @@ from pathlib import Path
 from ...atomic import write_atomically
 from ...campaign.plan import BatchPlan
 from ..flyer import Flyer
+from ..last_words import LastWords
 from ..manifest.contents import store
 from ..manifest.manifest import CONTENTS
 from ..manifest.restore import restore
@@ -37,9 +38,13 @@ class HaltedError(RuntimeError):
 
 @dataclass
 class _Held:
-    """A campaign that this process flies: its plan, and a flyer for each thread that has flown it at once."""
+    """A campaign that this process flies: its plan, and a flyer for each thread that has flown it at once.
+
+    ``words`` are there where trials have a limit on their time, and one of them flies at a time.
+    """
 
     plan: BatchPlan
+    words: LastWords | None
     idle: list[Flyer] = field(default_factory=list)
     busy: list[Flyer] = field(default_factory=list)
 
@@ -80,7 +85,9 @@ def _flyer(sent: Sent, folder: Path) -> Iterator[Flyer]:
     """A flyer that no other thread has."""
     with _looking:
         held = _campaign(sent, folder)
-        flyer = held.idle.pop() if held.idle else Flyer(held.plan)
+        if held.words is not None:
+            held.words.look()
+        flyer = held.idle.pop() if held.idle else Flyer(held.plan, held.words)
         held.busy.append(flyer)
     try:
         yield flyer
@@ -105,5 +112,8 @@ def _campaign(sent: Sent, folder: Path) -> _Held:
     for key in free[: max(0, len(free) + 1 - MOST_HELD)] if sent.threads else free:
         for flyer in _held.pop(key).idle:
             flyer.close()
-    _held[sent.key] = _Held(plan)
+    timeout = plan.watch.timeout
+    place = folder.parent.parent / f"{FOLDER}_{sent.key}"  # that of all workers of this machine, and of those to come
+    words = None if sent.threads or timeout is None else LastWords(place, timeout)
+    _held[sent.key] = _Held(plan, words)
     return _held[sent.key]

@@ -6,6 +6,8 @@ Truth: every file that the same campaign leaves when it flies here, in one threa
 import random
 import shutil
 
+import pyarrow
+import pyarrow.parquet
 import pytest
 
 import perilune
@@ -18,6 +20,7 @@ from tests.support.campaigns import bytes_of, killed_when, shards_in, started
 from tests.support.clusters import can_hide, dask_cluster, until
 from tests.support.interrupts import interrupted_when
 from tests.support.lengths import either
+from tests.support.lone_fmus import build_lone_fmu
 
 pytest.importorskip("distributed", reason="the extra cluster is not installed")
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -80,6 +83,60 @@ def test_without_a_folder(cluster, flavour):
     there = perilune.batch(SYSTEM, "paper", **options, scheduler=cluster.address)
     here = perilune.batch(SYSTEM, "paper", **options, workers=1)
     assert there.table().equals(here.table(), check_metadata=True)
+
+
+STUCK = """
+system = "{name}"
+trials = {trials}
+seed = 1
+
+[draw."{name}.pause"]
+distribution = "choice"
+values = [0.0, 600.0]
+
+[metric.last]
+expression = "{name}.y"
+reduction = "final"
+
+[success]
+expression = "last > 0"
+"""
+
+
+@pytest.mark.slow
+def test_a_step_that_hangs_ends_its_worker(cluster, tmp_path):
+    """One that keeps Python's lock: the trials that are none of these are whole, and the workers there again."""
+    fmu = build_lone_fmu("Holding", tmp_path, 'stopTime="1" stepSize="0.25"')
+    (tmp_path / "c.toml").write_text(STUCK.format(name="Holding", trials=4))
+    limited = dict(set={"Holding.at": 0.5}, timeout=0.5)
+    found = perilune.batch(fmu, tmp_path / "c.toml", **limited, scheduler=cluster.address)
+    late = found.plan.draws.columns["Holding.pause"] > 0.0
+    assert 0 < late.sum() < late.size
+    assert found.trials["default"].statuses == ["timed_out" if value else "stop_time" for value in late]
+
+
+@pytest.mark.slow
+def test_an_fmu_that_ends_every_worker(cluster, place, tmp_path, capsys):
+    """All that does not need it is flown, then the campaign ends in a line."""
+    fmu, out = build_lone_fmu("Dying", tmp_path, 'stopTime="1" stepSize="0.25"'), place / "dying"
+    draws = pyarrow.table({"Dying.pause": [0.0] * 30 + [1.0] + [0.0] * 29})
+    pyarrow.parquet.write_table(draws, tmp_path / "draws.parquet")
+    (tmp_path / "c.toml").write_text(STUCK.format(name="Dying", trials=4))
+    words = [
+        "--campaign",
+        str(tmp_path / "c.toml"),
+        "--set",
+        "Dying.at=0.5",
+        "--draws",
+        str(tmp_path / "draws.parquet"),
+    ]
+    assert main(["batch", str(fmu), *words, "--output", str(out), "--scheduler", cluster.address]) == 1
+    said = capsys.readouterr().err
+    assert "workers end again and again, the last ones with trials " in said
+    assert f"what is flown lies in {out}" in said
+    assert said.count("\n") == 1
+    assert not (out / "trials" / "000001.parquet").exists()
+    assert shards_in(out) == 2
 
 
 def test_killed_workers_fly_again(cluster, line, place):
