@@ -62,6 +62,11 @@ class DaskCluster:
                 continue
         return found
 
+    def end(self, what):
+        """SIGKILL for the ``scheduler``, or for all ``workers`` with their nannies."""
+        for process in self._processes[:1] if what == "scheduler" else self._processes[1:]:
+            with_group(process, signal.SIGKILL)
+
     def close(self):
         for process in reversed(self._processes):
             with_group(process, signal.SIGKILL)

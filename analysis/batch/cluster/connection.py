@@ -15,6 +15,7 @@ from .identity import identity, refuse_others
 OPTION = "--scheduler"
 ANSWER = 10.0  # s that a scheduler has to answer
 FIRST_WORKER = 30.0  # s that a first worker has to come
+LOGS = ("distributed", "distributed.client")  # which have levels of their own
 LARGEST = "1 TB"  # of what is sent, before dask says that it is large: it is sent once
 
 
@@ -33,15 +34,23 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
             problem = "the cluster's own workers fly, in as many threads as they have"
             raise InputError(option, str(value), problem, f"leave it or {OPTION} out")
     distributed = _distributed()
-    log = logging.getLogger("distributed")
-    level = log.level
-    log.setLevel(logging.CRITICAL)  # what is wrong is said in one line, by us
+    with _quiet(), _client(distributed, address) as client:
+        _look_at_workers(client, address)
+        yield Cluster(client, address)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Without the lines of distributed: what is wrong is said in one, by us."""
+    logs = [logging.getLogger(name) for name in LOGS]
+    levels = [log.level for log in logs]
+    for log in logs:
+        log.setLevel(logging.CRITICAL)
     try:
-        with _client(distributed, address) as client:
-            _look_at_workers(client, address)
-            yield Cluster(client, address)
+        yield
     finally:
-        log.setLevel(level)
+        for log, level in zip(logs, levels, strict=True):
+            log.setLevel(level)
 
 
 def _distributed() -> Any:

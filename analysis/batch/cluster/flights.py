@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-import itertools
+import threading
 import time
-from collections import Counter, deque
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import suppress
 from typing import Any
 
 from ...errors import InputError
+from ...flight.interruptible import PATIENCE
 from ..runner import Campaign
 from ..shards.parts import Parts
 from ..trials import Trials
-from ..workers import MOST_DEATHS, WorkersDiedError
+from ..workers import WorkersDiedError
 from . import work
-from .portions import Piece, Portions
+from .again import Again, Task
+from .portions import Portions
 from .sent import sent_of
 
 WAITING = 2  # tasks for each thread: one flies, one is there when it is done
@@ -27,8 +28,8 @@ WITHOUT_WORKERS = 60.0  # s that a campaign waits for workers to come back
 class Cluster:
     """The workers of a scheduler that a client of distributed is connected to; called, it flies shards.
 
-    A task whose worker dies goes to another one, as often as the scheduler lets it, and is then given to it anew: a
-    campaign ends only where all that is left has done so again and again.
+    A task whose worker dies goes to another one, as often as the scheduler lets it, and is then given to it anew, in
+    two parts: a campaign ends only where all that is left are single trials that end one worker after the other.
     """
 
     def __init__(self, client: Any, address: str) -> None:
@@ -49,16 +50,15 @@ class Cluster:
         variants = [variant.name for variant in campaign.plan.campaign.variants()]
         parts = Parts(campaign.numbering, variants)
         portions = Portions(campaign.numbering, shards, variants)
-        again: deque[tuple[Piece, ...]] = deque()
-        deaths: Counter[tuple[Piece, ...]] = Counter()
+        again = Again()
         sent = sent_of(campaign)
         here = client.submit(_itself, sent, pure=False)  # the workers pass it on, and make it again where all lose it
-        under_way: dict[Any, tuple[Piece, ...]] = {}
+        under_way: dict[Any, Task] = {}
         try:
             while True:
                 threads = self._threads()
                 for _ in range(WAITING * max(threads, 1) - len(under_way)):
-                    pieces = tuple(portions.next(max(threads, 1))) or (again.popleft() if again else ())
+                    pieces = tuple(portions.next(max(threads, 1))) or again.next()
                     if pieces:
                         under_way[client.submit(work.fly, here, pieces, pure=False)] = pieces
                 if not under_way:
@@ -70,11 +70,10 @@ class Cluster:
                     except KilledWorker as error:
                         if error.task == here.key:
                             here = client.submit(_itself, sent, pure=False)
-                        deaths[pieces] += 1
-                        again.append(pieces)
-                        left = itertools.chain(again, under_way.values())
-                        if not portions.trials and min(deaths[pieces] for pieces in left) >= MOST_DEATHS:
-                            raise WorkersDiedError(_what_ends_them(pieces)) from error
+                        again.add(pieces)
+                        left = [] if portions.trials else again.hopeless(under_way.values())
+                        if left:
+                            raise WorkersDiedError(_what_ends_them(left)) from error
                         continue
                     for piece, (trials, seconds) in zip(pieces, found, strict=True):
                         portions.measured(piece, seconds)
@@ -114,6 +113,12 @@ class Cluster:
         """Take tasks back, and end those that fly at their next communication points."""
         with suppress(Exception):  # the cluster may be what has ended
             self._client.cancel(futures, force=True)
+        halting = threading.Thread(target=self._halt, args=(key,), daemon=True)  # a worker that hangs does not answer
+        halting.start()
+        halting.join(PATIENCE)
+
+    def _halt(self, key: str) -> None:
+        with suppress(Exception):
             self._client.run(work.halt, key, on_error="ignore")
 
 
@@ -121,7 +126,8 @@ def _itself(sent: Any) -> Any:
     return sent
 
 
-def _what_ends_them(pieces: Sequence[Piece]) -> str:
-    last = pieces[-1]
-    trials = f"trials {pieces[0].trials[0]} to {last.trials[-1]} of {last.variant}"
-    return f"workers end again and again, the last ones with {trials}"
+def _what_ends_them(tasks: Sequence[Task]) -> str:
+    """In words, of tasks of one trial each."""
+    found = [f"trial {task[0].trials[0]} of {task[0].variant}" for task in tasks]
+    more = f" and {len(found) - 1} more" if len(found) > 1 else ""
+    return f"workers end again and again with {found[0]}{more}"

@@ -56,3 +56,15 @@ class Portions:
             budget -= seconds * len(piece.trials)
         self.trials -= sum(len(piece.trials) for piece in found)
         return found
+
+
+def halves(pieces: Sequence[Piece]) -> list[tuple[Piece, ...]]:
+    """A task's trials in two tasks; in one where there is one trial only."""
+    first = sum(len(piece.trials) for piece in pieces) // 2
+    found: tuple[list[Piece], list[Piece]] = ([], [])
+    for piece in pieces:
+        for half, trials in zip(found, (piece.trials[:first], piece.trials[first:]), strict=True):
+            if trials:
+                half.append(Piece(piece.shard, piece.variant, trials))
+        first = max(0, first - len(piece.trials))
+    return [tuple(half) for half in found if half]

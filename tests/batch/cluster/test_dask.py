@@ -5,13 +5,14 @@ Truth: every file that the same campaign leaves when it flies here, in one threa
 
 import random
 import shutil
+import threading
 
 import pyarrow
 import pyarrow.parquet
 import pytest
 
 import perilune
-from perilune.analysis.batch.cluster import connection
+from perilune.analysis.batch.cluster import connection, flights
 from perilune.analysis.batch.cluster.identity import refuse_others
 from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
@@ -132,8 +133,7 @@ def test_an_fmu_that_ends_every_worker(cluster, place, tmp_path, capsys):
     ]
     assert main(["batch", str(fmu), *words, "--output", str(out), "--scheduler", cluster.address]) == 1
     said = capsys.readouterr().err
-    assert "workers end again and again, the last ones with trials " in said
-    assert f"what is flown lies in {out}" in said
+    assert "perilune: workers end again and again with trial 30 of default; what is flown lies in" in said
     assert said.count("\n") == 1
     assert not (out / "trials" / "000001.parquet").exists()
     assert shards_in(out) == 2
@@ -157,6 +157,24 @@ def test_killed_workers_fly_again(cluster, line, place):
     assert said == ""
     assert main([*map(str, command), "--output", str(place / "left")]) == 0
     assert bytes_of(place / "killed") == bytes_of(place / "left")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("lost", ["scheduler", "workers"])
+def test_a_cluster_that_is_gone(line, whole, place, tmp_path, capsys, monkeypatch, lost):
+    monkeypatch.setattr(flights, "WITHOUT_WORKERS", 2.0)
+    out = place / f"without_{lost}"
+    with dask_cluster(tmp_path) as alone:
+        watch = threading.Thread(target=lambda: (until(lambda: shards_in(out) >= 1), alone.end(lost)))
+        watch.start()
+        assert main([*line, "--output", str(out), "--scheduler", alone.address]) == 1
+        watch.join()
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert {"scheduler": "is gone", "workers": "had no worker for 2 s"}[lost] in said
+    assert f"; what is flown lies in {out}: the same command with --resume goes on" in said
+    assert main([*line, "--output", str(out), "--resume"]) == 0
+    assert bytes_of(out) == whole
 
 
 def test_ctrl_c_leaves_what_can_be_gone_on_with(cluster, line, whole, place, capsys):

@@ -6,7 +6,7 @@ Truth: the list of all trials, and times that are known beforehand.
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.batch.cluster.portions import FIRST, LONGEST, SHORTEST, Portions
+from perilune.analysis.batch.cluster.portions import FIRST, LONGEST, SHORTEST, Piece, Portions, halves
 from perilune.analysis.batch.shards.numbering import Numbering
 
 VARIANTS = ("a", "b")
@@ -49,3 +49,17 @@ def test_tasks_of_some_seconds(trial, threads):
     known = [sum(len(piece.trials) for piece in task) for task in tasks[first[1] + 1 :]]
     assert all(count == 1 or count * trial <= LONGEST * (1 + 1e-9) for count in known)
     assert all((count + 1) * trial >= SHORTEST * (1 - 1e-9) for count in known[:-1])
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(1, 9)), min_size=1, max_size=6))
+def test_halves(asked):
+    pieces = [Piece(shard, VARIANTS[shard % 2], range(10 * shard, 10 * shard + count)) for shard, count in asked]
+    found = halves(pieces)
+    sizes = [sum(len(piece.trials) for piece in half) for half in found]
+    assert max(sizes) - min(sizes) <= 1
+    assert len(found) == min(2, sum(sizes))
+
+    def flown(parts):
+        return [(piece.shard, piece.variant, trial) for piece in parts for trial in piece.trials]
+
+    assert flown([piece for half in found for piece in half]) == flown(pieces)
