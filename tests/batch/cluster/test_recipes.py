@@ -30,7 +30,9 @@ def whole(tmp_path_factory, fmus):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="seq and xargs are a shell's")
-@pytest.mark.parametrize("beginning", ["seq 0 3 | xargs", "python fly_hyperqueue.py"])
+@pytest.mark.parametrize(
+    "beginning", ["python fly_hyperqueue.py", pytest.param("seq 0 3 | xargs", marks=pytest.mark.slow)]
+)
 def test_a_recipe(whole, tmp_path, monkeypatch, beginning):
     if "hyperqueue" in beginning:
         pytest.importorskip("hyperqueue", reason="its wheels are for Linux only")
