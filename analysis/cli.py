@@ -46,7 +46,7 @@ FAILURES = {
     "plan": "there is no such plan, or less propellant on board than it takes",
     "run": "the flight failed, or a requirement is not met",
     "batch": "a requirement is not met, or a flight took longer than --timeout",
-    "shard": "worker processes ended again and again",
+    "shard": "workers ended again and again, or the scheduler did",
     "merge": "a requirement is not met, or a flight took longer than --timeout",
     "rare": "a requirement is not met",
     "worst": "a requirement is not met",

@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from tests.support.large_results import write_large
+from tests.support.campaigns.large_results import write_large
 
 SIZES = (500_000, 1_000_000, 2_000_000, 4_000_000)
 MEASURED = """

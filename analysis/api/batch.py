@@ -11,6 +11,7 @@ from typing import Any, Literal
 from matplotlib.figure import Figure as Plot
 
 from ..batch import results, runner
+from ..batch.cluster.connection import cluster
 from ..batch.rows import whole_column
 from ..batch.summary import CONFIDENCE, summary_rows
 from ..batch.tables import requirement_rows, who_cells, who_heads
@@ -122,6 +123,7 @@ def batch(
     resume: bool = False,
     until_decided: bool = False,
     engine: Literal["threads", "processes"] | None = None,
+    scheduler: str | None = None,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
     set: Mapping[str, SetValue] | None = None,
@@ -145,7 +147,8 @@ def batch(
     ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for trials, draws and
     summary, refused if it holds results unless ``overwrite``, or ``resume``, which goes on with what it holds;
     ``until_decided`` ends with the first shard after which the campaign's requirements are met, or are not;
-    ``engine`` is what flies side by side, threads or processes; ``faults`` fly in every trial,
+    ``engine`` is what flies side by side, threads or processes, and ``scheduler`` the address of a dask scheduler whose
+    workers fly instead; ``faults`` fly in every trial,
     after the campaign's own, and every trial has the same ``input``; one that takes longer than ``timeout`` (s, wall
     clock) ends ``timed_out``, is no success, and the next one flies; ``draws`` is a Parquet file of draws to fly, a
     trial for each row. In ``set`` a text "low:high:step" is a sweep. The rest is as in `simulate`. Raises InputError.
@@ -167,8 +170,13 @@ def batch(
         draws=None if draws is None else Path(draws),
         sweeps=sweeps,
     )  # fmt: skip
-    with chdir(Path.cwd()):  # an FMU may change the folder
-        flown = runner.run_batch(plan, workers=workers, output=folder, resume=resume, engine=engine)
+    with (
+        chdir(Path.cwd()),  # an FMU may change the folder
+        cluster(scheduler, workers=workers, engine=engine) as elsewhere,
+    ):
+        flown = runner.run_batch(
+            plan, workers=workers, output=folder, resume=resume, engine=engine, elsewhere=elsewhere
+        )
         return _told(flown)
 
 
@@ -178,15 +186,16 @@ def shard(
     *,
     workers: int | None = None,
     engine: Literal["threads", "processes"] | None = None,
+    scheduler: str | None = None,
 ) -> None:
     """Fly some shards of a campaign whose folder is there: `perilune shard`. Those that are flown stay as they are.
 
-    Raises InputError, for a number that is no shard's too.
+    ``scheduler`` is as in `batch`. Raises InputError, for a number that is no shard's too.
     """
     campaign = runner.open_folder(Path(folder))
     wanted = campaign.checked(numbers)
-    with chdir(Path.cwd()):
-        runner.fly_campaign(campaign, wanted, workers=workers, engine=engine)
+    with chdir(Path.cwd()), cluster(scheduler, workers=workers, engine=engine) as elsewhere:
+        runner.fly_campaign(campaign, wanted, workers=workers, engine=engine, elsewhere=elsewhere)
 
 
 def merge(folder: FilePath) -> BatchResult:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -28,6 +28,7 @@ from .shards.files import is_flown
 from .shards.flights import fly_shards, task_size
 from .shards.numbering import Numbering, spans
 from .store import FlownRows, HeldShards, StoredShards
+from .trials import Trials
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,10 @@ class Campaign:
         return sorted(wanted & set(self.missing()))
 
 
+# What flies shards of a campaign: each one's trials by variant, as soon as all are there, in any order of shards.
+Elsewhere = Callable[[Campaign, Sequence[int]], Generator[tuple[int, dict[str, Trials]]]]
+
+
 def open_campaign(plan: BatchPlan, output: Path | None, *, resume: bool = False, engine: str | None = None) -> Campaign:
     """Check a plan and write down what it flies. Raises InputError before anything is written or flown.
 
@@ -119,16 +124,19 @@ def run_batch(
     output: Path | None = None,
     resume: bool = False,
     engine: str | None = None,
+    elsewhere: Elsewhere | None = None,
 ) -> BatchResult:
     """Fly every trial of every variant of a plan. Raises InputError before anything flies.
 
     ``workers`` is the number of parallel flights (default: one per processor), ``engine`` one of `ENGINES` (default:
-    threads where the FMUs can fly in them). With ``output`` every shard is written there as soon as it is flown, and
-    the summary at the end: whatever ends it early, ``resume`` goes on from there. Without it Ctrl-C leaves nothing.
+    threads where the FMUs can fly in them); ``elsewhere`` flies in place of both. With ``output`` every shard is
+    written there as soon as it is flown, and the summary at the end: whatever ends it early, ``resume`` goes on from
+    there. Without it Ctrl-C leaves nothing.
     """
     worker_count(workers)  # looked at before anything is written
     campaign = open_campaign(plan, output, resume=resume, engine=engine)
-    return finish(campaign, fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine))
+    rows = fly_campaign(campaign, campaign.missing(), workers=workers, engine=engine, elsewhere=elsewhere)
+    return finish(campaign, rows)
 
 
 def merge(campaign: Campaign) -> BatchResult:
@@ -152,25 +160,26 @@ def finish(campaign: Campaign, rows: Mapping[str, FlownRows]) -> BatchResult:
 
 
 def fly_campaign(
-    campaign: Campaign, shards: Sequence[int], *, workers: int | None = None, engine: str | None = None
+    campaign: Campaign,
+    shards: Sequence[int],
+    *,
+    workers: int | None = None,
+    engine: str | None = None,
+    elsewhere: Elsewhere | None = None,
 ) -> Mapping[str, FlownRows]:
     """Fly some shards of a campaign, and write them where it has a folder; all of its trials by variant then.
 
     Where the campaign ends as soon as it is decided, those behind the shard at whose end it was are missing, however
     many of them have flown.
     """
-    plan, numbering, store = campaign.plan, campaign.numbering, campaign.store()
-    count = worker_count(workers)
-    threads = in_threads(campaign.systems.values(), engine)
+    store = campaign.store()
     decision = _decision(campaign, campaign.missing())
-    flights = sum(len(numbering.of(shard)) for shard in shards) * len(plan.campaign.variants())
-    size = task_size(numbering.trials, count, threads)
-    tasks = -(-flights // size)
-    with (
-        flight_progress(flights) as progress,
-        FlyerPool(campaign.flown, min(count, max(tasks, 1)), threads, apart=engine == "processes") as pool,
-        closing(fly_shards(numbering, shards, pool, size)) as flown,
-    ):
+    flights = sum(len(campaign.numbering.of(shard)) for shard in shards) * len(campaign.plan.campaign.variants())
+    if elsewhere is not None:
+        flying = elsewhere(campaign, shards)
+    else:
+        flying = _fly_here(campaign, shards, workers, engine)
+    with flight_progress(flights) as progress, closing(flying) as flown:
         for shard, found in () if decision.is_made else flown:
             store.add(shard, found)
             decision.add(shard, found)
@@ -195,6 +204,22 @@ def _rows(campaign: Campaign, store: HeldShards | StoredShards, decision: Decisi
     if decision.shards is not None:
         numbering = replace(numbering, trials=numbering.of(decision.shards - 1).stop)
     return store.rows(numbering)
+
+
+def _fly_here(
+    campaign: Campaign, shards: Sequence[int], workers: int | None, engine: str | None
+) -> Generator[tuple[int, dict[str, Trials]]]:
+    """Fly shards on this machine, in threads or processes."""
+    count = worker_count(workers)
+    threads = in_threads(campaign.systems.values(), engine)
+    flights = sum(len(campaign.numbering.of(shard)) for shard in shards) * len(campaign.plan.campaign.variants())
+    size = task_size(campaign.numbering.trials, count, threads)
+    tasks = -(-flights // size)
+    with (
+        FlyerPool(campaign.flown, min(count, max(tasks, 1)), threads, apart=engine == "processes") as pool,
+        closing(fly_shards(campaign.numbering, shards, pool, size)) as flown,
+    ):
+        yield from flown
 
 
 def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:

@@ -22,6 +22,7 @@ from perilune.analysis.flight.simulation import Simulation
 from perilune.analysis.system.in_flight.watch import Watch
 from perilune.analysis.system.options import SystemOptions
 from perilune.analysis.system.prepared import prepare_system
+from tests.support.lengths import either
 from tests.support.lone_fmus import build_lone_fmu
 
 CAMPAIGN = """
@@ -102,7 +103,7 @@ def plan_of(hanging, folder, pause, timeout):
     return read_plan(hanging, str(folder / "c.toml"), options, watch=Watch(timeout=timeout))
 
 
-@pytest.mark.parametrize(("workers", "pause"), [(1, 0.9), (1, 5.0), (2, 5.0)])
+@pytest.mark.parametrize(("workers", "pause"), [(1, 0.9), (1, 5.0)])
 @pytest.mark.usefixtures("short_patience")
 def test_a_batch_goes_on(hanging, tmp_path, workers, pause):
     plan = plan_of(hanging, tmp_path, pause, 0.5)
@@ -114,6 +115,27 @@ def test_a_batch_goes_on(hanging, tmp_path, workers, pause):
     assert np.array_equal(trials.metrics["last"][~late], np.ones(late.size)[~late])
     assert set(trials.messages) == set(np.flatnonzero(late))
     assert all("of --timeout" in text for text in trials.messages.values())
+
+
+STUCK = {
+    "Hanging": "an FMU did not return 1.5 s after the 0.5 s of --timeout, on the way to t = 0.75 s, the last",
+    "Holding": "an FMU kept Python's lock 3 s after the 0.5 s of --timeout",
+}
+
+
+@pytest.mark.parametrize("name", either(list(STUCK), ["Holding"]))
+def test_a_process_ends_with_a_step_that_hangs(tmp_path, name):
+    """Also where the step keeps the lock, so that no thread of the process could end it; its neighbours fly again."""
+    fmu = build_lone_fmu(name, tmp_path, 'stopTime="1" stepSize="0.25"')
+    (tmp_path / "c.toml").write_text(CAMPAIGN.replace("Hanging", name).format(pause=600.0))
+    options = SystemOptions(set={f"{name}.at": 0.5})
+    plan = read_plan(fmu, str(tmp_path / "c.toml"), options, watch=Watch(timeout=0.5))
+    late = plan.draws.columns[f"{name}.pause"] > 0.0
+    trials = run_batch(plan, workers=2, engine="processes").trials["default"]
+    assert trials.statuses == ["timed_out" if value else "stop_time" for value in late]
+    assert np.array_equal(trials.success, ~late)
+    assert set(trials.messages) == set(np.flatnonzero(late))
+    assert all(text.startswith(STUCK[name]) for text in trials.messages.values())
 
 
 def test_the_command_says_so(hanging, tmp_path, capsys):

@@ -28,6 +28,12 @@ SYSTEM_BY_HAND = "docs/write_a_system.md"
 ELSEWHERE = {
     "make ": "the targets of the Makefile; those of README are what CI runs",
     "pip install": "tests/package/test_wheel.py installs the wheel",
+    "dask ": "of other machines; tests/batch/cluster/test_dask.py starts both here",
+    "perilune batch --scheduler": "tests/batch/cluster/test_dask.py flies there",
+    "seq 0 3 | xargs": "tests/batch/cluster/test_recipes.py",
+    "python fly_hyperqueue.py": "tests/batch/cluster/test_recipes.py",
+    "sbatch ": "needs a SLURM controller; the page says what was tried",
+    "job=$(sbatch ": "likewise",
     "LD_PRELOAD=": "of a host of the reader's own",
 }
 # Commands by what is in them, and why only `make long` carries them out.

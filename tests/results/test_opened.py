@@ -15,7 +15,7 @@ from pyarrow.compute import field
 
 import perilune
 from perilune.analysis.cli import main
-from tests.support.large_results import write_large
+from tests.support.campaigns.large_results import write_large
 from tests.support.pages.comparison_samples import sample_batch, write_sample
 
 TRIALS = 60  # shards of 25, 25 and 10

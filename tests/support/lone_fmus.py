@@ -84,6 +84,20 @@ class Hanging(Fmi2Slave):
         return True
 """
 
+# C code that keeps Python's lock while it sleeps: no other thread of the process runs.
+HOLDING = (
+    HANGING.replace("class Hanging", "class Holding")
+    .replace("import time", "import ctypes")
+    .replace("time.sleep(self.pause)", "ctypes.PyDLL(None).usleep(int(1e6 * self.pause))")
+)
+
+# It takes the process with it.
+DYING = (
+    HANGING.replace("class Hanging", "class Dying")
+    .replace("import time", "import os")
+    .replace("time.sleep(self.pause)", "self.pause and os._exit(1)")
+)
+
 TALKING = """
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
 from pythonfmu.enums import Fmi2Status
@@ -113,7 +127,14 @@ class Talking(Fmi2Slave):
 """
 
 VARIABLE_STEPS = "canHandleVariableCommunicationStepSize"
-SOURCES = {"Dynamic": DYNAMIC, "Follower": FOLLOWER, "Hanging": HANGING, "Talking": TALKING}
+SOURCES = {
+    "Dynamic": DYNAMIC,
+    "Follower": FOLLOWER,
+    "Hanging": HANGING,
+    "Holding": HOLDING,
+    "Dying": DYING,
+    "Talking": TALKING,
+}
 
 
 def build_lone_fmu(name: str, folder: Path, experiment: str = "") -> Path:

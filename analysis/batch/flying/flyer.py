@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ from ...flight.results import Flight, Result
 from ...flight.simulation import Simulation
 from ...ssp.parameter_sets import ParameterValue
 from ..trials import Trials
+from .last_words import LastWords
 from .status_texts import trial_status
 
 AROUND = 4096  # trials whose draws are read together
@@ -37,10 +39,14 @@ class TrialResult:
 
 
 class Flyer:
-    """Holds the simulations of a plan's variants; made once per worker, not shared between threads."""
+    """Holds the simulations of a plan's variants; made once per worker, not shared between threads.
 
-    def __init__(self, plan: BatchPlan) -> None:
+    With ``words`` a step that does not return ends the process; trials of which that is known are not flown.
+    """
+
+    def __init__(self, plan: BatchPlan, words: LastWords | None = None) -> None:
         self.plan = plan
+        self._words = words
         self._drawn: DrawnTrials | None = None
         self.variants = {variant.name: variant for variant in plan.campaign.variants()}
         self._ready: dict[str, tuple[Simulation, VariantNames]] = {}
@@ -124,9 +130,17 @@ class Flyer:
         drawn = self.drawn_for(trial)
         simulation.set_faults(drawn.faults_of(trial))
         parameters = {**drawn.parameters(simulation.prepared, trial), **(overlay or {})}
+        words = self._words if drawn.plan is self.plan and overlay is None else None
+        if words is not None and (variant, trial) in words.hung:
+            return self._judge(nothing_flown(simulation, words.hung[variant, trial]), names, trial)
+        if words is not None:
+            simulation.unlock()  # compiled before its clock runs
         try:
-            flight = run(simulation, parameters, self.plan.watch.timeout)
+            with words.of(variant, trial) if words is not None else nullcontext():
+                flight = run(simulation, parameters, self.plan.watch.timeout)
         except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
+            if words is not None:
+                words.say(variant, trial, str(error))
             del self._ready[variant]
             flight = nothing_flown(simulation, str(error))
         return self._judge(flight, names, trial)

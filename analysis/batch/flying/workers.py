@@ -13,6 +13,8 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor
 from concurrent.futures import wait as wait_for
 from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 from loky import ProcessPoolExecutor, cpu_count
@@ -23,6 +25,7 @@ from ...errors import InputError, warn_in_one_line
 from ...flight.interruptible import PATIENCE, wait
 from ...process_end import leave
 from .flyer import Flyer
+from .last_words import LastWords, hung_trials
 
 Result = TypeVar("Result")
 WAITING = 4  # tasks that are handed out ahead, for each worker
@@ -33,7 +36,7 @@ _flyers: list[Flyer] = []  # of this process's threads
 
 
 class WorkersDiedError(RuntimeError):
-    """Worker processes end one after the other, before they have done anything."""
+    """Workers end one after the other, before they have done anything, or none is left."""
 
 
 def worker_count(workers: int | None) -> int:
@@ -58,17 +61,22 @@ class FlyerPool:
         self._flyer = Flyer(plan) if here else None
         self._executor: Executor | None = None
         self._make: Callable[[], Executor] | None = None
+        self._words: TemporaryDirectory | None = None  # of processes that end themselves
         if not here:
-            kind, start = (ThreadPoolExecutor, _start) if threads else (ProcessPoolExecutor, _start_process)
-            self._make = partial(kind, workers, initializer=start, initargs=(plan,))
+            if threads:
+                self._make = partial(ThreadPoolExecutor, workers, initializer=_start, initargs=(plan,))
+            else:
+                self._words = TemporaryDirectory(prefix="perilune_") if plan.watch.timeout is not None else None
+                words = None if self._words is None else Path(self._words.name)
+                self._make = partial(ProcessPoolExecutor, workers, initializer=_start_process, initargs=(plan, words))
             self._executor = self._make()
 
     def work(self, function: Callable[..., Result], tasks: Iterable[tuple]) -> Iterator[tuple[int, Result]]:
         """Call ``function(flyer, *task)`` for every task: (place of the task, result), in any order.
 
         The function is defined at the top of a module; tasks and results can be pickled. What has not
-        begun when the iterator is closed is not done any more. The tasks of a worker process that is killed are done
-        again. Raises `WorkersDiedError`.
+        begun when the iterator is closed is not done any more. The tasks of a worker process that is killed, or that
+        ends itself for a trial that hangs, are done again, without that trial. Raises `WorkersDiedError`.
         """
         if self._executor is None:
             assert self._flyer is not None
@@ -80,7 +88,7 @@ class FlyerPool:
             return
         fresh = enumerate(tasks)
         held: dict[int, tuple] = {}  # handed out, and not done
-        deaths = 0
+        deaths = known = 0
         while True:
             try:
                 for done in self._handed_out(function, held, fresh):
@@ -88,9 +96,11 @@ class FlyerPool:
                     yield done
                 return
             except TerminatedWorkerError as error:
-                deaths += 1
+                hung = 0 if self._words is None else len(hung_trials(Path(self._words.name)))
+                deaths = deaths + 1 if hung == known else 0
+                known = hung
                 if deaths == MOST_DEATHS:
-                    raise WorkersDiedError(_how(error)) from error
+                    raise WorkersDiedError(f"worker processes end again and again: {_how(error)}") from error
                 assert self._make is not None
                 self._executor = self._make()
 
@@ -141,6 +151,8 @@ class FlyerPool:
         if self._flyer is not None:
             self._flyer.close()
         _close_threads(self.plan)
+        if self._words is not None:
+            self._words.cleanup()
 
 
 def _is_broken(future: Future) -> bool:
@@ -152,8 +164,8 @@ def _how(error: BaseException) -> str:
     return " ".join(str(error).split())
 
 
-def _start(plan: BatchPlan) -> None:
-    _local.flyer = Flyer(plan)
+def _start(plan: BatchPlan, words: LastWords | None = None) -> None:
+    _local.flyer = Flyer(plan, words)
     _flyers.append(_local.flyer)
 
 
@@ -164,12 +176,13 @@ def _close_threads(plan: BatchPlan) -> None:
         _flyers.remove(flyer)
 
 
-def _start_process(plan: BatchPlan) -> None:
+def _start_process(plan: BatchPlan, words: Path | None) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
     atexit.register(_leave)
     warn_in_one_line()
     threading.Thread(target=_leave_with, args=(os.getppid(),), daemon=True).start()
-    _start(plan)
+    timeout = plan.watch.timeout
+    _start(plan, None if words is None or timeout is None else LastWords(words, timeout))
 
 
 def _leave_with(parent: int) -> None:

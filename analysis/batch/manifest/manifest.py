@@ -58,6 +58,11 @@ class Manifest:
         text = json.dumps({**self.document(), "trials": None}, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
+    def names(self) -> list[str]:
+        """The contents that it names, each once."""
+        tables = [table["content"] for table in (self.campaign, self.series, self.draws) if table is not None]
+        return sorted({*self.system["files"].values(), *self.elsewhere.values(), *tables})
+
     def write(self, folder: Path) -> None:
         """Write it to ``folder``/manifest.json."""
         write_atomically(folder / FILE, f"{json.dumps(self.document(), indent=1)}\n".encode())

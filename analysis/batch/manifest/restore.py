@@ -24,10 +24,11 @@ from .contents import stored
 from .manifest import CONTENTS, Manifest
 
 
-def restore(folder: Path, manifest: Manifest, log: str | None = None) -> BatchPlan:
+def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None) -> BatchPlan:
     """The plan of a campaign's folder, with the draws that are stored there. Raises InputError.
 
-    ``log`` is the level of the FMUs' messages, which changes no result.
+    ``log`` is the level of the FMUs' messages, which changes no result; ``draws`` is the folder of the table of draws
+    where that is another.
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     content = stored(contents, manifest.campaign["content"])
@@ -57,7 +58,7 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None) -> BatchPl
     if manifest.draws is not None:
         plan = plan.of_samples(_given(contents, manifest.draws)).of_first(manifest.trials)
     elif not plan.is_counted:
-        held = stored_draws(folder.absolute(), manifest.trials, plan.campaign.drawn_names())
+        held = stored_draws((draws or folder).absolute(), manifest.trials, plan.campaign.drawn_names())
         plan.__dict__["draws"] = held  # in cached_property's place: drawn anew they could differ
     for digest, verdict in manifest.resets.items():
         known(digest, ResetVerdict(**verdict))

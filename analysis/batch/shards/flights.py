@@ -7,8 +7,9 @@ from collections.abc import Generator, Iterator, Sequence
 
 from ..flying.flyer import Flyer
 from ..flying.workers import FlyerPool
-from ..trials import Trials, joined
+from ..trials import Trials
 from .numbering import Numbering
+from .parts import Parts
 
 MOST_IN_THREAD, MOST_IN_PROCESS = 50, 10  # trials of a task: enough to send, few enough to share out or lose
 
@@ -22,27 +23,23 @@ def fly_shards(
     """
     variants = [variant.name for variant in pool.plan.campaign.variants()]
     owners: dict[int, tuple[int, str]] = {}  # of tasks that are handed out: shard and variant
-    missing: dict[int, int] = {}
 
     def tasks() -> Iterator[tuple[str, range]]:
         places = itertools.count()
         for shard in shards:
             trials = numbering.of(shard)
             pieces = [trials[first : first + size] for first in range(0, len(trials), size)]
-            missing[shard] = len(pieces) * len(variants)
             for piece in pieces:
                 for variant in variants:
                     owners[next(places)] = shard, variant
                     yield variant, piece
 
-    parts: dict[int, dict[str, list[Trials]]] = {}
+    parts = Parts(numbering, variants)
     for place, found in pool.work(Flyer.fly, tasks()):
         shard, variant = owners.pop(place)
-        parts.setdefault(shard, {name: [] for name in variants})[variant].append(found)
-        missing[shard] -= 1
-        if not missing[shard]:
-            del missing[shard]
-            yield shard, {name: joined(pieces) for name, pieces in parts.pop(shard).items()}
+        whole = parts.add(shard, variant, found)
+        if whole is not None:
+            yield shard, whole
 
 
 def task_size(trials: int, workers: int, threads: bool) -> int:

@@ -6,6 +6,7 @@ import argparse
 import sys
 from typing import Any
 
+from ...batch.cluster.connection import cluster
 from ...batch.flying.flyer import Flyer
 from ...batch.runner import open_campaign, run_batch
 from ...batch.tables import aligned, faults_line
@@ -60,9 +61,13 @@ def run(options: argparse.Namespace) -> int:
         return _prepare(plan, options)
     files = Results()
     requirements = asked_requirements(plan, options.require)
-    with said_how_to_go_on(options.output):
+    workers, engine = options.workers, options.engine
+    with (
+        said_how_to_go_on(options.output),
+        cluster(options.scheduler, workers=workers, engine=engine) as elsewhere,
+    ):
         result = run_batch(
-            plan, workers=options.workers, output=options.output, resume=options.resume, engine=options.engine
+            plan, workers=workers, output=options.output, resume=options.resume, engine=engine, elsewhere=elsewhere
         )
     if options.output is not None:
         files.written.append(options.output)
@@ -77,9 +82,15 @@ def _refuse_what_does_not_go_together(options: argparse.Namespace) -> None:
             raise InputError(f"--{name}", "--replay", "does not go with it", "leave one of them out")
     if options.until_decided and options.replay is not None:
         raise InputError("--until-decided", "--replay", "does not go with it", "leave one of them out")
-    for name in ("report", "require", "json", "workers", "engine"):
+    if options.scheduler is not None and options.replay is not None:
+        raise InputError("--scheduler", "--replay", "does not go with it", "leave one of them out")
+    for name in ("report", "require", "json", "workers", "engine", "scheduler"):
         if options.prepare and getattr(options, name) not in (None, []):
-            remedy = "give it to perilune shard" if name in ("workers", "engine") else "give it to perilune merge"
+            remedy = (
+                "give it to perilune shard"
+                if name in ("workers", "engine", "scheduler")
+                else "give it to perilune merge"
+            )
             raise InputError("--prepare", f"--{name}", "nothing flies yet", remedy)
     if options.resume and options.overwrite:
         raise InputError("--resume", "--overwrite", "one keeps what is there, one does not", "leave one of them out")

@@ -15,6 +15,7 @@ from ..common.sample_plans import held, read_samples
 
 NOT_WITH = (
     "trials", "draws", "replay", "report", "require", "resume", "prepare", "until_decided", "engine",
+    "scheduler",
 )  # fmt: skip
 
 

@@ -37,7 +37,7 @@ def said_how_to_go_on(folder: Path | None) -> Iterator[None]:
     except KeyboardInterrupt:
         raise EndedError(f"interrupted{_how_to_go_on(place)}", 1) from None
     except WorkersDiedError as error:
-        raise EndedError(f"worker processes end again and again: {error}{_how_to_go_on(place)}", 1) from error
+        raise EndedError(f"{error}{_how_to_go_on(place)}", 1) from error
     except OSError as error:
         file = f"{error.filename}: " if error.filename else ""
         raise EndedError(f"{file}{error.strerror or error}; make room{_how_to_go_on(place)}", 2) from error

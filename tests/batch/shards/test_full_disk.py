@@ -10,7 +10,7 @@ import sys
 import pytest
 
 from perilune.analysis.cli import main
-from tests.support.campaigns import bytes_of
+from tests.support.campaigns.folders import bytes_of
 
 pytestmark = pytest.mark.usefixtures("fmus")
 CAMPAIGN = ["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "200"]

@@ -27,7 +27,7 @@ from perilune.analysis.campaign.groups import Group
 from perilune.analysis.campaign.requirements import Requirement
 from perilune.analysis.cli import main
 from perilune.analysis.reports.batch.batch_report import write_batch_report
-from tests.support.campaigns import bytes_of
+from tests.support.campaigns.folders import bytes_of
 from tests.support.lengths import either
 from tests.support.pages.samples import mixed_batch
 

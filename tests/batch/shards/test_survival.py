@@ -10,7 +10,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from tests.support.campaigns import bytes_of, killed_when, shards_in, started, workers_of
+from tests.support.campaigns.folders import bytes_of, killed_when, shards_in, started, workers_of
 from tests.support.interrupts import interrupted_when
 from tests.support.lengths import either
 

@@ -13,7 +13,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.verdicts.acceptance import Verdict
 from perilune.analysis.verdicts.stopping import stopping_rule
 from perilune.fmus_src.places import SYSTEMS
-from tests.support.campaigns import bytes_of, shards_in
+from tests.support.campaigns.folders import bytes_of, shards_in
 
 pytestmark = pytest.mark.usefixtures("fmus")
 SYSTEM = "lunar_terminal_guidance"

@@ -23,3 +23,4 @@ def add_engine(parser: argparse.ArgumentParser) -> None:
     """How trials fly side by side."""
     parser.add_argument("--workers", type=int, metavar="N", help="flights in parallel; default: one per processor")
     parser.add_argument("--engine", choices=ENGINES, help="what flies in parallel; default: threads where FMUs can")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="fly on the workers of this dask scheduler instead")

@@ -1,0 +1,1 @@
+"""Campaigns flown on other machines, by the workers of a dask.distributed cluster."""

@@ -1,0 +1,1 @@
+"""Campaigns in folders: what they leave, who flies them, long ones."""

@@ -1,0 +1,101 @@
+"""A dask scheduler and workers on this machine, each a process of its own, as on others."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import contextmanager, suppress
+
+import psutil
+
+WAIT = 60.0  # s for what has to come
+
+
+def can_hide():
+    """Whether a folder can be hidden from a process: a file system of its own mounted over it."""
+    if sys.platform != "linux":
+        return False
+    return subprocess.run(["unshare", "-rm", "true"], capture_output=True, check=False).returncode == 0
+
+
+class DaskCluster:
+    """A scheduler and workers, each with a folder of its own in ``place``; ``hidden`` is one that they cannot see."""
+
+    def __init__(self, place, hidden=None):
+        self.place = place
+        self._hidden = hidden
+        self._processes = []
+        file = place / "scheduler.json"
+        self._start("scheduler", ["--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(file)])
+        until(lambda: file.is_file() and file.read_text().endswith("}"))
+        self.address = json.loads(file.read_text())["address"]
+
+    def _start(self, kind, options, environment=None, hidden=None):
+        folder = self.place / f"{kind}{len(self._processes)}"
+        folder.mkdir()
+        line = [sys.executable, "-m", "dask", kind, *options, "--no-dashboard"]
+        if hidden is not None:
+            words = 'mount -t tmpfs tmpfs "$0" && exec "$@"'
+            line = ["unshare", "-rm", "sh", "-c", words, str(hidden), *line]
+        log = (folder / "log").open("wb")
+        process = subprocess.Popen(
+            line, cwd=folder, stdout=log, stderr=log, env={**os.environ, **(environment or {})}, start_new_session=True
+        )
+        self._processes.append(process)
+        return process
+
+    def worker(self, environment=None, threads=1):
+        """One more worker, watched by dask's nanny, which starts it anew when it is killed."""
+        options = [self.address, "--nthreads", str(threads), "--local-directory", "."]
+        return self._start("worker", options, environment, self._hidden)
+
+    def flying(self):
+        """Process ids of the workers, without the nannies."""
+        found = []
+        for nanny in self._processes[1:]:
+            try:
+                children = psutil.Process(nanny.pid).children(recursive=True)
+                found += [child.pid for child in children if "spawn_main" in " ".join(child.cmdline())]
+            except psutil.Error:  # it has just ended
+                continue
+        return found
+
+    def end(self, what):
+        """SIGKILL for the ``scheduler``, or for all ``workers`` with their nannies."""
+        for process in self._processes[:1] if what == "scheduler" else self._processes[1:]:
+            with_group(process, signal.SIGKILL)
+
+    def close(self):
+        for process in reversed(self._processes):
+            with_group(process, signal.SIGKILL)
+        for process in self._processes:
+            process.wait()
+
+
+def with_group(process, number):
+    """A signal for a process and all that it has started."""
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, number)
+
+
+@contextmanager
+def dask_cluster(place, workers=2, hidden=None):
+    """A `DaskCluster`, whose every process is gone in the end."""
+    cluster = DaskCluster(place, hidden)
+    try:
+        for _ in range(workers):
+            cluster.worker()
+        yield cluster
+    finally:
+        cluster.close()
+
+
+def until(condition):
+    """Wait for something. Raises TimeoutError."""
+    end = time.monotonic() + WAIT
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError
+        time.sleep(0.05)
