@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Collection, Mapping, Sequence
 
@@ -21,6 +22,8 @@ PARAMETER_CALLS = (
     ((codes.WHOLE_PARAMETERS, "SetBoolean"), (codes.WHOLE_READ_BACK, "GetBoolean")),
     ((codes.TEXT_PARAMETERS, "SetString"), (codes.TEXT_READ_BACK, "GetString")),
 )
+
+REAL_SIZE = 8  # bytes
 
 
 class InstructionList:
@@ -47,8 +50,12 @@ class InstructionList:
         drives: Sequence[tuple[int, int]],
         texts: Texts,
         one_by_one: Collection[int] = (),
+        references: Sequence[int] = (),
     ) -> None:
         self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
+        self.places = [instance.place for instance in instances]
+        self.references = np.array(references, dtype=np.uint32)
+        self.between_steps = False  # all FMUs: what they give and take then may be in their memory
         self.ranges = ranges.tolist()  # single elements of lists are ten times quicker to reach
         self.parameter_ranges = parameter_ranges.tolist()
         self.text_ranges = texts.ranges.tolist()
@@ -68,6 +75,65 @@ class InstructionList:
         """A call of an FMI function on a piece of slots or parameters."""
         instance, addresses = self.instances[component]
         self.rows.append([code, addresses[function], instance, int(piece[0]), int(piece[1]), component, function])
+
+    def give(self, component: int, piece: Sequence[int], begun: int) -> None:
+        """Reals set on a piece of slots; in the FMU's own memory where it says where they lie.
+
+        Rows from ``begun`` on are what carries the values there.
+        """
+        places = self._places(component, piece, are_real=True, to_set=True)
+        if not places:
+            self.call(codes.SET_REAL, component, FUNCTION["SetReal"], piece)
+        elif not self._moved(component, places, begun):
+            self._exchange(codes.PUT_REAL, component, places)
+
+    def take(self, component: int, function: int, piece: Sequence[int]) -> None:
+        """Reals, Integers or Booleans got on a piece of slots; of the FMU's own memory where it says where they lie."""
+        are_real = function == FUNCTION["GetReal"]
+        places = []
+        if function != FUNCTION["GetInteger"]:  # which FMI's function looks at: ours are longer
+            places = self._places(component, piece, are_real=are_real)
+        if not places:
+            self.call(codes.GET_REAL if are_real else codes.GET_WHOLE, component, function, piece)
+        self._exchange(codes.TAKE_REAL if are_real else codes.TAKE_BOOLEAN, component, places)
+
+    def _exchange(self, code: int, component: int, places: Sequence[tuple[int, int, int]]) -> None:
+        instance, _ = self.instances[component]
+        self.rows += [[code, place, instance, first, count, component, 0] for place, first, count in places]
+
+    def _moved(self, component: int, places: Sequence[tuple[int, int, int]], begun: int) -> bool:
+        """Whether copies, and nothing else, carry the values to these places' slots: those write the memory, too, then."""
+        instance, _ = self.instances[component]
+        moves = {}
+        for number, (code, source, _, target, count, _, _) in enumerate(self.rows[begun:], begun):
+            if code != codes.COPY:
+                return False
+            for place, first, size in places:
+                if first <= target and target + count <= first + size:
+                    address = place + REAL_SIZE * (target - first)
+                    moves[number] = [codes.MOVE_REAL, address, instance, target, count, component, source]
+        if sum(row[4] for row in moves.values()) < sum(size for _, _, size in places):
+            return False
+        for number, row in moves.items():
+            self.rows[number] = row
+        return True
+
+    def _places(
+        self, component: int, piece: Sequence[int], *, are_real: bool, to_set: bool = False
+    ) -> list[tuple[int, int, int]]:
+        """Address, first slot and count of each run of a piece in an FMU's memory; none where one is not known."""
+        if not self.between_steps:
+            return []
+        first, count = piece
+        references = self.references[first : first + count]
+        ends = [0, *(np.flatnonzero(np.diff(references.astype(np.int64)) != 1) + 1).tolist(), count]
+        found = []
+        for start, end in itertools.pairwise(ends):
+            place = self.places[component](references[start:end], are_real=are_real, to_set=to_set)
+            if not place:
+                return []
+            found.append((place, first + start, end - start))
+        return found
 
     def connect(self, group: int, known: Collection[int] | None = None) -> None:
         """Values over the connections that feed a component; group -1: system connectors.
@@ -109,14 +175,17 @@ class InstructionList:
 
     def set(self, component: int, known: Collection[int] | None = None) -> None:
         """Inputs of a component; in the initialisation those whose source is not ``known`` keep their start values."""
+        begun = len(self.rows)
         self.drive(component, started=known is None)
         self.connect(component, known)
         for function in (FUNCTION["SetReal"], FUNCTION["SetInteger"], FUNCTION["SetBoolean"]):
             piece = self.ranges[component][function]
             if piece[1]:
                 self.inject(piece)
-                code = codes.SET_REAL if function == FUNCTION["SetReal"] else codes.SET_WHOLE
-                self.call(code, component, function, piece)
+                if function == FUNCTION["SetReal"]:
+                    self.give(component, piece, begun)
+                else:
+                    self.call(codes.SET_WHOLE, component, function, piece)
 
         for start, source, target in self.texts.connections[component]:
             if known is None or start in known:
@@ -135,8 +204,7 @@ class InstructionList:
         for function in (FUNCTION["GetReal"], FUNCTION["GetInteger"], FUNCTION["GetBoolean"]):
             piece = self.ranges[component][function]
             if piece[1]:
-                code = codes.GET_REAL if function == FUNCTION["GetReal"] else codes.GET_WHOLE
-                self.call(code, component, function, piece)
+                self.take(component, function, piece)
                 self.inject(piece)
         if self.text_ranges[component][1][1]:
             self.call(codes.GET_TEXT, component, FUNCTION["GetString"], self.text_ranges[component][1])
@@ -222,6 +290,7 @@ def write_instructions(
     behind = [] if algorithm == "jacobi" else [index[name] for name in schedule.followers]
     instructions.initialise([index[name] for name in schedule.initial_order])
     instructions.drive(-1, started=True)
+    instructions.between_steps = True
     instructions.hand_over(ahead)
     ends = [len(instructions.rows)]
     lengths = {index[name]: period for name, period in periods.items()}
@@ -232,6 +301,7 @@ def write_instructions(
         instructions.in_turn([n for n in behind if (part + 1) % lengths.get(n, 1) == 0], lengths)
         instructions.hand_over(due)
         ends.append(len(instructions.rows))
+    instructions.between_steps = False
     return instructions.array(), reset_end, np.array(ends, dtype=np.int64)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 
+import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from .compiled import arrays, codes
@@ -99,8 +100,11 @@ class LifeCycle:
         """Let the program call the new instance of a component."""
         rows = self._program.instructions
         calls = (rows[:, codes.INSTANCE] != 0) & (rows[:, codes.COMPONENT] == index)
+        in_memory = calls & np.isin(rows[:, codes.CODE], codes.IN_MEMORY)
+        calls &= ~in_memory
         addresses = instance.function_addresses()
-        rows[calls, codes.INSTANCE] = instance.address
+        rows[in_memory, codes.ADDRESS] += np.uint64(instance.address) - rows[in_memory, codes.INSTANCE]
+        rows[calls | in_memory, codes.INSTANCE] = instance.address
         rows[calls, codes.ADDRESS] = [addresses[function] for function in rows[calls, codes.FUNCTION]]
         self._instructions.instances[index] = (instance.address, addresses)
 

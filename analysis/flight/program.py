@@ -188,6 +188,7 @@ class _Builder:
             drives,
             self.texts,
             {index for index, name in enumerate(self.names) if self.parameters.is_one_by_one(name)},
+            self.references,
         )
         instructions, reset_end, phases = write_instructions(collected, self.names, schedule, algorithm, periods)
         program = arrays.Program(

@@ -6,14 +6,18 @@ communication step. The loop knows nothing of algorithms; their order is in the 
 
 # Every communication step.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP, DRIVE = range(10)
-SET_TEXT, GET_TEXT, COPY_TEXT = range(10, 13)
+PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_BOOLEAN = range(10, 14)
+SET_TEXT, GET_TEXT, COPY_TEXT = range(14, 17)
 # Once, before a flight; behind all others, as those of Strings are behind those of numbers.
-PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(13, 21)
+PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(17, 25)
+IN_MEMORY = (PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_BOOLEAN)  # whose ADDRESS is a place in the instance
 
 # Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY and
 # a COPY_TEXT have the first target in FIRST and the first source in ADDRESS; a STEP over several communication steps
-# their number in COUNT (0 for one); a DRIVE has 0 in ADDRESS while the FMUs initialise, then 1; FUNCTION numbers
-# library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the start.
+# their number in COUNT (0 for one); those IN_MEMORY the place of the first variable in ADDRESS, and a MOVE_REAL, which
+# is a COPY and its PUT_REAL, the first source in FUNCTION; a DRIVE has 0 in ADDRESS while the FMUs initialise, then 1;
+# FUNCTION numbers library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the
+# start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
 

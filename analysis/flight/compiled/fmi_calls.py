@@ -62,6 +62,41 @@ def do_step(typing: Any, address: Any, instance: Any, time: Any, step: Any) -> A
 
 
 @intrinsic
+def real_at(typing: Any, address: Any) -> Any:
+    """The double at an address; read as an atomic one, so that a few of them are not made vectors of."""
+    signature = types.float64(types.int64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.load_atomic(builder.inttoptr(arguments[0], ir.DoubleType().as_pointer()), "monotonic", 8)
+
+    return signature, emit
+
+
+@intrinsic
+def boolean_at(typing: Any, address: Any) -> Any:
+    """The C bool at an address, as 0 or 1."""
+    signature = types.float64(types.int64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        byte = builder.load(builder.inttoptr(arguments[0], ir.IntType(8).as_pointer()))
+        return builder.uitofp(byte, ir.DoubleType())
+
+    return signature, emit
+
+
+@intrinsic
+def put_real(typing: Any, address: Any, value: Any) -> Any:
+    """Write a double to an address."""
+    signature = types.void(types.int64, types.float64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        builder.store_atomic(arguments[1], builder.inttoptr(arguments[0], ir.DoubleType().as_pointer()), "monotonic", 8)
+        return context.get_dummy_value()
+
+    return signature, emit
+
+
+@intrinsic
 def change_mode(typing: Any, address: Any, instance: Any) -> Any:
     """fmi2Reset, fmi2EnterInitializationMode, fmi2ExitInitializationMode or fmi2Terminate."""
     signature = types.int32(types.int64, types.int64)

@@ -38,17 +38,21 @@ from .codes import (
     INSTANCE,
     INTERRUPTED,
     MAP,
+    MOVE_REAL,
     NONFINITE,
     OVERRIDE,
+    PUT_REAL,
     SET_REAL,
     SET_WHOLE,
     STEP,
     STOP_TIME,
+    TAKE_BOOLEAN,
+    TAKE_REAL,
     TRANSFORM,
     UNMAPPED,
 )
 from .compiler import compiled
-from .fmi_calls import do_step, exchange
+from .fmi_calls import boolean_at, do_step, exchange, put_real, real_at
 from .strings import exchange_texts
 
 
@@ -101,6 +105,28 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
             if code == COPY:
                 for i in range(count):
                     values[first + i] = values[address + i]
+            elif code == PUT_REAL:
+                for i in range(count):
+                    put_real(address + np.uint64(8) * np.uint64(i), values[first + i])
+            elif code == MOVE_REAL:
+                origin = instructions[k, FUNCTION]
+                for i in range(count):
+                    moved = values[origin + i]
+                    values[first + i] = moved
+                    put_real(address + np.uint64(8) * np.uint64(i), moved)
+            elif code == TAKE_REAL:
+                finite = True
+                for i in range(count):
+                    value = real_at(address + np.uint64(8) * np.uint64(i))
+                    values[first + i] = value
+                    finite &= abs(value) < np.inf
+                if not finite:
+                    for slot in range(first, first + count):
+                        if not abs(values[slot]) < np.inf:
+                            outcome[0] = NONFINITE
+                            outcome[1] = slot
+                            outcome[5] = k
+                            return rows
             elif code == SET_REAL:
                 status = exchange(address, instance, reference, values, first, count)
             elif code == GET_REAL:
@@ -115,6 +141,9 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                             outcome[1] = slot
                             outcome[5] = k
                             return rows
+            elif code == TAKE_BOOLEAN:
+                for i in range(count):
+                    values[first + i] = boolean_at(address + np.uint64(i))
             elif code == STEP:
                 outcome[1] = instructions[k, COMPONENT]
                 if count == 0:

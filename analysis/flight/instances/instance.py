@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+import numpy as np
 from fmpy import fmi2
 from fmpy.logging import addLoggerProxy
 
@@ -43,6 +44,16 @@ class Instance:
     def function_addresses(self) -> list[int]:
         """Addresses of the C functions in the order of library.FUNCTION_NAMES."""
         return self.library.addresses
+
+    def place(self, references: np.ndarray, *, are_real: bool, to_set: bool = False) -> int:
+        """The address of Reals, or Booleans, that lie side by side in this instance's memory, in order.
+
+        ``references`` are uint32 value references. They may be read or, if they are ``to_set``, written there between
+        steps. 0 where they lie otherwise, or the FMU does not say.
+        """
+        if self.library.place is None:
+            return 0
+        return self.library.place(self.address, references.ctypes.data, references.size, are_real, to_set) or 0
 
     def free(self) -> None:
         if self.is_there:

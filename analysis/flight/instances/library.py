@@ -7,6 +7,7 @@ import copy
 import ctypes
 import threading
 from pathlib import Path
+from typing import Any
 
 from fmpy import fmi2
 
@@ -46,6 +47,7 @@ class Library:
             )
         functions = [getattr(self._slave.dll, name) for name in FUNCTION_NAMES]
         self.addresses = [ctypes.cast(function, ctypes.c_void_p).value or 0 for function in functions]
+        self.place = _place(self._slave.dll)
         self.users = 0
 
     def slave(self, instance_name: str) -> fmi2.FMU2Slave:
@@ -56,6 +58,17 @@ class Library:
 
     def unload(self) -> None:
         self._slave.freeLibrary()
+
+
+def _place(dll: Any) -> Any:
+    """The function of our own native FMUs that says where variables lie; None where there is none."""
+    try:
+        function = dll.perilune_place
+    except AttributeError:
+        return None
+    function.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int, ctypes.c_int]
+    function.restype = ctypes.c_void_p
+    return function
 
 
 _libraries: dict[Path, Library] = {}  # by the folder that the FMU is unpacked into
