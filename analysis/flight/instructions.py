@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Collection, Mapping, Sequence
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from ..system.schedule import Schedule
 from .compiled import codes
+from .in_memory import Run, runs_in_memory, with_moves
 from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
 from .texts import Texts
@@ -22,8 +22,6 @@ PARAMETER_CALLS = (
     ((codes.WHOLE_PARAMETERS, "SetBoolean"), (codes.WHOLE_READ_BACK, "GetBoolean")),
     ((codes.TEXT_PARAMETERS, "SetString"), (codes.TEXT_READ_BACK, "GetString")),
 )
-
-REAL_SIZE = 8  # bytes
 
 
 class InstructionList:
@@ -52,8 +50,8 @@ class InstructionList:
         one_by_one: Collection[int] = (),
         references: Sequence[int] = (),
     ) -> None:
-        self.instances = [(instance.address, instance.function_addresses()) for instance in instances]
-        self.places = [instance.place for instance in instances]
+        self.instances = instances
+        self.addresses = [(instance.address, instance.function_addresses()) for instance in instances]
         self.references = np.array(references, dtype=np.uint32)
         self.between_steps = False  # all FMUs: what they give and take then may be in their memory
         self.ranges = ranges.tolist()  # single elements of lists are ten times quicker to reach
@@ -73,7 +71,7 @@ class InstructionList:
 
     def call(self, code: int, component: int, function: int, piece: Sequence[int] = (0, 0)) -> None:
         """A call of an FMI function on a piece of slots or parameters."""
-        instance, addresses = self.instances[component]
+        instance, addresses = self.addresses[component]
         self.rows.append([code, addresses[function], instance, int(piece[0]), int(piece[1]), component, function])
 
     def give(self, component: int, piece: Sequence[int], begun: int) -> None:
@@ -81,59 +79,36 @@ class InstructionList:
 
         Rows from ``begun`` on are what carries the values there.
         """
-        places = self._places(component, piece, are_real=True, to_set=True)
-        if not places:
+        runs = self._runs(component, piece, are_real=True, to_set=True)
+        moved = with_moves(self.rows[begun:], runs, component, self.addresses[component][0])
+        if not runs:
             self.call(codes.SET_REAL, component, FUNCTION["SetReal"], piece)
-        elif not self._moved(component, places, begun):
-            self._exchange(codes.PUT_REAL, component, places)
+        elif moved:
+            self.rows[begun:] = moved
+        else:
+            self._exchange(codes.PUT_REAL, component, runs)
 
     def take(self, component: int, function: int, piece: Sequence[int]) -> None:
         """Reals, Integers or Booleans got on a piece of slots; of the FMU's own memory where it says where they lie."""
         are_real = function == FUNCTION["GetReal"]
-        places = []
+        runs = []
         if function != FUNCTION["GetInteger"]:  # which FMI's function looks at: ours are longer
-            places = self._places(component, piece, are_real=are_real)
-        if not places:
+            runs = self._runs(component, piece, are_real=are_real)
+        if not runs:
             self.call(codes.GET_REAL if are_real else codes.GET_WHOLE, component, function, piece)
-        self._exchange(codes.TAKE_REAL if are_real else codes.TAKE_BOOLEAN, component, places)
+        self._exchange(codes.TAKE_REAL if are_real else codes.TAKE_BOOLEAN, component, runs)
 
-    def _exchange(self, code: int, component: int, places: Sequence[tuple[int, int, int]]) -> None:
-        instance, _ = self.instances[component]
-        self.rows += [[code, place, instance, first, count, component, 0] for place, first, count in places]
+    def _exchange(self, code: int, component: int, runs: Sequence[Run]) -> None:
+        instance, _ = self.addresses[component]
+        self.rows += [[code, run.address, instance, run.first, run.size, component, 0] for run in runs]
 
-    def _moved(self, component: int, places: Sequence[tuple[int, int, int]], begun: int) -> bool:
-        """Whether copies, and nothing else, carry the values to these places' slots: those write the memory, too, then."""
-        instance, _ = self.instances[component]
-        moves = {}
-        for number, (code, source, _, target, count, _, _) in enumerate(self.rows[begun:], begun):
-            if code != codes.COPY:
-                return False
-            for place, first, size in places:
-                if first <= target and target + count <= first + size:
-                    address = place + REAL_SIZE * (target - first)
-                    moves[number] = [codes.MOVE_REAL, address, instance, target, count, component, source]
-        if sum(row[4] for row in moves.values()) < sum(size for _, _, size in places):
-            return False
-        for number, row in moves.items():
-            self.rows[number] = row
-        return True
-
-    def _places(
-        self, component: int, piece: Sequence[int], *, are_real: bool, to_set: bool = False
-    ) -> list[tuple[int, int, int]]:
-        """Address, first slot and count of each run of a piece in an FMU's memory; none where one is not known."""
+    def _runs(self, component: int, piece: Sequence[int], *, are_real: bool, to_set: bool = False) -> list[Run]:
+        """A piece of slots in an FMU's memory; nothing before all are initialised."""
         if not self.between_steps:
             return []
         first, count = piece
         references = self.references[first : first + count]
-        ends = [0, *(np.flatnonzero(np.diff(references.astype(np.int64)) != 1) + 1).tolist(), count]
-        found = []
-        for start, end in itertools.pairwise(ends):
-            place = self.places[component](references[start:end], are_real=are_real, to_set=to_set)
-            if not place:
-                return []
-            found.append((place, first + start, end - start))
-        return found
+        return runs_in_memory(self.instances[component], references, first, are_real=are_real, to_set=to_set)
 
     def connect(self, group: int, known: Collection[int] | None = None) -> None:
         """Values over the connections that feed a component; group -1: system connectors.

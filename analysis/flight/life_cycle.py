@@ -106,7 +106,7 @@ class LifeCycle:
         rows[in_memory, codes.ADDRESS] += np.uint64(instance.address) - rows[in_memory, codes.INSTANCE]
         rows[calls | in_memory, codes.INSTANCE] = instance.address
         rows[calls, codes.ADDRESS] = [addresses[function] for function in rows[calls, codes.FUNCTION]]
-        self._instructions.instances[index] = (instance.address, addresses)
+        self._instructions.addresses[index] = (instance.address, addresses)
 
     def close(self, fatal: str | None = None) -> None:
         """End all flights and free the instances, but for those of the FMU whose digest is ``fatal``.

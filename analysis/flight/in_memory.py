@@ -1,0 +1,57 @@
+"""Values in the memory of FMUs that say where they lie: our own native ones, between steps."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from .compiled import codes
+from .instances.instance import Instance
+
+REAL_SIZE = 8  # bytes
+
+
+class Run(NamedTuple):
+    """Slots in a row whose values lie in a row in an FMU's memory, from ``address`` on."""
+
+    address: int
+    first: int
+    size: int
+
+
+def runs_in_memory(
+    instance: Instance, references: np.ndarray, first: int, *, are_real: bool, to_set: bool = False
+) -> list[Run]:
+    """The runs of Reals, or Booleans, with these value references (uint32) and slots from ``first`` on.
+
+    None where the FMU does not say where one of them is.
+    """
+    ends = [0, *(np.flatnonzero(np.diff(references.astype(np.int64)) != 1) + 1).tolist(), references.size]
+    found = []
+    for start, end in itertools.pairwise(ends):
+        address = instance.place(references[start:end], are_real=are_real, to_set=to_set)
+        if not address:
+            return []
+        found.append(Run(address, first + start, end - start))
+    return found
+
+
+def with_moves(rows: Sequence[list[int]], runs: Sequence[Run], component: int, instance: int) -> list[list[int]]:
+    """Instructions that carry values to the slots of these runs, the memory written by them, too; none where that is
+    not done by copies alone."""
+    moved = []
+    left = sum(run.size for run in runs)
+    for row in rows:
+        code, source, _, target, count, *_ = row
+        if code != codes.COPY:
+            return []
+        for run in runs:
+            if run.first <= target and target + count <= run.first + run.size:
+                address = run.address + REAL_SIZE * (target - run.first)
+                row = [codes.MOVE_REAL, address, instance, target, count, component, source]
+                left -= count
+        moved.append(row)
+    return [] if left else moved
