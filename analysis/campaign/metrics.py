@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections import ChainMap
 from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
@@ -108,29 +107,12 @@ def evaluate_metric(metric: Metric, times: np.ndarray, values: Mapping[str, np.n
     return float(SIMPLE[metric.reduction](signal))
 
 
-def evaluate_metrics(
-    metrics: Iterable[Metric],
-    times: np.ndarray,
-    record: Mapping[str, np.ndarray],
-    constants: Mapping[str, float],
-) -> dict[str, float]:
-    """All metrics of one trial by name.
-
-    ``record`` maps signals to arrays over the rows of ``times`` (s); ``constants`` maps draws and
-    parameters (``component.variable``) to their values. Names are looked up in the record first.
-    """
-    values: ChainMap = ChainMap({TIME: times}, dict(record), dict(constants))
-    last: ChainMap = ChainMap({TIME: times[-1:]}, {name: rows[-1:] for name, rows in record.items()}, dict(constants))
-    found = {}
-    for metric in metrics:
-        ends = metric.reduction == "final" and metric.window is None  # needs no other row
-        found[metric.name] = evaluate_metric(metric, times[-1:] if ends else times, last if ends else values)
-    return found
+def is_of_the_end(metric: Metric) -> bool:
+    """Whether a metric needs no other row of a flight than the last one."""
+    return metric.reduction == "final" and metric.window is None
 
 
-def succeeded(success: Expression, metrics: Mapping[str, float]) -> bool:
-    """Whether the metrics make a success. A metric of the expression that is not finite makes a failure."""
-    if not all(math.isfinite(metrics[name]) for name in success.names):
-        return False
-    value = float(success.evaluate(metrics))
-    return math.isfinite(value) and value != 0.0
+def successes(success: Expression, metrics: Mapping[str, np.ndarray], trials: int) -> np.ndarray:
+    """Which trials the metrics (trials,) make successes. One of the expression that is not finite makes a failure."""
+    value = np.broadcast_to(success.evaluate(metrics), (trials,))
+    return np.all(np.isfinite([value, *(metrics[name] for name in success.names)]), axis=0) & (value != 0.0)

@@ -25,7 +25,7 @@ from perilune.analysis.batch.verdicts import (
 )
 from perilune.analysis.campaign.campaign import Metric
 from perilune.analysis.campaign.expressions import Expression
-from perilune.analysis.campaign.metrics import succeeded
+from perilune.analysis.campaign.metrics import successes
 from perilune.analysis.campaign.requirements import Requirement
 from perilune.analysis.verdicts.stopping import stopping_rule
 
@@ -59,7 +59,8 @@ def test_a_flight_is_judged_as_by_success(rows):
     text = "miss / mass < 1 or mass == 0"
     miss, mass = np.array(rows).T
     found = kept(Requirement("r", Expression(text), 0.9, 0.9), columns(miss, mass))
-    assert found.tolist() == [succeeded(Expression(text), {"miss": a, "mass": b}) for a, b in rows]
+    each = [successes(Expression(text), {"miss": np.array([a]), "mass": np.array([b])}, 1) for a, b in rows]
+    assert found.tolist() == np.concatenate(each).tolist()
 
 
 def test_a_flight_that_did_not_end_fails_it():

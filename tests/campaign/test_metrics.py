@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from perilune.analysis.campaign.campaign import Metric
 from perilune.analysis.campaign.expressions import Expression
-from perilune.analysis.campaign.metrics import evaluate_metric, evaluate_metrics, names_needed, succeeded
+from perilune.analysis.campaign.metrics import evaluate_metric, names_needed, successes
 from perilune.analysis.errors import InputError
 
 TIMES = 0.1 * np.arange(1001)  # s; rounding makes 0.1 * 3 exceed 0.3
@@ -83,8 +83,9 @@ def test_reductions_are_ordered(samples):
 
 def test_names_are_looked_up_in_record_draws_and_parameters():
     metrics = [Metric("a", Expression("p.x + q.k + d + time"), "final"), Metric("b", Expression("p.x"), "min")]
-    found = evaluate_metrics(metrics, np.array([0.0, 1.0]), {"p.x": np.array([1.0, 2.0])}, {"q.k": 10, "d": 100})
-    assert found == {"a": 113.0, "b": 1.0}
+    times = np.array([0.0, 1.0])
+    values = {"time": times, "p.x": np.array([1.0, 2.0]), "q.k": 10, "d": 100}
+    assert [evaluate_metric(asked, times, values) for asked in metrics] == [113.0, 1.0]
     assert names_needed(metrics, ["d"]) == {"p.x", "q.k"}
 
 
@@ -109,4 +110,6 @@ def test_an_unknown_name_is_an_input_error():
     ],
 )
 def test_success(text, error, expected):
-    assert succeeded(Expression(text), {"error": error, "status": 1.0}) is expected
+    """Of three trials, the second one: each is judged by its own metrics."""
+    metrics = {"error": np.array([200.0, error, math.nan]), "status": np.ones(3)}
+    assert successes(Expression(text), metrics, 3)[1] == expected

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from perilune.analysis.campaign.campaign import Metric
 from perilune.analysis.campaign.expressions import Expression
-from perilune.analysis.campaign.metrics import evaluate_metric, evaluate_metrics, names_needed
+from perilune.analysis.campaign.metrics import evaluate_metric, names_needed
 
 STEP = Fraction(1, 10)  # s; 0.1 * 3 exceeds 0.3 in doubles
 TRUTHS = st.sampled_from([0.0, 1.0, -2.5, math.nan])
@@ -120,7 +120,7 @@ def test_settled_of_a_flight_that_does_not_begin_at_zero():
 def test_constants_are_conditions_and_values_too():
     times = np.arange(3.0)
     asked = Metric("m", Expression("time"), "first", condition=Expression("case == 2"))
-    found = [evaluate_metrics([asked], times, {}, {"case": case})["m"] for case in (1.0, 2.0)]
+    found = [evaluate_metric(asked, times, {"time": times, "case": case}) for case in (1.0, 2.0)]
     assert found == [pytest.approx(math.nan, nan_ok=True), 0.0]
 
 

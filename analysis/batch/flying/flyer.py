@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass
-
-import numpy as np
+from typing import NamedTuple
 
 from ...campaign.checks import VariantNames, variant_names
 from ...campaign.drawn import DrawnTrials
-from ...campaign.metrics import evaluate_metrics, succeeded
 from ...campaign.plan import BatchPlan
 from ...flight.instances.library import LOADING
 from ...flight.instances.log import Log
@@ -19,14 +16,13 @@ from ...flight.results import Flight, Result
 from ...flight.simulation import Simulation
 from ...ssp.parameter_sets import ParameterValue
 from ..trials import Trials
+from .judge import Judge
 from .last_words import LastWords
-from .status_texts import trial_status
 
 AROUND = 4096  # trials whose draws are read together
 
 
-@dataclass
-class TrialResult:
+class TrialResult(NamedTuple):
     """What one trial came to."""
 
     status: str
@@ -34,8 +30,6 @@ class TrialResult:
     success: bool
     end_time: float
     metrics: dict[str, float]
-    final: dict[str, float]
-    traces: dict[str, np.ndarray] | None
 
 
 class Flyer:
@@ -101,22 +95,12 @@ class Flyer:
 
     def fly(self, variant: str, trials: range) -> Trials:
         """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
-        found = []
+        judge = self._judge(variant)
         for trial in trials:
-            found.append(self.fly_one(variant, trial))
+            judge.add(self._flight(variant, trial), trial, self.drawn_for(trial))
             if self.halted:
                 raise KeyboardInterrupt
-        numbers = list(zip(trials, found, strict=True))
-        return Trials(
-            statuses=[row.status for row in found],
-            success=np.array([row.success for row in found]),
-            metrics={name: np.array([row.metrics[name] for row in found]) for name in found[0].metrics},
-            trial=np.array(trials),
-            end_time=np.array([row.end_time for row in found]),
-            messages={trial: row.message for trial, row in numbers if row.message},
-            final={name: np.array([row.final[name] for row in found]) for name in found[0].final},
-            traces={trial: row.traces for trial, row in numbers if row.traces is not None},
-        )
+        return judge.trials()
 
     def fly_one(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> TrialResult:
         """Fly one trial; the result does not depend on what was flown before.
@@ -124,7 +108,30 @@ class Flyer:
         ``overlay`` gives all of the plan's overlaid parameters their values; without it they keep those of
         the variant's last flight.
         """
-        simulation, names = self.simulation(variant)
+        judge = self._judge(variant)
+        judge.add(self._flight(variant, trial, overlay), trial, self.drawn_for(trial))
+        return _result(judge.trials())
+
+    def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
+        """Fly one trial with every signal recorded; same bits as in the batch."""
+        prepared = self.plan.prepare(self.variants[variant])
+        names = variant_names(self.plan, prepared)
+        faults, log = self.plan.declared_faults(), self._log_of(variant)
+        drawn = self.drawn_for(trial)
+        with Simulation(prepared, varied=names.varied, faults=faults, log=log) as simulation:
+            simulation.set_faults(drawn.faults_of(trial))
+            simulation.set(drawn.parameters(prepared, trial))
+            result = fly(simulation, self.plan.watch.timeout)
+        judge = Judge(self.plan.campaign, names)
+        judge.add(result, trial, drawn)
+        return result, _result(judge.trials())
+
+    def _judge(self, variant: str) -> Judge:
+        """What looks at a variant's flights, with none seen."""
+        return Judge(self.plan.campaign, self.simulation(variant)[1])
+
+    def _flight(self, variant: str, trial: int, overlay: Mapping[str, ParameterValue] | None = None) -> Flight:
+        simulation, _ = self.simulation(variant)
         if variant in self._logs:
             self._logs[variant].place = f"{variant}: trial {trial}: "
         drawn = self.drawn_for(trial)
@@ -132,59 +139,17 @@ class Flyer:
         parameters = {**drawn.parameters(simulation.prepared, trial), **(overlay or {})}
         words = self._words if drawn.plan is self.plan and overlay is None else None
         if words is not None and (variant, trial) in words.hung:
-            return self._judge(nothing_flown(simulation, words.hung[variant, trial]), names, trial)
+            return nothing_flown(simulation, words.hung[variant, trial])
         if words is not None:
             simulation.unlock()  # compiled before its clock runs
         try:
             with words.of(variant, trial) if words is not None else nullcontext():
-                flight = run(simulation, parameters, self.plan.watch.timeout)
+                return run(simulation, parameters, self.plan.watch.timeout)
         except StuckError as error:  # what it flew with is lost: the next trial flies with instances of its own
             if words is not None:
                 words.say(variant, trial, str(error))
             del self._ready[variant]
-            flight = nothing_flown(simulation, str(error))
-        return self._judge(flight, names, trial)
-
-    def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
-        """Fly one trial with every signal recorded; same bits as in the batch."""
-        prepared = self.plan.prepare(self.variants[variant])
-        names = variant_names(self.plan, prepared)
-        faults, log = self.plan.declared_faults(), self._log_of(variant)
-        with Simulation(prepared, varied=names.varied, faults=faults, log=log) as simulation:
-            drawn = self.drawn_for(trial)
-            simulation.set_faults(drawn.faults_of(trial))
-            simulation.set(drawn.parameters(prepared, trial))
-            result = fly(simulation, self.plan.watch.timeout)
-        return result, self._judge(result, names, trial)
-
-    def _judge(self, result: Flight, names: VariantNames, trial: int) -> TrialResult:
-        """Metrics, success and records of a flight."""
-        campaign = self.plan.campaign
-        metrics = {metric.name: float("nan") for metric in campaign.metrics}
-        success = False
-        if result.complete:
-            constants = names.constants | self.drawn_for(trial).row(trial)
-            metrics = evaluate_metrics(campaign.metrics, result.time, result.signals, constants)
-            success = succeeded(campaign.success, metrics)
-        return TrialResult(
-            status=trial_status(result, names.statuses),
-            message="" if result.complete else result.message,
-            success=success,
-            end_time=float(result.time[-1]) if result.time.size else float("nan"),
-            metrics=metrics,
-            final={name: _last(result.signals[name]) for name in campaign.record.final},
-            traces=self._traces(result, success, trial),
-        )
-
-    def _traces(self, result: Flight, success: bool, trial: int) -> dict[str, np.ndarray] | None:
-        """Copies of what the campaign keeps over time: sampled signals, or everything of some trials."""
-        record = self.plan.campaign.record
-        if record.traces == "all" or (record.traces == "failures" and not success):
-            return {"time": result.time.copy()} | {name: values.copy() for name, values in result.signals.items()}
-        if record.every is not None and (record.trials is None or trial < record.trials):
-            rows = slice(None, None, record.every)
-            return {"time": result.time[rows].copy()} | {name: result[name][rows].copy() for name in record.signals}
-        return None
+            return nothing_flown(simulation, str(error))
 
     def close(self) -> None:
         """Free all instances."""
@@ -193,6 +158,12 @@ class Flyer:
         self._ready = {}
 
 
-def _last(values: np.ndarray) -> float:
-    """The last of a signal's values; NaN where the flight has none."""
-    return float(values[-1]) if values.size else float("nan")
+def _result(trials: Trials) -> TrialResult:
+    """One flight, of itself."""
+    return TrialResult(
+        status=trials.statuses[0],
+        message=next(iter(trials.messages.values()), ""),
+        success=bool(trials.success[0]),
+        end_time=float(trials.end_time[0]),
+        metrics={name: float(found[0]) for name, found in trials.metrics.items()},
+    )

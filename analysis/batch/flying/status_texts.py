@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-import numpy as np
-
 from ...flight.results import Flight
 
 WORST = re.compile(r"([^\s(),]+) (-?\d+)[,)]")
@@ -20,8 +18,9 @@ def trial_status(result: Flight, statuses: Iterable[str]) -> str:
     worst: list[str] = []
     for name in statuses:
         values = result.signals[name]
-        if values.size and np.max(values) != 0:
-            worst.append(f"{name} {int(np.max(values))}")
+        status = int(values.max()) if values.size else 0
+        if status:
+            worst.append(f"{name} {status}")
     return f"{result.status} ({', '.join(worst)})" if worst else result.status
 
 
