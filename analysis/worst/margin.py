@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..loops.margin_values import UNLIMITED, UNSTABLE, Margins, Quantity
+from ..loops.margin_values import UNSTABLE, Margins, Quantity
 from ..samples.flown import strict
 from .metric import Badness
 
-MOST = 1e3  # what a margin without a crossing counts as: more than any
+MOST = 1e9  # what a margin without a crossing counts as: more than any
 SIZES = {
     "disk": ("disk_margin", Quantity.DISK),
     "modulus": ("modulus_margin", Quantity.MODULUS),
@@ -25,7 +25,7 @@ LARGEST = "largest_multiplier"
 def margin_columns(channels: Sequence[str], found: Sequence[Sequence[Margins] | None]) -> dict[str, np.ndarray]:
     """The margins of all channels, a row for each of ``found`` and a column for each margin and largest multiplier.
 
-    A margin of an unstable loop is `UNSTABLE`, one without a crossing `UNLIMITED`; a row of None is nan.
+    A margin of an unstable loop is `UNSTABLE`, one without a crossing inf; a row of None is nan.
     """
     columns: dict[str, np.ndarray] = {}
     for place, channel in enumerate(channels):
@@ -60,8 +60,8 @@ def _size(value: float) -> float:
     """The margin that a value is of; nan where there is none."""
     if value == math.inf:
         return math.nan
-    return UNSTABLE if value > 0.0 else UNLIMITED if value <= -MOST else 0.0 - value
+    return UNSTABLE if value > 0.0 else 0.0 - value
 
 
 def _fact(size: float) -> float | str | None:
-    return {UNSTABLE: "unstable", UNLIMITED: "unlimited"}.get(size) or strict(size)
+    return "unstable" if size == UNSTABLE else "unlimited" if size >= MOST else strict(size)

@@ -15,6 +15,8 @@ import pytest
 import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
+from perilune.analysis.loops.margin_values import Margins
+from perilune.analysis.worst.margin import badness_of_margin, margin_columns
 from tests.support.lengths import LONG
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.loops.exact_systems import coupled_pair, late_double_integrator
@@ -192,6 +194,21 @@ def test_draws_that_cannot_be_studied_are_the_worst(exact_fmus, written, tmp_pat
     assert "plant.position never falls to -0.005" in result.reason
     assert f"failed: {result.reason}" in result.text()
     assert result.flights < FLIGHTS
+
+
+def test_what_is_worse_than_what():
+    """A draw without a margin, loops that are more and less unstable, margins from the least on, none to be reached."""
+    draws = [None, (-1, 1.3), (-1, 1.1), (0.0, 1.0), (0.5, 0.9), (40.0, 0.9), (np.inf, 0.9)]
+    rows = [
+        draw and [Margins(*[np.inf] * 2, draw[0], draw[0], np.inf, stable=draw[0] >= 0.0, largest=draw[1])]
+        for draw in draws
+    ]
+    badness = badness_of_margin("loop", "there", ["loop"], "disk")
+    values = badness(margin_columns(["loop"], rows), np.array([row is not None for row in rows]))
+    assert (np.diff(values) < 0.0).all()
+    assert np.isfinite(values[1:]).all()
+    told = [badness.fact(badness.size(value)) for value in values]
+    assert told == [None, "unstable", "unstable", 0.0, 0.5, 40.0, "unlimited"]
 
 
 @pytest.mark.parametrize(

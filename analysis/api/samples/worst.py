@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from ...ssp.parameter_sets import SetValue
 from ...system.faults import Fault
@@ -13,7 +13,7 @@ from ...system.in_flight.series import Given
 from ...targets import check_folder
 from ...worst.asked import check_options, margin_asked
 from ...worst.outcome import WorstResult
-from ...worst.study import FLIGHTS, MARGIN, SIGMAS, STUDIES, worst_case, worst_margin
+from ...worst.study import MARGIN, worst_case, worst_margin
 from ..options import FilePath, system_options
 from .plans import sample_plan
 
@@ -71,33 +71,25 @@ def worst(
         "input": input, "log": log, "timeout": timeout,
     }  # fmt: skip
     check_options(loop, given)
-    if loop is not None:
+    search: dict[str, Any] = {"hold": hold, "noise_trial": noise_trial, "workers": workers}
+    search |= {name: value for name, value in (("sigmas", sigmas), ("flights", flights)) if value is not None}
+    if loop is None:
+        plan = sample_plan(
+            system, campaign, compare=compare, seed=seed, use=use, parameters=parameters, set=set, faults=faults,
+            input=input, log=log, timeout=timeout, step=step, stop_time=stop_time, algorithm=algorithm,
+            variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+            no_feedthrough=no_feedthrough,
+        )  # fmt: skip
+        with chdir(Path.cwd()):  # an FMU may change the folder
+            result = worst_case(plan, metric, **search)
+    else:
         options = system_options(
             use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
             variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
         )  # fmt: skip
-        asked = margin_asked(
-            Path(system), options, campaign=str(campaign), loop=loop, point=point, at=at, seed=seed
-        )  # fmt: skip
-        with chdir(Path.cwd()):  # an FMU may change the folder
-            result = worst_margin(
-                asked, margin or MARGIN, hold=hold, noise_trial=noise_trial, workers=workers,
-                sigmas=SIGMAS if sigmas is None else sigmas, flights=STUDIES if flights is None else flights,
-            )  # fmt: skip
-        if folder is not None:
-            result.write(folder)
-        return result
-    plan = sample_plan(
-        system, campaign, compare=compare, seed=seed, use=use, parameters=parameters, set=set, faults=faults,
-        input=input, log=log, timeout=timeout, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
-        no_feedthrough=no_feedthrough,
-    )  # fmt: skip
-    with chdir(Path.cwd()):  # an FMU may change the folder
-        result = worst_case(
-            plan, metric, hold=hold, noise_trial=noise_trial, workers=workers,
-            sigmas=SIGMAS if sigmas is None else sigmas, flights=FLIGHTS if flights is None else flights,
-        )  # fmt: skip
+        asked = margin_asked(Path(system), options, campaign=str(campaign), loop=loop, point=point, at=at, seed=seed)
+        with chdir(Path.cwd()):
+            result = worst_margin(asked, margin or MARGIN, **search)
     if folder is not None:
         result.write(folder)
     return result

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from ...targets import Results, check_folder
 from ...worst.asked import check_options, margin_asked
 from ...worst.outcome import WorstResult
-from ...worst.study import FLIGHTS, MARGIN, SIGMAS, STUDIES, worst_case, worst_margin
+from ...worst.study import MARGIN, worst_case, worst_margin
 from ..common.options import check_json, system_options, tell
 from ..common.remarks import say_stale
 from ..common.requirements import check_requirements, read_requirements
@@ -32,13 +33,7 @@ def run(options: argparse.Namespace) -> int:
 def _worst_case(options: argparse.Namespace) -> WorstResult:
     plan = read_samples(options)
     say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
-    return worst_case(
-        plan,
-        options.metric,
-        sigmas=SIGMAS if options.sigmas is None else options.sigmas,
-        flights=FLIGHTS if options.flights is None else options.flights,
-        **held(options),
-    )
+    return worst_case(plan, options.metric, **_search(options))
 
 
 def _worst_margin(options: argparse.Namespace) -> WorstResult:
@@ -52,10 +47,10 @@ def _worst_margin(options: argparse.Namespace) -> WorstResult:
         seed=options.seed,
     )
     say_stale(options)
-    return worst_margin(
-        asked,
-        options.margin or MARGIN,
-        sigmas=SIGMAS if options.sigmas is None else options.sigmas,
-        flights=STUDIES if options.flights is None else options.flights,
-        **held(options),
-    )
+    return worst_margin(asked, options.margin or MARGIN, **_search(options))
+
+
+def _search(options: argparse.Namespace) -> dict[str, Any]:
+    """How is searched, and what is held."""
+    given = {"sigmas": options.sigmas, "flights": options.flights}
+    return {name: value for name, value in given.items() if value is not None} | held(options)
