@@ -1,4 +1,4 @@
-# make demo | test | quick | long | build | docs | wheel | notebooks | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -7,7 +7,7 @@ QUIET := $(shell [ -t 2 ] || echo --quiet)
 # The tests start hundreds of processes, each quicker with the bytecode kept; and two workers leave no processor over
 # for a second thread of BLAS, which would spin.
 unexport PYTHONDONTWRITEBYTECODE
-test quick long explore: export OPENBLAS_NUM_THREADS = 1
+test quick long long-campaigns explore: export OPENBLAS_NUM_THREADS = 1
 
 demo: .venv/ready
 	$(BIN)/python -m perilune.analysis.demo.demo
@@ -26,6 +26,13 @@ quick: .venv/ready
 # The checks that take their whole size: every published start, system and noise, of which `make test` takes a part.
 long: build
 	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $$(grep -rlE 'support.lengths|mark.slow' tests --include='test_*.py')
+
+# The same of campaigns alone: rare failures, worst cases beside a hundred thousand random trials, what drives metrics,
+# verdicts, campaigns that end early and go on; about an hour on two cores.
+CAMPAIGNS := tests/batch tests/worst tests/rare tests/sensitivity tests/verdicts
+
+long-campaigns: build
+	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $(CAMPAIGNS)
 
 build: .venv/ready
 	$(BIN)/python build_fmus.py
@@ -91,4 +98,4 @@ lint: .venv/ready
 clean:
 	rm -rf build .venv
 
-.PHONY: demo test quick long build docs wheel notebooks explore gains bench large sanitize browser lint clean
+.PHONY: demo test quick long long-campaigns build docs wheel notebooks explore gains bench large sanitize browser lint clean

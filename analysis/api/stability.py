@@ -128,6 +128,7 @@ def stability(
     trials: int | None = None,
     seed: int | None = None,
     trial: int | None = None,
+    draws: FilePath | None = None,
     workers: int | None = None,
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
@@ -146,7 +147,8 @@ def stability(
 
     ``loops`` are names that the system declares (all of them by default), or connectors to cut as
     ``component.connector`` at the time ``at`` (s). ``campaign`` disperses the margins over its trials; ``trial``
-    studies the draws of one of them instead. The rest is as in `simulate`. Raises InputError, and
+    studies the draws of one of them instead, and ``draws`` is a file of draws to take in place of drawn ones, as
+    in `batch`. The rest is as in `simulate`. Raises InputError, and
     StudyError where a flight that the study needs breaks off.
     """
     check_list("loops", loops)
@@ -163,5 +165,6 @@ def stability(
         trials=trials,
         seed=seed,
         trial=trial,
+        draws=None if draws is None else Path(draws),
     )
     return StabilityReport(**vars(study(request, workers)))

@@ -34,6 +34,7 @@ def run(options: argparse.Namespace) -> int:
         trials=options.trials,
         seed=options.seed,
         trial=options.trial,
+        draws=options.draws,
     )
     say_stale(options)
     try:

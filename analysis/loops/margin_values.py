@@ -1,6 +1,6 @@
 """The margins of one loop as values that can be compared: unstable is worse than any number, unlimited better.
 
-Sizes are in the unit in which margins are limited and shown: dB up or down, deg lag or lead, 1. The size of every
+Sizes are in the unit in which margins are limited and shown: dB up or down, deg lag or lead, s, 1. The size of every
 margin of an unstable loop is `UNSTABLE`, that of a margin without a crossing `UNLIMITED`; both are floats that
 compare, sort and take part in minima and order statistics as they should.
 """
@@ -27,23 +27,25 @@ class Quantity(StrEnum):
     PHASE = "phase margin"
     MODULUS = "modulus margin"
     DISK = "disk margin"
+    DELAY = "delay margin"
     DISK_GAIN = "disk gain margin"
     DISK_PHASE = "disk phase margin"
 
     @property
     def unit(self) -> str:
-        """The unit of its sizes: dB, deg or 1."""
-        return {"gain": "dB", "phase": "deg"}.get(self.split()[-2] if " " in self else "", "1")
+        """The unit of its sizes: dB, deg, s or 1."""
+        return {"gain": "dB", "phase": "deg", "delay": "s"}.get(self.split()[-2] if " " in self else "", "1")
 
 
-MARGINS = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS, Quantity.DISK)
+MARGINS = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS, Quantity.DISK)  # of every loop's line
 
 
 @dataclass(frozen=True)
 class Margins:
     """The nearest margins of one loop.
 
-    ``gain`` (factor, above 1: upwards) and ``phase`` (rad, positive: lag) are inf where there is no crossing.
+    ``gain`` (factor, above 1: upwards), ``phase`` (rad, positive: lag) and ``delay`` (s) are inf where there is no
+    crossing.
     ``stable`` None: not known. ``largest`` is the largest multiplier of the loop's closed-loop modes, None where no
     poles are known.
     """
@@ -52,6 +54,7 @@ class Margins:
     phase: float
     modulus: float
     disk: float
+    delay: float
     stable: bool | None
     largest: float | None = None
 
@@ -64,6 +67,7 @@ class Margins:
             phase=phase.value if phase else math.inf,
             modulus=robust.modulus_margin,
             disk=robust.disk_margin,
+            delay=classical.delay_margin,
             stable=stable,
             largest=largest,
         )
@@ -81,7 +85,7 @@ class Margins:
             return decibel_size(self.gain) if math.isfinite(self.gain) else UNLIMITED
         if quantity is Quantity.PHASE:
             return degree_size(self.phase) if math.isfinite(self.phase) else UNLIMITED
-        return {Quantity.MODULUS: self.modulus, Quantity.DISK: self.disk}[quantity]
+        return {Quantity.MODULUS: self.modulus, Quantity.DISK: self.disk, Quantity.DELAY: self.delay}[quantity]
 
 
 def order_statistic(sizes: Sequence[float], level: float) -> float:

@@ -16,9 +16,11 @@ from ..campaign.campaign import Record
 from ..campaign.checks import check_draws, check_plan
 from ..campaign.drawing.declared import Columns
 from ..campaign.drawing.given import GivenDraws
+from ..campaign.drawn import with_streams
 from ..campaign.plan import BatchPlan
 from ..errors import InputError
 from ..progress import progress_bar
+from ..system.prepared import PreparedSystem
 
 OWN = ("trials", "record", "group", "draws_sha256")  # facts of a batch that a study of samples has not
 
@@ -50,17 +52,9 @@ class SampleFlights:
         self._pool = FlyerPool(self.plan, self._count, self.prepared.flies_in_threads)
         self._progress = progress_bar(unit="flight")
 
-    @property
-    def noisy(self) -> list[str]:
-        """Components that draw random numbers themselves."""
-        return [name for name, fmu in self.prepared.network.fmus.items() if {"seed", "stream"} <= set(fmu.variables)]
-
     def noise(self) -> str:
         """What results say of the random numbers that components draw themselves."""
-        if not self.noisy:
-            return ""
-        whose = f"that of trial {self._noise_trial}, seed {self.plan.campaign.seed}"
-        return f"noise of {', '.join(self.noisy)} held: {whose}"
+        return noise_held(self.prepared, self._noise_trial, self.plan.campaign.seed)
 
     def given(self, columns: Columns) -> Mapping[str, np.ndarray]:
         """Draws as a file of them has them (`analysis.campaign.given`), with the trial whose noise they have."""
@@ -93,6 +87,12 @@ class SampleFlights:
     def __exit__(self, *error: Any) -> None:
         self._progress.close()
         self._pool.__exit__(*error)
+
+
+def noise_held(prepared: PreparedSystem, trial: int, seed: int) -> str:
+    """What results say where all flights have the random streams of one trial; nothing where no component has any."""
+    noisy = with_streams(prepared)
+    return f"noise of {', '.join(noisy)} held: that of trial {trial}, seed {seed}" if noisy else ""
 
 
 def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> Trials | None:

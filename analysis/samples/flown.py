@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 import pyarrow
 
 from ..campaign.drawing.given import STREAMS
+
+
+def strict(value: float) -> float | None:
+    """A number as strict JSON can hold it."""
+    return float(value) if np.isfinite(value) else None
 
 
 class _Part(NamedTuple):
@@ -48,11 +53,11 @@ class Flown:
         self.metrics = {name: np.concatenate([part[name] for part in metrics]) for name in metrics[0]}
         return self
 
-    def fact(self, place: int) -> dict[str, Any]:
-        """Draws and metrics of one flight, as strict JSON has them: what is not finite is null."""
+    def fact(self, place: int, told: Callable[[float], float | str | None] = strict) -> dict[str, Any]:
+        """Draws and metrics of one flight, as strict JSON has them: what is not finite is null, unless ``told``."""
         return {
             "draws": {name: strict(column[place]) for name, column in self.draws.items() if name != STREAMS},
-            "metrics": {name: strict(column[place]) for name, column in self.metrics.items()},
+            "metrics": {name: told(column[place]) for name, column in self.metrics.items()},
         }
 
     def given(self, drawn: list[str], places: np.ndarray) -> pyarrow.Table:
@@ -64,8 +69,3 @@ class Flown:
         columns = {f"draw.{name}": column for name, column in self.draws.items()}
         columns |= {f"metric.{name}": column for name, column in self.metrics.items()}
         return pyarrow.table(columns | {worth: self.values})
-
-
-def strict(value: float) -> float | None:
-    """A number as strict JSON can hold it."""
-    return float(value) if np.isfinite(value) else None

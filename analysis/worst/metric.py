@@ -11,17 +11,21 @@ from ..campaign.campaign import Campaign
 from ..campaign.expressions import Expression
 from ..campaign.failure import failure_of
 from ..errors import InputError, suggestion
+from ..samples.flown import strict
 
 
 @dataclass(frozen=True)
 class Badness:
     """A number of every trial: called with values by name (trials,) and which flights came to their end (trials,).
 
-    It is inf where a flight did not, or where the number is not finite. ``text`` says what it is.
+    It is inf where a flight did not, or where the number is not finite. ``text`` says what it is, ``size`` the number
+    that it stands for, and ``fact`` that number, or one of the values, as JSON has it.
     """
 
     text: str
     of: Callable[[Mapping[str, np.ndarray], np.ndarray], np.ndarray]
+    size: Callable[[float], float] = float
+    fact: Callable[[float], float | str | None] = strict
 
     def __call__(self, values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
         return self.of(values, flown)

@@ -1,11 +1,14 @@
 """The largest value of a function over the unit cube, in as many evaluations as one may spend.
 
-Differential evolution (Storn and Price 1997; scipy's, a generation at a time) finds the region. There COBYQA (Ragonneau
-and Zhang 2023) climbs what is smooth, and Nelder and Mead's simplex (1965, as Gao and Han 2012 adapt it) climbs stairs.
+Differential evolution (Storn and Price 1997; scipy's, a generation at a time) finds the region, from what is known,
+from corners, where much that is smooth has its worst, and from points spread out. There each coordinate is tried at its
+ends, COBYQA (Ragonneau and Zhang 2023) climbs what is smooth, and Nelder and Mead's simplex (1965, as Gao and Han 2012
+adapt it) climbs stairs.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
 import numpy as np
@@ -68,7 +71,8 @@ def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: n
     if generations < 2:
         return
     known = points[np.argsort(-values, kind="stable")[: members // 2]]
-    spread = qmc.LatinHypercube(dimensions, rng=random).random(members - len(known))
+    corners = _corners(points, values, members - len(known), random)
+    spread = qmc.LatinHypercube(dimensions, rng=random).random(members - len(known) - len(corners))
 
     def badly(columns: np.ndarray) -> np.ndarray:
         found = counted(columns.T)
@@ -79,7 +83,7 @@ def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: n
     differential_evolution(
         badly,
         [(0.0, 1.0)] * dimensions,
-        init=np.concatenate([known, spread]),
+        init=np.concatenate([known, corners, spread]),
         maxiter=generations - 1,
         tol=0.0,
         polish=False,
@@ -89,12 +93,38 @@ def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: n
     )
 
 
+def _corners(points: np.ndarray, values: np.ndarray, most: int, random: np.random.Generator) -> np.ndarray:
+    """All corners (corners, dimensions) of the cube if they are no more than ``most``; else half as many of them.
+
+    Those are the one that a plane through the known values rises to, and others at random.
+    """
+    dimensions = points.shape[1]
+    if 2**dimensions <= most:
+        return np.array(list(itertools.product((0.0, 1.0), repeat=dimensions)))
+    plane = np.column_stack([np.ones(len(points)), points])
+    slope = np.linalg.lstsq(plane, values, rcond=None)[0][1:]
+    others = random.integers(0, 2, (most // 2 - 1, dimensions))
+    return np.vstack([slope > 0.0, others]).astype(float)
+
+
+def _to_ends(counted: _Counted) -> None:
+    """Move one coordinate at a time of the best point to an end of its edge, as long as that is worse."""
+    dimensions = counted.point.size
+    before = -np.inf
+    while counted.value > before:
+        before = counted.value
+        places = np.tile(counted.point, (2 * dimensions, 1))
+        places[range(2 * dimensions), np.tile(range(dimensions), 2)] = np.repeat((0.0, 1.0), dimensions)
+        counted(places)
+
+
 def _climb(counted: _Counted) -> None:
     """From the best point, with the evaluations that are left."""
 
     def badly(point: np.ndarray) -> float:
         return -float(counted(point[np.newaxis])[0])
 
+    _to_ends(counted)
     bounds = [(0.0, 1.0)] * counted.point.size
     smooth = {"maxfev": counted.left // 2, "initial_tr_radius": RADII[0], "final_tr_radius": RADII[1]}
     if smooth["maxfev"] > 2 * counted.point.size + 1:  # what its first model takes

@@ -58,7 +58,7 @@ def test_options_of_the_command_are_keywords(name):
     for option, action in options.items():
         if option in PRINTED | APART.get(name, set()):
             continue
-        parameter = keywords[NAMES.get(option, option)]
+        parameter = keywords[option if option in keywords else NAMES[option]]
         assert parameter.kind is inspect.Parameter.KEYWORD_ONLY
         assert (parameter.default or None) == (action.default or None), option
 

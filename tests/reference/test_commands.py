@@ -62,6 +62,7 @@ TAKES_LONG = {
     "--campaign inertia --trials 20": "twenty linearisations",
     "--optimum": "direct multiple shooting",
     "--direct": "a direct method",
+    "perilune worst robot_rendezvous": "three hundred linearisations",
     "modal_comparison": "two minutes of random plants",
     "perilune benchmark": "importers that take a minute each",
     "lunar_landing --parameters noisy.ssv --use": "320 s of flight with all sensors and a table of it",
@@ -78,6 +79,7 @@ WORK = {
     "plan": ["plans.hover_transfer.hover_study", "plans.landing_bound.landing_study"],
     "run": ["run.fly"],
     "stability": ["stability.study"],
+    "worst": ["campaigns.worst.worst_margin", "campaigns.worst.worst_case"],
 }
 ALIKE = ("describe", "list", "run", "stability")  # read nothing of the folder: once is enough
 PLACES = documented()

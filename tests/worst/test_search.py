@@ -25,6 +25,11 @@ def ripples(x):
     return -np.sum(z**2 + 10.0 * (1.0 - np.cos(2.0 * np.pi * z)), axis=1)
 
 
+def valley(x):
+    """Low in the middle of every edge: local peaks in all corners, the highest of them (0, 1, 0, 1, 0)."""
+    return np.sum((x - np.array([0.51, 0.49, 0.51, 0.49, 0.51])) ** 2, axis=1)
+
+
 def stairs(x):
     return np.floor(20.0 * smooth(x))
 
@@ -47,7 +52,7 @@ def found(function, evaluations=1600, seed=1):
 
 @pytest.mark.parametrize(
     ("function", "truth", "tolerance"),
-    [(corner, 4.5, 1e-6), (smooth, 0.0, 1e-6), (ripples, 0.0, 6.0), (stairs, -1.0, 0)],
+    [(corner, 4.5, 1e-6), (smooth, 0.0, 1e-6), (ripples, 0.0, 6.0), (valley, 5 * 0.51**2, 1e-6), (stairs, -1.0, 0)],
 )
 def test_the_largest_value(function, truth, tolerance):
     _, value = found(function)

@@ -110,13 +110,19 @@ def test_refusals(linear, options, words):
         perilune.worst(*linear, workers=1, **({"flights": 100} | options))
 
 
-# Campaigns without noise, and what is to be worst: two guidances of one box, and a descent of coarse steps.
+# Campaigns without noise, and what is to be worst: two guidances of one box; a descent, a landing and pulses of jets,
+# with steps as coarse as they allow, so that a hundred thousand flights take minutes.
 CASES = {
     "flight time": ("lunar_terminal_guidance", "paper", {"guidance": "analytic_guidance"}, {}, "flight_time"),
     "velocity error": ("lunar_terminal_guidance", "paper", {"guidance": "astar_robust_guidance"}, {}, "velocity_error"),
     "propellant": (
         "lunar_descent_2d", "robustness_joint", None, {"step": 0.1, "set": {"sensor.sample_period": 0.1}}, "propellant",
     ),
+    "demand": (
+        "lunar_landing", "terminal_box", {"guidance": "astar_robust_guidance"},
+        {"step": 0.1, "parameters": ("ideal.ssv",)}, "largest_demand",
+    ),
+    "jet seconds": ("orbital_attitude", "random_starts", None, {"step": 0.2}, "propellant"),
 }  # fmt: skip
 
 

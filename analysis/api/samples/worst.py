@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from ...ssp.parameter_sets import SetValue
 from ...system.faults import Fault
 from ...system.in_flight.series import Given
 from ...targets import check_folder
+from ...worst.asked import check_options, margin_asked
 from ...worst.outcome import WorstResult
-from ...worst.study import FLIGHTS, SIGMAS, worst_case
-from ..options import FilePath
+from ...worst.study import MARGIN, worst_case, worst_margin
+from ..options import FilePath, system_options
 from .plans import sample_plan
 
 
@@ -22,6 +23,10 @@ def worst(
     campaign: FilePath,
     *,
     metric: str | None = None,
+    loop: str | None = None,
+    margin: Literal["disk", "modulus", "gain", "phase", "delay"] | None = None,
+    point: str | None = None,
+    at: float | None = None,
     sigmas: float | None = None,
     flights: int | None = None,
     hold: Mapping[str, float] | None = None,
@@ -51,23 +56,40 @@ def worst(
     """The draws that make a number worst, within a box of a campaign's draws: `perilune worst`.
 
     ``metric`` is an expression over metrics and draws, the larger the worse, by default the margin by which a trial is
-    no success; ``sigmas`` is the box of normal draws, by default 3, others have their own ends; ``flights`` are by
-    default 2000. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for worst.json,
+    no success. In its place the least ``margin`` of a ``loop`` is looked for, by default the disk margin: a loop that
+    the system names, at an operating ``point`` of it, or a connector to cut at the time ``at`` (s); an unstable loop is
+    worse than any margin, and ``compare``, ``faults``, ``input``, ``log`` and ``timeout`` do not go with one.
+
+    ``sigmas`` is the box of normal draws, by default 3, others have their own ends; ``flights`` are by default 2000, of
+    a margin 500. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for worst.json,
     flights.parquet and worst.parquet. The rest is as in `batch`. Raises InputError.
     """
     folder = Path(output).absolute() if output is not None else None
     check_folder("output", folder, overwrite=overwrite)
-    plan = sample_plan(
-        system, campaign, compare=compare, seed=seed, use=use, parameters=parameters, set=set, faults=faults,
-        input=input, log=log, timeout=timeout, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
-        no_feedthrough=no_feedthrough,
-    )  # fmt: skip
-    with chdir(Path.cwd()):  # an FMU may change the folder
-        result = worst_case(
-            plan, metric, hold=hold, noise_trial=noise_trial, workers=workers,
-            sigmas=SIGMAS if sigmas is None else sigmas, flights=FLIGHTS if flights is None else flights,
+    given = {
+        "metric": metric, "margin": margin, "point": point, "at": at, "compare": compare, "fault": faults,
+        "input": input, "log": log, "timeout": timeout,
+    }  # fmt: skip
+    check_options(loop, given)
+    search: dict[str, Any] = {"hold": hold, "noise_trial": noise_trial, "workers": workers}
+    search |= {name: value for name, value in (("sigmas", sigmas), ("flights", flights)) if value is not None}
+    if loop is None:
+        plan = sample_plan(
+            system, campaign, compare=compare, seed=seed, use=use, parameters=parameters, set=set, faults=faults,
+            input=input, log=log, timeout=timeout, step=step, stop_time=stop_time, algorithm=algorithm,
+            variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+            no_feedthrough=no_feedthrough,
         )  # fmt: skip
+        with chdir(Path.cwd()):  # an FMU may change the folder
+            result = worst_case(plan, metric, **search)
+    else:
+        options = system_options(
+            use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
+            variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+        )  # fmt: skip
+        asked = margin_asked(Path(system), options, campaign=str(campaign), loop=loop, point=point, at=at, seed=seed)
+        with chdir(Path.cwd()):
+            result = worst_margin(asked, margin or MARGIN, **search)
     if folder is not None:
         result.write(folder)
     return result

@@ -25,6 +25,7 @@ def add(parser: argparse.ArgumentParser) -> None:
     completed(campaign, campaigns)
     parser.add_argument("--trials", type=int, metavar="N", help="fewer or more trials than the campaign says")
     parser.add_argument("--seed", type=int, metavar="S", help="another root seed than the campaign's")
+    parser.add_argument("--draws", type=Path, metavar="F.parquet", help="these draws, a trial for each row")
     parser.add_argument("--trial", type=int, metavar="K", help="study the draws of one trial of the campaign instead")
     parser.add_argument(
         "--workers", type=int, metavar="N", help="points studied side by side; default: one per processor"

@@ -24,7 +24,7 @@ class Request:
     """A study to be made; small enough to be sent to every worker.
 
     ``name`` is the system's and ``label`` its place, for messages. ``plan`` is the campaign that margins are
-    dispersed over, ``campaign`` its name as it was given.
+    dispersed over, ``campaign`` its name as it was given, ``draws`` the file of its draws where it draws none.
     """
 
     name: str
@@ -34,6 +34,7 @@ class Request:
     declaration: Declaration
     campaign: str | None = None
     plan: BatchPlan | None = None
+    draws: Path | None = None
 
     def loops_at(self, point: Point) -> list[Loop]:
         """The loops that are studied at a point."""
@@ -51,7 +52,8 @@ class Request:
         assert self.campaign is not None
         options = self.options
         words = ["perilune", "stability", self.system, "--campaign", self.campaign]
-        words += ["--trial", str(trial), "--trials", str(self.plan.campaign.trials)]
+        words += ["--trial", str(trial)]
+        words += ["--trials", str(self.plan.campaign.trials)] if self.draws is None else ["--draws", str(self.draws)]
         words += ["--seed", str(self.plan.campaign.seed), "--loop", loop]
         points = [self.point(name) for name in self.loop(loop).points]
         words += [word for point in points if _is_asked(point) for word in ("--at", repr(point.time))]
@@ -61,14 +63,14 @@ class Request:
             words += ["--parameters", name]
         for name, value in options.set.items():
             words += ["--set", f"{name}={value}"]
-        given = {
+        chosen = {
             "--step": options.step,
             "--stop-time": options.stop_time,
             "--variant": options.variant,
             "--flavour": options.flavour,
             "--algorithm": options.algorithm,
         }
-        for option, choice in given.items():
+        for option, choice in chosen.items():
             words += [] if choice is None else [option, str(choice)]
         for name in options.no_feedthrough:
             words += ["--no-feedthrough", name]
@@ -88,26 +90,27 @@ def read_request(
     trials: int | None = None,
     seed: int | None = None,
     trial: int | None = None,
+    draws: Path | None = None,
 ) -> Request:
     """The study of a system's declared loops, or of some.
 
     ``loops`` are names of declared loops, or connectors of loops that are not declared, which are cut at time
     ``at`` (s; 0 unless given). With ``campaign`` margins are dispersed over its trials, or with ``trial`` the study is
-    made of that trial's draws. Raises InputError.
+    made of that trial's draws. ``draws`` is a file of draws to take in place of drawn ones. Raises InputError.
     """
     archive = open_system(system)
     declaration = _chosen(read_description(archive, options.variant), loops, at)
     request = Request(archive.name, archive.label, str(system), options, declaration)
     if campaign is None:
-        for name, value in (("--trials", trials), ("--seed", seed), ("--trial", trial)):
+        for name, value in (("--trials", trials), ("--seed", seed), ("--trial", trial), ("--draws", draws)):
             if value is not None:
                 raise InputError(name, str(value), "there is no campaign", "give --campaign NAME with it")
         return request
-    plan = read_plan(system, campaign, options, trials=trials, seed=seed)
+    plan = read_plan(system, campaign, options, trials=trials, seed=seed, draws=draws)
     plan = replace(plan, campaign=replace(plan.campaign, compare={}))  # of FMUs; a study is of one system
     check_plan(plan)
     if trial is None:
-        return replace(request, campaign=campaign, plan=plan)
+        return replace(request, campaign=campaign, plan=plan, draws=draws)
     return replace(request, options=_drawn(plan, options, trial))
 
 

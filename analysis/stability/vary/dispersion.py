@@ -14,6 +14,7 @@ from ..ask.subject import Subject
 from ..bench.operating_point import OperatingPoint
 from ..linear.linearise import linearise
 from ..point.point_study import PointStudy
+from ..point.routes import LoopModel
 from ..results.requirement import Requirement, Scope
 from ..results.varied import Dispersion
 from .followed import ONE_STEP, margins_of, model_of, poles_of
@@ -39,18 +40,11 @@ def dispersed(
     flown = subject.changed(campaign=plan.campaign.layer)
     rows: dict[str, list[Margins]] = {}
     poles: dict[str, list[np.ndarray]] = {}
-    with PointStudy(flown, point, loops, _varied(plan)) as study:
+    with PointStudy(flown, point, loops, varied(plan)) as study:
         for trial in range(plan.campaign.trials):
-            study.bench.set(plan.parameters(study.prepared, trial))
-            start = OperatingPoint(study.bench)
-            try:
-                linear = linearise(start, cells, ONE_STEP)
-            finally:
-                start.release()
-            for channel in study.channels:
-                model = model_of(linear, channel.name)
-                rows.setdefault(channel.name, []).append(margins_of(model))
-                poles.setdefault(channel.name, []).append(poles_of(model))
+            for name, model in models_of_trial(study, plan, trial, cells).items():
+                rows.setdefault(name, []).append(margins_of(model))
+                poles.setdefault(name, []).append(poles_of(model))
             tell(0, 1)
         loop_of = {channel.name: channel.loop for channel in study.channels}
     return {
@@ -59,7 +53,22 @@ def dispersed(
     }
 
 
-def _varied(plan: BatchPlan) -> list[str]:
+def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Sequence[int]) -> dict[str, LoopModel]:
+    """The loop of every channel at the draws of one trial; ``study`` is of a system that has the campaign's layer.
+
+    Raises InputError, StudyError.
+    """
+    study.bench.set(plan.parameters(study.prepared, trial))
+    start = OperatingPoint(study.bench)
+    try:
+        linear = linearise(start, cells, ONE_STEP)
+    finally:
+        start.release()
+    return {channel.name: model_of(linear, channel.name) for channel in study.channels}
+
+
+def varied(plan: BatchPlan) -> list[str]:
+    """The parameters that trials of a campaign set."""
     prepared = plan.prepare(plan.campaign.variants()[0])
     return sorted(plan.parameters(prepared, 0))
 

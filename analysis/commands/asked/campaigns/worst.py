@@ -16,8 +16,15 @@ def add(parser: argparse.ArgumentParser) -> None:
         metavar="EXPRESSION",
         help="over metrics and draws, the larger the worse; default: the margin by which a trial is no success",
     )
+    loop = parser.add_argument_group("a margin in place of a metric")
+    loop.add_argument(
+        "--loop", metavar="NAME", help="the least margin of a loop that the SSD names, or of COMPONENT.CONNECTOR to cut"
+    )
+    loop.add_argument("--margin", metavar="KIND", help="disk (the default), modulus, gain, phase or delay")
+    loop.add_argument("--point", metavar="NAME", help="the operating point of the loop; default: its only one")
+    loop.add_argument("--at", type=float, metavar="T", help="time of the operating point of a cut, s; default: 0")
     parser.add_argument("--sigmas", type=float, metavar="K", help="how far normal draws go; default: 3")
-    parser.add_argument("--flights", type=int, metavar="N", help="how many to fly; default: 2000")
-    add_folder(parser, "worst.json, flights.parquet, and worst.parquet for perilune batch --draws")
+    parser.add_argument("--flights", type=int, metavar="N", help="how many to fly; default: 2000, of a margin 500")
+    add_folder(parser, "worst.json, flights.parquet, and worst.parquet for perilune batch or stability --draws")
     add_requirements(parser, "worst, random and flights")
     add_json(parser)

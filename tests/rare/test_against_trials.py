@@ -1,0 +1,38 @@
+"""A rare failure of a real campaign, beside the trials of a batch that fail.
+
+Truth: the share of a batch's trials that fail, with its exact binomial interval (Clopper and Pearson); a million trials
+under `make long`.
+"""
+
+import pytest
+from pyarrow.compute import field
+from scipy.stats import binomtest
+
+import perilune
+from tests.support.lengths import LONG, either
+
+CAMPAIGN = ("lunar_terminal_guidance", "paper")
+TRIALS, SAMPLES = either(1_000_000, 2000), either(4500, 300)
+LIMIT = either(3.55, 3.0)  # m/s: of a million trials 310 end faster, of 2000 about one in a hundred
+
+
+@pytest.mark.usefixtures("fmus")
+def test_the_intervals_of_both_meet(tmp_path):
+    options = {"step": 0.5, "workers": either(None, 1)}
+    perilune.batch(
+        *CAMPAIGN, compare={"guidance": ["analytic_guidance"]}, trials=TRIALS, output=tmp_path / "trials", **options
+    )
+    results = perilune.open_results(tmp_path / "trials")
+    failures = results.arrow(["trial"], where=field("metric.velocity_error") > LIMIT).num_rows
+    assert results.flown == TRIALS
+    exact = binomtest(failures, TRIALS).proportion_ci(method="exact")
+    for seed in (None, 1, 2) if LONG else (None,):
+        found = perilune.rare(
+            *CAMPAIGN, compare={"guidance": "analytic_guidance"}, failure=f"velocity_error > {LIMIT}", seed=seed,
+            samples=SAMPLES, **options,
+        )  # fmt: skip
+        low, high = found.interval
+        print(f"{failures} of {TRIALS}: {exact.low:.3g} to {exact.high:.3g}; rare {found.probability}, {low} to {high}")
+        assert low < exact.high
+        assert high > exact.low
+        assert found.flights < TRIALS
