@@ -111,7 +111,7 @@ def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
 def test_every_name_of_the_wrapper_is_kept_from_blocks() -> None:
     text = "".join((C_FILES / name).read_text(encoding="utf-8") for name in WRAPPER_FILES)
     types = re.findall(r"^typedef (?:struct|enum|union) (\w+)", text, re.MULTILINE)
-    functions = re.findall(r"^static (?:[\w *]+?)\b(\w+)\(", text, re.MULTILINE)
+    functions = re.findall(r"^(?:static|FMI2_Export) (?:[\w *]+?)\b(\w+)\(", text, re.MULTILINE)
     for size in re.findall(r"^VECTOR_TYPE\((\d)\)", text, re.MULTILINE):  # a macro for each size
         types.append(f"Vector{size}")
         functions += [f"{name}{size}" for name in re.findall(r"VECTOR_INLINE Vector##n (\w+)##n\(", text)]

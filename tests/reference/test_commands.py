@@ -41,6 +41,7 @@ TAKES_LONG = {
     "--campaign paper --output results": "6000 flights",
     "--campaign paper --trials 10000": "30 000 flights",
     "--campaign paper --parameters exact.ssv": "20 000 flights",
+    "--trials 1000000": "a million flights",
     "--campaign noisy": "30 000 flights, or 4000 of the orbit",
     "lunar_landing --campaign compare --parameters noisy.ssv --output": "6000 flights",
     "lunar_landing --campaign compare --parameters noisy.ssv --trials 50 --output": "300 flights, and their page",
