@@ -35,15 +35,17 @@ class DrawnTrials:
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of a trial: draws, and seed and stream of every component that has them."""
-        given, campaign = self.plan.given, self.plan.campaign
-        whose = trial if given is None else given.stream_of(trial)
-        streams = stream_numbers(campaign.seed, whose, prepared.network.fmus, campaign.file)
         values: dict[str, float | int] = dict(self.table.parameters(trial - self.numbers.start))
-        for name in with_streams(prepared):
-            values[f"{name}.seed"], values[f"{name}.stream"] = streams[name]
+        noisy = with_streams(prepared)
+        if noisy:
+            given, campaign = self.plan.given, self.plan.campaign
+            whose = trial if given is None else given.stream_of(trial)
+            streams = stream_numbers(campaign.seed, whose, prepared.network.fmus, campaign.file)
+            for name in noisy:
+                values[f"{name}.seed"], values[f"{name}.stream"] = streams[name]
         return values
 
 
 def with_streams(prepared: PreparedSystem) -> list[str]:
     """The components that draw random numbers themselves."""
-    return [name for name, fmu in prepared.network.fmus.items() if {"seed", "stream"} <= set(fmu.variables)]
+    return [name for name, fmu in prepared.network.fmus.items() if {"seed", "stream"} <= fmu.variables.keys()]

@@ -75,6 +75,9 @@ def _truth(value: Any) -> Any:
 def _chain(operators: list[Callable]) -> Callable:
     """The function a < b <= c ... of its operands, for the given comparisons in their order."""
 
+    if len(operators) == 1:
+        return lambda one, other: _truth(operators[0](one, other))
+
     def compare(*operands: Any) -> Any:
         links = zip(operators, operands, operands[1:], strict=False)
         return _truth(functools.reduce(np.logical_and, [operator(a, b) for operator, a, b in links]))

@@ -12,10 +12,10 @@ from .expressions import Expression
 
 SIMPLE: dict[str, Callable[[np.ndarray], float]] = {
     "final": lambda values: values[-1],
-    "min": np.min,
-    "max": np.max,
-    "mean": np.mean,
-    "rms": lambda values: np.sqrt(np.mean(np.square(values))),
+    "min": np.minimum.reduce,
+    "max": np.maximum.reduce,
+    "mean": lambda values: np.add.reduce(values) / values.size,
+    "rms": lambda values: np.sqrt(np.add.reduce(np.square(values)) / values.size),
 }
 TIME = "time"  # the name under which expressions see the record's times, s
 
@@ -90,7 +90,8 @@ def evaluate_metric(metric: Metric, times: np.ndarray, values: Mapping[str, np.n
     inside: slice | np.ndarray = slice(None) if metric.window is None else rows_in(metric.window, times)
 
     def rows_of(formula: Expression) -> np.ndarray:
-        return np.broadcast_to(formula.evaluate(values), times.shape)[inside]
+        found = formula.evaluate(values)
+        return (found if isinstance(found, np.ndarray) else np.full(times.shape, found))[inside]
 
     rows, signal = times[inside], rows_of(metric.expression)
     if not rows.size:

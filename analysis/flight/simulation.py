@@ -190,9 +190,9 @@ class Simulation:
         prepared = self.prepared
         reset = first < 0 and self.life_cycle.make_ready()
         rows = (last - max(first, 0)) // every + 2
-        if self._record.shape[0] < rows:
+        if self._times.size < rows:
             try:
-                self._record = np.empty((rows, self._recorded.size))
+                self._record = np.empty((self._recorded.size, rows))
                 self._times = np.empty(rows)
             except (MemoryError, ValueError) as error:  # the latter where numpy cannot even count them
                 problem = f"{rows} rows do not fit into memory"
@@ -219,7 +219,7 @@ class Simulation:
                 status, message = TERMINATED, f"{component} asked for the end at t = {end:g} s{said}"
         flight = Flight(
             time=self._times[:count],
-            signals={name: self._record[:count, index] for index, name in enumerate(self.signal_names)},
+            signals=dict(zip(self.signal_names, self._record[:, :count], strict=True)),
             types=self._types,
             status=status,
             message=message,
@@ -272,8 +272,9 @@ class Simulation:
         whole = np.array([0, len(instructions)], dtype=np.int64)
         program = self.program._replace(instructions=instructions, phases=whole)
         span = arrays.Span(reset=False, start=end, step=0.0, stop=end, first=0, last=1)
-        recording = arrays.Recording(self._recorded, 1, self._record[row:], self._times[row:])
+        recording = arrays.Recording(self._recorded, 1, np.empty((self._recorded.size, 1)), self._times[row:])
         self._call(program, span, recording, np.zeros((0, len(self._excitations))))
+        self._record[:, row] = recording.record[:, 0]
 
     def _replace_instances(self, fatal: str | None = None) -> None:
         """Everything instantiated anew, with the values that parameters have; ``fatal`` as in `LifeCycle.close`."""

@@ -6,8 +6,8 @@ a task's flights. A metric over time is worked out as soon as its flight is ther
 
 from __future__ import annotations
 
+import math
 from collections import ChainMap
-from collections.abc import Mapping
 
 import numpy as np
 
@@ -32,8 +32,9 @@ class Judge:
         self._over_time = [metric for metric in campaign.metrics if not is_of_the_end(metric)]
         ends = {name for metric in self._at_end for name in metric.names}
         drawn = set(campaign.drawn_names())
-        self._signals = sorted((ends & set(names.signals)) - drawn)
-        self._drawn = sorted(ends & drawn)
+        self._signals = sorted(ends & set(names.signals))
+        self._last_of = sorted({*self._signals, *campaign.record.final})
+        self._drawn = sorted((ends & drawn) - set(names.signals))
         self._needs_draws = any(drawn & metric.names for metric in self._over_time)
         self._begin()
 
@@ -51,11 +52,11 @@ class Judge:
     def add(self, flight: Flight, trial: int, drawn: DrawnTrials) -> None:
         """Look at a flight; nothing of it is needed afterwards."""
         signals, complete = flight.signals, flight.complete
-        lasts = {name: float(values[-1]) if values.size else np.nan for name, values in signals.items()}
-        end = float(flight.time[-1]) if flight.time.size else np.nan
+        lasts = {name: _last(signals[name]) for name in self._last_of}
+        end = _last(flight.time)
         row = drawn.row(trial) if self._drawn or self._needs_draws else {}
         self._rows.append([end, *(lasts[name] for name in self._signals), *(row[name] for name in self._drawn)])
-        values: Mapping = ChainMap({TIME: flight.time}, dict(signals), row, self._names.constants)
+        values = {**self._names.constants, **row, **signals, TIME: flight.time}
         found = [evaluate_metric(metric, flight.time, values) if complete else np.nan for metric in self._over_time]
         self._metrics.append(found)
         self._finals.append([lasts[name] for name in self._campaign.record.final])
@@ -113,3 +114,8 @@ class Judge:
         """Which of the flights from ``first`` on are successes."""
         complete = np.array(self._complete[first:])
         return successes(self._campaign.success, self._columns(first), complete.size) & complete
+
+
+def _last(values: np.ndarray) -> float:
+    """The last of values over time, nan where there is none."""
+    return values.item(values.size - 1) if values.size else math.nan

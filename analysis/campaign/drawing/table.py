@@ -51,11 +51,11 @@ class DrawTable:
 
     def row(self, trial: int) -> dict[str, float]:
         """Every value of one trial."""
-        return {name: float(column[trial]) for name, column in self.columns.items()}
+        return {name: column.item(trial) for name, column in self.columns.items()}
 
     def parameters(self, trial: int) -> dict[str, float]:
         """The values of one trial that are component parameters: those with a dot in their name."""
-        return {name: value for name, value in self.row(trial).items() if "." in name}
+        return {name: column.item(trial) for name, column in self.columns.items() if "." in name}
 
 
 def parted(trials: int, size: int) -> Iterator[range]:

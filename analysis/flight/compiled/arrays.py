@@ -57,7 +57,7 @@ class Recording(NamedTuple):
 
     slots: np.ndarray  # int64 [k]
     stride: int
-    rows: np.ndarray  # float64 [r, k]
+    record: np.ndarray  # float64 [k, r], what is kept of a slot side by side, since it is looked at slot by slot
     times: np.ndarray  # float64 [r], s
 
 

@@ -72,7 +72,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
     drive_slot, drive_table = program.drive_slot, program.drive_table
     values, whole, frozen, outcome = buffers.values, buffers.whole, buffers.frozen, buffers.outcome
     start, step, first_point, steps = span.start, span.step, span.first, span.last
-    recorded, stride, record, times = recording.slots, recording.stride, recording.rows, recording.times
+    recorded, stride, record, times = recording.slots, recording.stride, recording.record, recording.times
     halt = buffers.halt
     outcome[:] = 0
     rows = 0
@@ -218,7 +218,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
             to_record = stride
             times[rows] = after
             for c in range(recorded.size):
-                record[rows, c] = values[recorded[c]]
+                record[c, rows] = values[recorded[c]]
             rows += 1
         to_record -= 1
         if last:
