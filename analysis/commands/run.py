@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
 
 from ..batch.tables import faults_line
 from ..flight.instances.log import Log
 from ..flight.interruptible import StuckError, fly
+from ..flight.results import Result
 from ..flight.simulation import Simulation
 from ..flight.statuses import status_lines
+from ..reports.own.asked.declared import Figure
 from ..reports.own.asked.reading import read_figures
 from ..reports.own.asked.stages import Limits
 from ..reports.own.limit_table import limit_lines
-from ..reports.run.run_report import write_run_report
 from ..system.prepared import prepare_system
 from ..targets import PAGES, Results, check_file
 from .common.in_flight import series, watch
@@ -60,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
         if injected:
             print(faults_line(injected))
     files.write(options.output, result.write)
-    files.write(options.report, lambda path: write_run_report(result, path, prepared.archive.name, figures))
+    files.write(options.report, partial(_write_page, result, prepared.archive.name, figures))
     if options.json != "-":
         files.say()
     if not result.complete:
@@ -69,3 +73,9 @@ def run(options: argparse.Namespace) -> int:
     last = {"time": result.time[-1:].tolist(), **{name: [value] for name, value in result.final().items()}}
     met = check_requirements(requirements, {name: float(value[0]) for name, value in last.items() if value})
     return 2 if files.failed else 0 if met and result.complete else 1
+
+
+def _write_page(result: Result, system: str, figures: Sequence[Figure], path: Path) -> None:
+    from ..reports.run.run_report import write_run_report  # and matplotlib, which takes half a second
+
+    write_run_report(result, path, system, figures)

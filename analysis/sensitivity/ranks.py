@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.stats import spearmanr
+import scipy
 
 FEWEST = 3  # trials with a finite value
 
@@ -26,4 +26,4 @@ def _rho(draw: np.ndarray, values: np.ndarray) -> float | None:
     draw, values = draw[known], values[known]
     if values.size < FEWEST or np.all(draw == draw[0]) or np.all(values == values[0]):
         return None
-    return float(spearmanr(draw, values).statistic)
+    return float(scipy.stats.spearmanr(draw, values).statistic)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import bootstrap, qmc, sobol_indices
+import scipy
 
 CONFIDENCE = 0.95
 RESAMPLES = 999
@@ -33,7 +33,7 @@ def saltelli_points(base: int, dimensions: int, random: np.random.Generator) -> 
 
     ``base`` is a power of two, that of the scrambled Sobol' sequence in twice as many dimensions.
     """
-    both = qmc.Sobol(2 * dimensions, scramble=True, bits=64, rng=random).random(base)
+    both = scipy.stats.qmc.Sobol(2 * dimensions, scramble=True, bits=64, rng=random).random(base)
     first, second = both[:, :dimensions], both[:, dimensions:]
     mixed = np.tile(first, (dimensions, 1, 1))
     places = np.arange(dimensions)
@@ -51,12 +51,12 @@ def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indic
     def statistic(rows: np.ndarray) -> np.ndarray:
         part = pages[:, :, rows]
         parts = {"f_A": part[:, 0], "f_B": part[:, 1], "f_AB": part[:, 2:].swapaxes(0, 1)}
-        found = sobol_indices(func=parts, n=base)
+        found = scipy.stats.sobol_indices(func=parts, n=base)
         shape = (len(part), -1)  # which a single number has lost
         return np.stack([found.first_order.reshape(shape), found.total_order.reshape(shape)])
 
     whole = statistic(np.arange(base))
-    spread = bootstrap(
+    spread = scipy.stats.bootstrap(
         (np.arange(base),),
         statistic,
         n_resamples=RESAMPLES,

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from scipy.stats import binom
+import scipy
 
 ROUNDING = 1e-12  # of a risk, relative: 1 - 0.9 is less than 0.1
 FURTHER = (0, 1, 2)  # failures still to come for which the flights that are missing are told
@@ -51,7 +51,7 @@ def consumer_risk(flights: int, failures: int, share: float) -> float:
 
     No system with a smaller share has so few failures with a larger probability.
     """
-    return float(binom.cdf(failures, flights, 1.0 - share))
+    return float(scipy.stats.binom.cdf(failures, flights, 1.0 - share))
 
 
 def producer_risk(flights: int, failures: int, share: float) -> float:
@@ -59,7 +59,7 @@ def producer_risk(flights: int, failures: int, share: float) -> float:
 
     No system with a larger share has so many failures with a larger probability.
     """
-    return float(binom.sf(failures - 1, flights, 1.0 - share))
+    return float(scipy.stats.binom.sf(failures - 1, flights, 1.0 - share))
 
 
 def fixed_verdict(flights: int, failures: int, share: float, confidence: float) -> Verdict:
@@ -80,7 +80,8 @@ def fixed_verdict(flights: int, failures: int, share: float, confidence: float) 
 def permitted_failures(flights: int, share: float, confidence: float) -> int:
     """With how many failures at most the requirement is met; -1 where none are few enough."""
     risk = permitted_risk(confidence)
-    failures = int(binom.ppf(risk, flights, 1.0 - share))  # the fewest that are no longer few enough, or exactly so
+    # the fewest that are no longer few enough, or exactly so
+    failures = int(scipy.stats.binom.ppf(risk, flights, 1.0 - share))
     while failures >= 0 and consumer_risk(flights, failures, share) > risk:
         failures -= 1
     return failures

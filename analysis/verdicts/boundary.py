@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import binom
+import scipy
 
 TAIL = 1e-18  # what is left off either end of a distribution: nothing beside any risk
 SPENT = 1.0 - 1e-9  # of the risk that is permitted: the rest is for rounding and for those tails
@@ -59,8 +59,9 @@ class Boundary:
         last = self.looks[-1] if self.looks else Look(0, -1, 0.0, 0, np.ones(1))
         start = max(last.lowest, last.most + 1)
         flown = flights - last.flights
-        first, end = int(binom.ppf(TAIL, flown, self.rate)), int(binom.isf(TAIL, flown, self.rate))
-        events = binom.pmf(np.arange(first, end + 1), flown, self.rate)
+        new = scipy.stats.binom(flown, self.rate)
+        first, end = int(new.ppf(TAIL)), int(new.isf(TAIL))
+        events = new.pmf(np.arange(first, end + 1))
         probabilities = np.convolve(last.probabilities[start - last.lowest :], events)
         lowest = start + first
         spent = last.risk(last.most)

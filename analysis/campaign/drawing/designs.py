@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.stats import qmc
+import scipy
 
 from ...errors import InputError
 from .declared import Columns, Draw
@@ -37,7 +37,7 @@ def latin_hypercube_columns(draws: Sequence[Draw], trials: int, seed: int) -> Co
     # a Latin hypercube is one such column per dimension; made singly, a column does not depend on the others
     columns = {}
     for draw in draws:
-        design = qmc.LatinHypercube(1, rng=generator(seed, draw.name)).random(trials)
+        design = scipy.stats.qmc.LatinHypercube(1, rng=generator(seed, draw.name)).random(trials)
         columns[draw.name] = _stretch(draw, design[:, 0])
     return columns
 
@@ -50,7 +50,7 @@ def sobol_columns(draws: Sequence[Draw], trials: int, seed: int, file: str) -> C
         higher = 1 << trials.bit_length()
         problem = f"{trials} trials leave a Sobol sequence unbalanced"
         raise InputError(file, "trials", problem, f"use a power of two: {higher // 2} or {higher}")
-    design = qmc.Sobol(len(draws), scramble=True, rng=generator(seed, "design:sobol")).random(trials)
+    design = scipy.stats.qmc.Sobol(len(draws), scramble=True, rng=generator(seed, "design:sobol")).random(trials)
     return {draw.name: _stretch(draw, design[:, index]) for index, draw in enumerate(draws)}
 
 

@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +22,6 @@ from ...campaign.expressions import Expression
 from ...campaign.plan import BatchPlan
 from ...errors import EndedError
 from ...flight.results import TIMED_OUT
-from ...reports.batch.batch_report import write_batch_report
 from ...system.status_words import with_meaning
 from ...targets import Results
 from ..common.options import write_json
@@ -43,6 +43,12 @@ def said_how_to_go_on(folder: Path | None) -> Iterator[None]:
         raise EndedError(f"{file}{error.strerror or error}; make room{_how_to_go_on(place)}", 2) from error
 
 
+def _write_page(result: BatchResult, path: Path) -> None:
+    from ...reports.batch.batch_report import write_batch_report  # and matplotlib, which takes half a second
+
+    write_batch_report(result, path, result.provenance["system"])
+
+
 def _how_to_go_on(folder: Path | None) -> str:
     if folder is None or not (folder / MANIFEST).is_file():
         return ""
@@ -56,7 +62,7 @@ def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Ex
         print(result.text())
         for line in _meanings(plan, result):
             print(line)
-    files.write(options.report, lambda path: write_batch_report(result, path, result.provenance["system"]))
+    files.write(options.report, partial(_write_page, result))
     if options.json != "-":
         files.say()
     for line in _failures(result):

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from markupsafe import Markup
 from matplotlib.axes import Axes
-from scipy.stats import norm
 
 from ...flight.results import Result
 from ..kit.panels import Panel
@@ -103,7 +103,7 @@ def _findings(error: Error, label: str, time: np.ndarray, values: np.ndarray, si
 
 
 def _normal(times: float) -> float:
-    return float(2.0 * norm.cdf(times) - 1.0)
+    return float(2.0 * scipy.stats.norm.cdf(times) - 1.0)
 
 
 def _percent(share: float) -> Markup:

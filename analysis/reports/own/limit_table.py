@@ -8,7 +8,6 @@ from ...flight.results import Result
 from ..kit.page import exact
 from ..kit.quantities import shown_unit
 from .asked.stages import Limit, Limits
-from .section import Section, Table, sentence
 
 VERDICTS = {
     True: Markup('<span class="verdict pass">kept</span>'),
@@ -24,25 +23,8 @@ def is_kept(limit: Limit, result: Result) -> bool:
     return above and below and abs(value) < float("inf")
 
 
-def limit_section(limits: Limits, result: Result) -> Section:
-    """The table of limits, and how many of them are kept."""
-    broken = [limit.name for limit in limits.limits if not is_kept(limit, result)]
-    count = len(limits.limits)
-    words = Markup("not kept: {}").format(", ".join(broken)) if broken else Markup("all {} kept").format(count)
-    return Section(
-        title=limits.title,
-        table=Table(
-            heads=("", "at the end", "limit", "unit", ""),
-            rows=limit_rows(limits, result),
-            numbers=(1, 2),
-        ),
-        findings=[sentence(words)],
-        notes=[Markup("{}").format(note) for note in limits.notes],
-    )
-
-
 def limit_lines(limits: Limits, result: Result) -> list[str]:
-    """The same for a terminal: a line for each limit, angles in deg."""
+    """For a terminal: a line for each limit, angles in deg."""
     return [
         " ".join(Markup("{}: {} {}, {}: {}").format(name, value, unit, most, verdict).striptags().split())
         for name, value, most, unit, verdict in limit_rows(limits, result)

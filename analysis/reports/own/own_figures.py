@@ -15,7 +15,7 @@ from .band_figure import band_section, inside, since
 from .budget_table import budget_section
 from .curve_figure import curve_section
 from .error_figure import error_section
-from .limit_table import limit_section
+from .limit_section import limit_section
 from .path_figure import path_section
 from .phase_figure import phase_section
 from .pulse_figure import pulse_section
