@@ -61,3 +61,29 @@ def blocks(rows: TrialRows, name: str, where: str | None = None, value: float = 
 def whole_column(rows: TrialRows, name: str) -> np.ndarray:
     """A column in memory (trials,)."""
     return np.concatenate([part[name] for part in rows.parts(name)])
+
+
+@dataclass(frozen=True)
+class _Held:
+    """Trials of which some columns are in memory; the others are read."""
+
+    rows: TrialRows
+    columns: Part
+
+    def parts(self, *names: str) -> Iterator[Part]:
+        if self.columns.keys() >= set(names):
+            yield {name: self.columns[name] for name in names}
+        else:
+            yield from self.rows.parts(*names)
+
+
+def held(rows: TrialRows, names: Sequence[str], most: int) -> TrialRows:
+    """The same trials, these columns of theirs read once and kept, if they have no more than ``most`` values in all."""
+    parts: list[Part] = []
+    size = 0
+    for part in rows.parts(*names):
+        size += sum(map(len, part.values()))
+        if size > most:
+            return rows
+        parts.append(part)
+    return _Held(rows, {name: np.concatenate([part[name] for part in parts]) for name in names})

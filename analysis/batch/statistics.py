@@ -13,7 +13,7 @@ from ..verdicts.order_statistics import Blocks, order_statistics
 
 QUANTILES = {"p5": 5, "p50": 50, "p95": 95, "p99": 99}  # %
 STATISTICS = ("mean", "std", "rms", "min", *QUANTILES, "max")  # as tables show them
-HELD = 2**20  # values of a column, 8 MB
+HELD = 2**20  # values that are kept in memory, 8 MB
 INFINITE = ("inf", "-inf")  # strict JSON has no such numbers
 
 
@@ -71,11 +71,22 @@ def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:
 def _quantiles(column: Blocks, known: int) -> dict[str, float | str | None]:
     if not known:
         return dict.fromkeys(QUANTILES)
-    ranks = [quantile_rank(percent / 100.0, known) for percent in QUANTILES.values()]
+    ranks = [_rank(percent / 100.0, known) for percent in QUANTILES.values()]
     found = order_statistics(column, ranks)
     return {key: value if math.isfinite(value) else str(value) for key, value in zip(QUANTILES, found, strict=True)}
 
 
-def quantile_rank(share: float, count: int) -> int:
+def quantile(column: Blocks, share: float) -> float:
+    """The least value of a column that a ``share`` of them does not exceed, as in `statistics`; nan if there is none.
+
+    Exact, in memory that their number does not change. Raises ValueError unless 0 <= share <= 1.
+    """
+    if not 0.0 <= share <= 1.0:
+        raise ValueError(f"the share {share!r} is not between 0 and 1")
+    known = sum(int(np.count_nonzero(~np.isnan(values))) for values in column())
+    return order_statistics(column, [_rank(share, known)])[0] if known else math.nan
+
+
+def _rank(share: float, count: int) -> int:
     """The rank, from 0, of the least of ``count`` values that a ``share`` of them does not exceed."""
     return max(0, math.ceil(share * count - 1.0))

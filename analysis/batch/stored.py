@@ -23,7 +23,7 @@ from .manifest.manifest import FILE as MANIFEST
 from .manifest.manifest import WRITE
 from .results import batch_digest
 from .shards.files import DRAWS, FOLDER, SUMMARY, about_of, described, shard_path, trace_path
-from .shards.reading import AGAIN, numbers, read_table, trials_of
+from .shards.reading import AGAIN, numbers, read_table, trials_in, trials_of
 from .trials import Trials, joined
 
 FACTS = (
@@ -91,7 +91,7 @@ def read_batch(folder: Path) -> StoredBatch:
     """The batch in a folder. Raises InputError for what is missing, damaged, or of two batches."""
     for name in (SUMMARY, FOLDER):
         _check_there(folder, name)
-    document = _read_summary(folder / SUMMARY)
+    document = read_summary(folder / SUMMARY)
     provenance = {key: value for key, value in document.items() if key != "variants"}
     batch = batch_digest(provenance)
     shards = _read_shards(folder, batch, document["trials"])
@@ -140,17 +140,16 @@ def _read_shards(folder: Path, batch: str, trials: int) -> dict[Path, pyarrow.Ta
         if not path.is_file():
             raise InputError(path, "", f"not found: trials from {end} on are missing", AGAIN)
         table = read_table(path)
-        about = about_of(table.schema)
-        if not isinstance(about, dict) or about.get("batch") != batch:
-            raise InputError(path, "", f"of another batch than {SUMMARY}", AGAIN)
-        if about.get("shard") != shard or about["trials"][0] != end:
-            raise InputError(path, "", "not the shard that it is named by", AGAIN)
+        there = trials_in(path, about_of(table.schema), batch, SUMMARY)
+        if there.start != end:
+            raise InputError(path, "", f"begins with trial {there.start}, not {end}", AGAIN)
         tables[path] = table
-        end = about["trials"][1]
+        end = there.stop
     return tables
 
 
-def _read_summary(path: Path) -> dict[str, Any]:
+def read_summary(path: Path) -> dict[str, Any]:
+    """The content of summary.json. Raises InputError for what is none, or of an older version."""
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
     except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.stats import binomtest
+import scipy
 
 from ..campaign.campaign import Metric
 from ..campaign.groups import Group
-from .rows import Part, TrialRows, blocks
-from .statistics import INFINITE, QUANTILES, statistics
+from .rows import Part, TrialRows, blocks, held
+from .statistics import HELD, INFINITE, QUANTILES, statistics
 
 CONFIDENCE = 0.95
 
@@ -25,8 +25,12 @@ def success_interval(successes: int, trials: int, confidence: float = 0.95) -> t
     whatever that rate is. Wilson's is shorter but covers less than it says near 0 and 1, and
     rates near 1 are what guidance is judged by. Raises ValueError unless 0 <= successes <= trials, trials >= 1.
     """
-    interval = binomtest(successes, trials).proportion_ci(confidence, method="exact")
-    return float(interval.low), float(interval.high)
+    if not (trials >= 1 and 0 <= successes <= trials):
+        raise ValueError(f"{successes} successes of {trials} trials")
+    failures, tail = trials - successes, 0.5 * (1.0 - confidence)
+    low = float(scipy.special.betaincinv(successes, failures + 1, tail)) if successes else 0.0
+    high = float(scipy.special.betaincinv(successes + 1, failures, 1.0 - tail)) if failures else 1.0
+    return low, high
 
 
 def _summary(trials: TrialRows, metrics: Sequence[Metric]) -> dict[str, Any]:
@@ -59,9 +63,12 @@ def summarise(
     With ``groups`` a variant has ``groups`` too, by their labels: the same over the trials of each, and its ``value``;
     ``by`` is the draw by whose values they are.
     """
-    found = {name: _summary(trials, metrics) for name, trials in variants.items()}
-    if groups:
-        for name, trials in variants.items():
+    columns = ["success", *(f"metric.{metric.name}" for metric in metrics), *([f"draw.{by}"] if groups else [])]
+    found = {}
+    for name, rows in variants.items():
+        trials = held(rows, columns, HELD)
+        found[name] = _summary(trials, metrics)
+        if groups:
             found[name]["groups"] = {
                 group.label: {"value": group.value, **_summary(_Members(trials, f"draw.{by}", group), metrics)}
                 for group in groups

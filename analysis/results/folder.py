@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,7 +12,8 @@ from ..batch.manifest.manifest import WRITE
 from ..batch.results import batch_digest
 from ..batch.runner import open_folder
 from ..batch.shards.files import FOLDER, SUMMARY, described
-from ..batch.shards.reading import AGAIN
+from ..batch.shards.reading import AGAIN, trials_in
+from ..batch.stored import read_summary
 from ..errors import InputError
 
 
@@ -77,12 +77,7 @@ class ResultFolder:
         return sum(len(shard.trials) for shard in self.shards) if self.paths else 0
 
     def _shard(self, path: Path) -> Shard:
-        about = described(path)
-        if not isinstance(about, dict) or about.get("batch") != self.batch:
-            raise InputError(path, "", f"of another batch than {SUMMARY if self.is_whole else MANIFEST}", AGAIN)
-        if about.get("shard") != int(path.stem):
-            raise InputError(path, "", "not the shard that it is named by", AGAIN)
-        return Shard(path, range(*about["trials"]))
+        return Shard(path, trials_in(path, described(path), self.batch, SUMMARY if self.is_whole else MANIFEST))
 
 
 def read_folder(folder: Path) -> ResultFolder:
@@ -90,18 +85,8 @@ def read_folder(folder: Path) -> ResultFolder:
     folder = folder.absolute()
     paths = tuple(path for path in sorted((folder / FOLDER).glob("*.parquet")) if path.stem.isdecimal())
     if (folder / SUMMARY).is_file():
-        return ResultFolder(folder, _provenance(folder / SUMMARY), True, paths)
+        document = read_summary(folder / SUMMARY)
+        return ResultFolder(folder, {key: value for key, value in document.items() if key != "variants"}, True, paths)
     if not (folder / MANIFEST).is_file():
         raise InputError(folder, MANIFEST, "not found", WRITE)
     return ResultFolder(folder, open_folder(folder).provenance, False, paths)
-
-
-def _provenance(path: Path) -> dict[str, Any]:
-    try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
-        raise InputError(path, "", f"not JSON: {error}", AGAIN) from error
-    for key in ("system", "campaign", "variants", "trials", "fmus", "metrics", "signals", "success"):
-        if not isinstance(document, dict) or key not in document:
-            raise InputError(path, key, "missing", WRITE)
-    return {key: value for key, value in document.items() if key != "variants"}

@@ -16,14 +16,13 @@ import pyarrow.parquet
 from pyarrow.fs import LocalFileSystem
 
 from ..batch.shards.reading import read_table
+from ..batch.statistics import quantile
 from ..errors import suggestion
 from .columns import Column, columns_of
 from .folder import ResultFolder
-from .selection import quantile
 from .traces import trace_dataset
 
 UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column that there is not
-AHEAD = 2  # parts of a shard that are read before they are asked for
 
 
 class OpenedResults:
@@ -93,14 +92,12 @@ class OpenedResults:
     ) -> Iterator[pyarrow.RecordBatch]:
         """What `arrow` gives, in parts and in order; memory does not grow with the campaign. Raises as `arrow` does."""
         self._check(columns)
+        names = self._schema.names if columns is None else list(columns)
         with self._told():
-            yield from self.dataset.to_batches(
-                columns=None if columns is None else list(columns),
-                filter=where,
-                batch_readahead=AHEAD,
-                fragment_readahead=AHEAD,
-                cache_metadata=False,
-            )
+            # each shard to its end: to_batches of the whole reads ahead, and Arrow 26 may crash where it is left early
+            for shard in self.dataset.get_fragments():
+                found = shard.to_table(self._schema, names, filter=where, use_threads=False, cache_metadata=False)
+                yield from found.to_batches()
 
     def quantile(
         self,

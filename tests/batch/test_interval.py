@@ -1,4 +1,4 @@
-"""perilune.analysis.batch.interval against the beta distribution and by counting its coverage."""
+"""perilune.analysis.batch.summary.success_interval against the beta distribution and by counting its coverage."""
 
 import pytest
 from hypothesis import given
@@ -34,5 +34,5 @@ def test_covers_the_true_rate_at_least_as_often_as_it_says(rate):
 
 def test_impossible_counts_are_refused():
     for successes, trials in ((3, 2), (-1, 2), (0, 0)):
-        with pytest.raises(ValueError, match="must"):
+        with pytest.raises(ValueError, match="successes of"):
             success_interval(successes, trials)

@@ -1,7 +1,7 @@
 """perilune.analysis.batch.statistics.
 
-Truth: Python's statistics module and scipy's distribution function over the same finite columns; a quantile's
-definition counted trial by trial, in integers.
+Truth: Python's statistics module, scipy's distribution function and numpy's quantile over the same finite columns; a
+quantile's definition counted trial by trial, in integers.
 """
 
 import math
@@ -9,12 +9,13 @@ import statistics as exact
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.stats import ecdf
 
-from perilune.analysis.batch.statistics import QUANTILES, STATISTICS
+from perilune.analysis.batch.statistics import QUANTILES, STATISTICS, quantile
 from perilune.analysis.batch.statistics import statistics as of_blocks
+from perilune.analysis.verdicts import order_statistics
 
 NUMBERS = st.floats(-1e6, 1e6)
 ANY = NUMBERS | st.sampled_from([math.inf, -math.inf, math.nan])
@@ -84,3 +85,45 @@ def test_blocks_change_no_bit_and_neither_does_their_order(lists, chance):
     whole = statistics(np.concatenate(parts), "1")
     chance.shuffle(parts)
     assert of_blocks(lambda: parts, "1") == whole
+
+
+@pytest.fixture(params=[order_statistics.HELD, 2])
+def held(request, monkeypatch):
+    """How many numbers are held: all of these few, or so few that every bit is counted."""
+    monkeypatch.setattr(order_statistics, "HELD", request.param)
+
+
+def asked(parts, share):
+    return quantile(lambda: iter(parts), share)
+
+
+parts_of_numbers = st.lists(st.floats(allow_nan=True, allow_infinity=True), max_size=40)
+
+
+@given(st.lists(parts_of_numbers, max_size=5), st.floats(0.0, 1.0))
+@example([[0.0, -0.0], [5e-324, -5e-324]], 0.5)
+@example([[math.inf, -math.inf, math.nan], [1.0]], 0.999)
+@example([[1.0] * 30, [np.nextafter(1.0, 2.0)] * 3], 0.95)
+@pytest.mark.usefixtures("held")
+def test_quantiles_are_numpys(parts, share):
+    arrays = [np.array(part, dtype=float) for part in parts]
+    everything = np.concatenate([*arrays, np.zeros(0)])
+    known = everything[~np.isnan(everything)]
+    found = asked(arrays, share)
+    if known.size:
+        assert found == np.quantile(known, share, method="inverted_cdf")
+    else:
+        assert math.isnan(found)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.001, 0.05, 0.25, 0.5, 0.95, 0.99, 0.999, 1.0])
+@pytest.mark.usefixtures("held")
+def test_many_numbers_that_are_nearly_the_same(share):
+    values = 200.0 + 1e-12 * np.random.default_rng(4).normal(size=20_000)
+    assert asked(np.array_split(values, 7), share) == np.quantile(values, share, method="inverted_cdf")
+
+
+@pytest.mark.parametrize("share", [-0.1, 1.1, math.nan])
+def test_what_is_no_share(share):
+    with pytest.raises(ValueError, match="is not between 0 and 1"):
+        asked([np.ones(3)], share)

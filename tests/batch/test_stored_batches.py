@@ -16,6 +16,7 @@ import pytest
 from perilune.analysis.batch.stored import read_batch
 from perilune.analysis.compare.side_by_side import compare
 from perilune.analysis.errors import InputError
+from tests.support.campaigns.folders import flip_bit
 from tests.support.pages.comparison_samples import CAMPAIGN, sample_batch, write_sample
 
 
@@ -71,16 +72,6 @@ def edit(path, change):
     path.write_text(json.dumps(document))
 
 
-def flip(path):
-    """One byte of the data of a column changed."""
-    data = bytearray(path.read_bytes())
-    group = pyarrow.parquet.ParquetFile(path).metadata.row_group(0)
-    chunk = group.column(group.num_columns - 1)
-    start = chunk.data_page_offset if chunk.dictionary_page_offset is None else chunk.dictionary_page_offset
-    data[start + chunk.total_compressed_size - 2] ^= 0x10
-    path.write_bytes(data)
-
-
 def truncated(path):
     path.write_bytes(path.read_bytes()[:-100])
 
@@ -112,8 +103,8 @@ DAMAGES = {
     "no draws": (lambda f: (f / "draws.parquet").unlink(), "draws.parquet: not found"),
     "truncated": (lambda f: truncated(f / LAST), "000001.parquet: cannot be read as parquet"),
     "empty": (lambda f: (f / "draws.parquet").write_bytes(b""), "draws.parquet: cannot be read as parquet"),
-    "flipped": (lambda f: flip(f / LAST), "000001.parquet: cannot be read as parquet"),
-    "flipped draws": (lambda f: flip(f / "draws.parquet"), "draws.parquet: cannot be read as parquet"),
+    "flipped": (lambda f: flip_bit(f / LAST), "000001.parquet: cannot be read as parquet"),
+    "flipped draws": (lambda f: flip_bit(f / "draws.parquet"), "draws.parquet: cannot be read as parquet"),
     "no JSON": (lambda f: (f / "summary.json").write_text("{"), "summary.json: not JSON"),
     "not UTF-8": (lambda f: (f / "summary.json").write_bytes(b"\xff"), "summary.json: not JSON"),
     "a list": (lambda f: (f / "summary.json").write_text("[]"), "summary.json: variants: missing"),
@@ -154,7 +145,7 @@ def test_what_is_damaged_is_refused_in_one_line(folder, damage):
 
 
 def test_a_damaged_trace_is_found_out_when_it_is_read(folder):
-    flip(folder / "traces" / "beta" / "000002.parquet")
+    flip_bit(folder / "traces" / "beta" / "000002.parquet")
     read = read_batch(folder)
     with pytest.raises(InputError, match=r"000002\.parquet: cannot be read as parquet"):
         read.trace("beta", 2)

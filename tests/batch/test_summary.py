@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from perilune.analysis.batch import summary as summaries
 from perilune.analysis.batch.rows import TrialColumns
 from perilune.analysis.batch.summary import requirement_values, success_interval, summarise
 from perilune.analysis.campaign.campaign import Metric
@@ -95,3 +96,24 @@ def test_requirements_reach_groups_by_their_value():
     assert Expression(text).names <= set(values)
     assert Expression(text).evaluate(values) == 1.0
     assert values['good.groups["0.5"].success_interval[1]'] == success_interval(1, 2)[0]
+
+
+class InParts:
+    """Trials in two parts, which count how often they are read."""
+
+    def __init__(self, trials):
+        self.trials, self.readings = trials, 0
+
+    def parts(self, *names):
+        self.readings += 1
+        for rows in (slice(0, 3), slice(3, 4)):
+            yield {name: self.trials.column(name)[rows] for name in names}
+
+
+@pytest.mark.parametrize("held", [12, 11])
+def test_few_trials_are_read_once_and_many_come_to_the_same(monkeypatch, held):
+    """Three columns of four trials are held, statuses are read for the whole and both groups; or no column is held."""
+    monkeypatch.setattr(summaries, "HELD", held)
+    trials = InParts(PARTED)
+    assert summarise({"x": trials}, METRICS, GROUPS, "case") == summarise({"x": PARTED}, METRICS, GROUPS, "case")
+    assert (trials.readings <= 4) == (held >= 12)

@@ -15,6 +15,7 @@ from pyarrow.compute import field
 
 import perilune
 from perilune.analysis.cli import main
+from tests.support.campaigns.folders import flip_bit
 from tests.support.campaigns.large_results import write_large
 from tests.support.pages.comparison_samples import sample_batch, write_sample
 
@@ -132,18 +133,8 @@ def test_what_there_is_not(original, ask, words):
         ask(perilune.open_results(original))
 
 
-def flip(path):
-    """One bit of the data of the last column changed."""
-    data = bytearray(path.read_bytes())
-    group = pyarrow.parquet.ParquetFile(path).metadata.row_group(0)
-    chunk = group.column(group.num_columns - 1)
-    start = chunk.data_page_offset if chunk.dictionary_page_offset is None else chunk.dictionary_page_offset
-    data[start + chunk.total_compressed_size - 2] ^= 0x10
-    path.write_bytes(data)
-
-
 def damage_data(folder):
-    flip(shard(folder, 1))
+    flip_bit(shard(folder, 1))
     return "cannot be read as parquet"
 
 

@@ -11,6 +11,7 @@ import pyarrow.compute
 from matplotlib.figure import Figure as Plot
 
 from ...batch.results import BatchResult
+from ...batch.rows import whole_column
 from ...campaign.campaign import Metric
 from ...campaign.expressions import Expression
 from ...errors import InputError, suggestion
@@ -83,7 +84,7 @@ def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Met
 def _lines(label: str, results: Results, metric: str) -> list[tuple[str, np.ndarray]]:
     """The values of a metric by what their lines are called: the label, the variant, or both."""
     if isinstance(results, BatchResult):
-        found = {variant: trials.metrics[metric] for variant, trials in results.trials.items()}
+        found = {variant: whole_column(rows, f"metric.{metric}") for variant, rows in results.rows.items()}
     else:
         table = results.arrow(["variant", f"metric.{metric}"])
         column = table.column(1).to_numpy().astype(np.float64)

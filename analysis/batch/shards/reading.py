@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow
@@ -64,3 +65,15 @@ def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[
             traces={},
         )
     return found
+
+
+def trials_in(path: Path, about: Any, batch: str, whose: str) -> range:
+    """The trials of a shard's file, of which ``about`` is what it says of itself.
+
+    Raises InputError for one of another batch than that of the file ``whose``, and for one that has another's name.
+    """
+    if not isinstance(about, dict) or about.get("batch") != batch:
+        raise InputError(path, "", f"of another batch than {whose}", AGAIN)
+    if about.get("shard") != int(path.stem):
+        raise InputError(path, "", "not the shard that it is named by", AGAIN)
+    return range(*about["trials"])

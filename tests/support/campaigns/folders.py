@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import psutil
+import pyarrow.parquet
 
 
 def bytes_of(folder):
@@ -52,3 +53,13 @@ def killed_when(process, condition, victim=None):
             return True
         time.sleep(0.01)
     return False
+
+
+def flip_bit(path):
+    """Change one bit of the data of a Parquet file's last column."""
+    data = bytearray(path.read_bytes())
+    group = pyarrow.parquet.ParquetFile(path).metadata.row_group(0)
+    chunk = group.column(group.num_columns - 1)
+    start = chunk.data_page_offset if chunk.dictionary_page_offset is None else chunk.dictionary_page_offset
+    data[start + chunk.total_compressed_size - 2] ^= 0x10
+    path.write_bytes(data)
