@@ -61,13 +61,24 @@ def test_a_folder_with_results_is_not_written_over_without_a_word(tmp_path, caps
     assert json.loads((out / "summary.json").read_text())["seed"] == 5
 
 
+def test_what_another_campaign_flew_with_does_not_stay(tmp_path):
+    """A campaign of four FMUs over the folder of one with one parameter set more; a file of the user's stays."""
+    out = tmp_path / "out"
+    assert main([*BATCH, "--output", str(out)]) == 0
+    alone = {path.name for path in (out / "files").iterdir()}
+    assert main([*BATCH, "--parameters", "noisy.ssv", "--output", str(out), "--overwrite"]) == 0
+    (out / "files" / "mine.txt").write_text("mine")
+    assert main([*BATCH, "--output", str(out), "--overwrite"]) == 0
+    assert {path.name for path in (out / "files").iterdir()} == alone | {"mine.txt"}
+
+
 def test_one_file_that_cannot_be_written_keeps_no_other(tmp_path, capsys, monkeypatch):
     """A disk that is full when the page is written."""
 
     def full(*_, **__):
         raise OSError(errno.ENOSPC, "No space left on device", str(tmp_path / "page.html"))
 
-    monkeypatch.setattr("perilune.analysis.commands.run.write_run_report", full)
+    monkeypatch.setattr("perilune.analysis.reports.run.run_report.write_run_report", full)
     table, page = tmp_path / "flight.csv", tmp_path / "page.html"
     assert main([*RUN, "--output", str(table), "--report", str(page)]) == 2
     captured = capsys.readouterr()

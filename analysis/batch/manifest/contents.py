@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from pathlib import Path
 
 from ...atomic import write_atomically
 from ...errors import InputError
 
+NAMED = re.compile(r"[0-9a-f]{64}(\..*)?")
 AGAIN = "copy the campaign's folder again, with all of its files"
 
 
@@ -21,6 +23,13 @@ def store(folder: Path, contents: dict[str, bytes]) -> None:
     for name, content in contents.items():
         if not (folder / name).is_file():
             write_atomically(folder / name, content)
+
+
+def forget(folder: Path) -> None:
+    """Remove the contents that are kept in a folder; what else lies there stays."""
+    for path in folder.glob("*"):
+        if NAMED.fullmatch(path.name):
+            path.unlink()
 
 
 def stored(folder: Path, name: str) -> Path:

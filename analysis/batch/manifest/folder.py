@@ -12,7 +12,7 @@ from ...errors import InputError
 from ..shards.draws import stored_draws
 from ..shards.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
 from ..shards.numbering import Numbering
-from .contents import store
+from .contents import forget, store
 from .manifest import CONTENTS, FILE, Manifest, differences, read_manifest
 
 
@@ -21,6 +21,7 @@ def begin(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: Ba
     for name in (FILE, SUMMARY):  # first, so that what is left of another campaign is no result any more
         (folder / name).unlink(missing_ok=True)
     clear(folder)
+    forget(folder / CONTENTS)
     _write(folder, manifest, contents, plan)
     return manifest
 
