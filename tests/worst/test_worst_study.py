@@ -110,8 +110,8 @@ def test_refusals(linear, options, words):
         perilune.worst(*linear, workers=1, **({"flights": 100} | options))
 
 
-# Campaigns without noise, and what is to be worst: two guidances of one box; a descent, a landing and pulses of jets,
-# with steps as coarse as they allow, so that a hundred thousand flights take minutes.
+# Campaigns without noise, and what is to be worst: two guidances of one box, a descent and a landing, with steps as
+# coarse as they allow, so that a hundred thousand flights take minutes.
 CASES = {
     "flight time": ("lunar_terminal_guidance", "paper", {"guidance": "analytic_guidance"}, {}, "flight_time"),
     "velocity error": ("lunar_terminal_guidance", "paper", {"guidance": "astar_robust_guidance"}, {}, "velocity_error"),
@@ -122,7 +122,6 @@ CASES = {
         "lunar_landing", "terminal_box", {"guidance": "astar_robust_guidance"},
         {"step": 0.1, "parameters": ("ideal.ssv",)}, "largest_demand",
     ),
-    "jet seconds": ("orbital_attitude", "random_starts", None, {"step": 0.2}, "propellant"),
 }  # fmt: skip
 
 
