@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+PARTIAL = ".partial"
+
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
@@ -16,7 +18,7 @@ def whole_file(path: Path) -> Iterator[Path]:
     Whoever looks at ``path``, now or after a crash, finds the old content or the new one. Raises OSError naming
     ``path`` where it cannot be written, a full disk for instance, with nothing left of it.
     """
-    partial = path.with_name(f".{path.name}.{os.getpid()}")
+    partial = path.with_name(f".{path.name}.{os.getpid()}{PARTIAL}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         yield partial
@@ -34,3 +36,9 @@ def write_atomically(path: Path, content: bytes) -> None:
     """Write a file, whole or not at all; see `whole_file`."""
     with whole_file(path) as partial:
         partial.write_bytes(content)
+
+
+def remove_partial(folder: Path) -> None:
+    """Remove what writers that were killed left in a folder, in which nobody writes any more."""
+    for path in folder.glob(f".*.*{PARTIAL}"):
+        path.unlink(missing_ok=True)

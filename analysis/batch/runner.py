@@ -19,7 +19,7 @@ from .facts import campaign_facts
 from .flying.engines import in_threads
 from .flying.progress import flight_progress
 from .flying.workers import FlyerPool, worker_count
-from .manifest.folder import begin, cut, go_on
+from .manifest.folder import begin, cut, go_on, tidy
 from .manifest.gather import gather
 from .manifest.manifest import Manifest, read_manifest
 from .manifest.restore import restore
@@ -156,6 +156,7 @@ def finish(campaign: Campaign, rows: Mapping[str, FlownRows]) -> BatchResult:
     result = make_result(campaign.plan, rows, campaign.provenance)
     if campaign.folder is not None:
         result.write_summary(campaign.folder)
+        tidy(campaign.folder)
     return result
 
 

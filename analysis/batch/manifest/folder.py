@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...atomic import remove_partial
 from ...campaign.plan import BatchPlan
 from ...errors import InputError
 from ..shards.draws import stored_draws
@@ -74,6 +75,12 @@ def cut(folder: Path, manifest: Manifest, plan: BatchPlan) -> Manifest:
     manifest.write(folder)
     write_draws(plan, folder, manifest.shard_size)
     return manifest
+
+
+def tidy(folder: Path) -> None:
+    """Remove what writers that were killed left in a campaign's folder, in which all shards lie."""
+    for place in (folder, folder / FOLDER, folder / CONTENTS, *trace_path(folder, "", 0).parent.glob("*/")):
+        remove_partial(place)
 
 
 def _write(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> None:

@@ -15,7 +15,7 @@ import pytest
 
 import perilune
 from perilune.analysis.batch import shown as shown_trials
-from perilune.analysis.batch import statistics
+from perilune.analysis.batch import statistics, summary
 from perilune.analysis.batch.runner import open_folder
 from perilune.analysis.batch.shown import FIRST, shown
 from perilune.analysis.batch.stored import read_batch
@@ -174,7 +174,8 @@ class Made:
 
 
 def test_summing_up_takes_no_more_memory_for_more_trials(monkeypatch):
-    monkeypatch.setattr(statistics, "HELD", 20_000)
+    for module in (statistics, summary):
+        monkeypatch.setattr(module, "HELD", 20_000)
     metrics = [Metric("miss", Expression("p.x"), "final", unit="m")]
     requirement = Requirement("near", Expression("miss < 3"), 0.99, 0.9, "miss")
     groups = [Group("1", 1.0)]

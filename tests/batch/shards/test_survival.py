@@ -5,6 +5,9 @@ Truth: every file that the same campaign leaves in another folder, flown in one 
 
 import random
 import shutil
+import signal
+import subprocess
+import sys
 
 import pytest
 
@@ -104,6 +107,31 @@ def test_a_killed_parent_is_gone_on_with(whole, tmp_path):
         assert killed_when(process, lambda shards=shards: shards_in(out) >= shards)
         process.communicate()  # its workers end, too: what they write to is closed
     assert main(["batch", *CAMPAIGN, "--output", str(out), "--resume"]) == 0
+    assert bytes_of(out) == whole
+
+
+KILLED = """
+import os, pathlib, signal, sys
+from perilune.analysis.atomic import whole_file
+with whole_file(pathlib.Path(sys.argv[1])) as partial:
+    partial.write_bytes(b"PAR1")
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_what_killed_writers_leave_is_taken_away(whole, tmp_path):
+    """A kill amid any file of a campaign; what else its owner keeps in that folder stays."""
+    out = tmp_path / "out"
+    assert main(["batch", *CAMPAIGN, "--output", str(out), "--prepare"]) == 0
+    content = next((out / "files").iterdir()).name
+    for name in ("draws.parquet", "trials/000001.parquet", "traces/x/000007.parquet", f"files/{content}"):
+        killed = subprocess.run([sys.executable, "-c", KILLED, str(out / name)], check=False)
+        assert killed.returncode == -signal.SIGKILL
+    assert len(list(out.rglob(".*"))) == 4
+    (out / ".mine").write_text("kept")
+    assert main(["batch", *CAMPAIGN, "--output", str(out), "--resume"]) == 0
+    assert [path.name for path in out.rglob(".*")] == [".mine"]
+    (out / ".mine").unlink()
     assert bytes_of(out) == whole
 
 
