@@ -102,6 +102,7 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
             first = instructions[k, FIRST]
             count = instructions[k, COUNT]
             status = np.int32(0)
+            doubt = 0.0  # NaN as soon as a value is taken that is not finite
             if code == COPY:
                 for i in range(count):
                     values[first + i] = values[address + i]
@@ -115,18 +116,10 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     values[first + i] = moved
                     put_real(address + np.uint64(8) * np.uint64(i), moved)
             elif code == TAKE_REAL:
-                finite = True
                 for i in range(count):
                     value = real_at(address + np.uint64(8) * np.uint64(i))
                     values[first + i] = value
-                    finite &= abs(value) < np.inf
-                if not finite:
-                    for slot in range(first, first + count):
-                        if not abs(values[slot]) < np.inf:
-                            outcome[0] = NONFINITE
-                            outcome[1] = slot
-                            outcome[5] = k
-                            return rows
+                    doubt += value - value  # where there are few: less work than a comparison of each
             elif code == SET_REAL:
                 status = exchange(address, instance, reference, values, first, count)
             elif code == GET_REAL:
@@ -134,13 +127,8 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                 finite = True
                 for slot in range(first, first + count):
                     finite &= abs(values[slot]) < np.inf
-                if not finite and status <= FMI_WARNING:
-                    for slot in range(first, first + count):
-                        if not abs(values[slot]) < np.inf:
-                            outcome[0] = NONFINITE
-                            outcome[1] = slot
-                            outcome[5] = k
-                            return rows
+                if not finite:
+                    doubt = np.nan
             elif code == TAKE_BOOLEAN:
                 for i in range(count):
                     values[first + i] = boolean_at(address + np.uint64(i))
@@ -210,6 +198,13 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                 outcome[3] = status
                 outcome[5] = k
                 return rows
+            if doubt != 0.0:
+                for slot in range(first, first + count):
+                    if not abs(values[slot]) < np.inf:
+                        outcome[0] = NONFINITE
+                        outcome[1] = slot
+                        outcome[5] = k
+                        return rows
         n += 1
         finished = program.finished_slot >= 0 and values[program.finished_slot] != 0.0
         halted = halt[0] != 0
