@@ -30,21 +30,22 @@ class AstarGuidance(AstarProgramme):
         near = 2.0 * dr
         time = start
         converged = False
-        for _ in range(50):
-            if not converged:
-                # A T - 3 B and A T - 2 B with their derivatives; gravity acts on the third axis
-                p = slope_p * time - far
-                p = vector(p.x, p.y, p.z - 0.5 * g * time * time)
-                q = slope_q * time - near
-                first = vector(slope_p.x, slope_p.y, slope_p.z - g * time) * q
-                second = p * slope_q
-                value = 0.0 + dot(p, q)
-                slope = 0.0 + first.x + second.x + first.y + second.y + first.z + second.z
-                change = 0.0
-                if slope != 0.0:
-                    change = value / slope
-                    converged = abs(change) < 1e-6
-                time = time - change
+        iterations = 0
+        while not converged and iterations < 50:
+            iterations = iterations + 1
+            # A T - 3 B and A T - 2 B with their derivatives; gravity acts on the third axis
+            p = slope_p * time - far
+            p = vector(p.x, p.y, p.z - 0.5 * g * time * time)
+            q = slope_q * time - near
+            first = vector(slope_p.x, slope_p.y, slope_p.z - g * time) * q
+            second = p * slope_q
+            value = 0.0 + dot(p, q)
+            slope = 0.0 + first.x + second.x + first.y + second.y + first.z + second.z
+            change = 0.0
+            if slope != 0.0:
+                change = value / slope
+                converged = abs(change) < 1e-6
+            time = time - change
         if converged and time > 0.0:
             return time
         return 0.0

@@ -127,7 +127,7 @@ def test_streams_are_jumps_of_the_recurrences(seed, stream):
 
 
 @given(
-    st.integers(-(2**21), 2**32 - 1),
+    st.integers(-(2**21), 2**33 - 1),
     st.integers(0, 2**32 - 1),
     st.integers(0, 2**32 - 1),
     st.sampled_from([P1, P2]),

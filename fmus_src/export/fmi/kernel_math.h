@@ -45,6 +45,24 @@ typedef struct Fault {
 #define EXACT_SQRT(x) sqrt(x)
 #endif
 
+/* floor, ceil and trunc likewise, but for the sign of a zero, which no int has. From 2^52 on every double is whole. */
+static inline double whole_trunc(double x)
+{
+    return fabs(x) < 4503599627370496.0 ? (double)(int64_t)x : x;
+}
+
+static inline double whole_floor(double x)
+{
+    const double whole = whole_trunc(x);
+    return whole > x ? whole - 1.0 : whole;
+}
+
+static inline double whole_ceil(double x)
+{
+    const double whole = whole_trunc(x);
+    return whole < x ? whole + 1.0 : whole;
+}
+
 static const double MATH_PI = 3.141592653589793;
 static const double MATH_TAU = 6.283185307179586;
 static const double MATH_E = 2.718281828459045;
@@ -89,7 +107,7 @@ static inline double float_floor_divide(double a, double b)
     double quotient = (a - remainder) / b;
     if (remainder != 0.0 && (b < 0.0) != (remainder < 0.0)) quotient -= 1.0;
     if (quotient == 0.0) return copysign(0.0, a / b);
-    double floored = floor(quotient);
+    double floored = whole_floor(quotient);
     if (quotient - floored > 0.5) floored += 1.0;
     return floored;
 }
@@ -171,14 +189,14 @@ static inline double py_fmod(Fault *fault, const char *file, int line, double x,
 
 /* ---- floats to ints ---- */
 
-/* float(math.floor(x)) and the like, which Python computes through an int: whole is floor(x), ceil(x) or trunc(x). */
+/* float(math.floor(x)) and the like, which Python computes through an int: whole is that of x. */
 static inline double py_whole_float(Fault *fault, const char *file, int line, double whole)
 {
     if (!isfinite(whole)) set_fault(fault, file, line, isnan(whole) ? INT_FROM_NAN : INT_FROM_INFINITY);
     return whole + 0.0; /* an int has no -0 */
 }
 
-/* int(x), math.floor(x), math.ceil(x): whole is trunc(x), floor(x) or ceil(x). */
+/* int(x), math.floor(x), math.ceil(x): whole is that of x. */
 static inline int64_t py_whole_int(Fault *fault, const char *file, int line, double whole)
 {
     py_whole_float(fault, file, line, whole);

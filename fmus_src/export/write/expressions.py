@@ -43,7 +43,7 @@ VECTOR_NAMES: dict[type[ast.AST], str] = {
     ast.Mult: "multiply",
     ast.Div: "divide",
 }
-WHOLE = {"floor": "floor", "ceil": "ceil", "int": "trunc"}
+WHOLE = {"floor": "whole_floor", "ceil": "whole_ceil", "int": "whole_trunc"}
 
 
 class ExpressionWriter:

@@ -18,7 +18,7 @@ _RESERVED_TEXT = """
     register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
     bool true false linux unix NULL NAN INFINITY EOF errno stdin stdout stderr fault self
     acos asin atan atan2 cbrt ceil copysign cos cosh exp exp2 expm1 fabs floor fmod isfinite isinf isnan log
-    log10 log1p log2 pow sin sinh sqrt tan tanh trunc
+    log10 log1p log2 pow sin sinh sqrt tan tanh trunc whole_ceil whole_floor whole_trunc
 """
 RESERVED = frozenset(_RESERVED_TEXT.split())
 
