@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numba import typeof
 
 from ..errors import InputError
 from ..ssp.parameter_sets import ParameterValue, parse_value
@@ -121,7 +120,7 @@ class Simulation:
             halt=np.zeros(1, dtype=np.int64),
         )
         self._record, self._times = np.empty((0, 0)), np.empty(0)
-        self._unlocked = False
+        self._loop: Callable[..., int] | None = None
         if self._log is not None:
             self._log.follow(self.buffers.outcome, prepared.start, prepared.step)
         self.life_cycle = LifeCycle(self.instances, self.program, self._instructions)
@@ -148,10 +147,9 @@ class Simulation:
 
         So that other threads run whatever a step does, and a clock measures flights alone.
         """
-        self._unlocked = True
         span, recording, excitation = self._asked(-1, 0, 1, False, NOTHING)
         arguments = (self.program, self.buffers, self.layout.parameters.values, span, recording, excitation)
-        self._function().compile(tuple(typeof(part) for part in arguments))
+        self._loop = loop.compiled_for(arguments, locked=False)
 
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
         """The flight alone, for batches; see `fly`."""
@@ -244,9 +242,6 @@ class Simulation:
         recording = arrays.Recording(self._recorded, every, self._record, self._times)
         return span, recording, excitation if excitation.size else np.zeros((0, len(self._excitations)))
 
-    def _function(self) -> Any:
-        return loop.fly_unlocked if self.prepared.is_native or self._unlocked else loop.fly_locked
-
     def _has_learned(self, outcome: Outcome) -> bool:
         """Whether an FMU has shown what not to ask of it, so that the flight is to begin anew."""
         parameters = self.layout.parameters
@@ -263,8 +258,11 @@ class Simulation:
         self, program: arrays.Program, span: arrays.Span, recording: arrays.Recording, excitation: np.ndarray
     ) -> int:
         """The compiled loop; returns the number of rows that it recorded."""
+        arguments = (program, self.buffers, self.layout.parameters.values, span, recording, excitation)
         with self._under_way:
-            return self._function()(program, self.buffers, self.layout.parameters.values, span, recording, excitation)
+            if self._loop is None:
+                self._loop = loop.compiled_for(arguments, locked=not self.prepared.is_native)
+            return self._loop(*arguments)
 
     def _fly_last_row(self, component: int, end: float, row: int) -> None:
         """Record what there is at the time ``end`` (s) at which a component has ended the simulation."""

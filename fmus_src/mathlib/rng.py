@@ -14,18 +14,26 @@ from .vectors import Vector3, vector
 M1 = 4294967087.0
 M2 = 4294944443.0
 NORM = 2.328306549295727688e-10
+ROUND = 6755399441055744.0  # 1.5 2^52
+
+
+def nearest(x: float) -> float:
+    """The nearest whole number, for x below 2^51: ROUND leaves no place for what lies behind the point."""
+    return x + ROUND - ROUND
 
 
 def multiply_modulo(a: float, s: float, c: float, m: float) -> float:
-    """(a s + c) mod m for integers below 2^35 held in doubles, without losing a bit."""
+    """(a s + c) mod m for integers below 2^34 held in doubles, without losing a bit."""
     v = a * s + c
-    if v >= 9007199254740992.0 or v <= -9007199254740992.0:
-        high = float(math.floor(a / 131072.0))
+    if abs(v) >= 4503599627370496.0:
+        high = nearest(a / 131072.0)
         rest = a - high * 131072.0
         v = high * s
-        v = v - float(math.floor(v / m)) * m
+        v = v - nearest(v / m) * m
         v = v * 131072.0 + rest * s + c
-    v = v - float(math.floor(v / m)) * m
+    v = v - nearest(v / m) * m
+    if v < 0.0:
+        v = v + m
     return v
 
 

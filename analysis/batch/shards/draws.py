@@ -13,6 +13,7 @@ import pyarrow.parquet
 
 from ...campaign.drawing.table import DrawTable
 from ...errors import InputError
+from .arrow import numpy_of
 from .files import DRAWS
 
 AGAIN = "copy the campaign's folder again, with all of its files"
@@ -40,7 +41,7 @@ class StoredDraws:
             table = file.read_row_groups(list(groups), list(self.names))
         first = trials.start - (int(ends[groups.start - 1]) if groups.start else 0)
         rows = slice(first, first + len(trials))
-        return DrawTable(len(trials), {name: table[name].to_numpy()[rows] for name in self.names})
+        return DrawTable(len(trials), {name: numpy_of(table[name])[rows] for name in self.names})
 
 
 def stored_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:

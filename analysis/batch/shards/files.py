@@ -16,6 +16,7 @@ from ...atomic import whole_file
 from ...campaign.plan import BatchPlan
 from ...errors import InputError
 from ..trials import Trials
+from .arrow import table_of, texts_of
 
 FOLDER = "trials"
 DRAWS = "draws.parquet"
@@ -40,7 +41,7 @@ def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: M
     for variant, found in trials.items():
         for trial, traces in found.traces.items():
             about = {"batch": batch, "variant": variant, "trial": trial}
-            write_parquet(_described(pyarrow.table(traces), about), trace_path(folder, variant, trial))
+            write_parquet(_described(table_of(traces), about), trace_path(folder, variant, trial))
     numbers = next(iter(trials.values())).trial
     about = {"batch": batch, "shard": shard, "trials": [int(numbers[0]), int(numbers[-1]) + 1]}
     table = _described(trial_table(plan, trials), about)
@@ -66,7 +67,7 @@ def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
         try:
             for part in plan.draw_parts(size):
                 numbers = np.arange(first, first + part.trials)
-                table = pyarrow.table({"trial": numbers, **part.columns})
+                table = table_of({"trial": numbers, **part.columns})
                 writer = writer or pyarrow.parquet.ParquetWriter(partial, table.schema, write_page_checksum=True)
                 writer.write_table(table)
                 first += part.trials
@@ -93,13 +94,11 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
     numbers = found[0].trial
     drawn = plan.drawn(range(int(numbers[0]), int(numbers[-1]) + 1))
     columns: dict[str, Any] = {
-        "variant": pyarrow.array([name for name, part in trials.items() for _ in part.trial], pyarrow.string()),
+        "variant": texts_of(name for name, part in trials.items() for _ in part.trial),
         "trial": _joined(found, lambda part: part.trial),
-        "status": pyarrow.array([status for part in found for status in part.statuses], pyarrow.string()),
+        "status": texts_of(status for part in found for status in part.statuses),
         "success": _joined(found, lambda part: part.success),
-        "message": pyarrow.array(
-            [part.messages.get(int(trial), "") for part in found for trial in part.trial], pyarrow.string()
-        ),
+        "message": texts_of(part.messages.get(int(trial), "") for part in found for trial in part.trial),
         "end_time": _joined(found, lambda part: part.end_time),
     }
     for name, values in drawn.table.columns.items():
@@ -110,7 +109,7 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
         columns[f"final.{name}"] = _joined(found, lambda part, name=name: part.final[name])
     for name in found[0].metrics:
         columns[f"metric.{name}"] = _joined(found, lambda part, name=name: part.metrics[name])
-    return pyarrow.table(columns)
+    return table_of(columns)
 
 
 def _joined(parts: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.ndarray:

@@ -12,6 +12,7 @@ import pyarrow.parquet
 
 from ...errors import InputError
 from ..trials import Trials
+from .arrow import numpy_of
 from .files import unreadable
 
 AGAIN = "fly the batch again into an empty folder"
@@ -35,7 +36,7 @@ def numbers(table: pyarrow.Table, name: str, path: Path) -> np.ndarray:
     known = pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind) or pyarrow.types.is_boolean(kind)
     if column.null_count or not known:
         raise InputError(path, name, "not a column of numbers", AGAIN)
-    return column.to_numpy()
+    return numpy_of(column)
 
 
 def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[str, Trials]:

@@ -12,6 +12,7 @@ import pyarrow.parquet
 from ...campaign.plan import BatchPlan
 from ..rows import Part
 from ..trials import Trials, joined
+from .arrow import numpy_of
 from .files import described, shard_path, trace_path, unreadable
 from .numbering import Numbering
 from .reading import numbers, read_table, trials_of
@@ -38,7 +39,7 @@ class ShardRows:
         """Some columns, a shard at a time. Raises InputError for a shard that is damaged."""
         for shard in self.shards:
             table = self._table(shard, list(names))
-            yield {name: table[name].to_numpy() for name in names}
+            yield {name: numpy_of(table[name]) for name in names}
 
     def whole(self) -> Trials:
         """All of them in memory, with their traces. Raises InputError."""

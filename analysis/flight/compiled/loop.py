@@ -11,10 +11,12 @@ others, since every name that is kept alive here is read from memory instead of 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from types import FunctionType
 from typing import Any
 
 import numpy as np
+from numba import typeof
 
 from .beginning import begin
 from .codes import (
@@ -235,3 +237,11 @@ def _under_another_name(function: Any, name: str) -> FunctionType:
 # For Python FMUs, which need the interpreter lock at every call, and for native ones, which run without.
 fly_locked = compiled(_fly)
 fly_unlocked = compiled(_under_another_name(_fly, "_fly_unlocked"), nogil=True)
+
+
+def compiled_for(arguments: tuple, *, locked: bool) -> Callable[..., int]:
+    """The loop for arguments of these types, as all flights of a simulation have them; ``locked`` for Python FMUs.
+
+    Called by itself numba's dispatcher would look at the type of every array in every flight.
+    """
+    return (fly_locked if locked else fly_unlocked).compile(tuple(typeof(part) for part in arguments))
