@@ -23,16 +23,16 @@ class Run(NamedTuple):
 
 
 def runs_in_memory(
-    instance: Instance, references: np.ndarray, first: int, *, are_real: bool, to_set: bool = False
+    instance: Instance, references: np.ndarray, first: int, kind: str, *, to_set: bool = False
 ) -> list[Run]:
-    """The runs of Reals, or Booleans, with these value references (uint32) and slots from ``first`` on.
+    """The runs of values of an FMI type, with these value references (uint32) and slots from ``first`` on.
 
     None where the FMU does not say where one of them is.
     """
     ends = [0, *(np.flatnonzero(np.diff(references.astype(np.int64)) != 1) + 1).tolist(), references.size]
     found = []
     for start, end in itertools.pairwise(ends):
-        address = instance.place(references[start:end], are_real=are_real, to_set=to_set)
+        address = instance.place(references[start:end], kind, to_set=to_set)
         if not address:
             return []
         found.append(Run(address, first + start, end - start))

@@ -14,6 +14,7 @@ from .instances.instance import Instance
 from .instances.library import FUNCTION_NAMES
 from .texts import Texts
 
+TAKES = {"Real": codes.TAKE_REAL, "Integer": codes.TAKE_WHOLE, "Boolean": codes.TAKE_BOOLEAN}
 FUNCTION = {name.removeprefix("fmi2"): number for number, name in enumerate(FUNCTION_NAMES)}
 # Real, Integer (and Enumeration), Boolean, String: what sets parameters, what reads them back.
 PARAMETER_CALLS = (
@@ -79,7 +80,7 @@ class InstructionList:
 
         Rows from ``begun`` on are what carries the values there.
         """
-        runs = self._runs(component, piece, are_real=True, to_set=True)
+        runs = self._runs(component, piece, "Real", to_set=True)
         moved = with_moves(self.rows[begun:], runs, component, self.addresses[component][0])
         if not runs:
             self.call(codes.SET_REAL, component, FUNCTION["SetReal"], piece)
@@ -90,25 +91,27 @@ class InstructionList:
 
     def take(self, component: int, function: int, piece: Sequence[int]) -> None:
         """Reals, Integers or Booleans got on a piece of slots; of the FMU's own memory where it says where they lie."""
-        are_real = function == FUNCTION["GetReal"]
-        runs = []
-        if function != FUNCTION["GetInteger"]:  # which FMI's function looks at: ours are longer
-            runs = self._runs(component, piece, are_real=are_real)
+        kind = FUNCTION_NAMES[function].removeprefix("fmi2Get")
+        call = codes.GET_REAL if kind == "Real" else codes.GET_WHOLE
+        runs = self._runs(component, piece, kind)
         if not runs:
-            self.call(codes.GET_REAL if are_real else codes.GET_WHOLE, component, function, piece)
-        self._exchange(codes.TAKE_REAL if are_real else codes.TAKE_BOOLEAN, component, runs)
+            self.call(call, component, function, piece)
+        for run in runs:
+            self._exchange(TAKES[kind], component, [run])
+            if kind == "Integer":
+                self.call(call, component, function, (run.first, run.size))
 
     def _exchange(self, code: int, component: int, runs: Sequence[Run]) -> None:
         instance, _ = self.addresses[component]
         self.rows += [[code, run.address, instance, run.first, run.size, component, 0] for run in runs]
 
-    def _runs(self, component: int, piece: Sequence[int], *, are_real: bool, to_set: bool = False) -> list[Run]:
+    def _runs(self, component: int, piece: Sequence[int], kind: str, *, to_set: bool = False) -> list[Run]:
         """A piece of slots in an FMU's memory; nothing before all are initialised."""
         if not self.between_steps:
             return []
         first, count = piece
         references = self.references[first : first + count]
-        return runs_in_memory(self.instances[component], references, first, are_real=are_real, to_set=to_set)
+        return runs_in_memory(self.instances[component], references, first, kind, to_set=to_set)
 
     def connect(self, group: int, known: Collection[int] | None = None) -> None:
         """Values over the connections that feed a component; group -1: system connectors.

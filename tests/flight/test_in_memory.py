@@ -84,7 +84,7 @@ def test_what_is_not_side_by_side_is_not_in_one_place():
 
         def place(*names, **options):
             references = np.array([variables[name].valueReference for name in names], dtype=np.uint32)
-            return plant.place(references, **{"are_real": True, **options})
+            return plant.place(references, **{"kind": "Real", **options})
 
         first = place("position[1]")
         assert place("position[1]", "position[2]", "position[3]") == first
@@ -92,4 +92,23 @@ def test_what_is_not_side_by_side_is_not_in_one_place():
         assert place("position[2]", "position[1]") == 0
         assert place("position[1]", "position[3]") == 0
         assert place("position[1]", to_set=True) == 0
-        assert place("position[1]", are_real=False) == 0
+        assert place("position[1]", kind="Boolean") == 0
+        assert place("position[1]", kind="Integer") == 0
+
+
+def test_an_integer_beyond_32_bits_fails_as_by_fmis_call(monkeypatch, tiny_folder):
+    first = 2**31 - 4
+    ready = prepare_system(
+        tiny_folder / "native" / "ramp.fmu", SystemOptions(step=0.5, stop_time=5.0, set={"ramp.first_count": first})
+    )
+    with Simulation(ready) as simulation:
+        assert in_memory(simulation) > 0
+        by_memory = simulation.fly({})
+        assert by_memory.signals["ramp.count"].tolist() == [first, first + 1, first + 2, 2**31 - 1]
+        assert (by_memory.status, by_memory.time[-1]) == ("failed", 1.5)
+        assert f"count = {2**31} exceeds an FMI Integer's 32 bits" in by_memory.message
+        monkeypatch.setattr(Instance, "place", lambda *_, **__: 0)
+        with Simulation(ready) as plain:
+            found = plain.fly({})
+            assert found.message == by_memory.message
+            assert_same(by_memory, found)

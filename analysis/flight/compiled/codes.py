@@ -6,18 +6,19 @@ communication step. The loop knows nothing of algorithms; their order is in the 
 
 # Every communication step.
 COPY, TRANSFORM, MAP, INJECT, SET_REAL, SET_WHOLE, GET_REAL, GET_WHOLE, STEP, DRIVE = range(10)
-PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_BOOLEAN = range(10, 14)
-SET_TEXT, GET_TEXT, COPY_TEXT = range(14, 17)
+PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN = range(10, 15)
+SET_TEXT, GET_TEXT, COPY_TEXT = range(15, 18)
 # Once, before a flight; behind all others, as those of Strings are behind those of numbers.
-PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(17, 25)
-IN_MEMORY = (PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_BOOLEAN)  # whose ADDRESS is a place in the instance
+PARAMETERS, WHOLE_PARAMETERS, TEXT_PARAMETERS, SETUP, MODE, READ_BACK, WHOLE_READ_BACK, TEXT_READ_BACK = range(18, 26)
+IN_MEMORY = (PUT_REAL, MOVE_REAL, TAKE_REAL, TAKE_WHOLE, TAKE_BOOLEAN)  # whose ADDRESS is a place in the instance
 
-# Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY and
-# a COPY_TEXT have the first target in FIRST and the first source in ADDRESS; a STEP over several communication steps
-# their number in COUNT (0 for one); those IN_MEMORY the place of the first variable in ADDRESS, and a MOVE_REAL, which
-# is a COPY and its PUT_REAL, the first source in FUNCTION; a DRIVE has 0 in ADDRESS while the FMUs initialise, then 1;
-# FUNCTION numbers library.FUNCTION_NAMES. Exchanged values belong to the end of the step, the initialisation's to the
-# start.
+# Instruction columns. FIRST and COUNT are connections, faults, slots, parameters, Strings or driven inputs; a COPY
+# and a COPY_TEXT have the first target in FIRST and the first source in ADDRESS; a STEP over several communication
+# steps their number in COUNT (0 for one); those IN_MEMORY the place of the first variable in ADDRESS, and a
+# MOVE_REAL, which is a COPY and its PUT_REAL, the first source in FUNCTION; behind a TAKE_WHOLE stands the GET_WHOLE
+# of the same slots, which is called where one of them is beyond 32 bits, so that the FMU says so; a DRIVE has 0 in
+# ADDRESS while the FMUs initialise, then 1; FUNCTION numbers library.FUNCTION_NAMES. Exchanged values belong to the
+# end of the step, the initialisation's to the start.
 CODE, ADDRESS, INSTANCE, FIRST, COUNT, COMPONENT, FUNCTION = range(7)
 COLUMNS = 7
 

@@ -73,6 +73,17 @@ def real_at(typing: Any, address: Any) -> Any:
 
 
 @intrinsic
+def whole_at(typing: Any, address: Any) -> Any:
+    """The int64 at an address, read as `real_at` reads."""
+    signature = types.int64(types.int64)
+
+    def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.load_atomic(builder.inttoptr(arguments[0], INT64.as_pointer()), "monotonic", 8)
+
+    return signature, emit
+
+
+@intrinsic
 def boolean_at(typing: Any, address: Any) -> Any:
     """The C bool at an address, as 0 or 1."""
     signature = types.float64(types.int64)

@@ -50,12 +50,16 @@ from .codes import (
     STOP_TIME,
     TAKE_BOOLEAN,
     TAKE_REAL,
+    TAKE_WHOLE,
     TRANSFORM,
     UNMAPPED,
 )
 from .compiler import compiled
-from .fmi_calls import boolean_at, do_step, exchange, put_real, real_at
+from .fmi_calls import boolean_at, do_step, exchange, put_real, real_at, whole_at
 from .strings import exchange_texts
+
+ONE = np.uint64(1)
+WHOLE_MIN, WHOLE_MAX = -(2**31), 2**31 - 1  # of FMI's Integers
 
 
 def _fly(program, buffers, settings, span, recording, excitation):  # type: ignore[no-untyped-def]
@@ -97,7 +101,10 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
         time = after
         after = start + (n + 1) * step
         outcome[4] = n + 1
-        for k in range(first_instruction, last_instruction):
+        following = first_instruction
+        while following < last_instruction:
+            k = following
+            following = k + ONE
             code = instructions[k, CODE]
             address = instructions[k, ADDRESS]
             instance = instructions[k, INSTANCE]
@@ -131,6 +138,14 @@ def _fly(program, buffers, settings, span, recording, excitation):  # type: igno
                     finite &= abs(values[slot]) < np.inf
                 if not finite:
                     doubt = np.nan
+            elif code == TAKE_WHOLE:
+                fits = True
+                for i in range(count):
+                    number = whole_at(address + np.uint64(8) * np.uint64(i))
+                    values[first + i] = number
+                    fits &= WHOLE_MIN <= number <= WHOLE_MAX
+                if fits:
+                    following = k + ONE + ONE
             elif code == TAKE_BOOLEAN:
                 for i in range(count):
                     values[first + i] = boolean_at(address + np.uint64(i))

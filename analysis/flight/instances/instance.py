@@ -18,6 +18,8 @@ from ...system.fmu import Fmu
 from .library import LOADING, Library, acquire, release
 from .log import Log
 
+PLACED = {"Boolean": 0, "Real": 1, "Integer": 2}  # FMI types as `perilune_place` numbers them
+
 
 @dataclass
 class Instance:
@@ -45,15 +47,15 @@ class Instance:
         """Addresses of the C functions in the order of library.FUNCTION_NAMES."""
         return self.library.addresses
 
-    def place(self, references: np.ndarray, *, are_real: bool, to_set: bool = False) -> int:
-        """The address of Reals, or Booleans, that lie side by side in this instance's memory, in order.
+    def place(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
+        """The address of values that lie side by side in this instance's memory, in order.
 
-        ``references`` are uint32 value references. They may be read or, if they are ``to_set``, written there between
-        steps. 0 where they lie otherwise, or the FMU does not say.
+        ``references`` are uint32 value references, ``kind`` their type, one of PLACED. They may be read or, if they are
+        ``to_set``, written there between steps. 0 where they lie otherwise, or the FMU does not say.
         """
         if self.library.place is None:
             return 0
-        return self.library.place(self.address, references.ctypes.data, references.size, are_real, to_set) or 0
+        return self.library.place(self.address, references.ctypes.data, references.size, PLACED[kind], to_set) or 0
 
     def free(self) -> None:
         if self.is_there:

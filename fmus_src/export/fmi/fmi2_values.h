@@ -181,14 +181,16 @@ fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference vr[], size_t 
 #define perilune_place fmi2FullName(perilune_place)
 #endif
 
-/* Where Reals (doubles), or Booleans (C's bool), with these references lie side by side in the instance, all of which
- * may be got or, with `set`, be set between steps; else NULL. An importer in the same process may read and write them
- * there between steps, which is what FMI's functions do then. They stay there as long as the instance. */
+/* Where Booleans (kind 0; C's bool), Reals (1; doubles) or Integers (2; int64_t, which FMI's functions refuse beyond 32
+ * bits) with these references lie side by side in the instance, all of which may be got or, with `set`, be set between
+ * steps; else NULL. An importer in the same process may read and write them there between steps, which is what FMI's
+ * functions do then. They stay there as long as the instance. */
 FMI2_Export void *perilune_place(
-    fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Boolean are_real, fmi2Boolean set)
+    fmi2Component c, const fmi2ValueReference vr[], size_t nvr, fmi2Integer kind, fmi2Boolean set)
 {
-    const uint32_t traits = (are_real ? KIND_REAL : KIND_BOOLEAN) | (set ? SET_BETWEEN_STEPS : 0u);
-    return c != NULL && vr != NULL && lie_alike(vr, nvr, traits) ? element_of(c, vr[0]) : NULL;
+    static const uint32_t kinds[] = {KIND_BOOLEAN, KIND_REAL, KIND_INTEGER};
+    if (c == NULL || vr == NULL || kind < 0 || kind > 2) return NULL;
+    return lie_alike(vr, nvr, kinds[kind] | (set ? SET_BETWEEN_STEPS : 0u)) ? element_of(c, vr[0]) : NULL;
 }
 
 /* ---- derivatives: modelDescription.xml declares none of these ---- */
