@@ -30,7 +30,7 @@ _WRAPPER_NAMES_TEXT = """
     has_traits int_abs int_at int_floor_divide int_modulo is_header is_mode kind_name lie_alike mode_name model_hash
     model_initialize model_sample_period model_set_start_time model_step no_strings not_provided perilune_place
     prepare_get prepare_set put_double put_int python_repr refuse refuse_null refuse_point refuse_step refuse_wide
-    restart set_fault settle state_space
+    restart set_fault settle state_space whole_ceil whole_floor whole_trunc
 """
 VECTOR_OPERATIONS = ("add", "subtract", "negative", "scale", "multiply", "divide", "quotient")
 WRAPPER_NAMES = frozenset(
