@@ -28,7 +28,7 @@ long: build
 	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $$(grep -rlE 'support.lengths|mark.slow' tests --include='test_*.py')
 
 # The same of campaigns alone: rare failures, worst cases beside a hundred thousand random trials, what drives metrics,
-# verdicts, campaigns that end early and go on; about an hour on two cores.
+# verdicts, campaigns that end early and go on; a quarter of an hour to an hour on two cores.
 CAMPAIGNS := tests/batch tests/worst tests/rare tests/sensitivity tests/verdicts
 
 long-campaigns: build
