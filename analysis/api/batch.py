@@ -140,6 +140,7 @@ def batch(
     allow_unmatched: bool = False,
     strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
+    feedthrough: Sequence[str] = (),
     no_feedthrough: Sequence[str] = (),
 ) -> BatchResult:
     """Fly a campaign, by name or path of its .toml file: `perilune batch`.
@@ -158,8 +159,8 @@ def batch(
         raise InputError("resume", "", "there is no folder to go on in", "give output")
     check_folder("output", folder, overwrite=overwrite or resume, otherwise="resume or overwrite")
     options = system_options(
-        use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+        use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
+        variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     check_list("faults", faults)
     options, sweeps = part_sweeps(options)

@@ -37,6 +37,7 @@ def describe(
     allow_unmatched: bool = False,
     strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
+    feedthrough: Sequence[str] = (),
     no_feedthrough: Sequence[str] = (),
 ) -> dict[str, Any]:
     """What a system, an FMU or a slot has: `perilune describe`, as a dictionary.
@@ -47,8 +48,8 @@ def describe(
     `simulate`. Raises InputError.
     """
     options = system_options(
-        use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+        use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
+        variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     return described(os.fspath(what), component, options)
 

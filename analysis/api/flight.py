@@ -97,6 +97,7 @@ def simulate(
     allow_unmatched: bool = False,
     strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
+    feedthrough: Sequence[str] = (),
     no_feedthrough: Sequence[str] = (),
 ) -> Result:
     """Fly a system, or an FMU alone, once: `perilune run`.
@@ -111,8 +112,8 @@ def simulate(
     fails comes back with its ``status``.
     """
     options = system_options(
-        use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+        use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
+        variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     check_list("faults", faults)
     given = faults_of(faults)

@@ -17,16 +17,19 @@ def system_options(
     use: Mapping[str, FilePath] | None,
     parameters: Sequence[FilePath],
     set: Mapping[str, SetValue] | None,
+    feedthrough: Sequence[str],
     no_feedthrough: Sequence[str],
     **others: Any,
 ) -> SystemOptions:
     """The options of a call; ``others`` are the rest of `SystemOptions` by name. Raises InputError."""
     check_list("parameters", parameters)
+    check_list("feedthrough", feedthrough)
     check_list("no_feedthrough", no_feedthrough)
     return SystemOptions(
         use={slot: os.fspath(fmu) for slot, fmu in (use or {}).items()},
         parameters=tuple(os.fspath(name) for name in parameters),
         set=dict(set or {}),
+        feedthrough=tuple(feedthrough),
         no_feedthrough=tuple(no_feedthrough),
         **others,
     )

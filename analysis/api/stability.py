@@ -141,6 +141,7 @@ def stability(
     allow_unmatched: bool = False,
     strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
+    feedthrough: Sequence[str] = (),
     no_feedthrough: Sequence[str] = (),
 ) -> StabilityReport:
     """Margins, poles and robustness of a system's loops: `perilune stability`; see docs/stability.md.
@@ -153,8 +154,8 @@ def stability(
     """
     check_list("loops", loops)
     options = system_options(
-        use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+        use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
+        variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     request = read_request(
         Path(system),

@@ -45,6 +45,7 @@ def validate(
     allow_unmatched: bool = False,
     strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
+    feedthrough: Sequence[str] = (),
     no_feedthrough: Sequence[str] = (),
 ) -> list[dict[str, Any]]:
     """Check systems, FMUs, parameter sets, campaigns, laws: `perilune validate`.
@@ -53,8 +54,8 @@ def validate(
     checked unless ``variant`` names one; the options are those of `simulate`, for systems and FMUs alone.
     """
     options = system_options(
-        use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
-        flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+        use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
+        variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
     return validated([os.fspath(path) for path in paths], options)
 

@@ -15,7 +15,7 @@ from ..system.faults import connector_type
 from ..system.fmu import Fmu
 from ..system.names import parted
 from ..system.network import Link, Network, Node
-from ..system.schedule import Schedule, origin
+from ..system.order.schedule import Schedule, origin
 from .compiled import arrays, codes
 from .injections import Injection
 from .instances.instance import Instance

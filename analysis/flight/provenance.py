@@ -30,6 +30,7 @@ def provenance_of(
         "step": prepared.step,
         "stop_time": prepared.start + prepared.steps * prepared.step,
         "variant": prepared.options.variant,
+        "feedthrough": list(prepared.options.feedthrough),
         "no_feedthrough": list(prepared.options.no_feedthrough),
         "faults": [str(fault) for fault in faults if fault is not None],
         "algorithm": prepared.algorithm,

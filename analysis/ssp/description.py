@@ -67,10 +67,14 @@ class Element:
 
 @dataclass
 class Component(Element):
-    """``step`` (s) is that of the component where it is another than the system's."""
+    """``step`` (s) is that of the component where it is another than the system's.
+
+    ``feedthrough``: whether its outputs depend directly on all inputs or on none; None: as its FMU declares it.
+    """
 
     source: str
     step: float | None = None
+    feedthrough: bool | None = None
 
 
 @dataclass

@@ -7,10 +7,12 @@ import difflib
 from lxml import etree
 
 from ..errors import InputError, suggestion
+from .direct_outputs import ANNOTATION as FEEDTHROUGH
 from .documents import NAMESPACES, tag
 
 PREFIX = "org.perilune."
-OURS = {f"{PREFIX}{name}": f"https://perilune.org/{name}" for name in ("bound", "report", "stability", "step")}
+KINDS = ("bound", "feedthrough", "report", "stability", "step")
+OURS = {f"{PREFIX}{name}": f"https://perilune.org/{name}" for name in KINDS}
 NEARLY = 0.9  # of difflib's ratio
 
 
@@ -21,6 +23,9 @@ def check_annotations(root: etree._Element, file: str) -> None:
         place = f"Annotation (line {annotation.sourceline})"
         if kind in OURS:
             _check_content(annotation, kind, file)
+            owner = annotation.getparent().getparent()
+            if kind == FEEDTHROUGH and tag(owner) != "Component":
+                raise InputError(file, place, f"type {kind} in a {tag(owner)}", "write it into a Component")
         elif kind.startswith(PREFIX) or difflib.get_close_matches(kind, OURS, n=1, cutoff=NEARLY):
             raise InputError(file, place, f"no annotation is of type {kind}", suggestion(kind, OURS))
 

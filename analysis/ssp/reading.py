@@ -7,6 +7,7 @@ from lxml import etree
 from ..errors import InputError
 from .archive import OSP_DESCRIPTION, SystemArchive
 from .description import Binding, Component, Connection, Connector, Description, DictionaryReference, System
+from .direct_outputs import feedthrough_of_component
 from .documents import child, children, read_document, tag
 from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
 from .osp import Load, read_osp
@@ -114,7 +115,12 @@ class Reader:
             raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")
         if is_elsewhere(source):
             raise self.refuse(element, name, f"source {source} is on another machine", "name a file of the system")
-        return Component(**self.common(element), source=source, step=step_of_component(element, self.file))
+        return Component(
+            **self.common(element),
+            source=source,
+            step=step_of_component(element, self.file),
+            feedthrough=feedthrough_of_component(element, self.file),
+        )
 
     def reference(self, element: etree._Element) -> DictionaryReference:
         return DictionaryReference(**self.common(element, signals=True), dictionary=element.get("dictionary", ""))

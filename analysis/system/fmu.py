@@ -66,10 +66,12 @@ class Fmu:
         declared = variable.declaredType
         return variable.unit or (declared.unit if declared is not None else None)
 
-    def direct_dependencies(self) -> dict[str, set[str]]:
-        """Output -> inputs it depends on directly; without a declaration all inputs, as FMI says."""
+    def declared_dependencies(self) -> dict[str, set[str] | None]:
+        """Output -> inputs that it depends on directly, as ModelStructure declares it; None where it does not."""
         inputs = {name for name, variable in self.variables.items() if variable.causality == "input"}
-        outputs = {name: inputs for name, variable in self.variables.items() if variable.causality == "output"}
+        outputs: dict[str, set[str] | None] = {
+            name: None for name, variable in self.variables.items() if variable.causality == "output"
+        }
         for unknown in self.description.outputs:
             if unknown.dependencies is not None:
                 outputs[unknown.variable.name] = inputs & {variable.name for variable in unknown.dependencies}

@@ -38,8 +38,9 @@ class SystemOptions(Layer):
     Times in s. ``algorithm`` None is what the system's description says, else the first of `ALGORITHMS`. ``flavour``
     None takes native FMUs where they are built. ``open_inputs``: what becomes of inputs that the SSD declares and
     nothing drives, ``start`` keeps the FMU's start values. ``strict``: FMUs whose descriptions break rules of FMI are
-    refused and not only remarked upon. ``folder`` is what relative paths are meant from: an FMU may change the
-    process's working folder once it is loaded.
+    refused and not only remarked upon. ``feedthrough`` are components whose outputs depend directly on all inputs,
+    ``no_feedthrough`` those whose outputs depend directly on none. ``folder`` is what relative paths are meant from:
+    an FMU may change the process's working folder once it is loaded.
     """
 
     step: float | None = None
@@ -50,6 +51,7 @@ class SystemOptions(Layer):
     allow_unmatched: bool = False
     strict: bool = False
     open_inputs: str = "refuse"
+    feedthrough: tuple[str, ...] = ()
     no_feedthrough: tuple[str, ...] = ()
     folder: str = field(default_factory=os.getcwd, compare=False, repr=False)
 

@@ -24,7 +24,8 @@ from .fmu import Fmu, load_fmu
 from .in_flight.series import InputSeries
 from .network import Network, build_network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
-from .schedule import Schedule, make_schedule
+from .order.feedthrough import find_feedthrough
+from .order.schedule import Schedule, make_schedule
 from .times import component_periods, flight_times
 
 
@@ -143,9 +144,9 @@ def _prepared(
     for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
-    # An FMU alone is given the inputs of t_n for the step to t_(n+1), as FMPy does it, whatever its outputs depend on.
-    no_feedthrough = [*options.no_feedthrough, *(network.fmus if archive.is_fmu else ())]
-    schedule = make_schedule(network, no_feedthrough, algorithm)
+    feedthrough = find_feedthrough(network, options, algorithm, is_alone=archive.is_fmu)
+    schedule = make_schedule(network, feedthrough, algorithm)
+    network.notes += schedule.feedthrough.notes(network, algorithm)
     start, step, steps = flight_times(network, options)
     periods = component_periods(network, options, step)
     check_samples(network, settings, step, periods)

@@ -27,6 +27,7 @@ def sample_plan(
     input: Given | None,
     log: str | None,
     timeout: float | None,
+    feedthrough: Sequence[str],
     no_feedthrough: Sequence[str],
     **options: Any,
 ) -> BatchPlan:
@@ -35,7 +36,7 @@ def sample_plan(
     return read_plan(
         Path(system),
         str(campaign),
-        system_options(use, parameters, set, no_feedthrough, **options),
+        system_options(use, parameters, set, feedthrough, no_feedthrough, **options),
         seed=seed,
         compare=None if compare is None else {slot: [fmu] for slot, fmu in compare.items()},
         faults=faults_of(faults),

@@ -46,6 +46,7 @@ def rare(
     allow_unmatched: bool = False,
     strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
+    feedthrough: Sequence[str] = (),
     no_feedthrough: Sequence[str] = (),
 ) -> RareResult:
     """The probability of a rare failure over a campaign's draws, by subset simulation: `perilune rare`.
@@ -62,6 +63,7 @@ def rare(
         system, campaign, compare=compare, seed=seed, use=use, parameters=parameters, set=set, faults=faults,
         input=input, log=log, timeout=timeout, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+        feedthrough=feedthrough,
         no_feedthrough=no_feedthrough,
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder

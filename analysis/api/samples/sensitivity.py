@@ -44,6 +44,7 @@ def sensitivity(
     allow_unmatched: bool = False,
     strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
+    feedthrough: Sequence[str] = (),
     no_feedthrough: Sequence[str] = (),
 ) -> SensitivityResult:
     """Sobol' indices of a campaign's metrics and of its success: `perilune batch --sensitivity`.
@@ -58,6 +59,7 @@ def sensitivity(
         system, campaign, compare=compare, seed=seed, use=use, parameters=parameters, set=set, faults=faults,
         input=input, log=log, timeout=timeout, step=step, stop_time=stop_time, algorithm=algorithm, variant=variant,
         flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+        feedthrough=feedthrough,
         no_feedthrough=no_feedthrough,
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder

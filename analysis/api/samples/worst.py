@@ -51,6 +51,7 @@ def worst(
     allow_unmatched: bool = False,
     strict: bool = False,
     open_inputs: Literal["refuse", "start"] = "refuse",
+    feedthrough: Sequence[str] = (),
     no_feedthrough: Sequence[str] = (),
 ) -> WorstResult:
     """The draws that make a number worst, within a box of a campaign's draws: `perilune worst`.
@@ -78,13 +79,14 @@ def worst(
             system, campaign, compare=compare, seed=seed, use=use, parameters=parameters, set=set, faults=faults,
             input=input, log=log, timeout=timeout, step=step, stop_time=stop_time, algorithm=algorithm,
             variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
+            feedthrough=feedthrough,
             no_feedthrough=no_feedthrough,
         )  # fmt: skip
         with chdir(Path.cwd()):  # an FMU may change the folder
             result = worst_case(plan, metric, **search)
     else:
         options = system_options(
-            use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
+            use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
             variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
         )  # fmt: skip
         asked = margin_asked(Path(system), options, campaign=str(campaign), loop=loop, point=point, at=at, seed=seed)

@@ -69,9 +69,11 @@ def add_system_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument("--allow-unmatched", action="store_true", help="let parameters pass that match nothing")
     group.add_argument("--strict", action="store_true", help="refuse FMUs whose description breaks rules of FMI")
-    group.add_argument(
-        "--no-feedthrough", action="append", default=[], metavar="COMPONENT", help="its outputs wait for no input"
-    )
+    for option, words in (
+        ("--feedthrough", "its outputs depend directly on all inputs: it is stepped with those of the step's end"),
+        ("--no-feedthrough", "its outputs depend directly on no input: it is stepped with those of the step's start"),
+    ):
+        group.add_argument(option, action="append", default=[], metavar="COMPONENT", help=words)
 
 
 def add_faults(parser: argparse.ArgumentParser) -> None:
@@ -137,6 +139,7 @@ def system_options(options: argparse.Namespace) -> SystemOptions:
         allow_unmatched=options.allow_unmatched,
         strict=options.strict,
         open_inputs=options.open_inputs,
+        feedthrough=tuple(options.feedthrough),
         no_feedthrough=tuple(options.no_feedthrough),
     )
 

@@ -110,6 +110,7 @@ def _options(options: SystemOptions) -> list[tuple[str, str]]:
         ("--set", f"{name}={str(value).lower() if isinstance(value, bool) else value}")
         for name, value in options.set.items()
     ]
+    found += [("--feedthrough", component) for component in options.feedthrough]
     found += [("--no-feedthrough", component) for component in options.no_feedthrough]
     single = {
         "--step": None if options.step is None else repr(options.step),

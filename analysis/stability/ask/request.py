@@ -72,6 +72,8 @@ class Request:
         }
         for option, choice in chosen.items():
             words += [] if choice is None else [option, str(choice)]
+        for name in options.feedthrough:
+            words += ["--feedthrough", name]
         for name in options.no_feedthrough:
             words += ["--no-feedthrough", name]
         words += ["--allow-unmatched"] if options.allow_unmatched else []

@@ -7,8 +7,9 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 from graphlib import CycleError, TopologicalSorter
 
-from ..errors import InputError
-from .network import Link, Network, Node
+from ...errors import InputError
+from ..network import Link, Network, Node
+from .feedthrough import Dependencies, Feedthrough, cut_loops
 
 Edge = tuple[Node, Node]  # an output, and the input of another component that its value reaches
 
@@ -19,39 +20,59 @@ class Schedule:
 
     ``initial_order`` settles initialisation, followers again where need be. ``late`` lists
     connections that are read one step late because two FMUs, though no two variables, wait for
-    each other.
+    each other. ``feedthrough`` is what the order follows from, with the loops that are cut at the start.
     """
 
     sources_first: list[str]
     followers: list[str]
     initial_order: list[str]
+    feedthrough: Feedthrough
     late: list[str] = field(default_factory=list)
 
 
-def make_schedule(network: Network, no_feedthrough: Collection[str] = (), algorithm: str = "sequential") -> Schedule:
+@dataclass
+class _Order:
+    """Components without a direct output, the others each behind those it reads, and connections against that order."""
+
+    sources: list[str]
+    followers: list[str]
+    late: list[Edge]
+
+    @property
+    def initial(self) -> list[str]:
+        """Once more for every late connection: at the start all outputs settle, which the variables' order allows."""
+        return [*self.sources, *self.followers * (len(self.late) + 1)]
+
+
+def make_schedule(network: Network, feedthrough: Feedthrough, algorithm: str = "sequential") -> Schedule:
     """Order the components; raises InputError for an algebraic loop, printing the cycle.
 
-    ``no_feedthrough`` names components whose outputs are taken not to depend directly on inputs. Jacobi's algorithm
-    reads every connection a step late anyway: there a loop is cut at the start, too, where its values are passed on
-    along it once and not solved for.
+    Jacobi's algorithm reads every connection a step late anyway: there a loop is cut at the start, too, where its
+    values are passed on along it once and not solved for. So are loops through undeclared dependencies, whatever the
+    algorithm.
     """
-    for name in no_feedthrough:
-        if name not in network.fmus:
-            raise InputError(
-                "--no-feedthrough", name, "no such component", f"use one of {', '.join(sorted(network.fmus))}"
-            )
-    direct: dict[str, dict[str, set[str]]] = {
-        name: {} if name in no_feedthrough else fmu.direct_dependencies() for name, fmu in network.fmus.items()
-    }
     if algorithm == "sequential":
-        _check_loops(network, direct)
+        _check_loops(network, feedthrough.stepping)
+    order = initial = _arrange(network, feedthrough.stepping, cuts_any=algorithm == "jacobi")
+    if feedthrough.undeclared:
+        feedthrough, unsettled = cut_loops(network, feedthrough)
+        initial = _arrange(network, feedthrough.initial, cuts_any=True, unsettled=unsettled)
+    late = [f"{start.name} -> {end.name}" for start, end in order.late]
+    return Schedule(order.sources, order.followers, initial.initial, feedthrough, late)
+
+
+def _arrange(network: Network, direct: Dependencies, *, cuts_any: bool, unsettled: Collection[str] = ()) -> _Order:
+    """The order that dependencies ask for; inputs in ``unsettled`` wait for nothing.
+
+    ``cuts_any``: where FMUs wait for each other and no connection can be late without a loss, one is late all the same.
+    """
     followers = [name for name in network.fmus if any(direct[name].values())]
     follows = set(followers)
     sources = [name for name in network.fmus if name not in follows]
     edges = [
         (start, link.target)
         for link in network.driver.values()
-        if link.target.component in follows and not link.is_parameter
+        if link.target.component in follows and not link.is_parameter and link.target.name not in unsettled
         for start in [origin(network, link)]
         if start.component in follows
     ]
@@ -62,7 +83,7 @@ def make_schedule(network: Network, no_feedthrough: Collection[str] = (), algori
             break
         except CycleError as error:
             broken = _breakable(error.args[1], edges, direct)
-            if broken is None and algorithm == "jacobi":
+            if broken is None and cuts_any:
                 broken = _first(error.args[1], edges)
             if broken is None:
                 raise InputError(
@@ -78,10 +99,7 @@ def make_schedule(network: Network, no_feedthrough: Collection[str] = (), algori
             order = _order(followers, [*edges, edge])
             edges.append(edge)
             late.remove(edge)
-    # Once more for every late connection: at the start all outputs settle, which the variables' order allows.
-    return Schedule(
-        sources, order, [*sources, *order * (len(late) + 1)], [f"{start.name} -> {end.name}" for start, end in late]
-    )
+    return _Order(sources, order, late)
 
 
 def _order(followers: Collection[str], edges: Collection[Edge]) -> list[str]:
@@ -100,7 +118,7 @@ def origin(network: Network, link: Link) -> Node:
     return start
 
 
-def _check_loops(network: Network, direct: dict[str, dict[str, set[str]]]) -> None:
+def _check_loops(network: Network, direct: Dependencies) -> None:
     graph: dict[str, set[str]] = {}
     # an input on which no output depends directly ends every path
     passed_on = {component: set().union(*outputs.values()) for component, outputs in direct.items()}
@@ -125,7 +143,7 @@ def _check_loops(network: Network, direct: dict[str, dict[str, set[str]]]) -> No
         ) from None
 
 
-def _breakable(cycle: list[str], edges: Collection[Edge], direct: dict[str, dict[str, set[str]]]) -> Edge | None:
+def _breakable(cycle: list[str], edges: Collection[Edge], direct: Dependencies) -> Edge | None:
     """A connection into a component of the cycle on which nothing it sends along the cycle depends."""
     for position in range(len(cycle) - 1):
         before, here = cycle[position], cycle[position + 1]
