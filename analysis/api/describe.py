@@ -44,8 +44,9 @@ def describe(
 
     ``what`` is a system, an FMU by name or file, or an interface by name; ``component`` one of a system, with all its
     variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, loops; of an FMU
-    or a component ``variables``, and how an FMU flies ``alone`` (s); of a slot ``fmus`` too. The rest is as in
-    `simulate`. Raises InputError.
+    or a component ``variables``, and how an FMU flies ``alone`` (s); of a slot ``fmus`` too. A component says whether
+    outputs are taken to depend directly on inputs (``feedthrough``) and where that comes from, an FMU of which outputs
+    it does not declare it. The rest is as in `simulate`. Raises InputError.
     """
     options = system_options(
         use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
@@ -77,6 +78,7 @@ def _fmu(what: str, options: SystemOptions) -> dict[str, Any]:
         "file": label,
         "description": fmu.description.description or "",
         "native": fmu.is_native,
+        "undeclared_outputs": [name for name, inputs in fmu.declared_dependencies().items() if inputs is None],
         "alone": {
             "component": alone.system.name,
             "start_time": alone.start_time,

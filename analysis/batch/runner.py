@@ -226,6 +226,8 @@ def _fly_here(
 def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
     """What a batch's numbers depend on, apart from the trials themselves."""
     first = next(iter(systems.values()))
+    options = plan.options
+    assumptions = list(dict.fromkeys(note for prepared in systems.values() for note in prepared.assumptions))
     return {
         "system": first.archive.name,
         "system_sha256": first.archive.digest,
@@ -240,6 +242,9 @@ def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[s
         "seed": plan.campaign.seed,
         "step": first.step,
         "algorithm": first.algorithm,
+        **({"feedthrough": list(options.feedthrough)} if options.feedthrough else {}),
+        **({"no_feedthrough": list(options.no_feedthrough)} if options.no_feedthrough else {}),
+        **({"assumptions": assumptions} if assumptions else {}),
         **(first.drive.facts() if first.drive is not None else {}),
         **({"timeout": plan.watch.timeout} if plan.watch.timeout is not None else {}),
         "fmus": {

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..api.describe import described
 from ..describe.variables import of_causality
+from ..system.order.feedthrough import Origin
 from .common.options import check_json, system_options, tell
 from .common.text_table import text_table
 
@@ -31,11 +32,15 @@ def _print(document: dict[str, Any]) -> None:
     elif "fits" in document:
         print(f"{document['name']}: {document['fmu']}, {document['description']}")
         print(f"fits here too   {', '.join(document['fits']) or 'nothing else of this repository'}")
+        print(f"feedthrough     {_feedthrough(document)}")
         _print_connections(document)
     else:
         print(f"{document['fmu']}: {document['description']}")
         alone = document["alone"]
         times = f"{alone['start_time']:g} s to {alone['stop_time']:g} s in steps of {alone['step']:g} s"
+        if document["undeclared_outputs"]:
+            outputs = ", ".join(document["undeclared_outputs"])
+            print(f"feedthrough     not declared of {outputs}: assumed none in a system, unless --feedthrough says so")
         print(f"flies alone as {alone['component']}, {times}: perilune run {document['file']}")
     _print_variables(document["variables"])
 
@@ -51,6 +56,11 @@ def _print_system(document: dict[str, Any]) -> None:
     print("fits there, for --use SLOT=FMU, by the component's name")
     _lines(text_table([[f"  {c['name']}", ", ".join(c["fits"])] for c in document["components"] if c["fits"]]))
     _print_connections(document)
+    settled = [component for component in document["components"] if component["feedthrough_origin"] != Origin.FMU]
+    if settled:
+        print("feedthrough that is not as the FMU declares it")
+        _lines(text_table([[f"  {component['name']}", _feedthrough(component)] for component in settled]))
+        _lines(f"  {cut}: a loop, cut here at the start" for cut in document["cut_at_start"])
     given = [
         [f"  {component['name']}.{row['name']}", _value(row), row["unit"] or "", row["from"]]
         for component in document["components"]
@@ -59,6 +69,11 @@ def _print_system(document: dict[str, Any]) -> None:
     ]
     print("values that are not the FMU's own")
     _lines(text_table(given or [["  none"]]))
+
+
+def _feedthrough(component: dict[str, Any]) -> str:
+    """Whether outputs depend directly on inputs, with where that comes from."""
+    return f"{'direct' if component['feedthrough'] else 'none'}, {component['feedthrough_origin']}"
 
 
 def _print_connections(document: dict[str, Any]) -> None:

@@ -36,12 +36,13 @@ def describe_system(prepared: PreparedSystem) -> dict[str, Any]:
         ],
         "components": [_component(prepared, name) for name in prepared.network.fmus],
         "connections": connections(prepared),
+        "cut_at_start": list(prepared.schedule.feedthrough.cuts),
     }
 
 
 def _component(prepared: PreparedSystem, name: str) -> dict[str, Any]:
     network, settings = prepared.network, prepared.settings
-    fmu = network.fmus[name]
+    fmu, feedthrough = network.fmus[name], prepared.schedule.feedthrough
     demanded = [
         (node.variable, node.kind, node.type_name or "Real")
         for node in network.nodes.values()
@@ -53,6 +54,8 @@ def _component(prepared: PreparedSystem, name: str) -> dict[str, Any]:
         "name": name,
         "fmu": fmu.name,
         "description": fmu.description.description or "",
+        "feedthrough": any(feedthrough.stepping[name].values()),
+        "feedthrough_origin": feedthrough.origins[name],
         "fits": [other for other in fitting(demanded) if other != fmu.name],
         "variables": variables_of(
             fmu,

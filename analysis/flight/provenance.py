@@ -32,6 +32,7 @@ def provenance_of(
         "variant": prepared.options.variant,
         "feedthrough": list(prepared.options.feedthrough),
         "no_feedthrough": list(prepared.options.no_feedthrough),
+        "assumptions": prepared.assumptions,
         "faults": [str(fault) for fault in faults if fault is not None],
         "algorithm": prepared.algorithm,
         **(prepared.drive.facts() if prepared.drive is not None else {}),

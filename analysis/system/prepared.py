@@ -52,6 +52,11 @@ class PreparedSystem:
     elsewhere: Mapping[str, Callable[[], bytes]] = field(default_factory=dict)
 
     @property
+    def assumptions(self) -> list[str]:
+        """What was assumed since an FMU does not declare it, each in a line that names the component and its FMU."""
+        return self.schedule.feedthrough.notes(self.network, self.algorithm)
+
+    @property
     def is_native(self) -> bool:
         return all(fmu.is_native for fmu in self.network.fmus.values())
 

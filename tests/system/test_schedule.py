@@ -150,13 +150,13 @@ def test_an_algebraic_loop_through_system_connectors_is_seen(tiny, tmp_path):
         prepare_system(path)
 
 
-def test_undeclared_dependencies_mean_all_on_all(tiny, tmp_path):
+def test_an_undeclared_output_is_one_on_all_inputs_only_if_the_user_says_so(tiny, tmp_path):
     odd = component("odd", "stranger", "input u Real; output y Real; output length Real")
     path = pack(tmp_path / "s.ssp", tiny, document(system(odd, connections=connection("odd.length", "odd.u"))))
     with pytest.raises(InputError, match="algebraic loop"):
-        prepare_system(path)
-    prepared = prepare_system(path, SystemOptions(no_feedthrough=("odd",)))
-    assert prepared.schedule.sources_first == ["odd"]
+        prepare_system(path, SystemOptions(feedthrough=("odd",)))
+    for options in (SystemOptions(), SystemOptions(no_feedthrough=("odd",))):
+        assert prepare_system(path, options).schedule.sources_first == ["odd"]
     with pytest.raises(InputError, match=r"--no-feedthrough: nobody: no such component; use one of odd"):
         prepare_system(path, SystemOptions(no_feedthrough=("nobody",)))
 

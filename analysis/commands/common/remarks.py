@@ -23,11 +23,14 @@ def say_stale(options: argparse.Namespace, others: Iterable[str] = ()) -> None:
 
 
 def note_lines(prepared: PreparedSystem) -> list[str]:
-    """What `perilune validate` notes of a system that is not of this repository, a line for each kind of note."""
-    if prepared.archive.path.is_relative_to(SYSTEMS.resolve()):
-        return []
+    """What `perilune validate` notes of a system, a line for each kind of note.
+
+    Of a system of this repository it is what was assumed only: an FMU of another's may fly in it.
+    """
+    is_ours = prepared.archive.path.is_relative_to(SYSTEMS.resolve())
+    notes = prepared.assumptions if is_ours else prepared.network.notes
     kinds: dict[str, dict[str, None]] = {}
-    for note in prepared.network.notes:
+    for note in notes:
         name, _, words = note.partition(": ")
         kind = words.partition(", keeps ")[0]
         kind += ", keeps its start" if kind != words else ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from enum import StrEnum
 
 from ...errors import InputError
 from ..network import Network
@@ -11,6 +12,16 @@ from ..options import SystemOptions
 
 Dependencies = dict[str, dict[str, set[str]]]  # component -> output -> inputs that it depends on directly
 OPTIONS = ("--feedthrough", "--no-feedthrough")
+
+
+class Origin(StrEnum):
+    """Where a component's direct dependencies come from."""
+
+    FMU = "declared by the FMU"
+    SSD = "as the SSD says"
+    OPTION = "as an option says"
+    ALONE = "as an FMU alone flies"
+    ASSUMED = "assumed, since the FMU does not declare it"
 
 
 @dataclass(frozen=True)
@@ -21,10 +32,12 @@ class Feedthrough:
     in the order of the SSD. Such a component is stepped with the inputs of t_n, and initialised as if its outputs
     depended on all inputs. One without a driven input is not among them: its order changes nothing.
     ``cuts`` are connections into them that close a loop, which no initialisation can settle: there it is cut.
+    ``origins`` say by component where its dependencies come from.
     """
 
     stepping: Dependencies
     initial: Dependencies
+    origins: dict[str, Origin]
     undeclared: tuple[str, ...] = ()
     cuts: tuple[str, ...] = ()
 
@@ -53,23 +66,30 @@ def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *
     ``feedthrough`` of an FMU alone.
     """
     _check(network.fmus, options, is_alone=is_alone)
-    chosen = {name: part.feedthrough for name, part in network.components() if name not in options.use}
-    chosen |= dict.fromkeys(network.fmus, False) if is_alone else {}
-    chosen |= dict.fromkeys(options.feedthrough, True) | dict.fromkeys(options.no_feedthrough, False)
+    said = {
+        name: (part.feedthrough, Origin.SSD)
+        for name, part in network.components()
+        if name not in options.use and part.feedthrough is not None
+    }
+    said |= dict.fromkeys(network.fmus, (False, Origin.ALONE)) if is_alone else {}
+    said |= dict.fromkeys(options.feedthrough, (True, Origin.OPTION))
+    said |= dict.fromkeys(options.no_feedthrough, (False, Origin.OPTION))
     stepping: Dependencies = {}
     initial: Dependencies = {}
-    undeclared: list[str] = []
+    origins: dict[str, Origin] = {}
     for name, fmu in network.fmus.items():
         declared = fmu.declared_dependencies()
         every = {variable.name for variable in fmu.variables.values() if variable.causality == "input"}
-        if (choice := chosen.get(name)) is not None:
-            stepping[name] = initial[name] = dict.fromkeys(declared, every) if choice else {}
+        is_open = None in declared.values()
+        if name in said:
+            direct, origins[name] = said[name]
+            stepping[name] = initial[name] = dict.fromkeys(declared, every) if direct else {}
             continue
+        origins[name] = Origin.ASSUMED if is_open and _is_driven(network, name) else Origin.FMU
         initial[name] = {output: every if inputs is None else inputs for output, inputs in declared.items()}
-        stepping[name] = {} if None in declared.values() else initial[name]
-        if None in declared.values() and _is_driven(network, name):
-            undeclared.append(name)
-    return Feedthrough(stepping, initial, tuple(undeclared))
+        stepping[name] = {} if is_open else initial[name]
+    undeclared = tuple(name for name, origin in origins.items() if origin is Origin.ASSUMED)
+    return Feedthrough(stepping, initial, origins, undeclared)
 
 
 def _is_driven(network: Network, component: str) -> bool:
