@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from ..loops.margin_values import MARGINS, UNLIMITED, Quantity
+from ..reports.stability.orders.words import order_loops, order_sentences, withheld_line
 from ..reports.stability.page import write_stability_page
 from ..stability.ask.request import read_request
 from ..stability.bench.bench import StudyError
@@ -44,8 +45,13 @@ def run(options: argparse.Namespace) -> int:
         return 1
     files.write(options.report, lambda path: write_stability_page(report, path))
     if not write_json(document(report), options.json, files):
+        others = {(loop.name, loop.point): loop for loop in order_loops(report)}
         for loop in report.loops:
             print("\n".join(_lines(loop)))
+            if (other := others.get((loop.name, loop.point))) is not None:
+                print(f"  as feedthrough: {_margins(other)}")
+        for sentence in order_sentences(report):
+            print(f"note: {sentence}")
         for sweep in report.sweeps:
             for crossing in sweep.crossings:
                 print(_crossing_line(sweep, crossing))
@@ -55,13 +61,16 @@ def run(options: argparse.Namespace) -> int:
     for subject, requirement in failures:
         if not requirement.unstable or isinstance(subject, JointReport):  # else that it is unstable has a line already
             print(f"perilune: {_failure_line(subject, requirement)}", file=sys.stderr)
+    withheld = [item for item in report.judged() if item.requirement.verdict is Verdict.WITHHELD]
+    for subject, requirement in withheld:
+        print(f"perilune: {withheld_line(report, subject, requirement)}", file=sys.stderr)
     doubted = [loop for loop in report.loops if loop.doubted and loop.verdict is Verdict.NOT_APPLICABLE]
     for loop in doubted:
         why = f"the routes differ, {loop.not_applicable['agreement']}"
         print(f"perilune: loop {loop.name} at {loop.point}: not passed: {why}", file=sys.stderr)
     for lost in report.unstudied:
         print(f"perilune: {lost.what} {lost.name} at {lost.point}: not studied: {lost.reason}", file=sys.stderr)
-    return 2 if files.failed else 1 if failures or doubted or report.unstudied else 0
+    return 2 if files.failed else 1 if failures or withheld or doubted or report.unstudied else 0
 
 
 def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:
@@ -88,12 +97,16 @@ def _words(sizes: Mapping[Quantity, float], sides: Mapping[Quantity, str] | None
     return ", ".join(words)
 
 
-def _lines(loop: LoopReport) -> Iterator[str]:
-    """A loop's line, and below it one for each thing that could not be had, and one for the campaign."""
+def _margins(loop: LoopReport) -> str:
     margins = loop.margins
     sizes = {quantity: margins.size(quantity) for quantity in MARGINS}
     sides = {Quantity.GAIN: "down" if margins.gain < 1.0 else "", Quantity.PHASE: "lead" if margins.phase < 0.0 else ""}
-    words = f"unstable, largest multiplier {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
+    return f"unstable, largest multiplier {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
+
+
+def _lines(loop: LoopReport) -> Iterator[str]:
+    """A loop's line, and below it one for each thing that could not be had, and one for the campaign."""
+    words = _margins(loop)
     if loop.agreement is not None:
         words += ", routes agree" if loop.agreement.agrees else ", routes differ"
     yield f"{loop.name} at {loop.point}: {words}: {loop.verdict}"

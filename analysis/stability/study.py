@@ -20,6 +20,7 @@ from .ask.declaration import Point
 from .ask.request import Request
 from .ask.subject import Subject
 from .bench.bench import StudyError
+from .orders import in_both_orders
 from .point.limit_cycles import element_report
 from .point.point_study import PointStudy
 from .progress import Tell, begin, heard, shown, tell_parent
@@ -44,12 +45,13 @@ class PointResult:
 
 
 def study(request: Request, workers: int | None = None) -> StabilityReport:
-    """Everything, points side by side in ``workers`` processes (None: one per processor).
+    """Everything, points side by side in ``workers`` processes (None: one per processor), in both orders if need be.
 
     The report does not depend on their number. Raises InputError, and StudyError where no flight reaches a point.
     """
     with chdir(Path.cwd()), shown() as tell:  # an FMU may change the folder
-        return _study(request, worker_count(workers), tell)
+        count = worker_count(workers)
+        return in_both_orders(request, lambda asked: _study(asked, count, tell))
 
 
 def _study(request: Request, count: int, tell: Tell) -> StabilityReport:

@@ -16,6 +16,7 @@ from ..kit.page import write_page
 from ..kit.panels import Panel
 from ..kit.quantities import labelled
 from .figures import joint_panel, loop_panels, part_panels, sweep_panel
+from .orders.section import order_section
 from .paper import Paper, paper_of
 from .parts import Part, parts, without
 from .shared import TOLERANCE, Panels, Shared, share
@@ -90,6 +91,7 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
         summary=summary,
         joint=joint_table(report),
         unstudied=report.unstudied,
+        orders=order_section(report),
         joint_panels=[joint_panel(joint, f"joint-{index + 1}") for index, joint in enumerate(report.joint)],
         points=point_table(report.points),
         trims=trim_table(report.points),

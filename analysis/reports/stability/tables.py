@@ -14,6 +14,7 @@ from ...stability.results.loop import LoopReport
 from ...stability.results.report import PointReport, StabilityReport
 from ...stability.results.requirement import Requirement, Scope, Verdict
 from ..kit.quantities import number, shown_unit
+from .orders.words import order_note
 from .words import (
     NO_CROSSING,
     closed_loop,
@@ -93,7 +94,7 @@ def verdict_table(rows: Sequence[Row]) -> Table:
                 found_value(item),
                 limit(item),
                 verdict(item.verdict),
-                item.note,
+                order_note(item),
             )
             for loop, point, item in rows
         ],

@@ -21,7 +21,7 @@ from ..kit.quantities import MINUS, NONE, number, shown_unit
 
 NO_CROSSING = "none (no crossing)"
 UNSTABLE_WORD = "unstable"
-SIGNS = {Verdict.PASS: "✓", Verdict.FAIL: "✗", Verdict.NOT_APPLICABLE: NONE}
+SIGNS = {Verdict.PASS: "✓", Verdict.FAIL: "✗", Verdict.WITHHELD: "?", Verdict.NOT_APPLICABLE: NONE}
 
 
 def _data(value: float, shown: float, digits: int, infinite: str) -> Markup:
@@ -108,7 +108,7 @@ def samples(delay: float, period: float) -> Markup:
 
 
 def verdict(word: Verdict) -> Markup:
-    """Pass, fail or not applicable: a word, a sign and a colour."""
+    """Pass, fail, withheld or not applicable: a word, a sign and a colour."""
     return Markup('<span class="verdict {}">{} {}</span>').format(word.replace(" ", "-"), SIGNS[word], word)
 
 

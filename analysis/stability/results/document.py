@@ -13,7 +13,7 @@ from ...loops.margin_values import UNLIMITED, UNSTABLE, Margins, Quantity
 from .loop import JointReport, LoopReport
 from .nonlinear import Nonlinearity
 from .report import PointReport, StabilityReport
-from .requirement import Requirement
+from .requirement import Requirement, Verdict
 from .varied import Dispersion, SweepReport
 
 KEYS = {
@@ -40,6 +40,14 @@ def document(report: StabilityReport) -> dict[str, Any]:
         "unstudied": [asdict(item) for item in report.unstudied],
         "provenance": report.provenance,
     }
+    if (orders := report.orders) is not None:
+        found["feedthrough_orders"] = {
+            "undeclared": orders.undeclared,
+            "direct": list(orders.direct),
+            "without": list(orders.without),
+            "cuts": list(orders.cuts),
+            "as_feedthrough": None if orders.report is None else document(orders.report),
+        }
     return _finite(found)
 
 
@@ -157,8 +165,10 @@ def _requirement(item: Requirement) -> dict[str, Any]:
         "value": _size(item.value),
         "limit": item.limit,
         "unit": item.unit,
-        "passed": item.passed,
+        "passed": {Verdict.PASS: True, Verdict.FAIL: False}.get(item.verdict),
+        "verdict": item.verdict,
         "note": item.note,
+        **({"as_feedthrough": _requirement(item.as_feedthrough)} if item.as_feedthrough is not None else {}),
     }
 
 

@@ -47,9 +47,29 @@ class Judged(NamedTuple):
     requirement: Requirement
 
 
+@dataclass(frozen=True)
+class Orders:
+    """A study of loops that pass FMUs with undeclared dependencies, made in both orders.
+
+    ``undeclared`` are these FMUs' names by component, assumed to have no feedthrough in what flies; ``direct`` are the
+    components that have it in ``report``, the study in the other order. ``without`` are those that cannot have it
+    with the others: it would close an algebraic loop, which the initialisation cuts at ``cuts``. The report is None
+    where none can have it, and then there is one order only.
+    """
+
+    undeclared: dict[str, str]
+    direct: tuple[str, ...]
+    without: tuple[str, ...]
+    cuts: tuple[str, ...]
+    report: StabilityReport | None
+
+
 @dataclass
 class StabilityReport:
-    """Everything about one system. ``unstudied`` is what could not be had, each with its reason."""
+    """Everything about one system. ``unstudied`` is what could not be had, each with its reason.
+
+    ``orders``: the other order of undeclared FMUs, None where no loop passes one.
+    """
 
     system: str
     provenance: dict[str, Any]
@@ -60,6 +80,7 @@ class StabilityReport:
     sweeps: tuple[SweepReport, ...]
     unstudied: tuple[Unstudied, ...]
     seconds: float
+    orders: Orders | None = None
 
     def judged(self) -> Iterator[Judged]:
         """Everything that is judged, with where it belongs."""

@@ -20,6 +20,7 @@ class Scope(StrEnum):
 class Verdict(StrEnum):
     PASS = "pass"
     FAIL = "fail"
+    WITHHELD = "withheld"  # it depends on what an FMU does not declare
     NOT_APPLICABLE = "not applicable"
 
 
@@ -28,6 +29,8 @@ class Requirement:
     """``value`` and ``limit`` are in the quantity's unit, as they are shown; ``note`` says more.
 
     The value may be `UNSTABLE` or `UNLIMITED`; None: not known, and then ``passed`` is None, not applicable.
+    ``as_feedthrough`` is the same where FMUs with undeclared dependencies are taken to have feedthrough, None where
+    the study has one order only: it passes where both pass and fails where both fail.
     """
 
     scope: Scope
@@ -36,6 +39,7 @@ class Requirement:
     limit: float
     passed: bool | None
     note: str = ""
+    as_feedthrough: Requirement | None = None
 
     @classmethod
     def at_least(cls, scope: Scope, quantity: Quantity, value: float, limit: float, note: str = "") -> Requirement:
@@ -44,7 +48,8 @@ class Requirement:
 
     @property
     def verdict(self) -> Verdict:
-        return {True: Verdict.PASS, False: Verdict.FAIL, None: Verdict.NOT_APPLICABLE}[self.passed]
+        found = {True: Verdict.PASS, False: Verdict.FAIL, None: Verdict.NOT_APPLICABLE}[self.passed]
+        return found if self.as_feedthrough is None or self.as_feedthrough.passed is self.passed else Verdict.WITHHELD
 
     @property
     def unit(self) -> str:
@@ -64,9 +69,10 @@ class Requirement:
 
 
 def combined(requirements: Iterable[Requirement]) -> Verdict:
-    """Fail if one fails, pass if one passes; what is not applicable decides nothing."""
+    """Fail if one fails, withheld if one is, pass if one passes; what is not applicable decides nothing."""
     verdicts = [requirement.verdict for requirement in requirements]
-    return next((word for word in (Verdict.FAIL, Verdict.PASS) if word in verdicts), Verdict.NOT_APPLICABLE)
+    decisive = (Verdict.FAIL, Verdict.WITHHELD, Verdict.PASS)
+    return next((word for word in decisive if word in verdicts), Verdict.NOT_APPLICABLE)
 
 
 def grows(outside: Sequence[str], most: int = 4) -> str:

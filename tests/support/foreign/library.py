@@ -18,6 +18,6 @@ def library(name: str, macros: tuple[str, ...] = ()) -> bytes:
     headers = Path(fmpy.__file__).parent / "c-code"
     with tempfile.TemporaryDirectory() as folder:
         target, source = Path(folder) / name, Path(__file__).with_name(f"{name}.c")
-        command = [*compilers_for(fmpy.platform)[0], *FLAGS, *macros, f"-I{headers}", "-o", target, source]
+        command = [*compilers_for(fmpy.platform)[0], *FLAGS, *macros, f"-I{headers}", "-o", target, source, "-lm"]
         subprocess.run(command, check=True)
         return target.read_bytes()

@@ -1,0 +1,71 @@
+"""What a study in both orders of FMUs with undeclared dependencies says in words, on the page and in the terminal."""
+
+from __future__ import annotations
+
+from ....loops.margin_values import UNLIMITED, UNSTABLE
+from ....stability.results.loop import JointReport, LoopReport
+from ....stability.results.report import Orders, StabilityReport
+from ....stability.results.requirement import Requirement, Verdict
+
+
+def order_loops(report: StabilityReport) -> tuple[LoopReport, ...]:
+    """The loops in the other order, none where there is one order only."""
+    return () if report.orders is None or report.orders.report is None else report.orders.report.loops
+
+
+def order_sentences(report: StabilityReport) -> list[str]:
+    """What was assumed, and what the other order is; nothing where every FMU on a loop declares its dependencies."""
+    orders = report.orders
+    if orders is None:
+        return []
+    one = len(orders.undeclared) == 1
+    who, whose = ("does", "its") if one else ("do", "their")
+    found = [
+        f"{_fmus(orders)} {who} not declare which inputs {whose} outputs depend on directly: assumed none, and stepped "
+        "with the inputs of the step's start"
+    ]
+    if orders.without:
+        cannot = f"{', '.join(orders.without)} cannot have feedthrough{' as well' if orders.direct else ''}"
+        found.append(f"{cannot}, which would close an algebraic loop at {'; '.join(orders.cuts)}")
+    if orders.report is not None:
+        found.append(
+            f"as feedthrough: {', '.join(orders.direct)} stepped with the inputs of the step's end; what an FMU makes "
+            "of its inputs within a step lies between the two"
+        )
+        if report.sweeps:
+            found.append("margins over parameters are without feedthrough")
+    return found
+
+
+def withheld_line(report: StabilityReport, subject: LoopReport | JointReport, item: Requirement) -> str:
+    """Why a requirement is withheld, and what decides it."""
+    assert report.orders is not None
+    assert item.as_feedthrough is not None
+    names = report.orders.direct
+    options = " or ".join(f"{option} {name}" for name in names for option in ("--feedthrough", "--no-feedthrough"))
+    return (
+        f"loop {subject.name} at {subject.point}: {item.title} withheld: {_value(item)} without feedthrough of "
+        f"{_fmus(report.orders)}, {_value(item.as_feedthrough)} with it, limit {item.limit:g}{_unit(item)}; "
+        f"say {options}, or take a smaller step"
+    )
+
+
+def order_note(item: Requirement) -> str:
+    """What a table says next to a requirement: its own note, or why it is withheld."""
+    if item.verdict is not Verdict.WITHHELD or item.as_feedthrough is None:
+        return item.note
+    return f"{_value(item.as_feedthrough)} as feedthrough"
+
+
+def _fmus(orders: Orders) -> str:
+    return ", ".join(f"{name} (FMU {fmu})" for name, fmu in orders.undeclared.items())
+
+
+def _unit(item: Requirement) -> str:
+    return "" if item.unit == "1" else f" {item.unit}"
+
+
+def _value(item: Requirement) -> str:
+    if item.value is None:
+        return item.note or "not known"
+    return {UNSTABLE: "unstable", UNLIMITED: "no crossing"}.get(item.value, f"{item.value:.4g}{_unit(item)}")

@@ -1,0 +1,129 @@
+"""Both orders of a study whose loops pass an FMU with undeclared dependencies: without its feedthrough, and with it.
+
+A component without feedthrough is stepped with the inputs of t_n, one with it with those of t_(n+1). What an FMU makes
+of its inputs within a step lies between the two, so their margins bracket the truth as far as the step decides it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from ..errors import InputError
+from ..system.order.schedule import origin
+from ..system.prepared import PreparedSystem
+from .ask.request import Request
+from .ask.subject import Subject
+from .results.loop import JointReport, LoopReport
+from .results.report import Orders, StabilityReport
+from .results.requirement import Requirement
+
+NOT_STUDIED = "not studied with it"
+
+
+def in_both_orders(request: Request, make: Callable[[Request], StabilityReport]) -> StabilityReport:
+    """The study that ``make`` makes of a request, judged in both orders where a loop passes an undeclared FMU.
+
+    Of several such FMUs the extremes are studied: none of them with feedthrough, which is what flies, and all. Where
+    all would close an algebraic loop, those at which the initialisation cuts it stay without: a component that cannot
+    be direct is stepped as it must be. Sweeps and nonlinear elements are those of what flies.
+    """
+    report = make(request)
+    subject = Subject(request.system, request.options)
+    points = [point for point in request.declaration.points if request.loops_at(point)]
+    fmus: dict[str, str] = {}
+    cuts: dict[str, None] = {}
+    for point in points:
+        prepared = subject.at(point)
+        feedthrough = prepared.schedule.feedthrough
+        on_loops = _on_loops(prepared)
+        fmus |= {name: prepared.network.fmus[name].name for name in feedthrough.undeclared if name in on_loops}
+        cuts |= dict.fromkeys(feedthrough.cuts)
+    if not fmus or prepared.algorithm != "sequential":  # Jacobi's algorithm has one order
+        return report
+    without: list[str] = []
+    direct = list(fmus)
+    if not _can_be_direct(subject, request, direct):
+        without = [name for name in fmus if any(cut.partition(" -> ")[2].startswith(f"{name}.") for cut in cuts)]
+        direct = [name for name in fmus if name not in without]
+    other = None
+    if direct and _can_be_direct(subject, request, direct):
+        options = replace(request.options, feedthrough=(*request.options.feedthrough, *direct))
+        loops = tuple(replace(loop, elements=()) for loop in request.declaration.loops)
+        declaration = replace(request.declaration, loops=loops, sweeps=())
+        other = make(replace(request, options=options, declaration=declaration))
+    orders = Orders(fmus, tuple(direct) if other is not None else (), tuple(without), tuple(cuts), other)
+    return _judged(report, orders)
+
+
+def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> bool:
+    """Whether components can have feedthrough together: whether that closes no algebraic loop."""
+    options = replace(subject.options, feedthrough=(*subject.options.feedthrough, *names))
+    tried = replace(subject, options=options)
+    try:
+        for point in request.declaration.points:
+            tried.at(point)
+    except InputError:  # the system itself has been prepared before
+        return False
+    return True
+
+
+def _on_loops(prepared: PreparedSystem) -> set[str]:
+    """The components whose outputs come back to them over connections."""
+    readers: dict[str, set[str]] = {}
+    for link in prepared.network.driver.values():
+        start = origin(prepared.network, link).component
+        if start is not None and link.target.component is not None and not link.is_parameter:
+            readers.setdefault(start, set()).add(link.target.component)
+    found = set()
+    for component in readers:
+        seen: set[str] = set()
+        ahead = list(readers[component])
+        while ahead:
+            here = ahead.pop()
+            if here not in seen:
+                seen.add(here)
+                ahead += readers.get(here, ())
+        if component in seen:
+            found.add(component)
+    return found
+
+
+def _judged(report: StabilityReport, orders: Orders) -> StabilityReport:
+    """The report with the requirements of both orders, where there are two."""
+    if orders.report is None:
+        return replace(report, orders=orders)
+    loops = {(loop.name, loop.point): loop for loop in orders.report.loops}
+    joints = {(joint.name, joint.point): joint for joint in orders.report.joint}
+    return replace(
+        report,
+        loops=tuple(_loop(loop, loops.get((loop.name, loop.point))) for loop in report.loops),
+        joint=tuple(_joint(joint, joints.get((joint.name, joint.point))) for joint in report.joint),
+        orders=orders,
+    )
+
+
+def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
+    """A loop whose requirements know those of the ``other`` order; what its routes differ on is not passed."""
+    note = "" if other is None or not other.doubted else "the routes differ with it"
+    found = replace(loop, requirements=_both(loop.requirements, () if other is None else other.requirements, note))
+    if loop.dispersion is not None:
+        spread = None if other is None else other.dispersion
+        both = _both(loop.dispersion.requirements, () if spread is None else spread.requirements, note)
+        found.dispersion = replace(loop.dispersion, requirements=both)
+    return found
+
+
+def _joint(joint: JointReport, other: JointReport | None) -> JointReport:
+    return replace(joint, requirements=_both(joint.requirements, () if other is None else other.requirements))
+
+
+def _both(items: Sequence[Requirement], others: Sequence[Requirement], note: str = "") -> tuple[Requirement, ...]:
+    by_title = {other.title: other for other in others}
+    found = []
+    for item in items:
+        other = by_title.get(item.title) or replace(item, value=None, passed=None, note=NOT_STUDIED)
+        if note and other.passed:
+            other = replace(other, passed=None, note=note)
+        found.append(replace(item, as_feedthrough=other))
+    return tuple(found)

@@ -1,0 +1,169 @@
+"""A satellite with a wheel, whose lag is an FMU in C without `dependencies`: margins in both orders of stepping it.
+
+Truth: python-control. The lag and the satellite are one continuous plant behind the hold of the control's command; a
+step in either order shifts the lag's answer by less than a step from that. At the control's own rate the two orders are
+known exactly: they differ by one step.
+"""
+
+import json
+
+import control
+import numpy as np
+import pytest
+
+import perilune
+from perilune.analysis.cli import main
+from perilune.analysis.loops.margin_values import MARGINS, Quantity
+from perilune.analysis.stability.results.requirement import Verdict
+from tests.support.builders import component, connection, document, inline, pack, system
+from tests.support.foreign.lag import lag_fmu
+from tests.support.loops.exact_systems import difference, with_stability
+from tests.support.loops.sampled_loops import response_of
+
+PERIOD, PROPORTIONAL, DERIVATIVE, LAG = 0.1, 0.2, 2.5, 0.5  # s, 1/s2, 1/s, s
+SATELLITE = control.ss(control.tf(1.0, [1.0, 0.0, 0.0]))
+CONTROL = difference(PROPORTIONAL, DERIVATIVE, PERIOD)
+THREE = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS)
+ENDS = "input u Real; output y Real"
+
+
+def margins_by_control(loop):
+    """Gain margin upwards (dB), phase margin (deg) and modulus margin, off a fine response."""
+    frequency = np.geomspace(0.05, np.pi / PERIOD, 40001)
+    value = response_of(loop)(frequency)
+    gain, phase = abs(value), np.unwrap(np.angle(value))
+    phase += -2.0 * np.pi * np.round((phase[np.argmin(abs(gain - 1.0))] + 0.7 * np.pi) / (2.0 * np.pi))
+    over = np.flatnonzero((phase[:-1] > -np.pi) & (phase[1:] <= -np.pi))[-1]
+    down = np.flatnonzero((gain[:-1] > 1.0) & (gain[1:] <= 1.0))[-1]
+    return {
+        Quantity.GAIN: -20.0 * np.log10(gain[over]),
+        Quantity.PHASE: 180.0 + np.degrees(phase[down]),
+        Quantity.MODULUS: np.min(abs(1.0 + value)),
+    }
+
+
+def wheel_satellite(folder, fmus, step, extra=""):
+    lag_fmu(folder, LAG)
+    for name in ("difference", "held_mass"):
+        (folder / f"{name}.fmu").write_bytes((fmus / f"{name}.fmu").read_bytes())
+    gains = f"proportional=Real:{PROPORTIONAL}; derivative=Real:{DERIVATIVE}; sample_period=Real:{PERIOD}"
+    parts = (
+        component("control", "difference", ENDS, inline(gains)),
+        component("wheel", "lag", ENDS).replace("</ssd:Component>", f"{extra}</ssd:Component>"),
+        component("satellite", "held_mass", "input u Real; output position Real"),
+    )
+    wires = (
+        connection("control.y", "wheel.u")
+        + connection("wheel.y", "satellite.u")
+        + connection("satellite.position", "control.u")
+    )
+    ssd = document(system(*parts, connections=wires), stop=60.0, step=step)
+    loop = f'<Point name="there" time="20"/>\n<Loop name="attitude" cut="control.y" points="there" period="{PERIOD}"/>'
+    return pack(folder / f"wheel_{step:g}.ssp", folder, with_stability(ssd, loop))
+
+
+def both(report):
+    """Margins without feedthrough and with it."""
+    (without,), (direct,) = report.loops, report.orders.report.loops
+    return without, direct
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("wheel")
+
+
+@pytest.fixture(scope="module")
+def reports(folder, exact_fmus):
+    return {
+        share: perilune.stability(wheel_satellite(folder, exact_fmus, PERIOD / share), workers=1) for share in (1, 2, 4)
+    }
+
+
+def test_the_truth_lies_between_the_orders_which_close_in_on_it(reports):
+    truth = margins_by_control(CONTROL * control.c2d(control.ss(control.tf(1.0, [LAG, 1.0])) * SATELLITE, PERIOD))
+    distance = []
+    for report in reports.values():
+        without, direct = both(report)
+        low, high = ({kind: loop.margins.size(kind) for kind in THREE} for loop in (without, direct))
+        for kind in THREE:
+            assert low[kind] < truth[kind] < high[kind], kind
+        distance.append({kind: high[kind] - low[kind] for kind in THREE})
+    for kind in THREE:
+        assert distance[1][kind] < 0.6 * distance[0][kind]
+        assert distance[2][kind] < 0.6 * distance[1][kind]
+
+
+def test_each_order_is_the_one_it_says(reports):
+    """At the control's own rate: a lag of u(t_n), and the same a step earlier."""
+    keep = np.exp(-PERIOD / LAG)
+    late = CONTROL * control.ss(keep, 1.0 - keep, 1.0, 0.0, PERIOD) * control.c2d(SATELLITE, PERIOD)
+    # z (1 - keep)/(z - keep) = (1 - keep) (1 + keep/(z - keep))
+    early = CONTROL * control.ss(keep, keep, 1.0 - keep, 1.0 - keep, PERIOD) * control.c2d(SATELLITE, PERIOD)
+    for loop, exact in zip(both(reports[1]), (late, early), strict=True):
+        expected = margins_by_control(exact)
+        for kind in THREE:
+            assert loop.margins.size(kind) == pytest.approx(expected[kind], rel=2e-3), kind
+
+
+def test_withheld_where_the_orders_disagree_and_failed_where_both_do(reports):
+    def modulus(report):
+        (loop,) = report.loops
+        return next(item for item in loop.requirements if item.quantity is Quantity.MODULUS)
+
+    coarse, fine = modulus(reports[1]), modulus(reports[4])
+    assert (coarse.passed, coarse.as_feedthrough.passed) == (False, True)
+    assert (coarse.verdict, reports[1].verdict) == (Verdict.WITHHELD, Verdict.WITHHELD)
+    assert (fine.passed, fine.as_feedthrough.passed) == (False, False)
+    assert (fine.verdict, reports[4].verdict) == (Verdict.FAIL, Verdict.FAIL)
+
+
+def test_said_either_way_there_is_one_order(folder, exact_fmus, reports):
+    path = wheel_satellite(folder, exact_fmus, PERIOD)
+    for options, expected in (
+        ({"no_feedthrough": ["wheel"]}, reports[1].loops[0]),
+        ({"feedthrough": ["wheel"]}, reports[1].orders.report.loops[0]),
+    ):
+        report = perilune.stability(path, workers=1, **options)
+        assert report.orders is None
+        assert [report.loops[0].margins.size(kind) for kind in MARGINS] == [
+            expected.margins.size(kind) for kind in MARGINS
+        ]
+    assert report.verdict is Verdict.PASS
+
+
+def test_what_cannot_be_direct_has_one_order(folder, exact_fmus):
+    """A lag in a ring with a control that answers at once: direct it would close an algebraic loop."""
+    parts = (
+        component("control", "difference", ENDS, inline("proportional=Real:0.5; derivative=Real:0")),
+        component("wheel", "lag", ENDS),
+    )
+    wires = connection("control.y", "wheel.u") + connection("wheel.y", "control.u")
+    path = pack(folder / "direct.ssp", folder, document(system(*parts, connections=wires), stop=20.0, step=0.1))
+    report = perilune.stability(path, loops=["control.y"], at=5.0, workers=1)
+    assert report.orders.undeclared == {"wheel": "lag"}
+    assert (report.orders.direct, report.orders.without, report.orders.report) == ((), ("wheel",), None)
+    assert report.orders.cuts == ("control.y -> wheel.u",)
+    assert {item.as_feedthrough for item in report.loops[0].requirements} == {None}
+
+
+def test_text_json_page_and_exit_status(folder, exact_fmus, tmp_path, capsys):
+    path = wheel_satellite(folder, exact_fmus, PERIOD)
+    page, file = tmp_path / "page.html", tmp_path / "report.json"
+    assert main(["stability", str(path), "--report", str(page), "--json", str(file), "--workers", "1"]) == 1
+    told = capsys.readouterr()
+    assert "  as feedthrough: " in told.out
+    assert "note: wheel (FMU lag) does not declare which inputs its outputs depend on directly" in told.out
+    (line,) = [line for line in told.err.splitlines() if "modulus" in line]
+    assert line.startswith("perilune: loop attitude at there: modulus margin withheld: 0.3963 without")
+    assert line.endswith("limit 0.5; say --feedthrough wheel or --no-feedthrough wheel, or take a smaller step")
+    found = json.loads(file.read_text())
+    assert found["verdict"] == "withheld"
+    orders = found["feedthrough_orders"]
+    assert (orders["undeclared"], orders["direct"]) == ({"wheel": "lag"}, ["wheel"])
+    assert orders["as_feedthrough"]["loops"][0]["modulus_margin"] > 0.5
+    (judged,) = [item for item in found["loops"][0]["requirements"] if item["quantity"] == "modulus margin"]
+    assert (judged["passed"], judged["verdict"], judged["as_feedthrough"]["passed"]) == (None, "withheld", True)
+    text = page.read_text(encoding="utf-8")
+    assert "Undeclared dependencies" in text
+    assert "withheld" in text
