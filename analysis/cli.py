@@ -17,6 +17,7 @@ import argcomplete
 from .errors import EndedError, InputError, warn_in_one_line
 from .examples import EXAMPLES
 from .process_end import leave
+from .streams import steady_streams
 
 VERBS = {
     "list": "list systems, with parameter sets, campaigns and loops, laws and FMUs",
@@ -79,8 +80,17 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Carry out one command; returns the exit status."""
-    given = sys.argv[1:] if arguments is None else list(arguments)
+    """Carry out one command; returns the exit status, which does not depend on who reads its output."""
+    with steady_streams() as output:
+        status = _carry_out(sys.argv[1:] if arguments is None else list(arguments))
+        output.flush()
+        if output.is_cut and output.error is not None:
+            print(f"perilune: standard output: {output.error.strerror}; make room, or write to a file", file=sys.stderr)
+            return 2
+        return status
+
+
+def _carry_out(given: Sequence[str]) -> int:
     parser = parser_of(given)
     argcomplete.autocomplete(parser)
     options = parser.parse_args(given)
@@ -94,9 +104,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return ended.status
     except KeyboardInterrupt:
         print("perilune: interrupted", file=sys.stderr)
-        return 1
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except OSError as error:  # a file that cannot be read or written
         reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)
