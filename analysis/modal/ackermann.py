@@ -49,7 +49,7 @@ def coefficients_of(a: np.ndarray, b: np.ndarray, gain: np.ndarray) -> np.ndarra
 
 
 def last_rows(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.ndarray, float]:
-    """T (m, n), and cond(U). Raises PlacementError, in the name of ``formula``: n is no multiple of m, U is singular."""
+    """T (m, n), and cond(U). Raises PlacementError in the name of ``formula``: n no multiple of m, or U singular."""
     states, inputs = b.shape
     if states % inputs:
         raise PlacementError(
