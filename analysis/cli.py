@@ -26,6 +26,7 @@ VERBS = {
     "run": "fly a system once",
     "batch": "fly a campaign: many trials, variants compared on the same draws",
     "shard": "fly some shards of a campaign that perilune batch --prepare, or a batch that ended early, has left",
+    "replay": "fly a trial of a stored campaign again, of its folder alone, with all signals",
     "merge": "put the flown shards of a campaign together: summary, page, requirements",
     "rare": "the probability of a rare failure over a campaign's draws, and the likeliest draws that make it",
     "worst": "the draws within a campaign's box that make a number worst",
@@ -40,7 +41,7 @@ VERBS = {
 }
 
 # Verbs whose files lie in rooms of their own.
-ROOMS = dict.fromkeys(("batch", "shard", "merge", "rare", "worst"), "campaigns")
+ROOMS = dict.fromkeys(("batch", "shard", "replay", "merge", "rare", "worst"), "campaigns")
 
 # What exit status 1 means besides an interruption, of which all verbs make it; 0 is done, 2 wrong input.
 FAILURES = {

@@ -21,7 +21,7 @@ from .common.exit_status import ExitStatus, exit_status
 from .common.flight import check_flight, flight_lines, limit_document
 from .common.in_flight import series, watch
 from .common.options import check_json, faults, json_number, system_options, write_json
-from .common.remarks import say_stale
+from .common.remarks import note_lines, say_stale
 from .common.requirements import check_requirements, read_requirements
 
 OUTPUT_SUFFIXES = (".csv", ".parquet")
@@ -49,11 +49,11 @@ def run(options: argparse.Namespace) -> int:
     final = {name: json_number(value) for name, value in result.final().items()}
     document = result.summary() | {"limits": limit_document(figures, result), "final": final}
     if not write_json(document, options.json, files):
-        print("\n".join(flight_lines(prepared, figures, result)))
+        print("\n".join([*flight_lines(prepared, figures, result), *note_lines(prepared)]))
         if injected:
             print(faults_line(injected))
     files.write(options.output, result.write)
-    files.write(options.report, partial(_write_page, result, prepared.archive.name, figures))
+    files.write(options.report, partial(write_page, result, prepared.archive.name, figures))
     if options.json != "-":
         files.say()
     finished = check_flight(prepared, figures, result)
@@ -67,7 +67,8 @@ def last_values(result: Result) -> dict[str, float]:
     return {"time": float(result.time[-1]), **{name: float(value) for name, value in result.final().items()}}
 
 
-def _write_page(result: Result, system: str, figures: Sequence[Figure], path: Path) -> None:
+def write_page(result: Result, system: str, figures: Sequence[Figure], path: Path) -> None:
+    """The page of one flight, which ``system`` heads."""
     from ..reports.run.run_report import write_run_report  # and matplotlib, which takes half a second
 
     write_run_report(result, path, system, figures)

@@ -16,6 +16,7 @@ from ...campaign.sweeps import part_sweeps
 from ...errors import InputError
 from ...flight.interruptible import StuckError
 from ...targets import PAGES, Results, check_file, check_folder
+from ..common.exit_status import ExitStatus, exit_status
 from ..common.in_flight import series, watch
 from ..common.options import check_json, faults, json_number, pairs, system_options, write_json
 from ..common.remarks import say_stale
@@ -113,14 +114,13 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
     check_plan(plan)
     files = Results()
     flyer = Flyer(plan)
-    files = Results()
     document: dict[str, dict[str, Any]] = {}
     for variant in flyer.variants:
         try:
             result, found = flyer.replay(variant, trial)
         except StuckError as error:
             print(f"perilune: {variant}: trial {trial}: {error}; nothing of it is written", file=sys.stderr)
-            return 1
+            return ExitStatus.NOT_MET
         if options.output is not None:
             files.write(options.output / f"{variant}_{trial:06d}.parquet", result.write)
         metrics = {name: json_number(value) for name, value in found.metrics.items()}
@@ -141,4 +141,4 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
             print(faults_line(flown))
     if options.json != "-":
         files.say()
-    return 2 if files.failed else 0
+    return exit_status(files, *(entry["success"] for entry in document.values()))

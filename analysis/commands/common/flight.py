@@ -13,7 +13,6 @@ from ...reports.own.asked.stages import Limits
 from ...reports.own.asked.values import Undrawn
 from ...reports.own.limit_table import Verdict, evaluate, limit_facts, limit_lines
 from ...system.prepared import PreparedSystem
-from .remarks import note_lines
 
 REMEDIES = {
     "nonfinite": "see what drives it with --output F.csv",
@@ -24,7 +23,7 @@ FINISHED = "finished"  # the root output that ends a run
 
 
 def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> list[str]:
-    """How a flight ended: status, limits, statuses of components, notes."""
+    """How a flight ended: status, limits, statuses of components."""
     end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
     lines = [f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows"]
     for figure in figures:
@@ -32,7 +31,7 @@ def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Re
             lines += limit_lines(figure, result)
         elif isinstance(figure, Undrawn) and figure.has_limits:
             lines += [f"{figure.title}: {Verdict.NOT_EVALUATED}, {note}" for note in figure.notes]
-    return [*lines, *status_lines(prepared.network, result), *note_lines(prepared)]
+    return [*lines, *status_lines(prepared.network, result)]
 
 
 def limit_document(figures: Sequence[Figure], result: Result) -> list[dict[str, Any]]:
