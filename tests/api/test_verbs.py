@@ -21,8 +21,8 @@ from perilune.analysis.system.options import SystemOptions
 FUNCTIONS = {
     "list": "inventory", "describe": "describe", "validate": "validate", "run": "simulate", "batch": "batch",
     "shard": "shard", "merge": "merge", "replay": "replay", "rare": "rare", "worst": "worst", "compare": "compare",
-    "law": "law", "synthesize": "synthesize", "plan": "plan_hover_transfer", "stability": "stability", "new": "new_block",
-    "benchmark": "benchmark", "export": "export",
+    "law": "law", "synthesize": "synthesize", "plan": "plan_hover_transfer", "stability": "stability",
+    "new": "new_block", "benchmark": "benchmark", "export": "export",
 }  # fmt: skip
 # Options that are something else in Python: methods of the result, its values, or another name.
 PRINTED = {"help", "json", "report", "require", "replay", "output", "prepare"}

@@ -103,7 +103,7 @@ def _prepare(plan: BatchPlan, options: argparse.Namespace) -> int:
     last = campaign.numbering.count - 1
     print(f"written: {options.output}, shards 0-{last} of {campaign.numbering.size} trials and the rest")
     print(f"fly them: perilune shard {options.output} 0-{last}, in any parts; then: perilune merge {options.output}")
-    return 0
+    return ExitStatus.MET
 
 
 def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:

@@ -89,7 +89,7 @@ def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Ex
 class Failures(NamedTuple):
     """Flights of a variant that did not reach their end: how many, the first one's trial and message."""
 
-    count: int
+    flights: int
     trial: int
     message: str
 
@@ -104,15 +104,15 @@ def failed_flights(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failur
                 if failed.size:
                     first = Failures(0, int(columns["trial"][failed[0]]), str(columns["message"][failed[0]]))
                     before = found.get(variant, first)
-                    found[variant] = before._replace(count=before.count + failed.size)
+                    found[variant] = before._replace(flights=before.flights + failed.size)
     return found
 
 
 def report_failed(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> None:
     """A line on standard error for each variant, with the command that flies its first failed trial again."""
-    for variant, (count, trial, message) in failures.items():
+    for variant, (flights, trial, message) in failures.items():
         replay = "" if folder is None else f"; see it: {stored_replay(folder, plan, variant, trial)}"
-        print(f"perilune: {variant}: {count} flights failed; trial {trial}: {message}{replay}", file=sys.stderr)
+        print(f"perilune: {variant}: {flights} flights failed; trial {trial}: {message}{replay}", file=sys.stderr)
 
 
 def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
