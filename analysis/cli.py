@@ -44,7 +44,7 @@ VERBS = {
 # Verbs whose files lie in rooms of their own.
 ROOMS = dict.fromkeys(("batch", "shard", "replay", "merge", "rare", "worst"), "campaigns")
 
-# What exit status 1 means in addition to an interruption, of which all verbs make it; docs/command_line.md has the same.
+# What exit status 1 means in addition to an interruption, of which all verbs make it; so does docs/command_line.md.
 _CAMPAIGN = (
     "a requirement of the campaign is not met or undecided, a --require is not met, or a flight did not reach its end"
 )
