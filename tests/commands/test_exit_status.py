@@ -48,7 +48,7 @@ ROWS = [
     (f"batch {ONE} --trials 0", 2),
     (f"batch {ONE} --trials 2 --replay 1", 0),
     (f"batch {ONE} --trials 2 --replay 1 {FAILING}", 1),
-    (f"batch {ONE} --sensitivity 2", 0),
+    (f"batch {ONE} --sensitivity 32", 0),
     (f"batch {ONE} --sensitivity 3", 2),
     ("shard {folder}/prepared 0", 0),
     ("shard {folder}/failing 0", 1),
@@ -76,7 +76,7 @@ ROWS = [
     ("law nothing", 2),
     ("synthesize network-operator nothing", 2),
     ("plan hover-transfer", 0),
-    ("plan hover-transfer --dry-mass 999", 1),
+    ("plan hover-transfer --dry-mass 590", 1),
     ("plan hover-transfer --intervals 50", 2),
     ("new block made_here", 0),
     ("new block Made", 2),
@@ -90,7 +90,7 @@ UNDECIDED = f"""
 system = "{SYSTEM}"
 trials = 2
 
-[metric.time]
+[metric.flight_time]
 expression = "time"
 reduction = "final"
 

@@ -125,6 +125,9 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
             files.write(options.output / f"{variant}_{trial:06d}.parquet", result.write)
         metrics = {name: json_number(value) for name, value in found.metrics.items()}
         document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
+        if not found.success:
+            reason = found.message or f"{plan.campaign.success.text} is not so"
+            print(f"perilune: {variant}: trial {trial}: no success: {reason}", file=sys.stderr)
     flown = [str(fault) for fault in plan.faults_of(trial) if fault is not None]
     declared = {"faults": flown} if plan.fault_texts() else {}
     if not write_json({"trial": trial, **declared, "variants": document}, options.json, files):

@@ -49,6 +49,9 @@ def run(options: argparse.Namespace) -> int:
     if options.json != "-":
         files.say()
     finished = check_flight(replayed.prepared, figures, flight)
+    if flight.complete and not replayed.outcome.success:
+        reason = f"no success: {replayed.plan.campaign.success.text} is not so"
+        print(f"perilune: {options.folder}: trial {replayed.trial}: {reason}", file=sys.stderr)
     for difference in replayed.differences:
         remedy = "another machine, C library or version of Perilune than the campaign's flies it now"
         print(f"perilune: {options.folder}: trial {replayed.trial}: {difference}; {remedy}", file=sys.stderr)
