@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import shlex
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -39,11 +40,10 @@ class ReplayedTrial:
     differences: tuple[str, ...]
 
 
-def stored_replay(folder: Path, plan: BatchPlan, configuration: str, trial: int) -> str:
-    """The command line that flies a trial of a campaign's folder again."""
+def stored_replay(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:
+    """The command line that flies a trial of a campaign's folder again, of one of its ``configurations``."""
     words = ["perilune", "replay", str(folder), str(trial)]
-    words += ["--configuration", configuration] if len(plan.campaign.variants()) > 1 else []
-    return shlex.join(words)
+    return shlex.join([*words, *(["--configuration", configuration] if len(configurations) > 1 else [])])
 
 
 def replay_trial(

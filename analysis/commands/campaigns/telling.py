@@ -110,8 +110,9 @@ def failed_flights(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failur
 
 def report_failed(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> None:
     """A line on standard error for each variant, with the command that flies its first failed trial again."""
+    variants = plan.campaign.variants()
     for variant, (flights, trial, message) in failures.items():
-        replay = "" if folder is None else f"; see it: {stored_replay(folder, plan, variant, trial)}"
+        replay = "" if folder is None else f"; see it: {stored_replay(folder, variants, variant, trial)}"
         print(f"perilune: {variant}: {flights} flights failed; trial {trial}: {message}{replay}", file=sys.stderr)
 
 

@@ -90,7 +90,7 @@ def command_of(result: BatchResult, variant: Variant, trial: int) -> str:
     """The command line that flies one trial of one variant again: of the campaign's folder, where it has one."""
     if result.folder is None:
         return replay_command(result.plan, variant, trial)
-    return stored_replay(result.folder, result.plan, variant.name, trial)
+    return stored_replay(result.folder, result.rows, variant.name, trial)
 
 
 def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
