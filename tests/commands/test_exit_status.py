@@ -89,6 +89,7 @@ ELSEWHERE = {"synthesize": "0 and 1: test_synthesize.py", "benchmark": "0: tests
 UNDECIDED = f"""
 system = "{SYSTEM}"
 trials = 2
+seed = 1
 
 [metric.flight_time]
 expression = "time"

@@ -56,9 +56,7 @@ def test_a_campaign(name, here, capsys):
 def test_a_parameter_set(here, capsys):
     said, found = remarks(["run", SYSTEM, "--parameters", "noisy.ssv"], capsys)
     (line,) = said
-    assert line.startswith(
-        f"--parameters noisy.ssv: read from ssp_systems/{SYSTEM}!noisy.ssv; another file of this name"
-    )
+    assert line.startswith(f"--parameters noisy.ssv: read from ssp_systems/{SYSTEM}!resources/noisy.ssv; another file")
     assert line.endswith("write --parameters ./noisy.ssv for that one")
     said, other = remarks(["run", SYSTEM, "--parameters", "./noisy.ssv"], capsys)
     assert said == []
