@@ -96,7 +96,7 @@ expression = "time"
 reduction = "final"
 
 [success]
-expression = "time > 0"
+expression = "flight_time > 0"
 
 [requirement.lands]
 expression = "success"

@@ -18,6 +18,7 @@ import perilune
 from perilune.analysis.batch.shards.files import shard_path
 from perilune.analysis.cli import main
 from perilune.analysis.reports.batch.replays import extremes_to_replay, failures_to_replay
+from perilune.analysis.reports.compare.replays import failures_to_replay as compared_failures
 from perilune.fmus_src.places import SYSTEMS
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -150,6 +151,24 @@ def test_what_is_refused(name, folder, capsys):
 def test_a_folder_that_is_none(tmp_path, capsys):
     assert main(["replay", str(tmp_path), "0"]) == 2
     assert "manifest.json: No such file or directory; give a folder that perilune batch" in capsys.readouterr().err
+
+
+def test_a_comparison_names_the_failures_of_each_variant(tmp_path, monkeypatch):
+    """Every flight fails on a thrust of 1e308 N; two folders, of which one has a single variant."""
+    monkeypatch.chdir(tmp_path)
+    for name, compare in (("both", ["analytic_guidance", "astar_guidance"]), ("one", ["astar_guidance"])):
+        faults = ["guidance.thrust_acceleration=override:1e308@1"] if name == "both" else []
+        options = {"trials": 2, "seed": 3, "workers": 1, "output": name, "stop_time": 5.0, "faults": faults}
+        perilune.batch(SYSTEM, "paper", compare={"guidance": compare}, **options)
+    comparison = perilune.compare("both", "one")
+    rows = compared_failures(comparison)
+    expected = [f"perilune replay both {trial} --configuration {name}" for name in ("analytic_guidance", "astar_guidance")
+                for trial in (0, 1)]  # fmt: skip
+    assert [row.command for row in rows] == [*expected, "perilune replay one 0", "perilune replay one 1"]
+    comparison.report("page.html")
+    page = (tmp_path / "page.html").read_text()
+    assert all(row.command in page for row in rows)
+    assert main(shlex.split(rows[0].command)[1:]) == 1
 
 
 def test_pages_print_the_short_command_where_there_is_a_folder(folder, tmp_path, monkeypatch, capsys):
