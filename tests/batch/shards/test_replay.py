@@ -162,8 +162,8 @@ def test_a_comparison_names_the_failures_of_each_variant(tmp_path, monkeypatch):
         perilune.batch(SYSTEM, "paper", compare={"guidance": compare}, **options)
     comparison = perilune.compare("both", "one")
     rows = compared_failures(comparison)
-    expected = [f"perilune replay both {trial} --configuration {name}" for name in ("analytic_guidance", "astar_guidance")
-                for trial in (0, 1)]  # fmt: skip
+    names = ("analytic_guidance", "astar_guidance")
+    expected = [f"perilune replay both {trial} --configuration {name}" for name in names for trial in (0, 1)]
     assert [row.command for row in rows] == [*expected, "perilune replay one 0", "perilune replay one 1"]
     comparison.report("page.html")
     page = (tmp_path / "page.html").read_text()

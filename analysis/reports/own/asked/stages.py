@@ -83,7 +83,8 @@ class Limits(Own):
         if not flight.complete:
             return f"the flight did not reach its end: {flight.status}"
         if self.when is not None and not self.when.values(flight)[0, -1]:
-            return f"{self.when.label} is {'false' if flight.types[self.when.label] == 'Boolean' else '0'} at the end"
+            value = "false" if flight.types[self.when.names[0]] == "Boolean" else "0"
+            return f"{self.when.label} is {value} at the end"
         return ""
 
 
