@@ -1,4 +1,4 @@
-"""The console command `perilune`. Exit status: 0 done, 1 the run or a requirement failed, 2 wrong input."""
+"""The console command `perilune`; its exit status is one of `ExitStatus`."""
 
 from __future__ import annotations
 
@@ -14,9 +14,11 @@ from typing import Any, NoReturn
 
 import argcomplete
 
+from .commands.common.exit_status import ExitStatus
 from .errors import EndedError, InputError, warn_in_one_line
 from .examples import EXAMPLES
 from .process_end import leave
+from .streams import steady_streams
 
 VERBS = {
     "list": "list systems, with parameter sets, campaigns and loops, laws and FMUs",
@@ -25,6 +27,7 @@ VERBS = {
     "run": "fly a system once",
     "batch": "fly a campaign: many trials, variants compared on the same draws",
     "shard": "fly some shards of a campaign that perilune batch --prepare, or a batch that ended early, has left",
+    "replay": "fly a trial of a stored campaign again, of its folder alone, with all signals",
     "merge": "put the flown shards of a campaign together: summary, page, requirements",
     "rare": "the probability of a rare failure over a campaign's draws, and the likeliest draws that make it",
     "worst": "the draws within a campaign's box that make a number worst",
@@ -39,19 +42,23 @@ VERBS = {
 }
 
 # Verbs whose files lie in rooms of their own.
-ROOMS = dict.fromkeys(("batch", "shard", "merge", "rare", "worst"), "campaigns")
+ROOMS = dict.fromkeys(("batch", "shard", "replay", "merge", "rare", "worst"), "campaigns")
 
-# What exit status 1 means besides an interruption, of which all verbs make it; 0 is done, 2 wrong input.
+# What exit status 1 means in addition to an interruption, of which all verbs make it; so does docs/command_line.md.
+_CAMPAIGN = (
+    "a requirement of the campaign is not met or undecided, a --require is not met, or a flight did not reach its end"
+)
 FAILURES = {
-    "plan": "there is no such plan, or less propellant on board than it takes",
-    "run": "the flight failed, or a requirement is not met",
-    "batch": "a requirement is not met, or a flight took longer than --timeout",
-    "shard": "workers ended again and again, or the scheduler did",
-    "merge": "a requirement is not met, or a flight took longer than --timeout",
-    "rare": "a requirement is not met",
-    "worst": "a requirement is not met",
+    "run": "a limit of the SSD is not kept or not evaluated, a --require is not met, or the flight did not finish",
+    "replay": "as of run; or the trial is no success of its campaign, or is not the stored one to the last bit",
+    "batch": _CAMPAIGN,
+    "shard": "a flight did not reach its end, or workers ended again and again, or the scheduler did",
+    "merge": _CAMPAIGN,
+    "rare": "a --require is not met",
+    "worst": "a --require is not met",
+    "stability": "a requirement is not met or withheld, or something could not be studied",
     "synthesize": "no law was found with every trial a success",
-    "stability": "a requirement is not met, or a point could not be studied",
+    "plan": "there is no such plan, or less propellant on board than it takes",
 }
 
 
@@ -79,8 +86,17 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Carry out one command; returns the exit status."""
-    given = sys.argv[1:] if arguments is None else list(arguments)
+    """Carry out one command; returns the exit status, which does not depend on who reads its output."""
+    with steady_streams() as output:
+        status = _carry_out(sys.argv[1:] if arguments is None else list(arguments))
+        output.flush()
+        if output.is_cut and output.error is not None:
+            print(f"perilune: standard output: {output.error.strerror}; make room, or write to a file", file=sys.stderr)
+            return ExitStatus.REFUSED
+        return status
+
+
+def _carry_out(given: Sequence[str]) -> int:
     parser = parser_of(given)
     argcomplete.autocomplete(parser)
     options = parser.parse_args(given)
@@ -88,26 +104,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _module(options.verb).run(options)
     except InputError as error:
         print(f"perilune: {error}", file=sys.stderr)
-        return 2
+        return ExitStatus.REFUSED
     except EndedError as ended:
         print(f"perilune: {ended}", file=sys.stderr)
         return ended.status
     except KeyboardInterrupt:
         print("perilune: interrupted", file=sys.stderr)
-        return 1
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 1
+        return ExitStatus.NOT_MET
     except OSError as error:  # a file that cannot be read or written
         reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)
         print(f"perilune: {reason}; give another path or mend this one", file=sys.stderr)
-        return 2
+        return ExitStatus.REFUSED
 
 
 def exit_status(verb: str) -> str:
     """What the exit statuses of a verb mean."""
     failure = f"{FAILURES[verb]}, or interrupted" if verb in FAILURES else "interrupted"
-    return f"Exit status: 0: done. 1: {failure}. 2: wrong input, or a result could not be written."
+    return f"Exit status: 0: done, and all is met. 1: {failure}. 2: wrong input, or a result could not be written."
 
 
 def parser_of(given: Sequence[str]) -> Parser:

@@ -52,6 +52,16 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
         ("perilune shard parts 0-2", "three of its four shards, here or on another machine"),
         ("perilune shard parts 3", "the last one"),
     ),
+    "replay": (
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --trials 30 --output landings",
+            "a campaign in a folder",
+        ),
+        (
+            "perilune replay landings 7 --configuration analytic_guidance --report trial_7.html",
+            "one of its trials, to the last bit, with all signals on a page",
+        ),
+    ),
     "merge": (
         (
             "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output shared --prepare",

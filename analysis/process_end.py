@@ -9,13 +9,16 @@ from __future__ import annotations
 import atexit
 import os
 import sys
+from contextlib import suppress
 from typing import NoReturn
 
 
 def leave(status: int) -> NoReturn:
     """End the process at once with an exit status; what was written to standard output and error is not lost."""
-    sys.stdout.flush()
-    sys.stderr.flush()
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:  # a process can be started without them
+            with suppress(OSError):
+                stream.flush()
     os._exit(status)
 
 

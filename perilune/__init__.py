@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .analysis.api.own import new_block, new_system
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
     from .analysis.api.results.plots import plot_results
+    from .analysis.api.results.replayed import ReplayResult, replay
     from .analysis.api.results.stored import StoredResults, open_results
     from .analysis.api.samples.rare import RareResult, rare
     from .analysis.api.samples.sensitivity import SensitivityResult, sensitivity
@@ -88,6 +89,7 @@ __all__ = [
     "Parameter",
     "PlanError",
     "RareResult",
+    "ReplayResult",
     "Result",
     "SensitivityResult",
     "StabilityReport",
@@ -122,6 +124,7 @@ __all__ = [
     "plan_landing_bound",
     "plot_results",
     "rare",
+    "replay",
     "sensitivity",
     "shard",
     "simulate",
@@ -143,6 +146,7 @@ _HOMES = {
     "analysis.api.own": ("new_block", "new_system"),
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
     "analysis.api.results.plots": ("plot_results",),
+    "analysis.api.results.replayed": ("ReplayResult", "replay"),
     "analysis.api.results.stored": ("StoredResults", "open_results"),
     "analysis.api.samples.rare": ("RareResult", "rare"),
     "analysis.api.samples.sensitivity": ("SensitivityResult", "sensitivity"),

@@ -24,6 +24,7 @@ EVERYWHERE = {
     "analysis/atomic",
     "analysis/process_end",
     "analysis/progress",
+    "analysis/streams",
     "analysis/targets",
     "fmus_src/places",
 }

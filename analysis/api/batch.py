@@ -207,4 +207,4 @@ def merge(folder: FilePath) -> BatchResult:
 
 def _told(flown: results.BatchResult) -> BatchResult:
     """A result with what Python users have of it."""
-    return BatchResult(flown.plan, flown.rows, flown.summary, flown.provenance)
+    return BatchResult(flown.plan, flown.rows, flown.summary, flown.provenance, flown.folder)

@@ -26,12 +26,16 @@ from .verdicts import add_verdicts
 
 @dataclass
 class BatchResult:
-    """All trials of all variants, ``rows`` in order of trial, which may lie in a folder and not in memory."""
+    """All trials of all variants, ``rows`` in order of trial, which may lie in a folder and not in memory.
+
+    ``folder`` is the campaign's, as its user names it, None where it has none.
+    """
 
     plan: BatchPlan
     rows: Mapping[str, FlownRows]
     summary: dict[str, Any]
     provenance: dict[str, Any]
+    folder: Path | None = None
 
     @cached_property
     def trials(self) -> dict[str, Trials]:
@@ -88,8 +92,10 @@ def batch_digest(provenance: dict[str, Any]) -> str:
     return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
 
 
-def make_result(plan: BatchPlan, rows: Mapping[str, FlownRows], provenance: dict[str, Any]) -> BatchResult:
+def make_result(
+    plan: BatchPlan, rows: Mapping[str, FlownRows], provenance: dict[str, Any], folder: Path | None = None
+) -> BatchResult:
     """The result with its summary; ``rows`` by variant, each in order of trial."""
     summary = summarise(rows, plan.campaign.metrics, plan.groups, plan.campaign.group or "")
     add_verdicts(summary, plan.campaign.requirements, rows, plan.until_decided)
-    return BatchResult(plan, rows, summary, provenance)
+    return BatchResult(plan, rows, summary, provenance, folder)

@@ -35,7 +35,8 @@ from .trials import Trials
 class Campaign:
     """A campaign that is ready to fly: every file of it read, in its folder if it has one (absolute).
 
-    ``plan`` is what results tell of, ``flown`` the same with the files that the folder holds.
+    ``plan`` is what results tell of, ``flown`` the same with the files that the folder holds; ``named`` is the folder
+    as its user names it.
     """
 
     plan: BatchPlan
@@ -43,6 +44,7 @@ class Campaign:
     systems: Mapping[str, PreparedSystem]
     manifest: Manifest
     folder: Path | None
+    named: Path | None = None
 
     def of_first(self, trials: int) -> Campaign:
         """The campaign of the first trials, which end with a shard; its folder holds no more either."""
@@ -70,6 +72,12 @@ class Campaign:
     def store(self) -> HeldShards | StoredShards:
         """Where its shards go."""
         return HeldShards(self.plan) if self.folder is None else StoredShards(self.flown, self.folder, self.batch)
+
+    def shard_rows(self, shard: int) -> Mapping[str, FlownRows]:
+        """The trials of one shard that its folder holds, by variant."""
+        if self.folder is None:
+            raise ValueError("a campaign without a folder holds no shards")
+        return StoredShards(self.flown, self.folder, self.batch).rows(self.numbering, range(shard, shard + 1))
 
     def missing(self) -> list[int]:
         """The shards that its folder does not hold."""
@@ -106,15 +114,15 @@ def open_campaign(plan: BatchPlan, output: Path | None, *, resume: bool = False,
     manifest = (go_on if resume else begin)(folder, manifest, contents, plan)
     flown = restore(folder, manifest, plan.watch.log)
     plan.__dict__["draws"] = flown.draws  # which lie in the folder, and not in memory
-    return Campaign(plan, flown, systems, manifest, folder)
+    return Campaign(plan, flown, systems, manifest, folder, output)
 
 
 def open_folder(folder: Path) -> Campaign:
     """The campaign whose manifest lies in a folder. Raises InputError."""
-    folder = folder.absolute()
+    named, folder = folder, folder.absolute()
     manifest = read_manifest(folder)
     plan = restore(folder, manifest)  # whose draws were looked at when the folder was made
-    return Campaign(plan, plan, prepare_variants(plan), manifest, folder)
+    return Campaign(plan, plan, prepare_variants(plan), manifest, folder, named)
 
 
 def run_batch(
@@ -153,7 +161,7 @@ def merge(campaign: Campaign) -> BatchResult:
 def finish(campaign: Campaign, rows: Mapping[str, FlownRows]) -> BatchResult:
     """The result of the first trials, by variant; its summary makes the campaign's folder whole, if it has one."""
     campaign = campaign.of_first(len(next(iter(rows.values()))))
-    result = make_result(campaign.plan, rows, campaign.provenance)
+    result = make_result(campaign.plan, rows, campaign.provenance, campaign.named)
     if campaign.folder is not None:
         result.write_summary(campaign.folder)
         tidy(campaign.folder)

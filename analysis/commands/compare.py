@@ -8,6 +8,7 @@ import shlex
 from ..compare.side_by_side import compare
 from ..reports.compare.page import write_comparison_page
 from ..targets import PAGES, Results, check_file
+from .common.exit_status import exit_status
 from .common.options import check_json, write_json
 
 
@@ -23,4 +24,4 @@ def run(options: argparse.Namespace) -> int:
         print(comparison.text())
     if options.json != "-":
         files.say()
-    return 2 if files.failed else 0
+    return exit_status(files)

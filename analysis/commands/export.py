@@ -8,6 +8,7 @@ import sys
 from ...fmus_src.export.judge.subset import SubsetError
 from ..api.export import export
 from ..errors import InputError
+from .common.exit_status import ExitStatus
 from .common.options import check_json, tell
 
 
@@ -20,10 +21,10 @@ def run(options: argparse.Namespace) -> int:
     except SubsetError as error:
         for violation in error.violations:
             print(f"perilune: {error.block}: {violation}", file=sys.stderr)
-        return 2
+        return ExitStatus.REFUSED
     except ValueError as error:  # what is wrong with a block, told by the export as one line
         print(f"perilune: {' '.join(str(error).split())}", file=sys.stderr)
-        return 2
+        return ExitStatus.REFUSED
     if options.name.endswith(".py") and options.flavour is None and "native" not in exported.flavours:
         print("perilune: no C compiler here: the Python flavour only; pip install ziglang for both", file=sys.stderr)
     paths = [str(path) for path in exported.paths]

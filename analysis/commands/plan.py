@@ -6,6 +6,7 @@ import argparse
 import sys
 
 from ..planning.path import PlanError
+from .common.exit_status import ExitStatus
 from .plans import hover_transfer, landing_bound
 
 PLANS = {"hover-transfer": hover_transfer, "landing-bound": landing_bound}
@@ -16,4 +17,4 @@ def run(options: argparse.Namespace) -> int:
         return PLANS[options.plan].run(options)
     except PlanError as problem:
         print(f"perilune: {options.plan}: {problem}", file=sys.stderr)
-        return 1
+        return ExitStatus.NOT_MET

@@ -18,6 +18,7 @@ from ..stability.results.requirement import Requirement, Verdict
 from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
 from ..targets import PAGES, Results, check_file
+from .common.exit_status import ExitStatus, exit_status
 from .common.options import check_json, system_options, write_json
 from .common.remarks import say_stale
 
@@ -42,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
         report = study(request, options.workers)
     except StudyError as error:
         print(f"perilune: {request.label}: {error}", file=sys.stderr)
-        return 1
+        return ExitStatus.NOT_MET
     files.write(options.report, lambda path: write_stability_page(report, path))
     if not write_json(document(report), options.json, files):
         others = {(loop.name, loop.point): loop for loop in order_loops(report)}
@@ -70,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
         print(f"perilune: loop {loop.name} at {loop.point}: not passed: {why}", file=sys.stderr)
     for lost in report.unstudied:
         print(f"perilune: {lost.what} {lost.name} at {lost.point}: not studied: {lost.reason}", file=sys.stderr)
-    return 2 if files.failed else 1 if failures or withheld or doubted or report.unstudied else 0
+    return exit_status(files, report.verdict is Verdict.PASS)
 
 
 def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:

@@ -8,6 +8,7 @@ import sys
 from ..synthesis.synthesis import run_synthesis
 from ..synthesis.synthesis_file import named_search, read_synthesis
 from ..targets import Results, check_folder
+from .common.exit_status import exit_status
 from .common.options import check_json, tell
 
 
@@ -25,7 +26,7 @@ def run(options: argparse.Namespace) -> int:
     )
     if options.output is not None:
         files.written.append(options.output)
-    status = tell(result.document(), options, lambda: print(result.text()), files)
+    tell(result.document(), options, lambda: print(result.text()), files)
     if not result.succeeded:
         print(f"perilune: {result.failure()}", file=sys.stderr)
-    return status or int(not result.succeeded)
+    return exit_status(files, result.succeeded)

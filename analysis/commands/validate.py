@@ -8,6 +8,7 @@ from typing import Any
 
 from ..api.validate import validated
 from ..targets import Results
+from .common.exit_status import ExitStatus
 from .common.options import check_json, system_options, tell
 
 
@@ -19,7 +20,7 @@ def run(options: argparse.Namespace) -> int:
         for problem in result["problems"]:
             print(f"perilune: {problem}", file=sys.stderr)
     status = tell(results, options, lambda: _print(results), files)
-    return 2 if any(result["problems"] for result in results) else status
+    return ExitStatus.REFUSED if any(result["problems"] for result in results) else status
 
 
 def _print(results: list[dict[str, Any]]) -> None:

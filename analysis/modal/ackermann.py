@@ -20,6 +20,8 @@ from .refusal import PlacementError, Reason
 from .results import StateFeedback
 from .spectrum import Spectrum
 
+FORMULA = "generalised Ackermann"  # as refusals name it
+
 
 def ackermann(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:
     """Place the spectrum with diagonal N_i as far as its pairs let. Raises PlacementError."""
@@ -46,12 +48,12 @@ def coefficients_of(a: np.ndarray, b: np.ndarray, gain: np.ndarray) -> np.ndarra
     return split(np.linalg.solve(stack.T, (gain - power).T).T, b.shape[1])
 
 
-def last_rows(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, float]:
-    """T (m, n), and cond(U). Raises PlacementError where n is no multiple of m, or U is singular."""
+def last_rows(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.ndarray, float]:
+    """T (m, n), and cond(U). Raises PlacementError in the name of ``formula``: n no multiple of m, or U singular."""
     states, inputs = b.shape
     if states % inputs:
         raise PlacementError(
-            "generalised Ackermann",
+            formula,
             Reason.CLASS,
             f"n/m = {states}/{inputs} = {states / inputs:.3g} is not whole",
             states / inputs,
@@ -61,7 +63,7 @@ def last_rows(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, float]:
     condition = float(np.linalg.cond(matrix))
     if not condition < 1.0 / (states * np.finfo(float).eps):
         raise PlacementError(
-            "generalised Ackermann",
+            formula,
             Reason.CLASS,
             f"U = [B AB ..] of {states} columns is singular, cond(U) = {condition:.2g}",
             condition,
@@ -70,9 +72,9 @@ def last_rows(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, float]:
     return np.linalg.solve(matrix.T, np.eye(states, inputs, inputs - states)).T, condition
 
 
-def row_stack(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
-    """V = [T; T A; ..; T A^(p-1)] (n, n), T A^p (m, n), and cond(U). Raises PlacementError."""
-    rows, condition = last_rows(a, b)
+def row_stack(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.ndarray, np.ndarray, float]:
+    """V = [T; T A; ..; T A^(p-1)] (n, n), T A^p (m, n), and cond(U). Raises PlacementError as `last_rows`."""
+    rows, condition = last_rows(a, b, formula)
     stacked = [rows]
     for _ in range(len(a) // len(rows)):
         stacked.append(stacked[-1] @ a)

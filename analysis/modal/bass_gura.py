@@ -16,10 +16,12 @@ from .polynomial import wanted_polynomial
 from .results import StateFeedback
 from .spectrum import Spectrum
 
+FORMULA = "generalised Bass-Gura"  # as refusals name it
+
 
 def bass_gura(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:
     """Place the spectrum with the N_i that the Ackermann formula takes. Raises PlacementError."""
-    stack, power, condition = row_stack(a, b)
+    stack, power, condition = row_stack(a, b, FORMULA)
     inputs = b.shape[1]
     own = np.linalg.solve(stack.T, -power.T).T
     wanted = np.hstack(list(wanted_polynomial(spectrum, [len(a) // inputs] * inputs)))

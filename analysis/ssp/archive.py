@@ -7,11 +7,13 @@ import io
 import lzma
 import posixpath
 import struct
+import warnings
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
+from multiprocessing import parent_process
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -147,7 +149,9 @@ class SystemArchive:
     def _named(self, name: str, places: tuple[str, ...], option: str, suffix: str) -> tuple[bytes, str]:
         for place in places:
             if place in self.files:
-                return self._content(place, option), f"{self.label}!{place}"
+                content, label = self._content(place, option), f"{self.label}!{place}"
+                _warn_of_another(name, content, label, option, suffix)
+                return content, label
         if parameters_asked(name) in self.elsewhere:
             return self.elsewhere[parameters_asked(name)].read_bytes(), name
         if Path(name).is_file():
@@ -164,6 +168,21 @@ class SystemArchive:
         for name in sorted(self.files):
             total.update(name.encode() + b"\0" + hashlib.sha256(self._content(name, name)).digest())
         return total.hexdigest()
+
+
+def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix: str) -> None:
+    """Say, once, that a file of the working folder has the name of a system's own one, which is read instead of it."""
+    if parent_process() is not None:
+        return  # a worker: who started it has said so
+    for path in dict.fromkeys((Path(name), Path(f"{name}{suffix}"))):
+        if path.is_file() and path.read_bytes() != content:
+            other = path if path.is_absolute() else f"./{path}"
+            warnings.warn(
+                f"{option} {name}: read from {label}; another file of this name, {path} in the working folder, is not: "
+                f"write {option} {other} for that one",
+                stacklevel=4,
+            )
+            return
 
 
 def fmu_asked(source: str) -> str:

@@ -80,7 +80,7 @@ def test_a_flight_that_asks_for_its_own_figures_shows_these(fmus):
 
 def test_the_page_is_that_of_the_command(flight, tmp_path):
     flight.report(str(tmp_path / "own.html"))
-    assert main(["run", SYSTEM, "--stop-time", "60", "--report", str(tmp_path / "command.html")]) == 0
+    assert main(["run", SYSTEM, "--stop-time", "60", "--report", str(tmp_path / "command.html")]) == 1
     assert (tmp_path / "own.html").read_bytes() == (tmp_path / "command.html").read_bytes()
 
 

@@ -15,14 +15,14 @@ import pytest
 import perilune
 from perilune.analysis.cli import VERBS
 from perilune.analysis.commands.asked import describe, export, run, stability, synthesize
-from perilune.analysis.commands.asked.campaigns import batch, rare, shard, worst
+from perilune.analysis.commands.asked.campaigns import batch, rare, replay, shard, worst
 from perilune.analysis.system.options import SystemOptions
 
 FUNCTIONS = {
     "list": "inventory", "describe": "describe", "validate": "validate", "run": "simulate", "batch": "batch",
-    "shard": "shard", "merge": "merge", "rare": "rare", "worst": "worst", "compare": "compare", "law": "law",
-    "synthesize": "synthesize", "plan": "plan_hover_transfer", "stability": "stability", "new": "new_block",
-    "benchmark": "benchmark", "export": "export",
+    "shard": "shard", "merge": "merge", "replay": "replay", "rare": "rare", "worst": "worst", "compare": "compare",
+    "law": "law", "synthesize": "synthesize", "plan": "plan_hover_transfer", "stability": "stability",
+    "new": "new_block", "benchmark": "benchmark", "export": "export",
 }  # fmt: skip
 # Options that are something else in Python: methods of the result, its values, or another name.
 PRINTED = {"help", "json", "report", "require", "replay", "output", "prepare"}
@@ -34,6 +34,7 @@ COMMANDS = {
     "batch": batch,
     "shard": shard,
     "rare": rare,
+    "replay": replay,
     "worst": worst,
     "stability": stability,
     "describe": describe,

@@ -140,17 +140,17 @@ def test_replay_writes_the_whole_flight(tmp_path, capsys):
 def test_replay_of_a_flight_without_metrics_is_still_json(capsys):
     """A trial that fails has metrics that are not numbers; strict JSON has null for them."""
     failing = ["--compare", "guidance=analytic_guidance", *OVERFLOW, "--replay", "0"]
-    assert main([*SMALL, *failing, "--json", "-"]) == 0
+    assert main([*SMALL, *failing, "--json", "-"]) == 1
     found = json.loads(capsys.readouterr().out)["variants"]["analytic_guidance"]
     assert (found["status"], found["success"]) == ("nonfinite", False)
     assert set(found["metrics"].values()) == {None}
-    assert main([*SMALL, *failing]) == 0
+    assert main([*SMALL, *failing]) == 1
     assert "position_error none" in " ".join(capsys.readouterr().out.split())
 
 
 def test_a_batch_in_which_all_fail_is_reported_not_crashed(tmp_path, capsys):
     failing = ["--compare", "guidance=analytic_guidance", *OVERFLOW]
-    assert main([*SMALL, *failing, "--output", str(tmp_path), "--report", str(tmp_path / "r.html"), "--json", "-"]) == 0
+    assert main([*SMALL, *failing, "--output", str(tmp_path), "--report", str(tmp_path / "r.html"), "--json", "-"]) == 1
     found = json.loads(capsys.readouterr().out)["variants"]["analytic_guidance"]
     assert found["statuses"] == {"nonfinite": 10}
     assert found["metrics"]["position_error"]["mean"] is None

@@ -40,14 +40,17 @@ def test_says_how_it_ended(capsys):
     assert lines[0] == f"{SYSTEM}: finished at t = 207.2 s, 2073 rows"
     assert [line.rpartition(": ")[2] for line in lines[1:]] == ["kept", "kept"]
     assert captured.err == ""
-    assert main(["run", SYSTEM, "--stop-time", "2"]) == 0
-    lines = capsys.readouterr().out.splitlines()
+    assert main(["run", SYSTEM, "--stop-time", "2"]) == 1
+    captured = capsys.readouterr()
+    lines = captured.out.splitlines()
+    words = "limits not kept: distance from the target, velocity error"
+    assert captured.err == f"perilune: ssp_systems/{SYSTEM}/SystemStructure.ssd: {words}\n"
     assert lines[0] == f"{SYSTEM}: stop_time at t = 2 s, 21 rows"
     assert [line.rpartition(": ")[2] for line in lines[1:]] == ["not kept", "not kept"]
 
 
 def test_json_to_a_file_and_talk_to_the_terminal(tmp_path, capsys):
-    assert main(["run", SYSTEM, "--stop-time", "1", "--json", str(tmp_path / "a" / "run.json")]) == 0
+    assert main(["run", SYSTEM, "--stop-time", "1", "--json", str(tmp_path / "a" / "run.json")]) == 1
     assert "stop_time" in capsys.readouterr().out
     assert json.loads((tmp_path / "a" / "run.json").read_text())["rows"] == 11
 
@@ -58,6 +61,6 @@ def test_packed_and_unpacked_fly_alike(tmp_path):
     finals = []
     for system in (SYSTEM, BUILD / "ssp" / f"{SYSTEM}.ssp"):
         target = tmp_path / "x.json"
-        assert main(["run", str(system), "--parameters", "noisy.ssv", "--stop-time", "30", "--json", str(target)]) == 0
+        assert main(["run", str(system), "--parameters", "noisy.ssv", "--stop-time", "30", "--json", str(target)]) == 1
         finals.append(json.loads(target.read_text())["final"])
     assert finals[0] == finals[1]

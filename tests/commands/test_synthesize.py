@@ -43,7 +43,8 @@ def test_prints_and_writes_what_was_found(file, tmp_path, capsys):
     assert json.loads((out / "pareto.json").read_text()) == expected.document()
     assert main([*command, "--resume", "--json", "-"]) == 1
     assert json.loads(capsys.readouterr().out) == expected.document()
-    assert main(["run", "lunar_descent_2d", "--parameters", str(out / "law.ssv"), "--stop-time", "10"]) == 0
+    fly = ["run", "lunar_descent_2d", "--parameters", str(out / "law.ssv"), "--stop-time", "10"]
+    assert main(fly) == 1  # nowhere near the limits yet
 
 
 def test_a_law_that_is_found_ends_with_status_0(file, capsys):

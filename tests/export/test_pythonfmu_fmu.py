@@ -237,7 +237,7 @@ def test_messages_are_not_read_as_formats(tmp_path):
 FLIGHT = """
 import sys
 from perilune.analysis.cli import run
-sys.argv[1:] = sys.argv[1:] or ["run", "lunar_terminal_guidance", "--flavour", "python", "--stop-time", "2"]
+sys.argv[1:] = sys.argv[1:] or ["run", "entry_attitude", "--flavour", "python", "--stop-time", "2"]
 run()
 """
 

@@ -7,6 +7,8 @@ import pytest
 
 from perilune.analysis.modal.ackermann import ackermann
 from perilune.analysis.modal.bass_gura import bass_gura
+from perilune.analysis.modal.place import place
+from perilune.analysis.modal.refusal import PlacementError
 from perilune.analysis.modal.spectrum import Spectrum
 from tests.support.lengths import either
 from tests.support.modal.draws import EPS, assert_placed, random_systems
@@ -30,3 +32,13 @@ def test_one_input_is_the_formula_of_the_textbook() -> None:
         expected = (wanted - own) @ np.linalg.inv(controllability @ toeplitz)
         found = bass_gura(a, b, Spectrum.of(poles, 4))
         np.testing.assert_allclose(found.gain[0], expected, rtol=1e-12 * found.condition_u)
+
+
+@pytest.mark.parametrize("plant", [(np.eye(5), np.eye(5)[:, :2]), (np.eye(4), np.eye(4)[:, :2])])
+@pytest.mark.parametrize(("method", "formula"), [("bass_gura", "Bass-Gura"), ("ackermann", "Ackermann")])
+def test_a_refusal_names_the_formula_that_was_chosen(plant, method: str, formula: str) -> None:
+    """n no multiple of m, and U singular: both formulas need the same of a plant, and each says it by its own name."""
+    a, b = plant
+    with pytest.raises(PlacementError) as refused:
+        place(a, b, -np.arange(1.0, len(a) + 1.0), method=method)
+    assert refused.value.file == f"generalised {formula}"

@@ -30,7 +30,7 @@ MACHINE = {"linux64": (b"\x7fELF", 18, b"\x3e\x00"), "win64": (b"MZ", None, b"")
 
 @pytest.fixture
 def perform(installed, tmp_path):
-    """A verb that succeeds: its standard output."""
+    """A verb that succeeds, or ends with another status: its standard output."""
 
     def run(*arguments, status=0):
         done = installed.run(*arguments, cwd=tmp_path)
@@ -83,7 +83,7 @@ def test_every_verb_in_another_folder(installed, perform, tmp_path):
         assert listed["fmus"][name]["built"] == (["python"] if block.python_only else ["native", "python"])
     for flavour in ("native", "python"):
         options = ("--flavour", flavour, "--stop-time", "5", "--output", f"{flavour}.csv")
-        flown = json.loads(perform("run", SYSTEM, *options, "--report", "run.html", "--json", "-"))
+        flown = json.loads(perform("run", SYSTEM, *options, "--report", "run.html", "--json", "-", status=1))
         here = perilune.simulate(SYSTEM, flavour=flavour, stop_time=5.0)
         assert flown["final"] == here.final()
     variants = "guidance=analytic_guidance,analytic_exact_guidance"
@@ -115,7 +115,7 @@ def test_export_without_a_compiler(installed, perform, tmp_path):
     assert libraries == {"darwin64", "linux64"}
     for flavour in ("native", "python"):
         perform("export", SYSTEM, "--flavour", flavour, "--output", f"{flavour}.ssp")
-        flown = json.loads(perform("run", f"{flavour}.ssp", "--stop-time", "5", "--json", "-"))
+        flown = json.loads(perform("run", f"{flavour}.ssp", "--stop-time", "5", "--json", "-", status=1))
         assert flown["final"] == perilune.simulate(SYSTEM, stop_time=5.0, flavour="native").final()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -42,7 +43,9 @@ class StoredResults(OpenedResults):
     def _repr_html_(self) -> str:
         rows = [(name, column.unit or "", column.meaning) for name, column in self.columns.items()]
         there = f"{self.flown} of {self.trials} trials of {', '.join(self.variants)}"
-        words = [f"{Path(self.provenance['campaign']).name}: {there}", str(self.source.folder)]
+        named = " --configuration NAME" if len(self.variants) > 1 else ""
+        again = f"a trial again: perilune replay {shlex.quote(str(self.source.folder))} TRIAL{named}"
+        words = [f"{Path(self.provenance['campaign']).name}: {there}", str(self.source.folder), again]
         return notebook_view(self.provenance["system"], words, [Grid(("column", "unit", "meaning"), rows)], None)
 
 

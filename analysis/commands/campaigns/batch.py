@@ -16,6 +16,7 @@ from ...campaign.sweeps import part_sweeps
 from ...errors import InputError
 from ...flight.interruptible import StuckError
 from ...targets import PAGES, Results, check_file, check_folder
+from ..common.exit_status import ExitStatus, exit_status
 from ..common.in_flight import series, watch
 from ..common.options import check_json, faults, json_number, pairs, system_options, write_json
 from ..common.remarks import say_stale
@@ -102,7 +103,7 @@ def _prepare(plan: BatchPlan, options: argparse.Namespace) -> int:
     last = campaign.numbering.count - 1
     print(f"written: {options.output}, shards 0-{last} of {campaign.numbering.size} trials and the rest")
     print(f"fly them: perilune shard {options.output} 0-{last}, in any parts; then: perilune merge {options.output}")
-    return 0
+    return ExitStatus.MET
 
 
 def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
@@ -113,18 +114,20 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
     check_plan(plan)
     files = Results()
     flyer = Flyer(plan)
-    files = Results()
     document: dict[str, dict[str, Any]] = {}
     for variant in flyer.variants:
         try:
             result, found = flyer.replay(variant, trial)
         except StuckError as error:
             print(f"perilune: {variant}: trial {trial}: {error}; nothing of it is written", file=sys.stderr)
-            return 1
+            return ExitStatus.NOT_MET
         if options.output is not None:
             files.write(options.output / f"{variant}_{trial:06d}.parquet", result.write)
         metrics = {name: json_number(value) for name, value in found.metrics.items()}
         document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
+        if not found.success:
+            reason = found.message or f"{plan.campaign.success.text} is not so"
+            print(f"perilune: {variant}: trial {trial}: no success: {reason}", file=sys.stderr)
     flown = [str(fault) for fault in plan.faults_of(trial) if fault is not None]
     declared = {"faults": flown} if plan.fault_texts() else {}
     if not write_json({"trial": trial, **declared, "variants": document}, options.json, files):
@@ -141,4 +144,4 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
             print(faults_line(flown))
     if options.json != "-":
         files.say()
-    return 2 if files.failed else 0
+    return exit_status(files, *(entry["success"] for entry in document.values()))

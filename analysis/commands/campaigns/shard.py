@@ -7,7 +7,9 @@ import argparse
 from ...batch.cluster.connection import cluster
 from ...batch.runner import fly_campaign, open_folder
 from ...batch.shards.numbering import numbers_of
-from .telling import said_how_to_go_on
+from ...targets import Results
+from ..common.exit_status import exit_status
+from .telling import failed_flights, report_failed, said_how_to_go_on
 
 
 def run(options: argparse.Namespace) -> int:
@@ -22,4 +24,7 @@ def run(options: argparse.Namespace) -> int:
         fly_campaign(campaign, wanted, workers=workers, engine=engine, elsewhere=elsewhere)
     missing, count = len(campaign.missing()), campaign.numbering.count
     print(f"shards: {len(wanted)} flown, {len(shards) - len(wanted)} were there, {missing} of {count} are missing")
-    return 0
+    flown = sorted(set(wanted) - set(campaign.missing()))
+    failures = failed_flights(campaign.shard_rows(shard) for shard in flown)
+    report_failed(failures, campaign.plan, options.folder)
+    return exit_status(Results(), not failures)

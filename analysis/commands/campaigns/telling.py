@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from ...batch.flying.status_texts import worst_statuses
 from ...batch.flying.workers import WorkersDiedError
 from ...batch.manifest.manifest import FILE as MANIFEST
+from ...batch.replay import stored_replay
 from ...batch.results import BatchResult
-from ...batch.rows import TrialColumns
+from ...batch.rows import TrialColumns, TrialRows
 from ...batch.summary import requirement_values, summarise
 from ...batch.verdicts import add_verdicts, unmet_lines
 from ...campaign.expressions import Expression
@@ -24,6 +26,7 @@ from ...errors import EndedError
 from ...flight.results import TIMED_OUT
 from ...system.status_words import with_meaning
 from ...targets import Results
+from ..common.exit_status import ExitStatus, exit_status
 from ..common.options import write_json
 from ..common.requirements import check_requirements, read_requirements
 
@@ -35,12 +38,14 @@ def said_how_to_go_on(folder: Path | None) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        raise EndedError(f"interrupted{_how_to_go_on(place)}", 1) from None
+        raise EndedError(f"interrupted{_how_to_go_on(place)}", ExitStatus.NOT_MET) from None
     except WorkersDiedError as error:
-        raise EndedError(f"{error}{_how_to_go_on(place)}", 1) from error
+        raise EndedError(f"{error}{_how_to_go_on(place)}", ExitStatus.NOT_MET) from error
     except OSError as error:
         file = f"{error.filename}: " if error.filename else ""
-        raise EndedError(f"{file}{error.strerror or error}; make room{_how_to_go_on(place)}", 2) from error
+        raise EndedError(
+            f"{file}{error.strerror or error}; make room{_how_to_go_on(place)}", ExitStatus.REFUSED
+        ) from error
 
 
 def _write_page(result: BatchResult, path: Path) -> None:
@@ -65,8 +70,8 @@ def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Ex
     files.write(options.report, partial(_write_page, result))
     if options.json != "-":
         files.say()
-    for line in _failures(result):
-        print(f"perilune: {line}", file=sys.stderr)
+    failures = failed_flights([result.rows])
+    report_failed(failures, plan, result.folder)
     late = timed_out(result)
     for variant, count in late.items():
         limit = f"{plan.watch.timeout:g} s of --timeout"
@@ -78,22 +83,37 @@ def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Ex
     unmet = unmet_lines(result.summary)
     for line in unmet:
         print(f"perilune: {line}", file=sys.stderr)
-    return 2 if files.failed else 0 if met and not unmet and not late else 1
+    return exit_status(files, met, not unmet, not failures)
 
 
-def _failures(result: BatchResult) -> list[str]:
-    """How many flights of each variant failed, and the first one with its message; those without any are left out."""
-    lines = []
-    for variant, rows in result.rows.items():
-        count, first = 0, ""
-        for part in rows.parts("trial", "message"):
-            failed = np.flatnonzero(part["message"] != "")
-            if failed.size and not count:
-                first = f"trial {part['trial'][failed[0]]}: {part['message'][failed[0]]}"
-            count += failed.size
-        if count:
-            lines.append(f"{variant}: {count} flights failed; {first}")
-    return lines
+class Failures(NamedTuple):
+    """Flights of a variant that did not reach their end: how many, the first one's trial and message."""
+
+    flights: int
+    trial: int
+    message: str
+
+
+def failed_flights(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failures]:
+    """Of each variant that has any; ``parts`` are trials by variant, in order of trial."""
+    found: dict[str, Failures] = {}
+    for rows in parts:
+        for variant, own in rows.items():
+            for columns in own.parts("trial", "message"):
+                failed = np.flatnonzero(columns["message"] != "")
+                if failed.size:
+                    first = Failures(0, int(columns["trial"][failed[0]]), str(columns["message"][failed[0]]))
+                    before = found.get(variant, first)
+                    found[variant] = before._replace(flights=before.flights + failed.size)
+    return found
+
+
+def report_failed(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> None:
+    """A line on standard error for each variant, with the command that flies its first failed trial again."""
+    variants = plan.campaign.variants()
+    for variant, (flights, trial, message) in failures.items():
+        replay = "" if folder is None else f"; see it: {stored_replay(folder, variants, variant, trial)}"
+        print(f"perilune: {variant}: {flights} flights failed; trial {trial}: {message}{replay}", file=sys.stderr)
 
 
 def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:

@@ -17,6 +17,7 @@ from ...system.faults import KINDS, Fault, parse_fault
 from ...system.options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from ...targets import Results, check_file
 from .completers import completed, parameter_sets, slots_with_fmus, systems, systems_and_fmu_files
+from .exit_status import exit_status
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -172,4 +173,4 @@ def tell(document: Any, options: argparse.Namespace, text: Callable[[], object],
         text()
     if options.json != "-":
         files.say()
-    return 2 if files.failed else 0
+    return exit_status(files)

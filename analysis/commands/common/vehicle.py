@@ -60,13 +60,13 @@ def given(options: argparse.Namespace, names: Iterable[str] = UNITS) -> dict[str
     return {name: getattr(options, name) for name in names if getattr(options, name, None) is not None}
 
 
-def enough(vehicle: Vehicle, propellant: float, what: str) -> int:
-    """The exit status of a plan that takes so much propellant (kg): 1, and a line, if it is not on board."""
+def enough(vehicle: Vehicle, propellant: float, what: str) -> bool:
+    """Whether the propellant (kg) that a plan takes is on board; a line where it is not."""
     carried = vehicle.mass - vehicle.dry_mass
     if propellant <= carried:
-        return 0
+        return True
     print(f"perilune: {what} takes {propellant:.2f} kg of propellant; {carried:g} kg are on board", file=sys.stderr)
-    return 1
+    return False
 
 
 def burns_text(burns: Iterable[tuple[float, float]]) -> str:

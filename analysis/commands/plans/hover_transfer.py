@@ -12,6 +12,7 @@ from ...planning.path import PlannedPath
 from ...planning.vehicle import HOVER_MARGINS, HOVER_VEHICLE, Margins, Transfer, Vehicle, check_hover, check_vehicle
 from ...reports.plan.hover_page import write_hover_page
 from ...targets import PAGES, Results, check_file
+from ..common.exit_status import exit_status
 from ..common.options import check_json, write_json
 from ..common.vehicle import burns_text, enough, given
 
@@ -42,7 +43,7 @@ def run(options: argparse.Namespace) -> int:
     files.write(options.report, lambda path: write_hover_page(study, path))
     if options.json != "-":
         files.say()
-    return 2 if files.failed else enough(vehicle, study.programme.propellant_fraction * vehicle.mass, "the programme")
+    return exit_status(files, enough(vehicle, study.programme.propellant_fraction * vehicle.mass, "the programme"))
 
 
 def _margins(options: argparse.Namespace, vehicle: Vehicle) -> Margins | None:

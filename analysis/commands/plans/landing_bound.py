@@ -18,6 +18,7 @@ from ...system.options import SystemOptions
 from ...system.prepared import PreparedSystem, prepare_system
 from ...targets import PAGES, Results, check_file
 from ..asked.plans.landing_bound import PLACES
+from ..common.exit_status import exit_status
 from ..common.options import check_json, system_options, write_json
 from ..common.vehicle import burns_text, enough, given
 
@@ -52,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
         files.write(folder / PLACE, lambda _: write_bound(content, folder))
     if options.json != "-":
         files.say()
-    return 2 if files.failed else enough(study.vehicle, study.propellant, "the bound")
+    return exit_status(files, enough(study.vehicle, study.propellant, "the bound"))
 
 
 def _inputs(prepared: PreparedSystem) -> Inputs:

@@ -45,6 +45,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         failures=failure_panels(result),
         failed=failures_to_replay(result),
         extremes=extremes_to_replay(result),
+        stored=result.folder is not None,
         seen=seen_statuses(result),
         scores={variant: found for variant, found in scores.items() if found},
         drivers=drivers(result),

@@ -10,6 +10,7 @@ from pathlib import PurePosixPath
 import numpy as np
 from markupsafe import Markup
 
+from ...batch.replay import stored_replay
 from ...batch.results import BatchResult
 from ...batch.rows import TrialRows
 from ...campaign.campaign import Variant
@@ -48,8 +49,7 @@ def _replays(result: BatchResult, choose: Callable[[BatchResult, str], list[tupl
         for trial, reason in choose(result, variant.name):
             own.setdefault(trial, []).append(reason)
         found += [
-            Replay(variant.name, trial, reasons, replay_command(result.plan, variant, trial))
-            for trial, reasons in own.items()
+            Replay(variant.name, trial, reasons, command_of(result, variant, trial)) for trial, reasons in own.items()
         ]
     return found
 
@@ -84,6 +84,13 @@ def _largest(rows: TrialRows, column: str) -> tuple[float, list[int]]:
             most, where = float(values.max()), []
         where += part["trial"][np.flatnonzero(values == most)[: 2 - len(where)]].tolist()
     return most, where
+
+
+def command_of(result: BatchResult, variant: Variant, trial: int) -> str:
+    """The command line that flies one trial of one variant again: of the campaign's folder, where it has one."""
+    if result.folder is None:
+        return replay_command(result.plan, variant, trial)
+    return stored_replay(result.folder, result.rows, variant.name, trial)
 
 
 def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:

@@ -24,6 +24,7 @@ from .gaps import is_biased, missing_parts
 from .metrics import all_values, distributed, distribution_panel, sort_metrics
 from .overlays import overlaid_bands, overlaid_ends
 from .recorded import Flight, Quantity, kept_names, quantities, read_flights, sampled_trials
+from .replays import failures_to_replay
 from .tables import draw_ranges, metric_pairs, rate_pairs
 from .targets import UNITS, ends_of
 
@@ -111,6 +112,7 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
             ends={end.what for end in ends},
         ),
         biased=is_biased(comparison, flights),
+        failed=failures_to_replay(comparison),
         draws=draw_ranges(comparison),
         fmus=[fmu_rows(batch.document["fmus"]) for batch in comparison.batches.values()],
     )

@@ -6,15 +6,17 @@ from markupsafe import Markup
 
 from ...flight.results import Result
 from .asked.stages import Limits
-from .limit_table import is_kept, limit_rows
+from .limit_table import Verdict, evaluate, limit_rows
 from .section import Section, Table, sentence
 
 
 def limit_section(limits: Limits, result: Result) -> Section:
-    """The table of limits, and how many of them are kept."""
-    broken = [limit.name for limit in limits.limits if not is_kept(limit, result)]
-    count = len(limits.limits)
-    words = Markup("not kept: {}").format(", ".join(broken)) if broken else Markup("all {} kept").format(count)
+    """The table of limits, and which are not kept, or why none is evaluated."""
+    broken = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.NOT_KEPT]
+    obstacle = limits.obstacle(result)
+    words = (
+        Markup("not kept: {}").format(", ".join(broken)) if broken else Markup("all {} kept").format(len(limits.limits))
+    )
     return Section(
         title=limits.title,
         table=Table(
@@ -22,6 +24,6 @@ def limit_section(limits: Limits, result: Result) -> Section:
             rows=limit_rows(limits, result),
             numbers=(1, 2),
         ),
-        findings=[sentence(words)],
+        findings=[sentence(Markup("not evaluated: {}").format(obstacle) if obstacle else words)],
         notes=[Markup("{}").format(note) for note in limits.notes],
     )

@@ -1,4 +1,4 @@
-"""Trials to fly again on the page of a batch.
+"""Replay commands on the page of a batch.
 
 Truth: outcomes made by hand, whose worst trials are seen; and the command line itself, which must fly the trial that
 the batch flew.
@@ -60,7 +60,7 @@ def test_nothing_to_fly_again(tmp_path):
     result = batch_result({"default": [(True, 0.0, 0.0)] * 3}, METRICS)
     assert failures_to_replay(result) == extremes_to_replay(result) == []
     write_batch_report(result, tmp_path / "page.html", "Calm")
-    assert "Trials to fly again" not in text_of((tmp_path / "page.html").read_text(encoding="utf-8"))
+    assert "Replay commands" not in text_of((tmp_path / "page.html").read_text(encoding="utf-8"))
 
 
 def test_they_are_on_the_page(tmp_path):

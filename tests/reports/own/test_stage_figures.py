@@ -13,6 +13,7 @@ from lxml import etree, html
 
 from perilune.analysis.reports.own.asked.stages import BoundValues
 from perilune.analysis.reports.own.asked.values import Arc, Rows
+from perilune.analysis.reports.own.limit_table import limit_facts, limit_lines
 from perilune.analysis.reports.own.own_figures import own_sections
 from perilune.analysis.reports.own.phase_spans import spans_of, statuses_of
 from perilune.analysis.reports.own.section import evenly
@@ -177,6 +178,28 @@ def test_limits_at_the_end():
     ]
     assert findings(one(replace(LIMITS, limits=LIMITS.limits[2:]), mission())) == ["All 1 kept."]
     assert findings(one(LIMITS, mission(x=np.full(TIME.size, np.nan)))) == ["Not kept: tilt, mass, east."]
+
+
+@pytest.mark.parametrize(
+    ("changed", "ended", "why"),
+    [
+        ({"done": 0.0 * TIME}, "finished", "ship.done is 0 at the end"),
+        ({"done": TIME > 1.0}, "nonfinite", "the flight did not reach its end: nonfinite"),
+        ({"done": TIME > 1.0}, "interrupted", "the flight did not reach its end: interrupted"),
+    ],
+)
+def test_limits_that_are_not_evaluated(changed, ended, why):
+    """What stands in the last row of a flight without the event, or without an end, is held against nothing."""
+    asked = replace(LIMITS, when=scalar("ship.done"))
+    flight = replace(mission(**changed), status=ended)
+    section = one(asked, flight)
+    assert findings(section) == [f"Not evaluated: {why}."]
+    assert [(row[1], row[4]) for row in cells(section)] == [("\N{EN DASH}", "not evaluated")] * 3
+    assert limit_lines(asked, flight)[0] == f"tilt: at most 5 deg: not evaluated, {why}"
+    facts = limit_facts(asked, flight)
+    assert [(fact["value"], fact["verdict"], fact["reason"]) for fact in facts] == [(None, "not evaluated", why)] * 3
+    landed = one(asked, mission(done=TIME > 1.0))
+    assert findings(landed) == ["Not kept: tilt, mass."]
 
 
 def lines_of(figure, colour):

@@ -330,6 +330,30 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said(tiny_folder, tmp_path):
     assert budget == Undrawn("Budget", ("what phases use up is left out",))
 
 
+def test_limits_that_an_event_has_to_happen_for(folder, loaded):
+    inside = '<Limits when="{}"><Limit signal="plant.angles[2]" most="2" unit="deg"/></Limits>'
+    (found,) = read(folder, loaded, inside.format("pulses.pulse_count"))
+    assert found.when.names == ("pulses.pulse_count",)
+    refused(folder, loaded, "", inside.format("pulses.pulse_cout"), "Limits", "when pulses.pulse_cout: no such signal")
+    refused(folder, loaded, "", inside.format("plant.angles"), "Limits", "when plant.angles is a vector")
+
+
+def test_limits_of_an_fmu_that_is_put_in_and_lacks_them_are_not_evaluated(tiny_folder, tmp_path, capsys):
+    """The flight ends well, and what was to hold of it nobody knows: exit status 1."""
+    tiny = tiny_folder / "native"
+    parts = document(system(component("ramp", "ramp")))
+    limits = '<Limits title="End"><Limit signal="ramp.count" most="1e9"/></Limits>'
+    path = str(pack(tmp_path / "s.ssp", tiny, with_report(parts, limits)))
+    assert main(["run", path]) == 0
+    capsys.readouterr()
+    use = ["--use", f"ramp={tiny / 'gain.fmu'}", "--open-inputs", "start"]
+    assert main(["run", path, *use]) == 1
+    captured = capsys.readouterr()
+    why = "signal ramp.count: no such signal, with gain as ramp"
+    assert f"End: not evaluated, {why}" in captured.out.splitlines()
+    assert captured.err.endswith(f"limits not evaluated: {why}\n")
+
+
 def test_ours_is_valid_and_its_bound_is_kept(capsys):
     assert main(["validate", "landing_mission"]) == 0
     assert (

@@ -15,6 +15,7 @@ from .stage_readers import read_budget, read_limits, read_phases
 from .values import Undrawn
 
 ANNOTATION = "org.perilune.report"
+BUDGET, LIMITS = "Budget", "Limits"
 READERS: Mapping[str, Callable[[SignalReader, etree._Element], Figure]] = {
     "Band": read_band,
     "Pulses": read_pulses,
@@ -22,9 +23,8 @@ READERS: Mapping[str, Callable[[SignalReader, etree._Element], Figure]] = {
     "Curve": read_curve,
     "Path": read_path,
     "Phases": read_phases,
-    "Limits": read_limits,
+    LIMITS: read_limits,
 }
-BUDGET = "Budget"
 
 
 def read_figures(prepared: PreparedSystem) -> list[Figure]:
@@ -46,5 +46,5 @@ def read_figures(prepared: PreparedSystem) -> list[Figure]:
         try:
             found.append(read_budget(reader, element, found) if name == BUDGET else READERS[name](reader, element))
         except LackingError as lacking:
-            found.append(Undrawn(reader.title(element, name), (str(lacking),)))
+            found.append(Undrawn(reader.title(element, name), (str(lacking),), name == LIMITS))
     return found

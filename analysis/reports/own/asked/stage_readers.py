@@ -82,12 +82,17 @@ def _meanings(reader: SignalReader, parts: Sequence[etree._Element]) -> dict[int
 
 
 def read_limits(reader: SignalReader, element: etree._Element) -> Limits:
-    reader.attributes(element, (), ("title",))
+    reader.attributes(element, (), ("title", "when"))
     parts = reader.parts(element, ("Limit",))["Limit"]
     if not parts:
         raise reader.refuse(element, "no Limit", 'write <Limit signal="..." most="..."/>')
     limits = tuple(_limit(reader, part) for part in parts)
-    return Limits(title=reader.title(element, "Limits"), limits=limits, notes=tuple(reader.notes))
+    return Limits(
+        title=reader.title(element, "Limits"),
+        limits=limits,
+        when=reader.scalar(element, "when", (*NUMBERS, "Boolean")) if "when" in element.attrib else None,
+        notes=tuple(reader.notes),
+    )
 
 
 def _limit(reader: SignalReader, element: etree._Element) -> Limit:

@@ -73,9 +73,19 @@ class Limit:
 
 @dataclass(frozen=True)
 class Limits(Own):
-    """Limits that hold at the end of the run."""
+    """Limits that hold at the end of the run; with ``when`` only of a run at whose end this scalar is not 0."""
 
     limits: tuple[Limit, ...]
+    when: Signal | None = None
+
+    def obstacle(self, flight: Flight) -> str:
+        """Why a flight cannot be held against them; empty where it can."""
+        if not flight.complete:
+            return f"the flight did not reach its end: {flight.status}"
+        if self.when is not None and not self.when.values(flight)[0, -1]:
+            value = "false" if flight.types[self.when.names[0]] == "Boolean" else "0"
+            return f"{self.when.label} is {value} at the end"
+        return ""
 
 
 @dataclass(frozen=True)

@@ -89,4 +89,9 @@ class Rows:
 
 @dataclass(frozen=True)
 class Undrawn(Own):
-    """A figure that is asked for and cannot be had, since an FMU that was put in lacks what it is made of."""
+    """A figure that is asked for and cannot be had, since an FMU that was put in lacks what it is made of.
+
+    ``has_limits`` says that it is one of `Limits`, which then nobody evaluates.
+    """
+
+    has_limits: bool = False

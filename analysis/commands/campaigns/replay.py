@@ -1,0 +1,88 @@
+"""perilune replay: a trial of a stored campaign again, of its folder alone."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from functools import partial
+from typing import Any
+
+from ...batch.replay import ReplayedTrial, replay_trial
+from ...batch.tables import aligned, faults_line
+from ...flight.interruptible import StuckError
+from ...reports.own.asked.reading import read_figures
+from ...targets import PAGES, Results, check_file
+from ..common.exit_status import ExitStatus, exit_status
+from ..common.flight import check_flight, flight_lines, limit_document
+from ..common.in_flight import watch
+from ..common.options import check_json, json_number, write_json
+from ..common.requirements import check_requirements, read_requirements
+from ..run import OUTPUT_SUFFIXES, STUCK, last_values, write_page
+
+METRIC = "metric."
+
+
+def run(options: argparse.Namespace) -> int:
+    check_file("--output", options.output, OUTPUT_SUFFIXES)
+    check_file("--report", options.report, PAGES)
+    check_json(options)
+    files = Results()
+    asked = watch(options)
+    try:
+        replayed = replay_trial(
+            options.folder, options.trial, options.configuration, log=asked.log, timeout=asked.timeout
+        )
+    except StuckError as error:
+        print(f"perilune: {options.folder}: trial {options.trial}: {error}; {STUCK}", file=sys.stderr)
+        return ExitStatus.NOT_MET
+    flight, figures = replayed.flight, read_figures(replayed.prepared)
+    values = last_values(flight) | {METRIC + name: value for name, value in replayed.outcome.metrics.items()}
+    requirements = read_requirements(options.require, values)
+    final = {name: json_number(value) for name, value in flight.final().items()}
+    document = flight.summary() | replay_facts(replayed)
+    document |= {"limits": limit_document(figures, flight), "final": final}
+    if not write_json(document, options.json, files):
+        print("\n".join([*flight_lines(replayed.prepared, figures, flight), *replay_lines(replayed)]))
+    files.write(options.output, flight.write)
+    name = f"{replayed.prepared.archive.name}, {replayed.configuration}, trial {replayed.trial}"
+    files.write(options.report, partial(write_page, flight, name, figures))
+    if options.json != "-":
+        files.say()
+    finished = check_flight(replayed.prepared, figures, flight)
+    if flight.complete and not replayed.outcome.success:
+        reason = f"no success: {replayed.plan.campaign.success.text} is not so"
+        print(f"perilune: {options.folder}: trial {replayed.trial}: {reason}", file=sys.stderr)
+    for difference in replayed.differences:
+        remedy = "another machine, C library or version of Perilune than the campaign's flies it now"
+        print(f"perilune: {options.folder}: trial {replayed.trial}: {difference}; {remedy}", file=sys.stderr)
+    met = check_requirements(requirements, values)
+    return exit_status(files, finished, met, replayed.outcome.success, not replayed.differences)
+
+
+def replay_facts(replayed: ReplayedTrial) -> dict[str, Any]:
+    """What the campaign says of the trial, for other programs."""
+    return {
+        "campaign": replayed.plan.campaign.file,
+        "trial": replayed.trial,
+        "configuration": replayed.configuration,
+        "success": replayed.outcome.success,
+        "metrics": {name: json_number(value) for name, value in replayed.outcome.metrics.items()},
+        "stored": replayed.stored,
+        "differences": list(replayed.differences),
+    }
+
+
+def replay_lines(replayed: ReplayedTrial) -> list[str]:
+    """The trial's metrics, its faults, and whether it is what the folder has."""
+    outcome, metrics = replayed.outcome, replayed.plan.campaign.metrics
+    success = "success" if outcome.success else "no success"
+    lines = [f"{replayed.configuration}: trial {replayed.trial}: {outcome.status}, {success}"]
+    cells = [
+        [f"  {metric.name}", f"{outcome.metrics[metric.name]:.6g}", "" if metric.unit == "1" else metric.unit]
+        for metric in metrics
+    ]
+    lines += [line.rstrip() for line in aligned(cells)] if cells else []
+    lines += [faults_line(replayed.faults)] if replayed.faults else []
+    if replayed.stored and not replayed.differences:
+        lines.append("equal to the stored trial to the last bit")
+    return lines

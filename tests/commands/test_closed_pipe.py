@@ -1,0 +1,100 @@
+"""A reader that goes away, and a full disk, keep no result from being written and change no exit status.
+
+Truth: a pipe of the operating system whose reading end is closed before the command begins; what the same command does
+with a reader.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.usefixtures("fmus")
+SYSTEM = "lunar_terminal_guidance"
+CAMPAIGN = f"{SYSTEM} --campaign paper --compare guidance=analytic_guidance --workers 1"
+VERBS = {
+    "run": (f"run {SYSTEM} --output a.csv --report a.html --json a.json", ["a.csv", "a.csv.json", "a.html", "a.json"]),
+    "batch": (f"batch {CAMPAIGN} --trials 2 --output a --report a.html", ["a", "a.html"]),
+    "law": ("law diveev_2013 --output a.ssv --graph a.svg", ["a.ssv", "a.svg"]),
+}
+
+
+def perilune(words: str, folder: Path, output, unbuffered: bool = True) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, **({"PYTHONUNBUFFERED": "1"} if unbuffered else {})}
+    return subprocess.run(
+        [sys.executable, "-m", "perilune", *words.split()],
+        cwd=folder,
+        env=environment,
+        stdout=output,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+
+
+def closed() -> int:
+    """The writing end of a pipe that nobody reads."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    return writing
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_nothing_is_lost(verb, tmp_path):
+    words, files = VERBS[verb]
+    output = closed()
+    done = perilune(words, tmp_path, output)
+    os.close(output)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert {path.name for path in tmp_path.iterdir()} >= set(files)
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "unbuffered"),
+    [
+        (f"run {SYSTEM} --require time<1", 1, False),
+        ("run --help", 0, False),
+    ],
+)
+def test_the_status_is_that_of_a_command_that_is_read(words, status, unbuffered, tmp_path):
+    """Written at once, or all at the end, which is what Python does with a pipe."""
+    output = closed()
+    done = perilune(words, tmp_path, output, unbuffered)
+    os.close(output)
+    assert done.returncode == status
+    assert "Traceback" not in done.stderr
+    assert "Broken pipe" not in done.stderr
+
+
+def test_the_first_line_is_enough_for_a_reader(tmp_path):
+    line = f"{sys.executable} -m perilune run {SYSTEM} --output a.csv | head -1"
+    done = subprocess.run(
+        ["bash", "-o", "pipefail", "-c", line], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == f"{SYSTEM}: finished at t = 207.2 s, 2073 rows\n"
+    assert (tmp_path / "a.csv").read_text().count("\n") == 2074
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no device that is always full")
+def test_output_that_goes_to_a_full_disk_is_named_and_costs_no_file(tmp_path):
+    with Path("/dev/full").open("w") as full:
+        done = perilune(f"run {SYSTEM} --output a.csv", tmp_path, full)
+    assert done.returncode == 2
+    assert done.stderr.startswith("perilune: standard output: No space left on device; ")
+    assert done.stderr.count("\n") == 1
+    assert (tmp_path / "a.csv").is_file()
+
+
+def test_standard_error_that_nobody_reads(tmp_path):
+    done = subprocess.run(
+        ["bash", "-c", f"{sys.executable} -m perilune run {SYSTEM} --require 'time < 1' --output a.csv 2>&- >&-"],
+        cwd=tmp_path,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert (tmp_path / "a.csv").is_file()
