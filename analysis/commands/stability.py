@@ -11,18 +11,20 @@ from ..loops.margin_values import MARGINS, UNLIMITED, Quantity
 from ..reports.stability.page import write_stability_page
 from ..stability.ask.request import read_request
 from ..stability.bench.bench import StudyError
+from ..stability.results.data import write_data
 from ..stability.results.document import document
 from ..stability.results.loop import JointReport, LoopReport
 from ..stability.results.requirement import Requirement, Verdict
 from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
-from ..targets import PAGES, Results, check_file
+from ..targets import PAGES, Results, check_file, check_folder
 from .common.options import check_json, system_options, write_json
 from .common.remarks import say_stale
 
 
 def run(options: argparse.Namespace) -> int:
     check_file("--report", options.report, PAGES)
+    check_folder("--data", options.data, overwrite=True)
     check_json(options)
     files = Results()
     request = read_request(
@@ -43,6 +45,7 @@ def run(options: argparse.Namespace) -> int:
         print(f"perilune: {request.label}: {error}", file=sys.stderr)
         return 1
     files.write(options.report, lambda path: write_stability_page(report, path))
+    files.write(options.data, lambda path: write_data(report, path))
     if not write_json(document(report), options.json, files):
         for loop in report.loops:
             print("\n".join(_lines(loop)))

@@ -31,4 +31,7 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--workers", type=int, metavar="N", help="points studied side by side; default: one per processor"
     )
     parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
+    parser.add_argument(
+        "--data", type=Path, metavar="FOLDER", help="write loop responses and A, B, C, D for python-control and MATLAB"
+    )
     add_json(parser)

@@ -17,10 +17,10 @@ from ..kit.panels import PANEL_WIDTH, Panel, panel
 from ..kit.quantities import number
 from ..kit.style import house_style, new_figure
 from ..kit.svg import inline_svg
-from .frequency import draw_bode, draw_sensitivity, margin_words
-from .nyquist import INVERSE, Limits, draw_harmonic_balance, draw_nichols, draw_nyquist, limits_of
-from .poles import crowded, draw_cloud, draw_poles, poles_of
-from .sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
+from .diagrams.frequency import draw_bode, draw_sensitivity, margin_words
+from .diagrams.nyquist import INVERSE, Limits, draw_harmonic_balance, draw_nichols, draw_nyquist, limits_of
+from .diagrams.poles import crowded, draw_cloud, draw_poles, poles_of
+from .diagrams.sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
 LOW = 2.4  # in; of histograms, sensitivities and joint margins

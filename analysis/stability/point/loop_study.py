@@ -15,6 +15,7 @@ from ..ask.declaration import Limits
 from ..bench.bench import Bench, StudyError
 from ..bench.injection import Injector, NotMeasurableError, measured
 from ..linear.modes import structure
+from ..linear.open_loop import open_loop
 from ..results.loop import LoopReport
 from ..results.nonlinear import AmplitudePoint
 from ..results.routes import RouteB
@@ -162,6 +163,7 @@ class LoopStudy:
             modes=model.modes if model else (),
             poles_z=poles,
             structure=structure(model.model, model.port, model.facts.states) if model else None,
+            open_loop=open_loop(model.model, (model.port,)) if model and "route A" not in self.notes else None,
             route_a=self.model.facts if self.model else None,
             route_b=self.measured,
             not_applicable={**self.notes, **assessment.notes},

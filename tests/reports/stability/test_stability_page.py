@@ -18,12 +18,17 @@ from perilune.analysis.cli import main
 from perilune.analysis.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from perilune.analysis.loops.readings import Classical, Curve
 from perilune.analysis.reports.kit.quantities import NONE
-from perilune.analysis.reports.stability.frequency import beside, draw_bode, draw_sensitivity, phase_of
-from perilune.analysis.reports.stability.nyquist import draw_harmonic_balance, draw_nichols, draw_nyquist, limits_of
+from perilune.analysis.reports.stability.diagrams.frequency import beside, draw_bode, draw_sensitivity, phase_of
+from perilune.analysis.reports.stability.diagrams.nyquist import (
+    draw_harmonic_balance,
+    draw_nichols,
+    draw_nyquist,
+    limits_of,
+)
+from perilune.analysis.reports.stability.diagrams.poles import thinned
+from perilune.analysis.reports.stability.diagrams.sets import draw_histogram, draw_joint, draw_sweep
 from perilune.analysis.reports.stability.page import write_stability_page
 from perilune.analysis.reports.stability.parts import modes
-from perilune.analysis.reports.stability.poles import thinned
-from perilune.analysis.reports.stability.sets import draw_histogram, draw_joint, draw_sweep
 from perilune.analysis.reports.stability.words import complex_number, in_decibels, numeral
 from perilune.analysis.stability.results.report import StabilityReport
 from perilune.analysis.stability.results.requirement import Requirement, Scope

@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
-from ...loops.decibels import decibels
-from ...loops.margin_values import Quantity
-from ...stability.results.loop import LoopReport
-from ...stability.results.nonlinear import Nonlinearity
-from ..kit.quantities import MINUS, tick
-from ..kit.style import BLUE, GREEN, INK, PURPLE, VERMILION, plain_ticks
+from ....loops.decibels import decibels
+from ....loops.margin_values import Quantity
+from ....stability.results.loop import LoopReport
+from ....stability.results.nonlinear import Nonlinearity
+from ...kit.quantities import MINUS, tick
+from ...kit.style import BLUE, GREEN, INK, PURPLE, VERMILION, plain_ticks
 from .frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, in_db, margin_crossings, measured_too
 
 INVERSE = f"{MINUS}1/N"
