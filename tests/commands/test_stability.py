@@ -172,8 +172,8 @@ def test_loops_are_picked_by_name_or_connector(packed, capsys):
     [
         (["--loop", "lop"], "--loop: lop: the SSD names no such loop; "),
         (["--loop", "plant.q"], "no connector plant.q"),
-        (["--at", "3"], "--at: 3: it is for loops that the SSD does not name"),
-        (["--loop", "loop", "--at", "3"], "--at: 3: it is for loops that the SSD does not name"),
+        (["--at", "3,-1"], "--at: -1: not a time of the flight; give seconds from 0 on"),
+        (["--data", "page.html/x"], "--data: "),
         (["--trial", "0"], "--trial: 0: there is no campaign"),
         (["--trials", "3"], "--trials: 3: there is no campaign"),
         (["--seed", "3"], "--seed: 3: there is no campaign"),

@@ -10,8 +10,11 @@ from matplotlib.figure import Figure
 
 from ...stability.results.loop import LoopReport
 from ..kit.style import house_style, new_figure
-from .diagrams.frequency import draw_bode, draw_sensitivity
-from .diagrams.nyquist import draw_nichols, draw_nyquist, limits_of
+from .diagrams.bode import draw_bode
+from .diagrams.frequency import draw_sensitivity
+from .diagrams.limits import limits_of
+from .diagrams.nichols import draw_nichols
+from .diagrams.nyquist import draw_nyquist
 from .diagrams.poles import draw_poles, poles_of
 from .diagrams.sets import draw_step
 

@@ -25,7 +25,7 @@ NEGLIGIBLE = 1e-11  # singular values over the largest that tell nothing of A
 
 
 def open_loop(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
-    """L of some ports with one sample period, their cuts open, other loops closed; ``model`` is the one reduced for them.
+    """L of some ports with one sample period, their cuts open, other loops closed; ``model`` is reduced for them.
 
     At the ports' own sample period where they do not change from sample to sample, else lifted over the hyperperiod.
     """

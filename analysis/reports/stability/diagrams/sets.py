@@ -19,7 +19,7 @@ from ....stability.results.varied import SweepReport
 from ...kit.quantities import labelled, shown_factor, tick
 from ...kit.style import BLUE, FAILED, GREEN, INK, VERMILION, log_ticks_x, plain_ticks
 from .frequency import PHASE_MARK, frequency_axis, in_db
-from .nyquist import LIMIT, Limits
+from .limits import LIMIT, Limits
 
 BINS = 24
 UNSTABLE_BAND: Any = {"facecolor": "white", "edgecolor": VERMILION, "hatch": "////", "zorder": 0.5}
