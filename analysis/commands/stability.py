@@ -96,7 +96,7 @@ def _lines(loop: LoopReport) -> Iterator[str]:
     margins = loop.margins
     sizes = {quantity: margins.size(quantity) for quantity in MARGINS}
     sides = {Quantity.GAIN: "down" if margins.gain < 1.0 else "", Quantity.PHASE: "lead" if margins.phase < 0.0 else ""}
-    words = f"unstable, largest multiplier {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
+    words = f"unstable, spectral radius {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
     if loop.agreement is not None:
         words += ", routes agree" if loop.agreement.agrees else ", routes differ"
     yield f"{loop.name} at {loop.point}: {words}: {loop.verdict}"

@@ -148,7 +148,7 @@ def test_a_setting_that_eats_the_margin(plain, capsys):
     largest = max(abs(complex(*pole)) for pole in loop["poles_z"])
     assert largest > 1.0
     note = "the closed loop is unstable"
-    assert error == f"perilune: loop loop at there: largest multiplier {largest:.4g} misses the limit 1: {note}"
+    assert error == f"perilune: loop loop at there: spectral radius {largest:.4g} misses the limit 1: {note}"
     assert {loop[name] for name in NUMBERS} == {"unstable"}
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from ..results.state_space import StateSpace
 from .lifted import LiftedModel, Port
 
-LOOKS = 60
+LOWEST, HIGHEST, LOOKS = 1e-3, 0.97, 60  # frequencies, over the Nyquist frequency, at which L is compared
 LEAST_LOOK = 0.03  # of |L|, and 1/33 the other way: margins are decided where L is about 1
 SAME = 1e-3  # relative difference of L up to which one state space stands for all samples
 NEGLIGIBLE = 1e-11  # singular values over the largest that tell nothing of A
@@ -31,7 +31,7 @@ def open_loop(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
     """
     lifted = _opened(model, ports)
     if lifted.samples > 1:
-        single = _at_every_sample(lifted, ports)
+        single = _at_every_sample(lifted, model, ports)
         if single.error <= SAME:
             return single
     return lifted
@@ -63,7 +63,7 @@ def _opened(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
     return replace(found, error=_error(found, model, ports))
 
 
-def _at_every_sample(lifted: StateSpace, ports: tuple[Port, ...]) -> StateSpace:
+def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
     """One state space for all samples, as far as there is one; its error says whether."""
     count, states = len(ports), len(lifted.a)
     blocks = [lifted.c]
@@ -87,13 +87,13 @@ def _at_every_sample(lifted: StateSpace, ports: tuple[Port, ...]) -> StateSpace:
         outputs=tuple(f"{port.channel.name} returned, negative" for port in ports),
         signal_units=tuple(port.channel.unit for port in ports),
     )
-    frequency = np.geomspace(1e-3, 1.0, LOOKS) * np.pi / period
-    return replace(single, error=_difference(single.response(frequency), _waves(lifted, ports, frequency)))
+    frequency = np.geomspace(LOWEST, HIGHEST, LOOKS) * np.pi / period
+    return replace(single, error=_difference(single.response(frequency), model.response(ports, frequency)))
 
 
 def _error(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, ...]) -> float:
     """How far opening the cuts and going over to units has moved L."""
-    frequency = np.geomspace(1e-3, 1.0, LOOKS) * np.pi / ports[0].seconds
+    frequency = np.geomspace(LOWEST, HIGHEST, LOOKS) * np.pi / ports[0].seconds
     return _difference(_waves(lifted, ports, frequency), model.response(ports, frequency))
 
 
@@ -109,4 +109,4 @@ def _difference(found: np.ndarray, expected: np.ndarray) -> float:
     size = np.linalg.norm(expected, axis=(1, 2))
     seen = (size > LEAST_LOOK) & (size < 1.0 / LEAST_LOOK)
     change = np.linalg.norm(found - expected, axis=(1, 2))[seen] / size[seen]
-    return float(np.max(change, initial=0.0)) if np.all(np.isfinite(change)) else float("inf")
+    return float(np.max(np.where(np.isfinite(change), change, 1.0), initial=0.0))

@@ -48,7 +48,7 @@ def test_a_stability_study_is_short(browser, tmp_path, studies, times, full):
         words = words_of(sheets)
         assert ("On paper, of each loop: Bode, Nichols;" in words) != full
         assert words.count("Classical") == len(loops)  # a table of each
-        assert (words.count("Controllable from the cut".lower()) == len(loops)) == full
+        assert (words.count("Controllable from the break point".lower()) == len(loops)) == full
 
 
 def larger(loop, factor, number):

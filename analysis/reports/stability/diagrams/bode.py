@@ -31,9 +31,9 @@ from .frequency import (
 )
 from .limits import BEHIND, LIMIT, limits_of
 
-FAR = 60.0  # dB below 1, from where on a gain says nothing about margins
+FAR, NEAR = 60.0, 80.0  # dB below and above 1, from where on a gain says nothing about margins
 REACH = 0.07  # of the frequency axis, to either side of a crossover, over which a limit is drawn
-ROOM = 0.1  # of the frequency axis, which words take
+ROOM = 0.085  # of the frequency axis, which words take
 
 
 def draw_bode(loop: LoopReport, gain_axes: Axes, phase_axes: Axes) -> None:
@@ -127,7 +127,7 @@ def _draw_limit(axes: Axes, frequency: float, height: float, words: str, *, righ
 
 
 def _gain_limits(gain: np.ndarray, marked: float) -> tuple[float, float]:
-    """Limits of the gain's axis (dB): all of it, but a zero of the response does not squeeze the rest."""
-    low, high = float(np.min(gain)), max(float(np.max(gain)), marked, 0.0)
+    """Limits of the gain's axis (dB): all of it, but a zero or a pole of the response does not squeeze the rest."""
+    low, high = float(np.min(gain)), max(min(float(np.max(gain)), NEAR), marked, 0.0)
     low = max(min(low, marked, 0.0), min(-FAR, marked - 0.5 * FAR))
     return low - 0.05 * (high - low) - 1.0, high + 0.05 * (high - low) + 1.0
