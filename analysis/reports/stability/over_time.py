@@ -11,8 +11,7 @@ from ...loops.margin_values import Quantity
 from ...stability.results.report import StabilityReport
 from ..kit.panels import Panel, panel, swatch
 from ..kit.quantities import number
-from ..kit.style import look
-from .diagrams.over_time import QUANTITIES, Course, courses, draw_over_time
+from .diagrams.over_time import QUANTITIES, Course, course_look, courses, draw_over_time
 from .shared import together
 from .words import numeral
 
@@ -35,7 +34,7 @@ def over_time(report: StabilityReport) -> OverTime | None:
     points = sorted((point for point in report.points if point.name in seen), key=lambda point: point.time)
     return OverTime(
         [_panel(found, quantity, f"over-time-{index + 1}") for index, quantity in enumerate(QUANTITIES)],
-        [(swatch(look(index)), _names(course)) for index, course in enumerate(found)],
+        [(swatch(course_look(index)), _names(course)) for index, course in enumerate(found)],
         [(point.name, numeral(point.time)) for point in points],
     )
 

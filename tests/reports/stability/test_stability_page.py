@@ -18,6 +18,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from perilune.analysis.loops.readings import Classical, Curve
 from perilune.analysis.reports.kit.quantities import NONE
+from perilune.analysis.reports.kit.style import FAINT, VERMILION
 from perilune.analysis.reports.stability.diagrams.bode import draw_bode
 from perilune.analysis.reports.stability.diagrams.frequency import beside, draw_sensitivity, phase_of
 from perilune.analysis.reports.stability.diagrams.limits import limits_of
@@ -381,6 +382,30 @@ def test_bode_diagram_is_python_controls(report):
     margin = loop.classical.phase_margin
     at = np.interp(margin.frequency, x, below.lines[0].get_ydata())
     assert at == pytest.approx(-180.0 + math.degrees(margin.value), abs=0.02)
+
+
+def test_bode_diagram_marks_margins_crossovers_and_what_is_required(report):
+    """Truth: python-control's crossings; 6 dB and 30 deg are what the study requires."""
+    loop = report.loops[0]
+    axes = axes_pair()
+    draw_bode(loop, *axes)
+    gain, phase, at = crossings(LATE.loop)
+    nearest = np.argmin(abs(phase))
+    crossover, margin = at[nearest], math.degrees(phase[nearest])
+    decisive = loop.classical.gain_margin
+    assert decisive.value == pytest.approx(gain[np.argmin(abs(np.log(gain)))], rel=1e-4)
+    for one in axes:
+        dotted = {line.get_xdata()[0] for line in one.lines if line.get_color() == FAINT}
+        assert sorted(dotted) == pytest.approx(sorted([crossover, decisive.frequency]), rel=1e-4)
+    for one, required in zip(axes, (-6.0, -150.0), strict=True):
+        (dashed,) = (line for line in one.lines if line.get_linestyle() == "--" and line.get_color() == VERMILION)
+        low, high = dashed.get_xdata()
+        assert low < (decisive.frequency if one is axes[0] else crossover) < high
+        height = dashed.get_ydata()
+        assert (height - required) / 360.0 == pytest.approx(np.round((height - required) / 360.0), abs=1e-3)
+    titles = [one.get_title("right") for one in axes]
+    assert titles[0].startswith(f"upper gain margin {DECIBEL * np.log(decisive.value):.3g} dB at ")
+    assert titles[1].startswith(f"phase margin {margin:.3g}° at {crossover:.3g}")
 
 
 def test_phase_of_measured_points_is_on_the_curves_branch():

@@ -10,6 +10,7 @@ from ....stability.results.loop import LoopReport
 from ...kit.style import VERMILION
 
 LIMIT: Any = {"color": VERMILION, "linewidth": 1.0, "linestyle": (0, (4, 2))}
+FORBIDDEN = "#f6d5c0"  # fill of where a response or a margin must not be
 BEHIND: Any = {"facecolor": "white", "edgecolor": "none", "pad": 0.8, "alpha": 0.8}  # of words over a line
 
 

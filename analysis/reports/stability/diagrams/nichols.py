@@ -26,7 +26,7 @@ from .frequency import (
     margin_crossings,
     measured_too,
 )
-from .limits import BEHIND, LIMIT, limits_of
+from .limits import BEHIND, FORBIDDEN, LIMIT, limits_of
 from .nyquist import ANGLES, CRITICAL
 
 LOW, HIGH = 20.0, 90.0  # dB up and down that are shown at least and at most
@@ -42,7 +42,7 @@ def draw_nichols(loop: LoopReport, axes: Axes) -> None:
             (-180.0 + limits.phase, 0.0),
             (-180.0, -limits.gain),
         ]
-        zone: Any = {"facecolor": "#f6d5c0", "edgecolor": VERMILION, "linewidth": 1.0, "hatch": "////", "zorder": 1.6}
+        zone: Any = {"facecolor": FORBIDDEN, "edgecolor": VERMILION, "linewidth": 1.0, "hatch": "////", "zorder": 1.6}
         axes.add_patch(Polygon(corners, **zone))
         label: Any = {"fontsize": 8.0, "color": VERMILION, "bbox": BEHIND, "zorder": 3.5}
         axes.text(-186.0, limits.gain, f"{number(limits.gain)} dB", ha="right", va="bottom", **label)
