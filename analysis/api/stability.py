@@ -17,6 +17,7 @@ from ..reports.stability.words import gain_margin, phase_margin, size, verdict
 from ..ssp.parameter_sets import SetValue
 from ..stability.ask.request import read_request
 from ..stability.results import report
+from ..stability.results.data import write_data
 from ..stability.results.document import KEYS, document
 from ..stability.results.loop import LoopReport
 from ..stability.results.requirement import Verdict
@@ -67,6 +68,10 @@ class StabilityReport(report.StabilityReport):
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune stability --report`: one HTML file."""
         write_stability_page(self, Path(path))
+
+    def write_data(self, folder: FilePath) -> None:
+        """Write the files of `perilune stability --data`: responses and A, B, C, D for python-control and MATLAB."""
+        write_data(self, Path(folder))
 
     def plot_bode(self, loop: str | None = None, point: str | None = None) -> Plot:
         """Gain and phase of a loop, by default of the first that fails, else of the first.
@@ -123,7 +128,7 @@ def stability(
     system: FilePath,
     *,
     loops: Sequence[str] = (),
-    at: float | None = None,
+    at: float | Sequence[float] = (),
     campaign: FilePath | None = None,
     trials: int | None = None,
     seed: int | None = None,
@@ -147,7 +152,8 @@ def stability(
     """Margins, poles and robustness of a system's loops: `perilune stability`; see docs/stability.md.
 
     ``loops`` are names that the system declares (all of them by default), or connectors to cut as
-    ``component.connector`` at the time ``at`` (s). ``campaign`` disperses the margins over its trials; ``trial``
+    ``component.connector`` at the time ``at`` (s), or at several. Declared loops are studied there, too, with the
+    settings of their points. ``campaign`` disperses the margins over its trials; ``trial``
     studies the draws of one of them instead, and ``draws`` is a file of draws to take in place of drawn ones, as
     in `batch`. The rest is as in `simulate`. Raises InputError, and
     StudyError where a flight that the study needs breaks off.
@@ -161,7 +167,7 @@ def stability(
         Path(system),
         options,
         loops=loops,
-        at=at,
+        at=(at,) if isinstance(at, int | float) else at,
         campaign=None if campaign is None else str(campaign),
         trials=trials,
         seed=seed,

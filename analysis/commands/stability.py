@@ -12,12 +12,13 @@ from ..reports.stability.orders.words import order_loops, order_sentences, withh
 from ..reports.stability.page import write_stability_page
 from ..stability.ask.request import read_request
 from ..stability.bench.bench import StudyError
+from ..stability.results.data import write_data
 from ..stability.results.document import document
 from ..stability.results.loop import JointReport, LoopReport
 from ..stability.results.requirement import Requirement, Verdict
 from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
-from ..targets import PAGES, Results, check_file
+from ..targets import PAGES, Results, check_file, check_folder
 from .common.exit_status import ExitStatus, exit_status
 from .common.options import check_json, system_options, write_json
 from .common.remarks import say_stale
@@ -25,6 +26,7 @@ from .common.remarks import say_stale
 
 def run(options: argparse.Namespace) -> int:
     check_file("--report", options.report, PAGES)
+    check_folder("--data", options.data, overwrite=True)
     check_json(options)
     files = Results()
     request = read_request(
@@ -45,6 +47,7 @@ def run(options: argparse.Namespace) -> int:
         print(f"perilune: {request.label}: {error}", file=sys.stderr)
         return ExitStatus.NOT_MET
     files.write(options.report, lambda path: write_stability_page(report, path))
+    files.write(options.data, lambda path: write_data(report, path))
     if not write_json(document(report), options.json, files):
         others = {(loop.name, loop.point): loop for loop in order_loops(report)}
         for loop in report.loops:
@@ -102,7 +105,7 @@ def _margins(loop: LoopReport) -> str:
     margins = loop.margins
     sizes = {quantity: margins.size(quantity) for quantity in MARGINS}
     sides = {Quantity.GAIN: "down" if margins.gain < 1.0 else "", Quantity.PHASE: "lead" if margins.phase < 0.0 else ""}
-    return f"unstable, largest multiplier {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
+    return f"unstable, spectral radius {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
 
 
 def _lines(loop: LoopReport) -> Iterator[str]:

@@ -74,7 +74,7 @@ def margin_asked(
 
     ``point`` is needed where the loop has several. Raises InputError.
     """
-    request = read_request(system, options, loops=[loop], at=at, campaign=campaign, seed=seed)
+    request = read_request(system, options, loops=[loop], at=() if at is None else (at,), campaign=campaign, seed=seed)
     (found,) = request.declaration.loops
     if point is None and len(found.points) > 1:
         problem = f"is studied at {len(found.points)} points, and a search has one"

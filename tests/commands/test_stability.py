@@ -148,7 +148,7 @@ def test_a_setting_that_eats_the_margin(plain, capsys):
     largest = max(abs(complex(*pole)) for pole in loop["poles_z"])
     assert largest > 1.0
     note = "the closed loop is unstable"
-    assert error == f"perilune: loop loop at there: largest multiplier {largest:.4g} misses the limit 1: {note}"
+    assert error == f"perilune: loop loop at there: spectral radius {largest:.4g} misses the limit 1: {note}"
     assert {loop[name] for name in NUMBERS} == {"unstable"}
 
 
@@ -167,13 +167,39 @@ def test_loops_are_picked_by_name_or_connector(packed, capsys):
             assert found[name] == pytest.approx(everything["loops"][0][name], rel=1e-4)
 
 
+def test_a_declared_loop_at_several_times(packed, tmp_path, capsys):
+    """A system that does not change has the margins of python-control all the time."""
+    page = tmp_path / "page.html"
+    found, _ = run(capsys, packed(loops=TWO), "--loop", "loop", "--at", "30,20.5", "--report", str(page))
+    assert [(point["name"], point["time_s"]) for point in found["points"]] == [
+        ("there, t = 20.5 s", 20.5),
+        ("there, t = 30 s", 30.0),
+    ]
+    assert [(loop["name"], loop["point"]) for loop in found["loops"]] == [
+        ("loop", point["name"]) for point in found["points"]
+    ]
+    gain, phase, _ = crossings(LATE.loop)
+    for loop in found["loops"]:
+        assert loop["gain_margin_db"] == pytest.approx(nearest(gain), abs=1e-3)
+        assert loop["phase_margin_deg"] == pytest.approx(np.degrees(np.min(abs(phase))), abs=1e-3)
+    text = page.read_text(encoding="utf-8")
+    assert text.index("Margins over the time of flight") < text.index("<h2>Verdict</h2>")
+
+
+def test_a_time_behind_the_end_of_a_point_is_refused(packed, capsys):
+    end = '<Point name="brief" time="10" until="15"/><Loop name="short" cut="plant.position" points="brief"/>'
+    path = packed(loops=end)
+    assert main(["stability", path, "--loop", "short", "--at", "12,15"]) == 2
+    assert "--at: 15: point brief lasts until 15 s; " in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
         (["--loop", "lop"], "--loop: lop: the SSD names no such loop; "),
         (["--loop", "plant.q"], "no connector plant.q"),
-        (["--at", "3"], "--at: 3: it is for loops that the SSD does not name"),
-        (["--loop", "loop", "--at", "3"], "--at: 3: it is for loops that the SSD does not name"),
+        (["--at", "3,-1"], "--at: -1: not a time of the flight; give seconds from 0 on"),
+        (["--data", "page.html/x"], "--data: "),
         (["--trial", "0"], "--trial: 0: there is no campaign"),
         (["--trials", "3"], "--trials: 3: there is no campaign"),
         (["--seed", "3"], "--seed: 3: there is no campaign"),

@@ -62,7 +62,7 @@ def test_route_a_is_not_applicable_and_says_why(path):
     assert (loop.modes, loop.sampling, len(loop.poles_z)) == ((), (), 0)
     assert (loop.stable, loop.unstable_open, loop.classical.encirclements) == (None, None, None)
     judged = {requirement.title: requirement.passed for requirement in loop.requirements}
-    assert judged == {"largest multiplier": None, "gain margin": True, "phase margin": True, "modulus margin": True}
+    assert judged == {"spectral radius": None, "gain margin": True, "phase margin": True, "modulus margin": True}
     assert loop.verdict == report.verdict == "pass"
 
 

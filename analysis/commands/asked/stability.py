@@ -18,7 +18,13 @@ def add(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="a loop that the SSD names, or COMPONENT.CONNECTOR to cut; default: all that the SSD names",
     )
-    parser.add_argument("--at", type=float, metavar="T", help="time of the operating point of a cut, s; default: 0")
+    parser.add_argument(
+        "--at",
+        type=_times,
+        default=(),
+        metavar="T,...",
+        help="times of the operating points, s; default: those that the SSD gives, of a cut 0",
+    )
     campaign = parser.add_argument(
         "--campaign", metavar="NAME", help="disperse the margins over a campaign, by name or .toml"
     )
@@ -31,4 +37,14 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--workers", type=int, metavar="N", help="points studied side by side; default: one per processor"
     )
     parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
+    parser.add_argument(
+        "--data", type=Path, metavar="FOLDER", help="write loop responses and A, B, C, D for python-control and MATLAB"
+    )
     add_json(parser)
+
+
+def _times(text: str) -> tuple[float, ...]:
+    try:
+        return tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not seconds, or several with commas between") from None

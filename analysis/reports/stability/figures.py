@@ -13,49 +13,55 @@ from ...loops.margin_values import MARGINS, UNSTABLE, Quantity
 from ...stability.results.loop import JointReport, LoopReport
 from ...stability.results.report import StabilityReport
 from ...stability.results.varied import SweepReport
-from ..kit.panels import PANEL_WIDTH, Panel, panel
+from ..kit.panels import HALF_WIDTH, PANEL_WIDTH, Panel, panel
 from ..kit.quantities import number
 from ..kit.style import house_style, new_figure
 from ..kit.svg import inline_svg
-from .frequency import draw_bode, draw_sensitivity, margin_words
-from .nyquist import INVERSE, Limits, draw_harmonic_balance, draw_nichols, draw_nyquist, limits_of
-from .poles import crowded, draw_cloud, draw_poles, poles_of
-from .sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
+from .diagrams.bode import draw_bode
+from .diagrams.frequency import draw_sensitivity, margin_words
+from .diagrams.limits import Limits, limits_of
+from .diagrams.nichols import draw_nichols
+from .diagrams.nyquist import INVERSE, draw_harmonic_balance, draw_nyquist
+from .diagrams.poles import crowded, draw_cloud, draw_poles, poles_of
+from .diagrams.sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
+SIGHT = 3.5  # in; of what is seen at first sight, two beside each other
 LOW = 2.4  # in; of histograms, sensitivities and joint margins
 
 
-def stacked(label: str, name: str, description: str, draw: Callable[[Axes, Axes], None]) -> Panel:
-    """A panel of two axes above each other, over the same abscissa."""
+def stacked(
+    label: str,
+    name: str,
+    description: str,
+    draw: Callable[[Axes, Axes], None],
+    height: float = HEIGHT,
+    width: float = PANEL_WIDTH,
+) -> Panel:
+    """A panel of two axes above each other, over the same abscissa; sizes in inches."""
     with house_style():
-        figure = new_figure(HEIGHT, PANEL_WIDTH)
+        figure = new_figure(height, width)
         upper, lower = figure.subplots(2, 1, sharex=True)
         draw(upper, lower)
         return Panel(label, inline_svg(figure, name, description))
 
 
-def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
-    """Bode, Nyquist, Nichols; poles, those near z = 1, step response."""
+def sight_panels(loop: LoopReport, name: str) -> list[Panel]:
+    """What is seen of a loop at first sight: Bode and Nichols with margins and limits."""
     margins = margin_words(loop)
-    modulus = margins if loop.margins.unstable else f"modulus margin {number(float(loop.robust.modulus_margin), 3)}"
-    found = [
-        stacked("Bode", f"{name}-bode", f"Bode diagram of {loop.name}: {margins}", lambda g, p: draw_bode(loop, g, p)),
-        panel(
-            "Nyquist",
-            f"{name}-nyquist",
-            f"Nyquist diagram of {loop.name}: {modulus}",
-            lambda axes: draw_nyquist(loop, axes),
-            HEIGHT,
-        ),
-        panel(
-            "Nichols",
-            f"{name}-nichols",
-            f"Nichols diagram of {loop.name}: {margins}",
-            lambda axes: draw_nichols(loop, axes),
-            HEIGHT,
-        ),
+    bode, nichols = f"Bode diagram of {loop.name}: {margins}", f"Nichols diagram of {loop.name}: {margins}"
+    return [
+        stacked("Bode", f"{name}-bode", bode, lambda g, p: draw_bode(loop, g, p), SIGHT, HALF_WIDTH),
+        panel("Nichols", f"{name}-nichols", nichols, lambda axes: draw_nichols(loop, axes), SIGHT, HALF_WIDTH),
     ]
+
+
+def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
+    """The other figures of a loop: Nyquist; poles, those near z = 1, step response."""
+    unstable = loop.margins.unstable
+    modulus = margin_words(loop) if unstable else f"modulus margin {number(float(loop.robust.modulus_margin), 3)}"
+    words = f"Nyquist diagram of {loop.name}: {modulus}"
+    found = [panel("Nyquist", f"{name}-nyquist", words, lambda axes: draw_nyquist(loop, axes), HEIGHT)]
     poles = poles_of(loop)
     if poles.size:
         outside = int(np.sum(np.abs(poles) >= 1.0))

@@ -15,8 +15,9 @@ from ...stability.results.varied import SweepCrossing, SweepReport
 from ..kit.page import write_page
 from ..kit.panels import Panel
 from ..kit.quantities import labelled
-from .figures import joint_panel, loop_panels, part_panels, sweep_panel
+from .figures import joint_panel, loop_panels, part_panels, sight_panels, sweep_panel
 from .orders.section import order_section
+from .over_time import over_time
 from .paper import Paper, paper_of
 from .parts import Part, parts, without
 from .shared import TOLERANCE, Panels, Shared, share
@@ -38,20 +39,22 @@ from .tables import (
 )
 from .words import UNSTABLE_WORD, gain_margin, numeral, phase_margin, size, verdict
 
-FEW = 2  # loops; of more, only those that fail are unfolded at first
+SEEN = ("Bode", "Nichols")  # labels of the figures that are seen at first sight
+SIGHT = "sight"  # key of the figures that are seen at first sight
 
 
 @dataclass(frozen=True)
 class Card:
-    """A loop on the page: what is always seen, and what is folded away below it."""
+    """A loop on the page: what is seen at first sight, and what is folded away below it."""
 
     loop: LoopReport
     id: str
-    open: bool
     verdict: Markup
     period: Markup
     about: list[tuple[str, str]]
     summary: Table
+    sight: list[Panel]
+    seen_elsewhere: list[tuple[Markup, list[str]]]
     figures: list[Panel]
     elsewhere: list[tuple[Markup, list[str]]]
     blocks: list[list[Part]]
@@ -86,6 +89,7 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
         report=report,
         verdict=verdict(report.verdict),
         counts=counts(rows),
+        over_time=over_time(report),
         failing=verdict_table([row for row in rows if row[-1].verdict is Verdict.FAIL]),
         requirements=verdict_table(rows),
         summary=summary,
@@ -116,8 +120,8 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
 
 
 def _figures(loop: LoopReport, name: str) -> Panels:
-    """All figures of a loop, those that belong to no part by an empty key."""
-    return {"": loop_panels(loop, name)} | part_panels(loop, name)
+    """All figures of a loop: those of first sight, those that belong to no part by an empty key, the parts'."""
+    return {SIGHT: sight_panels(loop, name), "": loop_panels(loop, name)} | part_panels(loop, name)
 
 
 def _card(report: StabilityReport, summary: Table, index: int, shared: Shared, paper: Paper) -> Card:
@@ -126,18 +130,27 @@ def _card(report: StabilityReport, summary: Table, index: int, shared: Shared, p
     return Card(
         loop=loop,
         id=anchor(index),
-        open=len(report.loops) <= FEW or loop.verdict is Verdict.FAIL,
         verdict=verdict(loop.verdict),
         period=numeral(loop.sample_period),
         about=about(loop),
         summary=Table(summary.head[2:-1], summary.kinds[2:-1], [summary.rows[index][2:-1]]),
+        sight=shared.panels[SIGHT],
+        seen_elsewhere=_elsewhere(report, shared, seen=True),
         figures=shared.panels[""],
-        elsewhere=[(link(report, other), labels) for other, labels in shared.elsewhere.items()],
+        elsewhere=_elsewhere(report, shared, seen=False),
         blocks=_blocks(shown),
         without=without(loop),
         screen=paper.screen_only([panel for panels in shared.panels.values() for panel in panels]),
         screen_parts=[part.key for part in shown if not paper.prints(part.key, shared)],
     )
+
+
+def _elsewhere(report: StabilityReport, shared: Shared, *, seen: bool) -> list[tuple[Markup, list[str]]]:
+    """Where the figures are that are drawn for another loop: those ``seen`` at first sight, or the others."""
+    found = {
+        other: [label for label in labels if (label in SEEN) == seen] for other, labels in shared.elsewhere.items()
+    }
+    return [(link(report, other), labels) for other, labels in found.items() if labels]
 
 
 def _blocks(shown: list[Part]) -> list[list[Part]]:

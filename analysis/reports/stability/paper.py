@@ -13,12 +13,10 @@ from .shared import Shared
 
 FEW = 3  # loops with figures of their own that are printed in full
 MOST = 54  # figures of the others
-TIERS = (  # the first three are a row, the fourth stands beside the tables, the others are a second row
-    ("Bode",),
-    ("Nyquist",),
-    ("Nichols",),
+TIERS = (  # the first are seen at first sight, sensitivities stand beside the tables, the others are a row
+    ("Bode", "Nichols"),
     ("Sensitivities",),
-    ("Poles", "Poles near z = 1", "Step response"),
+    ("Nyquist", "Poles", "Poles near z = 1", "Step response"),
 )
 FIRST = "Bode"  # which every loop has
 

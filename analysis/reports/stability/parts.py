@@ -51,17 +51,17 @@ def method(loop: LoopReport) -> Part:
     if loop.route_a is not None:
         a = loop.route_a
         rows += [
-            ("A, Jacobian", "states", numeral(a.states)),
+            ("A, linearisation", "states", numeral(a.states)),
             ("", "period, s", numeral(a.period)),
-            ("", "change between steps of the difference, %", per_cent(a.plateau)),
-            ("", "memory with kinks or switches", ", ".join(a.doubtful) or "none"),
+            ("", "finite-difference step sensitivity, %", per_cent(a.plateau)),
+            ("", "states with non-smooth dynamics", ", ".join(a.doubtful) or "none"),
             ("", "response at other frequencies, %", per_cent(a.periodicity)),
         ]
     if loop.route_b is not None:
         b = loop.route_b
         rows += [
             (
-                "B, injection",
+                "B, frequency-response test",
                 f"amplitude of a line, {shown_unit(loop.unit) or '1'}",
                 numeral(b.amplitude, loop.unit),
             ),
@@ -74,12 +74,12 @@ def method(loop: LoopReport) -> Part:
     if loop.agreement is not None:
         found = loop.agreement
         rows += [
-            ("A against B", "largest difference of gain, dB", in_decibels(found.gain, absolute=True)),
+            ("A compared with B", "largest difference of gain, dB", in_decibels(found.gain, absolute=True)),
             ("", "largest difference of phase, deg", in_degrees(found.phase)),
             ("", "compared up to, rad/s", numeral(found.frequency)),
-            ("", "the routes agree", "yes" if found.agrees else "no"),
+            ("", "linearised and measured responses agree", "yes" if found.agrees else "no"),
         ]
-    return Part("method", "Method", Table(("route", "quantity", "value"), "ttn", rows))
+    return Part("method", "Method", Table(("method", "quantity", "value"), "ttn", rows))
 
 
 def classical(loop: LoopReport) -> Part:
@@ -166,16 +166,16 @@ def structure(loop: LoopReport) -> Part:
     found = loop.structure
     assert found is not None
     rows: list[tuple[Cell, ...]] = [
-        ("states of the complete memory", numeral(found.states), ""),
-        ("controllable from the cut", numeral(found.controllable), numeral(found.least_controllable)),
-        ("observable at the cut", numeral(found.observable), numeral(found.least_observable)),
+        ("states of the whole system", numeral(found.states), ""),
+        ("controllable from the break point", numeral(found.controllable), numeral(found.least_controllable)),
+        ("observable at the break point", numeral(found.observable), numeral(found.least_observable)),
         ("both: order of the loop", numeral(found.order), ""),
     ]
     return Part("structure", "Structure", Table(("part", "rank", "least kept singular value"), "tnn", rows))
 
 
 def dispersed(found: Dispersion) -> Part:
-    """Least, 5 % and median margins over the campaign, and how to fly the worst case again."""
+    """Least, 5 % and median margins over the campaign, and the command that studies the worst case again."""
     rows: list[tuple[Cell, ...]] = []
     for quantity in MARGINS:
         unit = "" if quantity.unit == "1" else f", {quantity.unit}"
@@ -185,8 +185,8 @@ def dispersed(found: Dispersion) -> Part:
     unstable = f"{found.unstable} of {found.trials} trials are unstable" if found.unstable else "all trials are stable"
     note = Markup(
         "Campaign {}: {}. Levels are margins of single trials, over all of them; an unstable trial counts below every "
-        "number, one without a crossing above. The worst trial has the least disk margin{}. It is flown again by"
-    ).format(found.campaign, unstable, ", of the unstable ones the largest multiplier" if found.unstable else "")
+        "number, one without a crossing above. The worst trial has the least disk margin{}. Replay command:"
+    ).format(found.campaign, unstable, ", of the unstable ones the largest spectral radius" if found.unstable else "")
     return Part("dispersed", "Dispersed", Table(head, "tnnnn", rows), note, found.replay)
 
 
@@ -235,7 +235,7 @@ def amplitudes(loop: LoopReport) -> Part:
     at = Markup("At {} rad/s; changes are relative to the smallest amplitude's.").format(
         numeral(loop.amplitude_frequency)
     )
-    return Part("amplitudes", "Over the amplitude", Table(head, "nnnn", rows, "amplitudes"), at)
+    return Part("amplitudes", "Amplitude dependence", Table(head, "nnnn", rows, "amplitudes"), at)
 
 
 def sampling(loop: LoopReport) -> Part:

@@ -10,10 +10,13 @@ from matplotlib.figure import Figure
 
 from ...stability.results.loop import LoopReport
 from ..kit.style import house_style, new_figure
-from .frequency import draw_bode, draw_sensitivity
-from .nyquist import draw_nichols, draw_nyquist, limits_of
-from .poles import draw_poles, poles_of
-from .sets import draw_step
+from .diagrams.bode import draw_bode
+from .diagrams.frequency import draw_sensitivity
+from .diagrams.limits import limits_of
+from .diagrams.nichols import draw_nichols
+from .diagrams.nyquist import draw_nyquist
+from .diagrams.poles import draw_poles, poles_of
+from .diagrams.sets import draw_step
 
 SIZE = 4.6  # in
 

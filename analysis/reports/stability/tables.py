@@ -33,7 +33,7 @@ from .words import (
 )
 
 TIMES = ("step", "start_time", "stop_time")  # s
-SCOPES = {Scope.NOMINAL: "nominal", Scope.DISPERSED: "dispersed", Scope.JOINT: "channels at once"}
+SCOPES = {Scope.NOMINAL: "nominal", Scope.DISPERSED: "dispersed", Scope.JOINT: "simultaneous"}
 LONG = 30  # rows; longer tables are folded away
 Cell = Markup | str
 
@@ -152,17 +152,17 @@ def joint_table(report: StabilityReport) -> Table:
 
 
 def point_table(points: tuple[PointReport, ...]) -> Table:
-    """Operating points: where, how far from a trim, and how long the frozen view holds."""
+    """Operating points: where, how far from a trim, and for how long the frozen-time linearisation is valid."""
     head = (
-        "operating point", "phase", "time, s", "fastest change over a period", "drift of the response, %",
-        "frozen view holds, s",
+        "operating point", "phase", "time, s", "largest state drift per period", "drift of the response, %",
+        "frozen-time linearisation valid for, s",
     )  # fmt: skip
     rows: list[tuple[Cell, ...]] = []
     for point in points:
         fastest = _changed(*point.trim[0]) if point.trim else Markup("nothing changes")
         holds = numeral(point.holds, infinite="does not change")
         rows.append((point.name, point.phase, numeral(point.time, digits=6), fastest, per_cent(point.drift), holds))
-    return Table(head, "ttntnn", rows, "operating points")
+    return Table(head, "slnlnn", rows, "operating points")
 
 
 def _changed(name: str, value: float, change: float, unit: str | None) -> Markup:
@@ -176,9 +176,7 @@ def trim_table(points: tuple[PointReport, ...]) -> Table:
         for point in points
         for name, value, change, unit in point.trim
     ]
-    return Table(
-        ("operating point", "memory", "value", "change over a period", "unit"), "ttnnt", rows, "trim residuals"
-    )
+    return Table(("operating point", "state", "value", "change over a period", "unit"), "ttnnt", rows, "trim residuals")
 
 
 def limit_table(report: StabilityReport) -> Table:
@@ -224,11 +222,11 @@ def fact(value: Any) -> Cell:
 
 
 def about(loop: LoopReport) -> list[tuple[str, str]]:
-    """Where a loop is cut, which sign it has, and what stays closed."""
+    """Where a loop is broken, which sign it has, and which other loops are closed."""
     return [
-        ("cut", loop.cut),
-        ("comes back as", "the same signal" if loop.returned == loop.cut else loop.returned),
+        ("loop broken at", loop.cut),
+        ("return signal", "the same connector" if loop.returned == loop.cut else loop.returned),
         ("unit", shown_unit(loop.unit) or "1"),
         ("sign", loop.sign),
-        ("stay closed", ", ".join(loop.closed) or "no other loop is declared"),
+        ("other loops closed", ", ".join(loop.closed) or "no other loop is declared"),
     ]

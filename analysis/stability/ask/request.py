@@ -24,7 +24,8 @@ class Request:
     """A study to be made; small enough to be sent to every worker.
 
     ``name`` is the system's and ``label`` its place, for messages. ``plan`` is the campaign that margins are
-    dispersed over, ``campaign`` its name as it was given, ``draws`` the file of its draws where it draws none.
+    dispersed over, ``campaign`` its name as it was given, ``draws`` the file of its draws where it draws none. ``at``
+    are the times (s) that the user gives for points, none where the declaration's hold.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Request:
     campaign: str | None = None
     plan: BatchPlan | None = None
     draws: Path | None = None
+    at: tuple[float, ...] = ()
 
     def loops_at(self, point: Point) -> list[Loop]:
         """The loops that are studied at a point."""
@@ -55,8 +57,7 @@ class Request:
         words += ["--trial", str(trial)]
         words += ["--trials", str(self.plan.campaign.trials)] if self.draws is None else ["--draws", str(self.draws)]
         words += ["--seed", str(self.plan.campaign.seed), "--loop", loop]
-        points = [self.point(name) for name in self.loop(loop).points]
-        words += [word for point in points if _is_asked(point) for word in ("--at", repr(point.time))]
+        words += ["--at", ",".join(map(repr, self.at))] if self.at else []
         for slot, fmu in options.use.items():
             words += ["--use", f"{slot}={fmu}"]
         for name in options.parameters:
@@ -87,7 +88,7 @@ def read_request(
     options: SystemOptions,
     *,
     loops: Sequence[str] = (),
-    at: float | None = None,
+    at: Sequence[float] = (),
     campaign: str | None = None,
     trials: int | None = None,
     seed: int | None = None,
@@ -96,13 +97,16 @@ def read_request(
 ) -> Request:
     """The study of a system's declared loops, or of some.
 
-    ``loops`` are names of declared loops, or connectors of loops that are not declared, which are cut at time
-    ``at`` (s; 0 unless given). With ``campaign`` margins are dispersed over its trials, or with ``trial`` the study is
-    made of that trial's draws. ``draws`` is a file of draws to take in place of drawn ones. Raises InputError.
+    ``loops`` are names of declared loops, or connectors of loops that are not declared, which are cut at the times
+    ``at`` (s; 0 unless given). Declared loops are studied there too, each with the settings of its declared points, and
+    without sweeps, which belong to those points. With ``campaign`` margins are dispersed over its trials, or with
+    ``trial`` the study is made of that trial's draws. ``draws`` is a file of draws to take in place of drawn ones.
+    Raises InputError.
     """
     archive = open_system(system)
-    declaration = _chosen(read_description(archive, options.variant), loops, at)
-    request = Request(archive.name, archive.label, str(system), options, declaration)
+    times = tuple(sorted(set(map(float, at))))
+    declaration = _chosen(read_description(archive, options.variant), loops, times)
+    request = Request(archive.name, archive.label, str(system), options, declaration, at=times)
     if campaign is None:
         for name, value in (("--trials", trials), ("--seed", seed), ("--trial", trial), ("--draws", draws)):
             if value is not None:
@@ -116,45 +120,69 @@ def read_request(
     return replace(request, options=_drawn(plan, options, trial))
 
 
-def _chosen(description: Description, names: Sequence[str], at: float | None) -> Declaration:
+def _chosen(description: Description, names: Sequence[str], at: Sequence[float]) -> Declaration:
     """The declaration with just the loops that are asked for."""
     declared = read_declaration(description)
     by_name = {loop.name: loop for loop in declared.loops}
-    if at is not None and not (math.isfinite(at) and at >= description.start_time):
-        raise InputError(
-            "--at", str(at), "not a time of the flight", f"give seconds from {description.start_time:g} on"
-        )
-    if at is not None and all(name in by_name for name in names):
-        raise InputError("--at", f"{at:g}", "it is for loops that the SSD does not name", "leave it out")
-    if not names:
-        if not declared.loops:
-            remedy = "name a loop in the SSD, or cut one with --loop COMPONENT.CONNECTOR --at SECONDS"
-            raise InputError(description.file, "", "declares no loops", remedy)
-        return declared
-    here = _point(0.0 if at is None else at)
+    for time in at:
+        if not (math.isfinite(time) and time >= description.start_time):
+            remedy = f"give seconds from {description.start_time:g} on"
+            raise InputError("--at", f"{time:g}", "not a time of the flight", remedy)
+    if not names and not declared.loops:
+        remedy = "name a loop in the SSD, or cut one with --loop COMPONENT.CONNECTOR --at SECONDS"
+        raise InputError(description.file, "", "declares no loops", remedy)
+    cuts = [Point(f"t = {time:g} s", time=time) for time in at or (0.0,)]
     wanted: list[Loop] = []
-    for name in dict.fromkeys(names):
+    for name in dict.fromkeys(names or by_name):
         if name not in by_name and "." not in name:
             raise InputError("--loop", name, "the SSD names no such loop", _remedy(name, by_name))
-        wanted.append(by_name.get(name) or Loop(name, cut=name, points=(here.name,)))
-    points = (*declared.points, here)
+        wanted.append(by_name.get(name) or Loop(name, cut=name, points=tuple(point.name for point in cuts)))
+    points, sweeps = (*declared.points, *cuts), declared.sweeps
+    if at:
+        asked = {name for loop in wanted for name in loop.points}
+        here = [point for point in declared.points if point.name in asked]
+        points, sweeps = (*_moved(here, at), *cuts), ()
+        origins = {point.name: _with_settings_of(point, here) for point in here}
+        wanted = [_at_times(loop, at, origins) if loop.name in by_name else loop for loop in wanted]
     used = {point for loop in wanted for point in loop.points}
     kept = {loop.name for loop in wanted}
     return Declaration(
         declared.limits,
         tuple(point for point in points if point.name in used),
         tuple(wanted),
-        tuple(sweep for sweep in declared.sweeps if sweep.loop in kept),
+        tuple(sweep for sweep in sweeps if sweep.loop in kept),
     )
 
 
-def _point(time: float) -> Point:
-    """The point of loops that no description names, called by its time (s)."""
-    return Point(f"t = {time:g} s", time=time)
+def _moved(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
+    """Points with the settings of declared ones at other times. Raises InputError where one lies behind their end."""
+    found = []
+    for point in points:
+        for time in at:
+            if point.until is not None and time >= point.until:
+                problem = f"point {point.name} lasts until {point.until:g} s"
+                raise InputError(
+                    "--at", f"{time:g}", problem, "give times before it, or leave its loops out with --loop"
+                )
+            name = _name_at(point.name, time)
+            phase = f"settings of {point.name}"
+            found.append(replace(point, name=name, time=time, signal=None, falls_to=None, phase=phase))
+    return found
 
 
-def _is_asked(point: Point) -> bool:
-    return point.time is not None and point == _point(point.time)
+def _with_settings_of(point: Point, points: Sequence[Point]) -> str:
+    """The first point with the same settings: points that differ by their time only are one when times are given."""
+    return next(other.name for other in points if other.layer == point.layer and other.until == point.until)
+
+
+def _at_times(loop: Loop, at: Sequence[float], origins: Mapping[str, str]) -> Loop:
+    """A declared loop at given times, with the settings of each of its points once."""
+    different = dict.fromkeys(origins[name] for name in loop.points)
+    return replace(loop, points=tuple(_name_at(name, time) for name in different for time in at))
+
+
+def _name_at(point: str, time: float) -> str:
+    return f"{point}, t = {time:g} s"
 
 
 def _remedy(name: str, declared: Mapping[str, Loop]) -> str:

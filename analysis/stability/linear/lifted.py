@@ -11,7 +11,8 @@ periodic responses).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -42,12 +43,20 @@ class Port:
         return slice(self.first, self.first + self.count)
 
 
+@dataclass(frozen=True)
+class StateVariable:
+    """What a state of the model is of its memory cell: ``scale`` cells' units, which are ``unit`` (None: without)."""
+
+    scale: float
+    unit: str | None
+
+
 @dataclass
 class LiftedModel:
     """Closed loop over one hyperperiod: x' = a x + b d, u = cu x + du d, v = cv x + dv d.
 
     d is added at the cuts, u goes in behind them, v comes back; all are stacked over the channels' samples.
-    ``names`` are the memory cells behind x, in units that balance a. ``period`` in s.
+    ``names`` are the memory cells behind x, in units that balance a; ``variables`` says by name which. ``period`` in s.
     """
 
     a: np.ndarray
@@ -59,6 +68,7 @@ class LiftedModel:
     names: tuple[str, ...]
     period: float
     ports: tuple[Port, ...]
+    variables: Mapping[str, StateVariable] = field(default_factory=dict)
 
     def reduced(self, ports: tuple[Port, ...]) -> LiftedModel:
         """The part of the memory that the ports both move and are moved by, through whatever lies between.
@@ -88,6 +98,7 @@ class LiftedModel:
             tuple(self.names[place] for place in kept),
             self.period,
             self.ports,
+            self.variables,
         )
 
     def _shares(self, port: Port) -> np.ndarray:

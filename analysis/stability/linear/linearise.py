@@ -11,7 +11,7 @@ import scipy.linalg
 
 from ..bench.operating_point import OperatingPoint
 from .jacobian import STEPS, Jacobian, plateau
-from .lifted import LiftedModel, reached
+from .lifted import LiftedModel, StateVariable, reached
 from .whole import Block, circles, multipliers
 
 
@@ -86,6 +86,12 @@ def _model(jacobian: Jacobian, cells: np.ndarray, matrix: np.ndarray, driven: np
         names=tuple(jacobian.memory.cells[cell].name for cell in cells),
         period=jacobian.bench.seconds,
         ports=jacobian.ports,
+        variables={
+            jacobian.memory.cells[cell].name: StateVariable(
+                float(jacobian.scale[cell] * size), jacobian.memory.cells[cell].unit
+            )
+            for cell, size in zip(cells, balance, strict=True)
+        },
     )
 
 

@@ -15,6 +15,7 @@ from ..ask.declaration import Limits
 from ..bench.bench import Bench, StudyError
 from ..bench.injection import Injector, NotMeasurableError, measured
 from ..linear.modes import structure
+from ..linear.open_loop import open_loop
 from ..results.loop import LoopReport
 from ..results.nonlinear import AmplitudePoint
 from ..results.routes import RouteB
@@ -147,11 +148,11 @@ class LoopStudy:
             loop=self.channel.loop,
             point=self.bench.point.name,
             cut=" ".join(self.channel.connectors),
-            returned=self.channel.returned or "the same connector, before what is added",
+            returned=self.channel.returned or "same connector, upstream of the injection point",
             unit=self.channel.unit,
             sample_period=self.seconds,
             closed=tuple(closed),
-            sign="L = -(what comes back)/(what goes in): negative feedback is positive L, the critical point is -1",
+            sign="L = -(return signal)/(signal into the loop): positive for negative feedback, critical point -1",
             curve=assessment.curve,
             classical=assessment.classical,
             robust=assessment.robust,
@@ -162,6 +163,7 @@ class LoopStudy:
             modes=model.modes if model else (),
             poles_z=poles,
             structure=structure(model.model, model.port, model.facts.states) if model else None,
+            open_loop=open_loop(model.model, (model.port,)) if model and "route A" not in self.notes else None,
             route_a=self.model.facts if self.model else None,
             route_b=self.measured,
             not_applicable={**self.notes, **assessment.notes},

@@ -17,12 +17,13 @@ from ..bench.bench import Bench, StudyError
 from ..bench.operating_point import OperatingPoint
 from ..linear.jacobian import STEPS
 from ..linear.linearise import Linearisation, linearise
+from ..linear.open_loop import open_loop
 from ..results.loop import JointReport
 from ..results.report import PointReport
 from ..results.requirement import Requirement, Scope
 from .assessment import lowest_frequency
 from .loop_study import LoopStudy
-from .routes import LoopModel, loop_model
+from .routes import DOUBTFUL, LoopModel, loop_model
 
 MOST_TRIM = 8  # of the memory that changes most
 TENTH = 0.1  # relative change of L at which the frozen view no longer holds
@@ -150,6 +151,7 @@ class PointStudy:
             disk_frequency=found.frequency,
             frequency=found.frequencies,
             disk_margins=found.alphas,
+            open_loop=open_loop(model, ports) if all(map(_has_plateau, models)) else None,
             requirements=tuple(
                 Requirement.at_least(Scope.JOINT, quantity, size if stable else UNSTABLE, limit)
                 for quantity, (size, limit) in wanted.items()
@@ -166,3 +168,8 @@ class PointStudy:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _has_plateau(model: LoopModel | None) -> bool:
+    """Whether the derivatives of a loop's linear model can be trusted."""
+    return model is not None and model.facts.plateau <= DOUBTFUL

@@ -11,6 +11,7 @@ from ...loops.readings import Classical, Curve, Robust
 from .nonlinear import AmplitudePoint, Nonlinearity
 from .requirement import Requirement, Verdict, combined
 from .routes import Agreement, Mode, RouteA, RouteB, Structure
+from .state_space import StateSpace
 from .varied import Dispersion, Sampled
 
 
@@ -37,6 +38,7 @@ class LoopReport:
     modes: tuple[Mode, ...] = ()
     poles_z: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=complex))
     structure: Structure | None = None
+    open_loop: StateSpace | None = None  # None: no linear model that can be trusted
     route_a: RouteA | None = None
     route_b: RouteB | None = None
     agreement: Agreement | None = None
@@ -88,6 +90,7 @@ class JointReport:
     frequency: np.ndarray
     disk_margins: np.ndarray  # over frequency
     requirements: tuple[Requirement, ...] = ()
+    open_loop: StateSpace | None = None  # all channels open at once
 
     @property
     def verdict(self) -> Verdict:

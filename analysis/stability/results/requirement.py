@@ -64,7 +64,7 @@ class Requirement:
     def title(self) -> str:
         """As ``dispersed gain margin``."""
         if self.quantity is Quantity.STABILITY:
-            return "largest multiplier" if self.scope is Scope.NOMINAL else "share of stable trials"
+            return "spectral radius" if self.scope is Scope.NOMINAL else "share of stable trials"
         return self.quantity if self.scope is Scope.NOMINAL else f"{self.scope} {self.quantity}"
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from perilune.analysis.reports.stability.figures import loop_panels
+from perilune.analysis.reports.stability.figures import sight_panels
 from perilune.analysis.reports.stability.page import write_stability_page
 from perilune.analysis.reports.stability.shared import alike, picture_of, together
 from tests.support.pages.checks import assert_self_contained, parse, text_of
@@ -28,13 +28,13 @@ def loop(studies):
 
 @pytest.fixture(scope="module")
 def bode(loop):
-    return picture_of(loop_panels(loop, "first")[0].figure)
+    return picture_of(sight_panels(loop, "first")[0].figure)
 
 
 @pytest.mark.parametrize(("change", "same"), [(1e-9, True), (1e-4, True), (-1e-4, True), (0.1, False), (1.0, False)])
 def test_what_is_closer_than_half_a_line_is_the_same(loop, bode, change, same):
     """An axis of some 60 dB over 70 pt: 1e-4 is a thousandth of a point, 10 % is 0.83 dB, a point."""
-    other = picture_of(loop_panels(scaled(loop, 1.0 + change), "second")[0].figure)
+    other = picture_of(sight_panels(scaled(loop, 1.0 + change), "second")[0].figure)
     assert alike(bode, other) == same
     assert alike(other, bode) == same
 
@@ -59,13 +59,14 @@ def test_identical_axes_are_one_figure(page):
     assert_self_contained(page)
     first, second, third = parse(page).xpath("//article[contains(@class, 'loop')]")
     captions = [" ".join(found.text_content().split()) for found in first.xpath(".//figcaption")]
-    assert captions[:3] == ["Bode: force[x], [y]", "Nyquist: force[x], [y]", "Nichols: force[x], [y]"]
+    assert captions[:3] == ["Bode: force[x], [y]", "Nichols: force[x], [y]", "Nyquist: force[x], [y]"]
     assert second.xpath(".//figure") == []
-    (note,) = [found.text_content() for found in second.xpath(".//p") if "as drawn for" in found.text_content()]
-    assert note.startswith("Bode, Nyquist, Nichols, ")
-    assert "force[x]" in note
-    assert "0.5 pt" in note
-    assert [found.text_content() for found in third.xpath(".//figcaption")][:3] == ["Bode", "Nyquist", "Nichols"]
+    notes = [found.text_content() for found in second.xpath(".//p") if "as drawn for" in found.text_content()]
+    for note, labels in zip(notes, ("Bode, Nichols: ", "Nyquist, "), strict=True):
+        assert note.startswith(labels)
+        assert "force[x]" in note
+        assert "0.5 pt" in note
+    assert [found.text_content() for found in third.xpath(".//figcaption")][:3] == ["Bode", "Nichols", "Nyquist"]
 
 
 def test_the_tables_of_each_are_there(page):

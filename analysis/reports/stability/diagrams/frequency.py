@@ -1,4 +1,4 @@
-"""Bode diagram and sensitivities of a loop, in dB and degrees over rad/s.
+"""Responses over frequency: what Bode diagrams and sensitivities share, and the sensitivities, in dB over rad/s.
 
 The axes are ours and not python-control's `bode_plot`, `nyquist_plot` and the like: those draw through pyplot's
 current figure, which is global, bring titles, legends and mathematical type of their own, cannot show a measured
@@ -13,23 +13,24 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator
+from matplotlib.ticker import FuncFormatter, LogLocator
 
-from ...loops.decibels import decibel_size, decibels
-from ...loops.readings import Classical, Curve
-from ...stability.results.loop import LoopReport
-from ..kit.quantities import log_tick, number, tick
-from ..kit.style import BLUE, FAINT, GREEN, INK, VERMILION, log_ticks_x
+from ....loops.decibels import decibel_size, decibels, degree_size
+from ....loops.readings import Classical, Curve
+from ....stability.results.loop import LoopReport
+from ...kit.quantities import log_tick, number, tick
+from ...kit.style import BLUE, FAINT, GREEN, INK, VERMILION, log_ticks_x
 
 MEASURED: Any = {
     "linestyle": "", "marker": "o", "markersize": 3.0, "markerfacecolor": "none", "markeredgecolor": INK,
     "markeredgewidth": 0.7, "zorder": 3,
 }  # fmt: skip
 MARGIN: Any = {"color": VERMILION, "linewidth": 1.8, "zorder": 4, "solid_capstyle": "butt"}
+DECISIVE: Any = {"markersize": 6.0, "clip_on": False}  # the nearest crossing; others are hollow
+OTHER: Any = {"markerfacecolor": "white"}
 GAIN_MARK: Any = {"linestyle": "", "marker": "D", "markersize": 4.5, "color": VERMILION, "zorder": 5}
 PHASE_MARK: Any = {"linestyle": "", "marker": "s", "markersize": 4.5, "color": VERMILION, "zorder": 5}
 FLOOR = 1e-12  # of a gain, for its logarithm
-FAR = 60.0  # dB below 1, from where on a gain says nothing about margins
 
 
 def in_db(values: np.ndarray) -> np.ndarray:
@@ -72,49 +73,6 @@ def margin_crossings(loop: LoopReport) -> Classical:
     return replace(loop.classical, gain=(), phase=()) if loop.margins.unstable else loop.classical
 
 
-def draw_bode(loop: LoopReport, gain_axes: Axes, phase_axes: Axes) -> None:
-    """Gain and phase with the decisive margins as bars; circles are the measured response."""
-    curve, found = loop.curve, margin_crossings(loop)
-    gain, phase = found.gain_margin, found.phase_margin
-    centre = phase.frequency if phase is not None else gain.frequency if gain is not None else None
-    degrees = phase_of(curve, centre)
-    gain_axes.plot(curve.frequency, in_db(curve.value), color=BLUE)
-    phase_axes.plot(curve.frequency, degrees, color=BLUE)
-    measured = measured_too(loop)
-    if measured is not None:
-        gain_axes.plot(measured.frequency, in_db(measured.value), **MEASURED)
-        phase_axes.plot(measured.frequency, beside(curve, degrees, measured), **MEASURED)
-    gain_axes.axhline(0.0, color=INK, linewidth=0.8)
-    low, high = float(np.min(degrees)), float(np.max(degrees))
-    for line in range(math.floor(low / 360.0) * 360 - 180, math.ceil(high / 360.0) * 360 + 180, 360):
-        if low - 30.0 <= line <= high + 30.0:
-            phase_axes.axhline(line, color=INK, linewidth=0.8)
-    if gain is not None:
-        gain_axes.plot([gain.frequency] * 2, [0.0, -decibels(gain.value)], **MARGIN)
-        gain_axes.plot(gain.frequency, -decibels(gain.value), **GAIN_MARK)
-    if phase is not None:
-        at = float(np.interp(phase.frequency, curve.frequency, degrees))
-        phase_axes.plot([phase.frequency] * 2, [at, at - math.degrees(phase.value)], **MARGIN)
-        phase_axes.plot(phase.frequency, at, **PHASE_MARK)
-    for axes in (gain_axes, phase_axes):
-        frequency_axis(axes, float(curve.frequency[0]), float(curve.frequency[-1]))
-    gain_axes.set_ylim(*_gain_limits(in_db(curve.value), -decibels(gain.value) if gain is not None else 0.0))
-    gain_axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 4, 5, 10]))
-    gain_axes.yaxis.set_major_formatter(FuncFormatter(tick))
-    phase_axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 1.5, 3, 4.5, 9, 10]))
-    phase_axes.yaxis.set_major_formatter(FuncFormatter(tick))
-    gain_axes.set_title("gain, dB", loc="left", fontsize=8.5)
-    phase_axes.set_title("phase, deg", loc="left", fontsize=8.5)
-    phase_axes.set_xlabel("rad/s")
-
-
-def _gain_limits(gain: np.ndarray, marked: float) -> tuple[float, float]:
-    """Limits of the gain's axis (dB): all of it, but a zero of the response does not squeeze the rest."""
-    low, high = float(np.min(gain)), max(float(np.max(gain)), marked, 0.0)
-    low = max(min(low, marked, 0.0), min(-FAR, marked - 0.5 * FAR))
-    return low - 0.05 * (high - low) - 1.0, high + 0.05 * (high - low) + 1.0
-
-
 def draw_sensitivity(loop: LoopReport, axes: Axes, modulus_limit: float | None) -> None:
     """Sensitivity and complementary sensitivity with their peaks, and the limit on the former's."""
     curve, found = loop.curve, loop.robust
@@ -152,6 +110,24 @@ def margin_words(loop: LoopReport) -> str:
     if phase is not None:
         words.append(f"phase margin {number(math.degrees(phase.value))} deg at {number(phase.frequency)} rad/s")
     return ", ".join(words) or "no crossing, hence no gain or phase margin"
+
+
+def gain_words(loop: LoopReport) -> str:
+    """The gain margin and its frequency, as it stands over a diagram."""
+    gain = margin_crossings(loop).gain_margin
+    if gain is None:
+        return "unstable: no margins" if loop.margins.unstable else "no phase crossover"
+    side = "upper" if gain.value >= 1.0 else "lower"
+    return f"{side} gain margin {number(decibel_size(gain.value), 3)} dB at {number(gain.frequency, 3)} rad/s"
+
+
+def phase_words(loop: LoopReport) -> str:
+    """The phase margin and the gain crossover, as they stand over a diagram."""
+    phase = margin_crossings(loop).phase_margin
+    if phase is None:
+        return "" if loop.margins.unstable else "no gain crossover"
+    lead = " (lead)" if phase.value < 0.0 else ""
+    return f"phase margin {number(degree_size(phase.value), 3)}°{lead} at {number(phase.frequency, 3)} rad/s"
 
 
 def faint_line(axes: Axes, x: np.ndarray, y: np.ndarray) -> None:

@@ -1,47 +1,27 @@
-"""The frequency response in the complex plane and in gain over phase: how near it comes to the critical point."""
+"""The frequency response in the complex plane: how near it comes to the critical point."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Polygon
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
-from ...loops.decibels import decibels
-from ...loops.margin_values import Quantity
-from ...stability.results.loop import LoopReport
-from ...stability.results.nonlinear import Nonlinearity
-from ..kit.quantities import MINUS, tick
-from ..kit.style import BLUE, GREEN, INK, PURPLE, VERMILION, plain_ticks
-from .frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, in_db, margin_crossings, measured_too
+from ....stability.results.loop import LoopReport
+from ....stability.results.nonlinear import Nonlinearity
+from ...kit.quantities import MINUS
+from ...kit.style import BLUE, GREEN, INK, PURPLE, plain_ticks
+from .frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, margin_crossings, measured_too
+from .limits import LIMIT, limits_of
 
 INVERSE = f"{MINUS}1/N"
 SHAPE = 1.2  # width over height of a panel's axes
 CRITICAL: Any = {"linestyle": "", "marker": "+", "markersize": 9, "markeredgewidth": 1.6, "color": INK, "zorder": 6}
-LIMIT: Any = {"color": VERMILION, "linewidth": 1.0, "linestyle": (0, (4, 2))}
 ARROW: Any = {
     "arrowstyle": "-|>", "color": BLUE, "linewidth": 0.1, "mutation_scale": 12, "shrinkA": 0, "shrinkB": 0,
 }  # fmt: skip
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 361)
-
-
-@dataclass(frozen=True)
-class Limits:
-    """The limits that figures show, as they are required of the loop; None: not required."""
-
-    gain: float | None  # dB
-    phase: float | None  # deg
-    modulus: float | None
-
-
-def limits_of(loop: LoopReport) -> Limits:
-    """The limits among a loop's requirements."""
-    found = {item.quantity: item.limit for item in loop.requirements}
-    return Limits(found.get(Quantity.GAIN), found.get(Quantity.PHASE), found.get(Quantity.MODULUS))
 
 
 def _complex_plane(axes: Axes, left: float, right: float) -> None:
@@ -92,49 +72,6 @@ def draw_nyquist(loop: LoopReport, axes: Axes) -> None:
         axes.plot(-math.cos(crossing.value), -math.sin(crossing.value), **PHASE_MARK)
     _complex_plane(axes, left, right)
     _direction(axes, value, left, right)
-
-
-def draw_nichols(loop: LoopReport, axes: Axes) -> None:
-    """L in gain over phase (-360 to 0 deg) with the exclusion zone of the limits and the oval of the modulus limit."""
-    value, limits = loop.curve.value, limits_of(loop)
-    if limits.gain is not None and limits.phase is not None:
-        corners = [
-            (-180.0 - limits.phase, 0.0),
-            (-180.0, limits.gain),
-            (-180.0 + limits.phase, 0.0),
-            (-180.0, -limits.gain),
-        ]
-        zone: Any = {"facecolor": "#f6d5c0", "edgecolor": VERMILION, "linewidth": 1.0, "hatch": "////", "zorder": 1.6}
-        axes.add_patch(Polygon(corners, **zone))
-    if limits.modulus is not None and limits.modulus < 1.0:
-        oval = -1.0 + limits.modulus * np.exp(1j * ANGLES)
-        axes.plot(np.degrees(np.angle(-oval)) - 180.0, in_db(oval), **LIMIT)
-    axes.plot(*_wrapped(value), color=BLUE)
-    measured = measured_too(loop)
-    if measured is not None:
-        axes.plot(np.degrees(np.angle(-measured.value)) - 180.0, in_db(measured.value), **MEASURED)
-    for crossing in margin_crossings(loop).gain:
-        axes.plot(-180.0, -decibels(crossing.value), **GAIN_MARK)
-    for crossing in margin_crossings(loop).phase:
-        axes.plot(math.degrees(math.remainder(crossing.value, 2.0 * math.pi)) - 180.0, 0.0, **PHASE_MARK)
-    reach = max([abs(decibels(item.value)) for item in loop.classical.gain if item.value > 0.0], default=0.0)
-    height = min(max(20.0, 1.4 * reach), 40.0)
-    axes.plot(-180.0, 0.0, **CRITICAL)
-    axes.set_xlim(-360.0, 0.0)
-    axes.set_ylim(-height, height)
-    axes.xaxis.set_major_locator(FixedLocator([-360, -270, -180, -90, 0]))
-    axes.xaxis.set_major_formatter(FuncFormatter(tick))
-    axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
-    axes.yaxis.set_major_formatter(FuncFormatter(tick))
-    axes.set_title("gain, dB", loc="left", fontsize=8.5)
-    axes.set_xlabel("phase, deg")
-
-
-def _wrapped(value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Phase (deg, -360 to 0) and gain (dB) with gaps where the phase wraps."""
-    phase, gain = np.degrees(np.angle(-value)) - 180.0, in_db(value)
-    jumps = np.flatnonzero(np.abs(np.diff(phase)) > 180.0) + 1
-    return np.insert(phase, jumps, np.nan), np.insert(gain, jumps, np.nan)
 
 
 def draw_harmonic_balance(loop: LoopReport, element: Nonlinearity, axes: Axes) -> None:

@@ -1,0 +1,1 @@
+"""Diagrams of loops: what is drawn in axes, free of the page."""

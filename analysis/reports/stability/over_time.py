@@ -1,0 +1,56 @@
+"""The figure at the top of a stability page: margins over the time of flight, of loops studied at several times."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from markupsafe import Markup
+
+from ...loops.margin_values import Quantity
+from ...stability.results.report import StabilityReport
+from ..kit.panels import Panel, panel, swatch
+from ..kit.quantities import number
+from .diagrams.over_time import QUANTITIES, Course, course_look, courses, draw_over_time
+from .shared import together
+from .words import numeral
+
+
+@dataclass(frozen=True)
+class OverTime:
+    """Its panels, one for each margin; the legend's swatches with their loops; operating points with their times."""
+
+    panels: list[Panel]
+    legend: list[tuple[Markup, str]]
+    points: list[tuple[str, Markup]]
+
+
+def over_time(report: StabilityReport) -> OverTime | None:
+    """None where no loop is studied at two times of one flight."""
+    found = courses(report)
+    if not found:
+        return None
+    seen = {loop.point for course in found for loops in course.loops for loop in loops}
+    points = sorted((point for point in report.points if point.name in seen), key=lambda point: point.time)
+    return OverTime(
+        [_panel(found, quantity, f"over-time-{index + 1}") for index, quantity in enumerate(QUANTITIES)],
+        [(swatch(course_look(index)), _names(course)) for index, course in enumerate(found)],
+        [(point.name, numeral(point.time)) for point in points],
+    )
+
+
+def _names(course: Course) -> str:
+    return together([loops[0] for loops in course.loops])
+
+
+def _panel(found: list[Course], quantity: Quantity, name: str) -> Panel:
+    sizes = [size for course in found for size in course.sizes[quantity].tolist()]
+    least = min(sizes)
+    words = (
+        f"{quantity.capitalize()} of {sum(len(course.loops) for course in found)} loops over the time of flight, least "
+    )
+    words += (
+        number(least, 3) if abs(least) < float("inf") else "that of an unstable loop" if least < 0.0 else "unlimited"
+    )
+    draw: Any = lambda axes: draw_over_time(found, quantity, axes)  # noqa: E731
+    return panel(quantity.capitalize(), name, words, draw)

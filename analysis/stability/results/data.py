@@ -1,0 +1,148 @@
+"""Loop responses and linear models as files for python-control, MATLAB and spreadsheets, with names and units.
+
+Three files say the same: `loops.json` for python-control, `loops.mat` for MATLAB, `responses.csv` with the responses
+alone. Gains are factors, frequencies rad/s, times s; signals and states are in the units that stand beside them.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...atomic import write_atomically
+from .document import document
+from .loop import JointReport, LoopReport
+from .mat_file import mat_bytes, struct_array
+from .report import StabilityReport
+from .routes import RouteB
+from .state_space import StateSpace
+
+JSON, MAT, CSV = "loops.json", "loops.mat", "responses.csv"
+SIGN = (
+    "L is the negative of the loop's transfer function from u, what goes into the loop behind the break point, to "
+    "what returns to it: y = L u = -(what returns). Negative feedback has a positive L, the loop is closed by "
+    "u = d - y, the sensitivity is 1/(1 + L), and the critical point is -1."
+)
+MODEL = (
+    "x[k+1] = A x[k] + B u[k], y[k] = C x[k] + D u[k] every model_period_s, deviations from the flight at the "
+    "operating point. Where samples is 1, L(w) = C (exp(j w model_period_s) I - A)^-1 B + D; otherwise the loop "
+    "changes from sample to sample, and u and y hold its samples over model_period_s, oldest first. Empty: there is no "
+    "linear model that can be trusted, for the reason in note."
+)
+COLUMNS = ("loop", "operating_point", "response", "frequency_rad_s", "real", "imaginary")
+LINEARISED, MEASURED = "linearised", "measured"
+MARGINS = ("gain_margin_db", "phase_margin_deg", "modulus_margin", "disk_margin", "delay_margin_s")
+Curves = tuple[tuple[str, np.ndarray, np.ndarray], ...]  # which response, frequency (rad/s), L
+
+
+def write_data(report: StabilityReport, folder: Path) -> None:
+    """Write the three files into a folder, which is made; the same study gives the same bytes. Raises OSError."""
+    facts = document(report)
+    times = {point.name: point.time for point in report.points}
+    loops = [_loop(loop, found, times) for loop, found in zip(report.loops, facts["loops"], strict=True)]
+    joint = [_joint(item, found, times) for item, found in zip(report.joint, facts["joint"], strict=True)]
+    about = {"system": report.system, "sign": SIGN, "model": MODEL}
+    content = {**about, "points": facts["points"], "loops": loops, "joint": joint, "provenance": facts["provenance"]}
+    write_atomically(folder / JSON, (json.dumps(content, default=_plain, indent=1, allow_nan=False) + "\n").encode())
+    structs = {"loops": struct_array(loops), "joint": struct_array(joint)}
+    write_atomically(folder / MAT, mat_bytes({**about, **{name: item for name, item in structs.items() if item.size}}))
+    write_atomically(folder / CSV, _table(report).encode())
+
+
+def _loop(loop: LoopReport, found: dict[str, Any], times: dict[str, float]) -> dict[str, Any]:
+    """One channel, ``found`` being what the document says of it."""
+    curves = {name: (frequency, value) for name, frequency, value in _curves(loop)}
+    empty = np.zeros(0), np.zeros(0, dtype=complex)
+    linearised, measured = (curves.get(name, empty) for name in (LINEARISED, MEASURED))
+    return {
+        "name": loop.name,
+        "loop": loop.loop,
+        "operating_point": loop.point,
+        "time_s": times[loop.point],
+        "broken_at": loop.cut,
+        "returned": loop.returned,
+        "unit": loop.unit or "1",
+        "sample_period_s": loop.sample_period,
+        "other_loops_closed": list(loop.closed),
+        "stable": "not known" if loop.stable is None else "yes" if loop.stable else "no",
+        "verdict": str(loop.verdict),
+        **{key: _margin(found[key]) for key in MARGINS},
+        "frequency_rad_s": linearised[0],
+        "L": linearised[1],
+        "measured_frequency_rad_s": measured[0],
+        "measured_L": measured[1],
+        **_model(loop.open_loop),
+        "note": "; ".join(f"{name}: {reason}" for name, reason in loop.not_applicable.items()),
+    }
+
+
+def _joint(joint: JointReport, found: dict[str, Any], times: dict[str, float]) -> dict[str, Any]:
+    """All channels of one loop open at once."""
+    return {
+        "name": joint.name,
+        "operating_point": joint.point,
+        "time_s": times[joint.point],
+        "channels": list(joint.channels),
+        "stable": "yes" if joint.stable else "no",
+        "disk_margin": _margin(found["disk_margin"]),
+        **_model(joint.open_loop),
+    }
+
+
+def _margin(value: float | str | None) -> float | str:
+    return "not known" if value is None else value
+
+
+def _curves(loop: LoopReport) -> Curves:
+    """The linearised and the measured response, as far as there are."""
+    route_b: RouteB | None = loop.route_b
+    curves: list[tuple[str, np.ndarray, np.ndarray]] = []
+    if loop.open_loop is not None:
+        curves.append((LINEARISED, loop.curve.frequency, loop.curve.value))
+    if route_b is not None:
+        curves.append((MEASURED, route_b.curve.frequency, route_b.curve.value))
+    return tuple(curves)
+
+
+def _model(found: StateSpace | None) -> dict[str, Any]:
+    if found is None:
+        nothing = np.zeros((0, 0))
+        found = StateSpace(nothing, nothing, nothing, nothing, 0.0, 0, (), (), (), (), (), 0.0)
+    return {
+        "A": found.a,
+        "B": found.b,
+        "C": found.c,
+        "D": found.d,
+        "model_period_s": found.period,
+        "samples": found.samples,
+        "model_error": found.error,
+        "state_names": list(found.states),
+        "state_units": [unit or "1" for unit in found.state_units],
+        "input_names": list(found.inputs),
+        "input_units": [unit or "1" for unit in found.signal_units],
+        "output_names": list(found.outputs),
+        "output_units": [unit or "1" for unit in found.signal_units],
+    }
+
+
+def _table(report: StabilityReport) -> str:
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(COLUMNS)
+    for loop in report.loops:
+        for name, frequency, values in _curves(loop):
+            for w, value in zip(frequency.tolist(), values.tolist(), strict=True):
+                rows.writerow((loop.name, loop.point, name, repr(w), repr(value.real), repr(value.imag)))
+    return text.getvalue()
+
+
+def _plain(value: Any) -> Any:
+    """Arrays for JSON; complex numbers are [real, imaginary]."""
+    if isinstance(value, np.ndarray):
+        return np.stack([value.real, value.imag], axis=-1).tolist() if np.iscomplexobj(value) else value.tolist()
+    raise TypeError(type(value).__name__)

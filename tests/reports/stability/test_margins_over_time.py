@@ -1,0 +1,81 @@
+"""Margins over the time of flight: which loops are one line, what is drawn of them, and where the figure stands.
+
+Truth: python-control's crossings of the late double integrator with other gains, one for each time.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from perilune.analysis.loops.margin_values import Quantity
+from perilune.analysis.loops.readings import Crossing
+from perilune.analysis.reports.kit.style import VERMILION
+from perilune.analysis.reports.stability.diagrams.over_time import courses, draw_over_time
+from perilune.analysis.reports.stability.page import write_stability_page
+from tests.support.loops.exact_margins import crossings
+from tests.support.loops.exact_systems import late_double_integrator
+from tests.support.pages.checks import assert_self_contained, parse, text_of
+
+GAINS = {30.0: 0.25, 10.0: 0.2, 20.0: 0.3}  # derivative gain (s) by time (s), not in order
+DECIBEL = 20.0 / np.log(10.0)
+
+
+def with_gain(loop, derivative, point, **changed):
+    gain, phase, at = crossings(late_double_integrator(derivative=derivative).loop)
+    classical = replace(
+        loop.classical,
+        gain=tuple(Crossing(float(value), 1.0) for value in gain),
+        phase=tuple(Crossing(float(value), float(w)) for value, w in zip(phase, at, strict=True)),
+    )
+    return replace(loop, point=point, classical=classical, dispersion=None, **changed)
+
+
+@pytest.fixture(scope="module")
+def report(studies):
+    """Two axes that are the same, and one that is unstable at the last time."""
+    late = studies.late
+    points = tuple(replace(late.points[0], name=f"p{time:g}", time=time) for time in GAINS)
+    loops = [with_gain(late.loops[0], gain, f"p{time:g}") for time, gain in GAINS.items()]
+    axes = [replace(loop, name=f"axis[{index}]") for index in (1, 2) for loop in loops]
+    axes += [replace(loop, name="other", stable=loop.point != "p30") for loop in loops]
+    return replace(late, points=points, loops=tuple(axes), sweeps=())
+
+
+def test_what_is_drawn_is_python_controls(report):
+    same, other = courses(report)
+    assert [loops[0].name for loops in same.loops] == ["axis[1]", "axis[2]"]
+    assert same.times.tolist() == other.times.tolist() == [10.0, 20.0, 30.0]
+    for quantity, place in ((Quantity.GAIN, 0), (Quantity.PHASE, 1)):
+        axes = Figure().subplots()
+        draw_over_time([same, other], quantity, axes)
+        exact = [crossings(late_double_integrator(derivative=GAINS[time]).loop)[place] for time in same.times]
+        shown = [DECIBEL * np.log(values) if place == 0 else np.degrees(values) for values in exact]
+        upper = [min(values[values >= 0.0]) for values in shown]
+        np.testing.assert_allclose(axes.lines[0].get_ydata(), upper, rtol=1e-6)
+        limit = 6.0 if place == 0 else 30.0
+        assert any(np.allclose(line.get_ydata(), limit) for line in axes.lines if line.get_color() == VERMILION)
+        (cross,) = (line for line in axes.lines if line.get_marker() == "x")
+        assert (cross.get_xdata().tolist(), cross.get_ydata().tolist()) == ([30.0], [0.0])
+
+
+def test_another_flight_is_no_part_of_the_line(report):
+    """A point with other settings, and loops that are studied at one time only."""
+    points = (replace(report.points[0], settings={"plant.mass": 2.0}), *report.points[1:])
+    assert all(course.times.tolist() == [10.0, 20.0] for course in courses(replace(report, points=points)))
+    same_time = tuple(replace(point, time=5.0) for point in report.points)
+    assert courses(replace(report, points=same_time)) == []
+
+
+def test_the_page_begins_with_it(report, studies, tmp_path):
+    write_stability_page(report, tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert_self_contained(page)
+    headings = [element.text for element in parse(page).xpath("//h2")]
+    assert headings[:2] == ["Margins over the time of flight", "Verdict"]
+    text = " ".join(text_of(page).split())
+    assert "p10 at 10 s, p20 at 20 s, p30 at 30 s" in text
+    assert "axis[1], [2]" in text
+    write_stability_page(studies.late, tmp_path / "one.html")
+    assert "time of flight" not in text_of((tmp_path / "one.html").read_text(encoding="utf-8"))
