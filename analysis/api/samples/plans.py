@@ -3,15 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from ...campaign.drawing.given import ALL, GivenDraws
 from ...campaign.plan import BatchPlan, read_plan
+from ...reports.batch.replays import replay_command
+from ...samples.commands import Commands
 from ...ssp.parameter_sets import SetValue
 from ...system.faults import Fault, faults_of
 from ...system.in_flight.series import Given, read_series
 from ...system.in_flight.watch import Watch
 from ..options import FilePath, check_list, system_options
+
+
+def commands_of(plan: BatchPlan) -> Commands:
+    """What writes command lines for the flights of a study's plan."""
+    (variant,) = plan.campaign.variants()
+
+    def replay(draws: Path, trial: int) -> str:
+        given = GivenDraws({}, {ALL: np.zeros(trial + 1, dtype=np.int64)}, str(draws))
+        return replay_command(plan.of_samples(given), variant, trial)
+
+    def monte_carlo(trials: int) -> str:
+        words = replay_command(replace(plan, campaign=replace(plan.campaign, trials=trials)), variant, 0)
+        return words.removesuffix(" --replay 0")
+
+    return Commands(replay, monte_carlo)
 
 
 def sample_plan(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -14,7 +15,7 @@ from ...system.faults import Fault
 from ...system.in_flight.series import Given
 from ...targets import check_folder
 from ..options import FilePath
-from .plans import sample_plan
+from .plans import commands_of, sample_plan
 
 
 def rare(
@@ -25,7 +26,7 @@ def rare(
     samples: int | None = None,
     least: float | None = None,
     hold: Mapping[str, float] | None = None,
-    noise_trial: int = 0,
+    noise_trial: int | None = None,
     compare: Mapping[str, str] | None = None,
     seed: int | None = None,
     workers: int | None = None,
@@ -49,11 +50,12 @@ def rare(
     feedthrough: Sequence[str] = (),
     no_feedthrough: Sequence[str] = (),
 ) -> RareResult:
-    """The probability of a rare failure over a campaign's draws, by subset simulation: `perilune rare`.
+    """The probability of a rare failure over a campaign's draws and noise, by subset simulation: `perilune rare`.
 
     ``failure`` is an expression over metrics and draws, by default that a trial is no success; ``samples`` are the
     flights of a level, by default 4500, and a failure less likely than ``least``, by default 1e-9, is given up.
-    ``hold`` gives draws one value in all flights, ``noise_trial`` is the trial whose noise all have, ``compare`` says
+    ``hold`` gives draws one value in all flights. The noise of components is random, unless ``noise_trial`` is the
+    trial of the campaign whose noise all flights have: then the probability is conditional on that. ``compare`` says
     which FMU flies in a slot that the campaign compares; ``output`` is a folder for rare.json, flights.parquet and
     failures.parquet. The rest is as in `batch`. Raises InputError.
     """
@@ -71,6 +73,7 @@ def rare(
             plan, failure, hold=hold, noise_trial=noise_trial, workers=workers,
             samples=SAMPLES if samples is None else samples, least=LEAST if least is None else least,
         )  # fmt: skip
+    result = replace(result, commands=commands_of(plan))
     if folder is not None:
         result.write(folder)
     return result

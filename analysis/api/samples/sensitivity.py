@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -14,7 +15,7 @@ from ...system.faults import Fault
 from ...system.in_flight.series import Given
 from ...targets import check_folder
 from ..options import FilePath
-from .plans import sample_plan
+from .plans import commands_of, sample_plan
 
 
 def sensitivity(
@@ -23,7 +24,7 @@ def sensitivity(
     base: int,
     *,
     hold: Mapping[str, float] | None = None,
-    noise_trial: int = 0,
+    noise_trial: int | None = None,
     compare: Mapping[str, str] | None = None,
     seed: int | None = None,
     workers: int | None = None,
@@ -49,9 +50,10 @@ def sensitivity(
 ) -> SensitivityResult:
     """Sobol' indices of a campaign's metrics and of its success: `perilune batch --sensitivity`.
 
-    ``base`` is a power of two: that many times the number of draws and 2 are flown. Draws that are jointly normal are
-    refused. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for sensitivity.json and
-    flights.parquet. The rest is as in `batch`. Raises InputError.
+    ``base`` is a power of two: that many times the number of draws and 3 are flown, or the number of draws and 2 where
+    no noise is random. The noise of all components is one input beside the draws. Draws that are jointly normal are
+    refused. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for sensitivity.json,
+    flights.parquet and draws.parquet. The rest is as in `batch`. Raises InputError.
     """
     folder = Path(output).absolute() if output is not None else None
     check_folder("output", folder, overwrite=overwrite)
@@ -64,6 +66,7 @@ def sensitivity(
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder
         result = study.sensitivity(plan, base, hold=hold, noise_trial=noise_trial, workers=workers)
+    result = replace(result, commands=commands_of(plan))
     if folder is not None:
         result.write(folder)
     return result

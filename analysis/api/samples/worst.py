@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,7 +16,7 @@ from ...worst.asked import check_options, margin_asked
 from ...worst.outcome import WorstResult
 from ...worst.study import MARGIN, worst_case, worst_margin
 from ..options import FilePath, system_options
-from .plans import sample_plan
+from .plans import commands_of, sample_plan
 
 
 def worst(
@@ -30,7 +31,9 @@ def worst(
     sigmas: float | None = None,
     flights: int | None = None,
     hold: Mapping[str, float] | None = None,
-    noise_trial: int = 0,
+    noise_trial: int | None = None,
+    realisations: int | None = None,
+    quantile: float | None = None,
     compare: Mapping[str, str] | None = None,
     seed: int | None = None,
     workers: int | None = None,
@@ -62,7 +65,9 @@ def worst(
     worse than any margin, and ``compare``, ``faults``, ``input``, ``log`` and ``timeout`` do not go with one.
 
     ``sigmas`` is the box of normal draws, by default 3, others have their own ends; ``flights`` are by default 2000, of
-    a margin 500. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for worst.json,
+    a margin 500. Where components have noise, every point flies the same ``realisations`` of it, by default 5, of a
+    margin 1, whose ``quantile`` is made largest, by default 0.5, the median; the point that wins flies ten times as
+    many fresh ones. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for worst.json,
     flights.parquet and worst.parquet. The rest is as in `batch`. Raises InputError.
     """
     folder = Path(output).absolute() if output is not None else None
@@ -72,7 +77,10 @@ def worst(
         "input": input, "log": log, "timeout": timeout,
     }  # fmt: skip
     check_options(loop, given)
-    search: dict[str, Any] = {"hold": hold, "noise_trial": noise_trial, "workers": workers}
+    search: dict[str, Any] = {
+        "hold": hold, "noise_trial": noise_trial, "realisations": realisations, "quantile": quantile,
+        "workers": workers,
+    }  # fmt: skip
     search |= {name: value for name, value in (("sigmas", sigmas), ("flights", flights)) if value is not None}
     if loop is None:
         plan = sample_plan(
@@ -83,7 +91,7 @@ def worst(
             no_feedthrough=no_feedthrough,
         )  # fmt: skip
         with chdir(Path.cwd()):  # an FMU may change the folder
-            result = worst_case(plan, metric, **search)
+            result = replace(worst_case(plan, metric, **search), again=commands_of(plan).replay)
     else:
         options = system_options(
             use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 
+from ...api.samples.plans import commands_of
 from ...rare.study import LEAST, SAMPLES, rare_failure
 from ...targets import Results, check_folder
 from ..common.options import check_json, tell
@@ -28,7 +30,8 @@ def run(options: argparse.Namespace) -> int:
         least=LEAST if options.least is None else options.least,
         **held(options),
     )
+    result = replace(result, commands=commands_of(plan))
     files.write(options.output, result.write)
-    status = tell(result.document(), options, lambda: print(result.text()), files)
+    status = tell(result.document(options.output), options, lambda: print(result.text(options.output)), files)
     met = check_requirements(requirements, result.values())
     return status or int(not met)

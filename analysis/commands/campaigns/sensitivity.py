@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 
+from ...api.samples.plans import commands_of
 from ...campaign.sweeps import part_sweeps
 from ...errors import InputError
 from ...sensitivity.study import sensitivity
@@ -36,14 +38,15 @@ def run(options: argparse.Namespace) -> int:
     result = sensitivity(
         plan, options.sensitivity, **held(options), tell=lambda price: print(f"perilune: {price}", file=sys.stderr)
     )
+    result = replace(result, commands=commands_of(plan))
     files.write(options.output, result.write)
-    return tell(result.document(), options, lambda: print(result.text()), files)
+    return tell(result.document(options.output), options, lambda: print(result.text(options.output)), files)
 
 
 def refuse_alone(options: argparse.Namespace) -> None:
     """Refuse options that go with --sensitivity only."""
     for name, given in (("--hold", options.hold), ("--noise-trial", options.noise_trial)):
-        if given:
+        if given is not None and given != []:
             text = str(given[0] if isinstance(given, list) else given)
             problem = "a batch draws all of its trials"
             raise InputError(name, text, problem, "give --sensitivity N too, or leave it out")

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from typing import Any
 
+from ...api.samples.plans import commands_of
 from ...targets import Results, check_folder
 from ...worst.asked import check_options, margin_asked
 from ...worst.outcome import WorstResult
@@ -14,7 +16,7 @@ from ..common.remarks import say_stale
 from ..common.requirements import check_requirements, read_requirements
 from ..common.sample_plans import held, read_samples
 
-NUMBERS = ("worst", "random", "flights")
+NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -33,7 +35,7 @@ def run(options: argparse.Namespace) -> int:
 def _worst_case(options: argparse.Namespace) -> WorstResult:
     plan = read_samples(options)
     say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
-    return worst_case(plan, options.metric, **_search(options))
+    return replace(worst_case(plan, options.metric, **_search(options)), again=commands_of(plan).replay)
 
 
 def _worst_margin(options: argparse.Namespace) -> WorstResult:
@@ -51,6 +53,6 @@ def _worst_margin(options: argparse.Namespace) -> WorstResult:
 
 
 def _search(options: argparse.Namespace) -> dict[str, Any]:
-    """How is searched, and what is held."""
-    given = {"sigmas": options.sigmas, "flights": options.flights}
+    """The box, the flights, the noise, and what is held."""
+    given = {name: getattr(options, name) for name in ("sigmas", "flights", "realisations", "quantile")}
     return {name: value for name, value in given.items() if value is not None} | held(options)
