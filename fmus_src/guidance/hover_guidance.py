@@ -67,7 +67,7 @@ class HoverGuidance(HoverPlan):
         maximum=5,
         description="0 idle, 1 hold, 2 programme, 3 slow transfer, 4 capture, 5 descend; a change starts a plan",
     )
-    plan_number = Input(0, description="a change starts a plan")
+    plan_number = Input(0, description="of the plan requested; a change starts it")
     thrust_acceleration = Output(0.0, unit="m/s2", direct=True, description="commanded thrust over mass")
     thrust_direction = Output(
         [0.0, 0.0, 1.0],
@@ -94,6 +94,9 @@ class HoverGuidance(HoverPlan):
         direct=True,
         description="of the plan's direction, mean over the next cycle",
     )
+    answered_plan = Output(
+        0, direct=True, description="plan_number of the plan that the outputs belong to; idle: of the last one"
+    )
     plan_time = Output(0.0, unit="s", direct=True, description="since the plan's start")
     thrust_factor = Output(1.0, unit="1", direct=True, description="estimated thrust over commanded thrust")
     reference_position = Output(
@@ -110,7 +113,6 @@ class HoverGuidance(HoverPlan):
     plan_start = State(0.0, frozen=True, unit="s", description="when the plan started")
     in_charge = State(False, description="active at the last sample")
     flown_mode = State(0, description="mode of the last plan")
-    flown_plan = State(0, description="number of the last plan")
     engine_thrust = State(0.0, unit="N", description="thrust now, if the engine does as commanded")
     commanded_thrust = State(0.0, unit="N", description="command within the engine's limits; 0: none")
     start_time = State(0.0, unit="s", description="start of the flight")
@@ -137,7 +139,7 @@ class HoverGuidance(HoverPlan):
             else:
                 self.tilt = vector(0.0, 0.0, 0.0)
                 self.engine_thrust = self.mass * norm(self.velocity_increment) / (self.cycle * self.thrust_factor)
-            if not self.in_charge or self.mode != self.flown_mode or self.plan_number != self.flown_plan:
+            if not self.in_charge or self.mode != self.flown_mode or self.plan_number != self.answered_plan:
                 self.begin_plan(time)
             self.in_charge = True
             self.follow(time)
@@ -161,7 +163,7 @@ class HoverGuidance(HoverPlan):
         """Make the plan of the mode."""
         self.plan_start = time
         self.flown_mode = self.mode
-        self.flown_plan = self.plan_number
+        self.answered_plan = self.plan_number
         self.drop_plan()
         possible = self.can_plan()
         if possible:
