@@ -141,8 +141,8 @@ def test_a_flight_may_begin_with_any_phase(phase):
 
 def contact(flight):
     """What a landing comes to: mass (kg), vertical and horizontal speed (m/s), distance (m) at contact."""
-    names = ("plant.mass", *(f"touchdown.contact_{name}" for name in ("vertical_speed", "horizontal_speed", "distance")))
-    return np.array([flight[name][-1] for name in names])
+    names = ["plant.mass", "touchdown.contact_vertical_speed", "touchdown.contact_horizontal_speed"]
+    return np.array([flight[name][-1] for name in (*names, "touchdown.contact_distance")])
 
 
 @pytest.mark.parametrize("errors", either(["ideal.ssv", "noisy.ssv"], ["ideal.ssv"]))
@@ -160,9 +160,23 @@ def test_a_landing_does_not_depend_on_the_communication_step(step, errors):
 
 @pytest.mark.parametrize("step", [0.075, 0.03])
 def test_steps_that_do_not_divide_the_cycle_land_too(step):
-    flight = perilune.simulate(SYSTEM, parameters=["start_5.ssv", "ideal.ssv"], step=step)
+    """Samples then come late, by up to a step; so does the end of thrust after the probe's contact."""
+    flight = perilune.simulate(SYSTEM, parameters=["start_3.ssv", "ideal.ssv"], step=step)
     within_limits(flight)
     assert flight["sequencer.status"][-1] == 0
+    shipped = perilune.simulate(SYSTEM, parameters=["start_3.ssv", "ideal.ssv"])
+    assert contact(flight) == pytest.approx(contact(shipped), abs=0.1)
+
+
+def test_a_start_in_hover_1_hovers():
+    """At rest over the site: a short capture, then the choice of a site, at the cost of the weight alone."""
+    flight = perilune.simulate(SYSTEM, parameters=["start_4.ssv", "ideal.ssv"])
+    assert flight["sequencer.status"][-1] == 0
+    lasted = flight["sequencer.phase_time[5]"][-1]
+    assert lasted < 20.0 + 12.0
+    hovered = flight["plant.mass"][0] * (1.0 - math.exp(-MU / (RADIUS + 2400.0) ** 2 * lasted / EXHAUST_SPEED))
+    spent = flight["sequencer.phase_mass[4]"][-1] - flight["sequencer.phase_mass[5]"][-1]
+    assert spent == pytest.approx(hovered, rel=0.02)
 
 
 def test_the_mass_of_a_phase_is_of_its_start(ideal):
