@@ -18,6 +18,7 @@ DESCEND = 5
 
 UNLIMITED = 1e9  # s; longer than any flight
 ROUNDING = 1e-9  # s, allowed for in times of communication points
+CYCLE_TOLERANCE = 1e-3  # of a cycle, by which communication points may miss sample instants
 USUAL_CYCLE = 0.1  # s, of the first command, before the communication step is known
 LEAST_THRUST = 0.02  # m/s2; less is not commanded, for the direction's sake
 LEAST_LEVER = 1.0  # m/s2; thrust over mass that a lateral demand is at least referred to
@@ -67,7 +68,7 @@ class HoverGuidance(HoverPlan):
         maximum=5,
         description="0 idle, 1 hold, 2 programme, 3 slow transfer, 4 capture, 5 descend; a change starts a plan",
     )
-    plan_number = Input(0, description="a change starts a plan")
+    plan_number = Input(0, description="of the plan requested; a change starts it")
     thrust_acceleration = Output(0.0, unit="m/s2", direct=True, description="commanded thrust over mass")
     thrust_direction = Output(
         [0.0, 0.0, 1.0],
@@ -94,6 +95,9 @@ class HoverGuidance(HoverPlan):
         direct=True,
         description="of the plan's direction, mean over the next cycle",
     )
+    answered_plan = Output(
+        0, direct=True, description="plan_number of the plan that the outputs belong to; idle: of the last one"
+    )
     plan_time = Output(0.0, unit="s", direct=True, description="since the plan's start")
     thrust_factor = Output(1.0, unit="1", direct=True, description="estimated thrust over commanded thrust")
     reference_position = Output(
@@ -107,15 +111,17 @@ class HoverGuidance(HoverPlan):
     )
     cycle = State(0.1, unit="s", description="time to the next sample")
     tilt = State([0.0, 0.0, 0.0], unit="1", frame="landing site", description="lateral demand after its low-pass")
+    elapsed = State(0.1, unit="s", description="time since the last sample, which velocity_increment covers")
+    sample_time = State(0.0, unit="s", description="time of the last sample")
     plan_start = State(0.0, frozen=True, unit="s", description="when the plan started")
     in_charge = State(False, description="active at the last sample")
     flown_mode = State(0, description="mode of the last plan")
-    flown_plan = State(0, description="number of the last plan")
     engine_thrust = State(0.0, unit="N", description="thrust now, if the engine does as commanded")
     commanded_thrust = State(0.0, unit="N", description="command within the engine's limits; 0: none")
     start_time = State(0.0, unit="s", description="start of the flight")
 
     def initialize(self) -> None:
+        self.sample_time = self.start_time
         self.cycle = USUAL_CYCLE
         if self.sample_period > 0.0:
             self.cycle = self.sample_period
@@ -129,6 +135,11 @@ class HoverGuidance(HoverPlan):
 
     def guide(self, time: float) -> None:
         """Sample at ``time`` (s)."""
+        self.elapsed = time - self.sample_time
+        # nominal but for communication points that miss sample instants, so that rounding does not get in
+        if abs(self.elapsed - self.cycle) <= CYCLE_TOLERANCE * self.cycle or not self.elapsed > 0.0:
+            self.elapsed = self.cycle
+        self.sample_time = time
         if not self.active or self.mode == IDLE:
             self.rest(time)
         else:
@@ -136,8 +147,8 @@ class HoverGuidance(HoverPlan):
                 self.weigh_thrust()
             else:
                 self.tilt = vector(0.0, 0.0, 0.0)
-                self.engine_thrust = self.mass * norm(self.velocity_increment) / (self.cycle * self.thrust_factor)
-            if not self.in_charge or self.mode != self.flown_mode or self.plan_number != self.flown_plan:
+                self.engine_thrust = self.mass * norm(self.velocity_increment) / (self.elapsed * self.thrust_factor)
+            if not self.in_charge or self.mode != self.flown_mode or self.plan_number != self.answered_plan:
                 self.begin_plan(time)
             self.in_charge = True
             self.follow(time)
@@ -161,7 +172,7 @@ class HoverGuidance(HoverPlan):
         """Make the plan of the mode."""
         self.plan_start = time
         self.flown_mode = self.mode
-        self.flown_plan = self.plan_number
+        self.answered_plan = self.plan_number
         self.drop_plan()
         possible = self.can_plan()
         if possible:
@@ -170,13 +181,13 @@ class HoverGuidance(HoverPlan):
             elif self.mode == SLOW:
                 self.plan_transfer(self.slow_speed, self.slow_acceleration)
             elif self.mode == CAPTURE:
-                self.plan_capture(self.cycle)
+                self.plan_capture(self.elapsed)
 
     def weigh_thrust(self) -> None:
         """Compare the thrust of the last cycle with its command."""
-        ends, _, impulse = lagged_thrust(self.engine_thrust, self.commanded_thrust, self.engine_lag, self.cycle)
+        ends, _, impulse = lagged_thrust(self.engine_thrust, self.commanded_thrust, self.engine_lag, self.elapsed)
         self.engine_thrust = ends.z
-        mean = impulse / self.cycle
+        mean = impulse / self.elapsed
         if self.estimate_thrust and mean > 0.0:
             exhaust = STANDARD_GRAVITY * self.specific_impulse
             mass = self.mass + 0.5 * impulse / exhaust
@@ -259,7 +270,7 @@ class HoverGuidance(HoverPlan):
         lateral = shortened(lateral, reach)
         share = 1.0
         if self.tilt_filter > 0.0:
-            share = -math.expm1(-self.cycle / self.tilt_filter)
+            share = -math.expm1(-self.elapsed / self.tilt_filter)
         self.tilt = self.tilt + share * (lateral - self.tilt)
         if wanted < LEAST_THRUST:
             wanted = LEAST_THRUST

@@ -9,7 +9,7 @@ from ..mathlib.hover_programme import programme
 from ..mathlib.hover_shape import END, SHAPE, UNKNOWNS, clear, pitch, shape
 from ..mathlib.hover_solution import NONE, VERTICAL
 from ..mathlib.transfer_polynomial import TRANSFER, capture, derivative, expense, slow_duration, thrust_along, transfer
-from ..mathlib.vectors import Vector3, add_along, cross, dot, is_finite, norm, smallest_component, vector
+from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
 
 HOLDING = 0  # kinds of plans besides those of mathlib.hover_solution
 POLYNOMIAL = 4
@@ -19,6 +19,7 @@ NO_PROGRAMME = 1
 BEYOND_LIMITS = 2
 NO_PLAN = 3
 
+LEAST_MEASURED = 0.5  # of the planned minimum, below which the engine is off
 # What a transfer keeps to that stands in for a programme.
 STANDBY_SPEED = 60.0  # m/s
 STANDBY_ACCELERATION = 0.5  # m/s2
@@ -188,9 +189,15 @@ class HoverPlan(Block, interface=True):
         self.take_polynomial(duration, spent)
 
     def plan_capture(self, cycle: float) -> None:
-        """A polynomial from flight, with the thrust measured over the last cycle (s)."""
+        """A polynomial from flight, with the thrust measured over the last cycle (s).
+
+        Without thrust to go on from, the engine is assumed to take up the weight along its axis at once.
+        """
         exhaust = STANDARD_GRAVITY * self.specific_impulse
         force = norm(self.velocity_increment) / cycle
+        full = self.maximum_thrust / self.mass
+        if force < LEAST_MEASURED * self.planned_minimum * full:
+            force = clip(dot(self.lift(), self.attitude), self.planned_minimum * full, self.planned_maximum * full)
         pull = force * self.attitude - self.lift()
         jerk = force * cross(self.angular_rate, self.attitude) + force * force / exhaust * self.attitude
         limits = [0.0] * 4

@@ -19,9 +19,9 @@ class AttitudeMoonLander(MoonLander):
     without its part along d, shortened to maximum_angular_acceleration, held over the communication step. Thrust is
     thrust_factor times the command, with the lag and the end of a burn of `interfaces.moon_lander`, and none from
     where mass has come down to dry_mass. Gravity is central, or uniform along -z where uniform_gravity is not 0; then
-    altitude is z and the vertical z too. Where altitude is 0 or less at the end of an internal step, the lander goes
-    back along its velocity to altitude 0, and that state is kept. An initial attitude without length is the
-    z axis. Frame: landing site.
+    altitude is z and the vertical z too. Where altitude is 0 or less at the end of an internal step, position and
+    velocity go back to altitude 0 with the mean acceleration of that step, and are kept. An initial attitude without
+    length is the z axis. Frame: landing site.
 
     Attitude: Runge-Kutta of fourth order, two steps in each internal one. The results depend on how communication
     points cut a flight as those of spherical_moon_lander do.
@@ -119,6 +119,7 @@ class AttitudeMoonLander(MoonLander):
         """Move by h (s) under one command (N); returns the velocity that thrust gives (m/s)."""
         lasting = 0.0
         gained = vector(0.0, 0.0, 0.0)
+        before = self.velocity
         if self.mass > self.dry_mass:
             lasting = self.thrusting_time(h, commanded)
             gained = self.advance(t, lasting, commanded)
@@ -130,19 +131,21 @@ class AttitudeMoonLander(MoonLander):
             gained = gained + pushed
         self.touch()
         if self.ground_contact:
-            self.go_back(h)
+            self.go_back(h, (self.velocity - before) / h)
         self.touch_probe()
         return gained
 
-    def go_back(self, h: float) -> None:
-        """From below the ground to it, along the velocity, by no more than h (s)."""
+    def go_back(self, h: float, acceleration: Vector3) -> None:
+        """From below the ground to it, by no more than h (s), with the mean acceleration (m/s2) of that time."""
         below = self.position
+        last = self.velocity
         back = 0.0
         for _ in range(3):  # Newton's steps; the ground is all but flat over one of ours
             sinking = -dot(self.velocity, self.vertical())
             if sinking > 0.0:
                 back = clip(back - self.altitude / sinking, 0.0, h)
-                self.position = below - back * self.velocity
+                self.velocity = last - back * acceleration
+                self.position = below - back * (last - 0.5 * back * acceleration)
                 self.altitude = self.height(self.position)
 
     def touch_probe(self) -> None:

@@ -9,13 +9,16 @@ class CommandSwitch(Block):
     """The command of one of three sources, without thrust unless the engine is on.
 
     `source` 1 is the sequencer's own command, 2 the braking guidance's, 3 the hover guidance's, and only its
-    angular_acceleration_feed is passed on. Without a source there is no thrust, and a direction of length 0, at which
-    the attitude control only brings the rate to rest. Frame: landing site.
+    angular_acceleration_feed is passed on. Where the hover guidance takes over, the last command is held until
+    hover_plan, the plan that its command belongs to, is the requested plan_number. Without a source there is no thrust,
+    and a direction of length 0, at which the attitude control only brings the rate to rest. Frame: landing site.
     Ours: docs/systems/landing_mission.md.
     """
 
     source = Input(0, description="0 none, 1 own, 2 braking, 3 hover")
     engine_on = Input(False, description="thrust is given")
+    plan_number = Input(0, description="of the plan requested from the hover guidance")
+    hover_plan = Input(0, description="plan_number that the hover guidance's command belongs to")
     own_thrust_acceleration = Input(0.0, unit="m/s2", description="the sequencer's own command: thrust over mass")
     own_thrust_direction = Input(
         [0.0, 0.0, 0.0],
@@ -63,10 +66,17 @@ class CommandSwitch(Block):
     )
 
     def initialize(self) -> None:
-        self.pass_on()
+        self.switch()
+
+    def switch(self) -> None:
+        """Pass on the command in charge; until the requested plan is answered, the outputs stay."""
+        if self.source != HOVER_GUIDANCE or self.hover_plan == self.plan_number:
+            self.pass_on()
+        if not self.engine_on or self.source < OWN or self.source > HOVER_GUIDANCE:
+            self.thrust_acceleration = 0.0
 
     def pass_on(self) -> None:
-        """Put the command in charge on the outputs."""
+        """Put the command of the source on the outputs."""
         self.angular_acceleration_feed = vector(0.0, 0.0, 0.0)
         if self.source == OWN:
             self.thrust_acceleration = self.own_thrust_acceleration
@@ -90,8 +100,6 @@ class CommandSwitch(Block):
         else:
             self.thrust_direction = vector(0.0, 0.0, 0.0)
             self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
-        if not self.engine_on or self.source < OWN or self.source > HOVER_GUIDANCE:
-            self.thrust_acceleration = 0.0
 
     def step(self, t: float, h: float) -> None:
-        self.pass_on()
+        self.switch()

@@ -51,11 +51,11 @@ class HoverPhases(LandingSequence, interface=True):
     def begin_first_hover(self) -> None:
         """Capture the hover over the site."""
         self.target_position = above_site(self.site, self.preliminary_altitude, self.moon_radius)
-        self.hover(CAPTURE)
+        self.request_plan(CAPTURE)
 
     def move_site_ahead(self, time: float) -> None:
         """The site below the place that lookahead of the velocity leads to."""
-        place = self.estimated_position + self.lookahead * self.estimated_velocity
+        place = self.sampled_position + self.lookahead * self.sampled_velocity
         self.site = site_below(place, self.moon_radius)
         altitude = clip(altitude_of(place, self.moon_radius), self.lowest_hover, self.preliminary_altitude)
         self.target_position = above_site(self.site, altitude, self.moon_radius)
@@ -63,8 +63,8 @@ class HoverPhases(LandingSequence, interface=True):
 
     def is_settled(self) -> bool:
         """Whether the vehicle hovers at its target."""
-        close = norm(self.estimated_position - self.target_position) <= self.settled_distance
-        return close and norm(self.estimated_velocity) <= self.settled_speed
+        close = norm(self.sampled_position - self.target_position) <= self.settled_distance
+        return close and norm(self.sampled_velocity) <= self.settled_speed
 
     def choose(self, ahead: float, chosen_since: float) -> bool:
         """Hover over a site that is being chosen from ``chosen_since`` (s) on; whether that is over."""
@@ -78,7 +78,7 @@ class HoverPhases(LandingSequence, interface=True):
 
     def first_hover(self, t: float, ahead: float) -> bool:
         """Capture, then choose."""
-        if self.plan_end < 0.0 and self.hover_finished:
+        if self.plan_end < 0.0 and self.plan_is_over():
             self.plan_end = t
         if self.plan_end < 0.0:
             return False
@@ -95,47 +95,47 @@ class HoverPhases(LandingSequence, interface=True):
         """Down to the second hover, over the site of the first re-designation."""
         self.first_site = self.site
         reach = self.reach_over_drop * (self.preliminary_altitude - self.final_altitude)
-        self.move_site(self.redesignation_1, reach, time)
+        self.move_site(self.sampled_move_1, reach, time)
         self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
-        self.hover(PROGRAMME)
+        self.request_plan(PROGRAMME)
 
     def transfer(self, ahead: float) -> bool:
         """Until the plan is over; without a re-designation where it would need too much."""
-        if not self.plan_judged:
+        if self.is_answered() and not self.plan_judged:
             self.plan_judged = True
-            if self.mass - self.predicted_propellant - self.reserve < self.dry_mass:
+            if self.sampled_mass - self.sampled_propellant - self.reserve < self.dry_mass:
                 self.note(DROPPED, ahead)
                 self.site = self.first_site
                 self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
-                self.hover(PROGRAMME)
+                self.request_plan(PROGRAMME)
                 return False
-        return self.hover_finished
+        return self.plan_is_over()
 
     def begin_second_hover(self) -> None:
         """Hold where the transfer went."""
         self.target_position = above_site(self.site, self.final_altitude, self.moon_radius)
-        self.hover(HOLD)
+        self.request_plan(HOLD)
 
     def begin_approach(self, time: float) -> None:
         """Slowly down to the last hover, over the site of the second re-designation."""
-        self.move_site(self.redesignation_2, self.second_reach, time)
+        self.move_site(self.sampled_move_2, self.second_reach, time)
         self.target_position = above_site(self.site, self.cutoff_altitude, self.moon_radius)
-        self.hover(SLOW)
+        self.request_plan(SLOW)
 
     def begin_descent(self) -> None:
         """Hold over the site."""
         self.target_position = above_site(self.site, self.cutoff_altitude, self.moon_radius)
-        self.hover(HOLD)
+        self.request_plan(HOLD)
 
     def descend(self, ahead: float) -> bool:
         """Sink after a while, until the probe touches the ground."""
-        if self.probe_contact:
+        if self.sampled_probe_contact:
             return True
-        if self.ground_contact or altitude_of(self.estimated_position, self.moon_radius) <= self.cut_altitude:
+        if self.sampled_ground_contact or altitude_of(self.sampled_position, self.moon_radius) <= self.cut_altitude:
             self.note(CUT_OFF, ahead)
             return True
         if self.hover_mode == HOLD and self.since_start(ahead) >= self.descent_wait - ROUNDING:
-            self.hover(SINK)
+            self.request_plan(SINK)
         return False
 
     def begin_contact(self) -> None:
@@ -144,10 +144,10 @@ class HoverPhases(LandingSequence, interface=True):
 
     def face_up(self, time: float) -> None:
         """Own command: the local vertical, without thrust."""
-        up = vertical_at(self.estimated_position, self.moon_radius)
+        up = vertical_at(self.sampled_position, self.moon_radius)
         self.thrust_direction = up
-        self.thrust_direction_rate = across(self.estimated_velocity, up) / norm(
-            from_centre(self.estimated_position, self.moon_radius)
+        self.thrust_direction_rate = across(self.sampled_velocity, up) / norm(
+            from_centre(self.sampled_position, self.moon_radius)
         )
         self.thrust_acceleration = 0.0
         self.command_time = time

@@ -1,7 +1,8 @@
 """What the phases of a landing share: connectors, the order of phases, what is remembered of each, statuses."""
 
-from ..block import Block, Input, Output, Parameter, State
+from ..block import Output, Parameter, State
 from ..mathlib.vectors import vector
+from .landing_inputs import LandingInputs
 
 REFUSED_PHASE = 0
 DEORBIT = 1
@@ -42,12 +43,15 @@ NEVER = -1.0  # s; the time of what has not happened
 ROUNDING = 1e-6  # s, allowed for in times of communication points
 
 
-class LandingSequence(Block, interface=True):
+class LandingSequence(LandingInputs, interface=True):
     """Phases of a landing, entered one after another, with the command that each of them gives.
 
     Phases: 1 deorbit, 2 coast, 3 braking, 4 hover 1, 5 transfer, 6 hover 2, 7 approach, 8 descent, 9 contact. They only
-    go on. No output depends directly on an input: what is decided from the values of t_n holds from t_(n+1). A status
-    is remembered with its first time, and `status` is the largest so far.
+    go on. No output depends directly on an input: what is decided from the inputs of one cycle holds from the next. A
+    status is remembered with its first time, and in `status_flags`; `status` is the largest so far.
+
+    Plans of the hover guidance are requested by a `plan_number`. The guidance answers with the number of the plan that
+    its outputs belong to, and until that is the requested one nothing it puts out is acted on.
     Frame: landing site, not rotating; the Moon's centre is moon_radius below the origin.
     """
 
@@ -61,34 +65,13 @@ class LandingSequence(Block, interface=True):
     preliminary_altitude = Parameter(2400.0, unit="m", description="altitude of hover 1, to which braking goes")
     final_altitude = Parameter(100.0, unit="m", description="altitude of hover 2, to which the transfer goes")
     cutoff_altitude = Parameter(4.0, unit="m", description="altitude of the hover that the approach goes to")
-    estimated_position = Input([0.0, 0.0, 0.0], unit="m", frame="landing site", description="position")
-    estimated_velocity = Input([0.0, 0.0, 0.0], unit="m/s", frame="landing site", description="velocity")
-    mass = Input(1.0, unit="kg", description="mass of the vehicle")
-    attitude = Input([0.0, 0.0, 1.0], unit="1", frame="landing site", description="measured unit vector of thrust")
-    braking_direction = Input(
-        [0.0, 0.0, 1.0], unit="1", frame="landing site", description="thrust direction of the braking guidance"
-    )
-    braking_time_to_go = Input(0.0, unit="s", description="of the braking guidance")
-    braking_status = Input(0, description="of the braking guidance; 2 and more: no solution of its own")
-    braking_finished = Input(False, description="the braking guidance has ended its flight")
-    hover_finished = Input(False, description="the plan of the hover guidance is over")
-    hover_status = Input(0, description="of the hover guidance; 0 good")
-    predicted_propellant = Input(0.0, unit="kg", description="what the hover guidance's plan needs")
-    probe_contact = Input(False, description="the probe has touched the ground")
-    ground_contact = Input(False, description="the ground was reached")
-    redesignation_1 = Input(
-        [0.0, 0.0], unit="m", frame="landing site", description="move of the site, x and y, read when hover 1 ends"
-    )
-    redesignation_2 = Input(
-        [0.0, 0.0], unit="m", frame="landing site", description="move of the site, x and y, read when hover 2 ends"
-    )
     phase = Output(0, minimum=0, maximum=9, description="1 to 9, see the block; 0: refused")
     braking_active = Output(False, description="the braking guidance is to command")
     hover_active = Output(False, description="the hover guidance is to command")
     hover_mode = Output(
         IDLE, minimum=0, maximum=5, description="0 idle, 1 hold, 2 programme, 3 slow, 4 capture, 5 sink"
     )
-    plan_number = Output(0, description="a change tells the hover guidance to begin anew")
+    plan_number = Output(0, description="of the plan requested from the hover guidance; a change requests a new one")
     target_position = Output([0.0, 0.0, 0.0], unit="m", frame="landing site", description="of the hover guidance")
     site = Output([0.0, 0.0, 0.0], unit="m", frame="landing site", description="where to land, on the sphere")
     source = Output(
@@ -112,16 +95,25 @@ class LandingSequence(Block, interface=True):
         description="largest so far: 1 re-designation shortened, 2 hover guidance said so, 3 timeout, 4 site moved, "
         "5 re-designation dropped, 6 cut off without the probe, 7 out of propellant, 8 braking failed, 9 refused",
     )
+    status_flags = Output(
+        0, minimum=0, maximum=511, description="all statuses so far: the sum of 2^(k - 1) over every status k that came"
+    )
     status_time = Output([NEVER] * 9, unit="s", description="first time of each status from 1 on; -1: never")
     phase_time = Output([NEVER] * 9, unit="s", description="start of each phase; -1: never")
-    phase_mass = Output([0.0] * 9, unit="kg", description="mass at the start of each phase; 0: never")
+    phase_mass = Output(
+        [0.0] * 9, unit="kg", description="mass at the start of each phase, known a cycle later; 0: never"
+    )
     finished = Output(False, description="the flight is over")
-    start_time = State(0.0, unit="s", description="start of the flight")
+    mass_is_known = State(False, description="phase_mass of the phase has been set")
 
     def note(self, status: int, time: float) -> None:
         """Remember a status at ``time`` (s)."""
         if self.status_time[status - 1] < 0.0:
             self.status_time[status - 1] = time
+            flag = 1
+            for _ in range(status - 1):
+                flag = 2 * flag
+            self.status_flags = self.status_flags + flag
         if status > self.status:
             self.status = status
 
@@ -129,7 +121,7 @@ class LandingSequence(Block, interface=True):
         """Go on to a phase, which holds from ``time`` (s)."""
         self.phase = phase
         self.phase_time[phase - 1] = time
-        self.phase_mass[phase - 1] = self.mass
+        self.mass_is_known = False
 
     def since_start(self, time: float) -> float:
         """How long (s) the phase has gone on at ``time``."""
@@ -149,8 +141,16 @@ class LandingSequence(Block, interface=True):
             self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
             self.burn_duration = 0.0
 
-    def hover(self, mode: int) -> None:
-        """Give the command to the hover guidance, with a plan of its own."""
+    def request_plan(self, mode: int) -> None:
+        """Give the command to the hover guidance, with a new plan."""
         self.take_over(HOVER_GUIDANCE, True)
         self.hover_mode = mode
         self.plan_number = self.plan_number + 1
+
+    def is_answered(self) -> bool:
+        """Whether the hover guidance's outputs belong to the requested plan."""
+        return self.source == HOVER_GUIDANCE and self.sampled_plan == self.plan_number
+
+    def plan_is_over(self) -> bool:
+        """Whether the requested plan has been flown."""
+        return self.is_answered() and self.sampled_hover_finished

@@ -14,7 +14,6 @@ from .landing_sequence import (
     DESCENT,
     HOVER_1,
     HOVER_2,
-    HOVER_GUIDANCE,
     HOVER_GUIDANCE_SAID,
     OUT_OF_PROPELLANT,
     REFUSED,
@@ -37,15 +36,16 @@ class LandingSequencer(OrbitPhases, HoverPhases):
     and probe_length not one below the other, any parameter that is not finite.
     free_flight is true in phases 1 to 3 where the engine has been off for settling_time.
 
-    The hover guidance must answer at the communication point at which it is told, so its cycle is the step.
+    Decisions come once a cycle, from the inputs of a cycle before, whatever the communication step.
     Stages and altitudes: Huang Yichun 2017. Rules and times are ours: docs/systems/landing_mission.md.
     """
 
     settling_time = Parameter(2.0, unit="s", minimum=0.0, description="from the engine's end to free flight")
-    under_way = State(False, description="a step has been taken")
     last_thrust = State(0.0, frozen=True, unit="s", description="the engine is off from then on")
 
     def initialize(self) -> None:
+        self.sample_inputs(self.start_time)
+        self.is_sampled = False  # once more with the first step, when all inputs are known
         self.last_thrust = self.start_time
         if self.is_refused():
             self.phase = REFUSED_PHASE
@@ -63,7 +63,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         lengths = lengths + self.settled_distance + self.second_reach + self.lowest_hover + self.cut_altitude
         others = self.deorbit_throttle + self.pointing_tolerance + self.slow_speed + self.settled_speed
         others = others + self.reach_over_drop + self.reserve + self.dry_mass + self.gravitational_parameter
-        moves = self.redesignation_1.x + self.redesignation_1.y + self.redesignation_2.x + self.redesignation_2.y
+        moves = self.sampled_move_1.x + self.sampled_move_1.y + self.sampled_move_2.x + self.sampled_move_2.y
         if not math.isfinite(times + lengths + others + moves):
             return True
         if not math.isfinite(self.minimum_thrust + self.maximum_thrust + self.preliminary_altitude + self.probe_length):
@@ -98,9 +98,9 @@ class LandingSequencer(OrbitPhases, HoverPhases):
 
     def watch(self, ahead: float) -> None:
         """What may be said in any phase."""
-        if self.source == HOVER_GUIDANCE and self.hover_status != 0:
+        if self.is_answered() and self.sampled_hover_status != 0:
             self.note(HOVER_GUIDANCE_SAID, ahead)
-        if self.mass <= self.dry_mass:
+        if self.sampled_mass <= self.dry_mass:
             self.note(OUT_OF_PROPELLANT, ahead)
 
     def end_braking(self, how: int, ahead: float) -> None:
@@ -137,7 +137,7 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         elif self.phase == HOVER_2:
             over = self.choose(ahead, self.phase_time[HOVER_2 - 1])
         elif self.phase == APPROACH:
-            over = self.hover_finished
+            over = self.plan_is_over()
         elif self.phase == DESCENT:
             over = self.descend(ahead)
         if over:
@@ -145,21 +145,32 @@ class LandingSequencer(OrbitPhases, HoverPhases):
 
     def step(self, t: float, h: float) -> None:
         if not self.finished:
-            ahead = t + h
-            if not self.under_way:
-                self.under_way = True
-                self.phase_mass[self.phase - 1] = self.mass
-            self.watch(ahead)
-            if self.phase == CONTACT:
-                self.finished = self.ground_contact
-            elif self.ground_contact and self.phase < DESCENT:
-                self.note(CUT_OFF, ahead)
-                self.enter(CONTACT, ahead)
-            else:
-                self.go_on(t, ahead)
-            if self.phase == CONTACT:
-                self.face_up(t)
-            if self.engine_on:
-                self.last_thrust = ahead + h
-            off = ahead - self.last_thrust + ROUNDING >= self.settling_time
-            self.free_flight = self.phase <= BRAKING and not self.engine_on and off
+            if not self.is_sampled:
+                self.sample_inputs(t)
+            due = self.is_due(t + h)
+            if due:
+                length = h
+                if self.cycle > 0.0:
+                    length = self.cycle
+                self.decide(self.sampled_time, t + h, length)
+                self.is_sampled = False
+
+    def decide(self, t: float, ahead: float, length: float) -> None:
+        """From the inputs of ``t`` (s), what holds from ``ahead`` (s) on for a cycle's ``length`` (s)."""
+        if not self.mass_is_known:
+            self.mass_is_known = True
+            self.phase_mass[self.phase - 1] = self.sampled_mass
+        self.watch(ahead)
+        if self.phase == CONTACT:
+            self.finished = self.sampled_ground_contact
+        elif self.sampled_ground_contact and self.phase < DESCENT:
+            self.note(CUT_OFF, ahead)
+            self.enter(CONTACT, ahead)
+        else:
+            self.go_on(t, ahead)
+        if self.phase == CONTACT:
+            self.face_up(t)
+        if self.engine_on:
+            self.last_thrust = ahead + length
+        off = ahead - self.last_thrust + ROUNDING >= self.settling_time
+        self.free_flight = self.phase <= BRAKING and not self.engine_on and off

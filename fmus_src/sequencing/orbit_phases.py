@@ -6,7 +6,7 @@ from ..block import Parameter, State
 from ..mathlib.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range
 from ..mathlib.gravity import altitude_of, from_centre
 from ..mathlib.vectors import dot, norm
-from .landing_sequence import BRAKING_FAILED, BRAKING_GUIDANCE, NEVER, OWN, ROUNDING, TIMEOUT, LandingSequence
+from .landing_sequence import BRAKING, BRAKING_FAILED, BRAKING_GUIDANCE, NEVER, OWN, ROUNDING, TIMEOUT, LandingSequence
 
 NOT_CONVERGED = 2  # status of the braking guidance from which on its command is an old one
 # What deorbit, coast and braking say of themselves
@@ -50,7 +50,7 @@ class OrbitPhases(LandingSequence, interface=True):
     def face_back(self, time: float) -> None:
         """Own command: against the horizontal velocity, without thrust."""
         self.thrust_direction, self.thrust_direction_rate = against_horizontal(
-            self.estimated_position, self.estimated_velocity, self.moon_radius
+            self.sampled_position, self.sampled_velocity, self.moon_radius
         )
         self.thrust_acceleration = 0.0
         self.command_time = time
@@ -64,10 +64,10 @@ class OrbitPhases(LandingSequence, interface=True):
         """Wait, ignite, burn."""
         if not self.holding:
             self.face_back(t)
-            acceleration = self.deorbit_throttle * self.maximum_thrust / self.mass
+            acceleration = self.deorbit_throttle * self.maximum_thrust / self.sampled_mass
             burn = deorbit_burn(
-                self.estimated_position,
-                self.estimated_velocity,
+                self.sampled_position,
+                self.sampled_velocity,
                 self.moon_radius + self.pericentre_altitude,
                 self.moon_radius,
                 self.gravitational_parameter,
@@ -91,17 +91,17 @@ class OrbitPhases(LandingSequence, interface=True):
 
     def is_time_to_burn(self, burn: float) -> bool:
         """Whether a burn (s) from now has its middle braking_range and half a revolution before the site, or later."""
-        turned = norm(self.estimated_velocity) / norm(from_centre(self.estimated_position, self.moon_radius))
+        turned = norm(self.sampled_velocity) / norm(from_centre(self.sampled_position, self.moon_radius))
         place = math.pi + self.braking_range / self.moon_radius + 0.5 * burn * turned
-        return central_angle(self.estimated_position, self.moon_radius) <= place
+        return central_angle(self.sampled_position, self.moon_radius) <= place
 
     def coast(self, t: float, ahead: float) -> int:
         """Until the site is near."""
         self.face_back(t)
-        before_site = self.estimated_position.z > -self.moon_radius
-        if before_site and ground_range(self.estimated_position, self.moon_radius) <= self.braking_range:
+        before_site = self.sampled_position.z > -self.moon_radius
+        if before_site and ground_range(self.sampled_position, self.moon_radius) <= self.braking_range:
             return OVER
-        if altitude_of(self.estimated_position, self.moon_radius) < self.lowest_coast:
+        if altitude_of(self.sampled_position, self.moon_radius) < self.lowest_coast:
             self.note(TIMEOUT, ahead)
             return OVER
         return GOES_ON
@@ -110,32 +110,37 @@ class OrbitPhases(LandingSequence, interface=True):
         """The braking guidance's command, without thrust until the axis is on it."""
         self.take_over(BRAKING_GUIDANCE, False)
 
+    def ignite(self, answered: bool, ahead: float) -> None:
+        """Turn the engine on once the axis is on the guidance's direction, or after a while in any case."""
+        least = math.cos(self.pointing_tolerance) * norm(self.sampled_attitude) * norm(self.sampled_direction)
+        if answered and dot(self.sampled_attitude, self.sampled_direction) >= least:
+            self.engine_on = True
+        elif self.since_start(ahead) >= self.pointing_patience - ROUNDING:
+            self.note(TIMEOUT, ahead)
+            self.engine_on = True
+
     def brake(self, t: float, ahead: float) -> int:
-        """Ignite, and look for the end."""
+        """Ignite, and look for the end. What the guidance put out before the phase began does not count."""
+        answered = self.sampled_command_time >= self.phase_time[BRAKING - 1] - ROUNDING
         if not self.engine_on:
-            length = norm(self.attitude) * norm(self.braking_direction)
-            pointing = dot(self.attitude, self.braking_direction) >= math.cos(self.pointing_tolerance) * length
-            if pointing:
-                self.engine_on = True
-            elif self.since_start(ahead) >= self.pointing_patience - ROUNDING:
-                self.note(TIMEOUT, ahead)
-                self.engine_on = True
-        if self.braking_status < NOT_CONVERGED:
+            self.ignite(answered, ahead)
+        if self.sampled_braking_status < NOT_CONVERGED or not answered:
             self.unsolved_since = NEVER
         elif self.unsolved_since < 0.0:
             self.unsolved_since = t
-        far = ground_range(self.estimated_position, self.moon_radius) > self.far_range
+        far = ground_range(self.sampled_position, self.moon_radius) > self.far_range
         unsolved = self.unsolved_since >= 0.0 and ahead - self.unsolved_since >= self.solution_patience - ROUNDING
         if unsolved or self.since_start(ahead) >= self.braking_patience - ROUNDING:
             self.note(BRAKING_FAILED, ahead)
             return ELSEWHERE if far else OVER
         # without a solution from its start on, the guidance says that no time is left
-        counts = self.braking_status < NOT_CONVERGED or self.braking_time_to_go > 0.0
-        ending = self.braking_finished or (counts and self.braking_time_to_go <= self.handover_time_to_go)
+        counts = self.sampled_braking_status < NOT_CONVERGED or self.sampled_time_to_go > 0.0
+        ending = self.sampled_braking_finished or (counts and self.sampled_time_to_go <= self.handover_time_to_go)
+        ending = ending and answered
         if ending and far:
             self.elsewhere = True
         if self.elsewhere:
-            if self.braking_finished or norm(self.estimated_velocity) < self.slow_speed:
+            if self.sampled_braking_finished or norm(self.sampled_velocity) < self.slow_speed:
                 return ELSEWHERE
         elif ending:
             return OVER

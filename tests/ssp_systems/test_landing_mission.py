@@ -139,6 +139,54 @@ def test_a_flight_may_begin_with_any_phase(phase):
     assert flight["touchdown.contact_distance"][-1] < 4.0
 
 
+def contact(flight):
+    """What a landing comes to: mass (kg), vertical and horizontal speed (m/s), distance (m) at contact."""
+    names = ["plant.mass", "touchdown.contact_vertical_speed", "touchdown.contact_horizontal_speed"]
+    return np.array([flight[name][-1] for name in (*names, "touchdown.contact_distance")])
+
+
+@pytest.mark.parametrize("errors", either(["ideal.ssv", "noisy.ssv"], ["ideal.ssv"]))
+@pytest.mark.parametrize("step", [0.05, 0.02, 0.01])
+def test_a_landing_does_not_depend_on_the_communication_step(step, errors):
+    """Whoever steps the system, the flight software has its own cycle; what is left is that of the plant."""
+    first = [errors] if LONG or step == 0.05 else ["start_3.ssv", errors]  # the coast is most of the time
+    shipped, stepped = (perilune.simulate(SYSTEM, parameters=first, step=each) for each in (0.1, step))
+    within_limits(stepped)
+    assert stepped["sequencer.status"][-1] == shipped["sequencer.status"][-1] == 0
+    assert contact(stepped) == pytest.approx(contact(shipped), abs=0.01, rel=0.09 / 479.0)
+    times = [[flight[f"sequencer.phase_time[{k}]"][-1] for k in range(1, 10)] for flight in (stepped, shipped)]
+    assert times[0] == pytest.approx(times[1], abs=0.101)  # a decision may come a cycle earlier or later
+
+
+@pytest.mark.parametrize("step", [0.075, 0.03])
+def test_steps_that_do_not_divide_the_cycle_land_too(step):
+    """Samples then come late, by up to a step; so does the end of thrust after the probe's contact."""
+    flight = perilune.simulate(SYSTEM, parameters=["start_3.ssv", "ideal.ssv"], step=step)
+    within_limits(flight)
+    assert flight["sequencer.status"][-1] == 0
+    shipped = perilune.simulate(SYSTEM, parameters=["start_3.ssv", "ideal.ssv"])
+    assert contact(flight) == pytest.approx(contact(shipped), abs=0.1)
+
+
+def test_a_start_in_hover_1_hovers():
+    """At rest over the site: a short capture, then the choice of a site, at the cost of the weight alone."""
+    flight = perilune.simulate(SYSTEM, parameters=["start_4.ssv", "ideal.ssv"])
+    assert flight["sequencer.status"][-1] == 0
+    lasted = flight["sequencer.phase_time[5]"][-1]
+    assert lasted < 20.0 + 12.0
+    hovered = flight["plant.mass"][0] * (1.0 - math.exp(-MU / (RADIUS + 2400.0) ** 2 * lasted / EXHAUST_SPEED))
+    spent = flight["sequencer.phase_mass[4]"][-1] - flight["sequencer.phase_mass[5]"][-1]
+    assert spent == pytest.approx(hovered, rel=0.02)
+
+
+def test_the_mass_of_a_phase_is_of_its_start(ideal):
+    """phase_mass is the plant's mass in the row of phase_time, for every phase."""
+    for phase in range(1, 10):
+        begin = started(ideal, phase)
+        assert ideal.time[begin] == pytest.approx(ideal[f"sequencer.phase_time[{phase}]"][-1], abs=1e-9)
+        assert ideal[f"sequencer.phase_mass[{phase}]"][-1] == ideal["plant.mass"][begin]
+
+
 STATUSES = {
     1: {"parameters": ["start_5.ssv"], "set": {"sequencer.redesignation_1[1]": -3200}},
     2: {"parameters": ["start_4.ssv"]},

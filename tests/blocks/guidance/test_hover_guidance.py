@@ -104,6 +104,35 @@ def test_thrust_is_estimated_from_an_engine_with_a_lag(lag, factor):
     assert abs(errors[-1]) < 5e-4
 
 
+@pytest.mark.parametrize("steps", [(0.075, 0.15), (0.08, 0.08, 0.16, 0.08)])
+def test_samples_that_come_late_count_with_their_own_time(steps):
+    """An engine that does as told, seen at communication points that miss the sample instants: the factor stays 1."""
+    block = begun(mode=HOLD, position=TARGET, velocity_increment=[0.0, 0.0, GRAVITY * H])
+    time = 0.0
+    for n in range(60):
+        elapsed = steps[n % len(steps)]
+        gained = -EXHAUST * math.log1p(-block.commanded_thrust * elapsed / EXHAUST / block.mass)
+        block.mass *= math.exp(-gained / EXHAUST)
+        block.velocity_increment = [0.0, 0.0, gained]
+        block.step(time, elapsed)
+        time += elapsed
+        assert block.thrust_factor == pytest.approx(1.0, abs=2e-5)
+
+
+def test_the_answer_is_the_number_of_the_plan_flown():
+    block = begun(plan_number=3)
+    assert block.answered_plan == 3
+    block.plan_number = 4
+    assert block.answered_plan == 3
+    block.step(0.0, H)
+    assert block.answered_plan == 4
+    block.active = False
+    block.step(H, H)
+    block.plan_number = 5
+    block.step(2.0 * H, H)
+    assert block.answered_plan == 4  # idle, no plan is made
+
+
 def test_an_estimate_can_be_switched_off_and_follows_no_other_engine():
     for change in ({"estimate_thrust": False}, {}):
         block = begun(mode=HOLD, position=TARGET, **change)

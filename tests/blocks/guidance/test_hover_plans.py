@@ -188,3 +188,22 @@ def test_no_plan_possible_holds_where_it_is(mode, change):
     assert (block.status, block.plan_kind, block.predicted_propellant) == (3, 0, 0.0)
     assert block.reference_position == pytest.approx(START)
     assert block.finished
+
+
+def test_a_capture_at_rest_with_the_engine_off_is_short():
+    """Where it hovers already, nothing is to be planned but the weight: no limit broken, no way lost."""
+    block = capturing(
+        position=[0.0, 0.0, 2400.0],
+        velocity=[0.0] * 3,
+        attitude=[0.0, 0.0, 1.0],
+        angular_rate=[0.0] * 3,
+        velocity_increment=[0.0] * 3,
+    )
+    assert block.status == 0
+    assert block.duration < 12.0
+    gravity = block.gravity_at(block.position)
+    assert block.thrust_acceleration == pytest.approx(gravity, rel=0.01)
+    # the weight over the time of the plan, and no more
+    assert block.predicted_propellant == pytest.approx(560.0 * gravity * block.duration / (319.0 * 9.80665), rel=0.01)
+    for n in range(int(block.duration / H)):
+        assert block.planned_motion(n * H)[0] == pytest.approx([0.0, 0.0, 2400.0], abs=0.2)

@@ -42,5 +42,20 @@ def test_the_command_in_charge_is_passed_on(source, engine_on):
         switch.step(0.0, 0.1)
 
 
+def test_a_command_is_held_until_the_requested_plan_is_answered():
+    """From braking to a hover guidance that samples later: thrust goes on as it was, and ends where the engine does."""
+    switch = CommandSwitch(source=2, engine_on=True, braking_thrust_acceleration=5.0, braking_command_time=7.0)
+    switch.initialize()
+    switch.source, switch.plan_number, switch.hover_plan = 3, 4, 3
+    switch.step(0.0, 0.1)
+    assert (switch.thrust_acceleration, switch.command_time) == (5.0, 7.0)
+    switch.hover_plan, switch.hover_thrust_acceleration = 4, 2.0
+    switch.step(0.1, 0.1)
+    assert switch.thrust_acceleration == 2.0
+    switch.hover_plan, switch.engine_on = 3, False
+    switch.step(0.2, 0.1)
+    assert switch.thrust_acceleration == 0.0
+
+
 def test_every_output_is_direct():
     assert all(variable.direct for variable in CommandSwitch.variables.values() if variable.causality == "output")

@@ -200,6 +200,7 @@ def test_what_holds_of_any_flight(start, flight):
             assert block.status >= status
             noted = [number for number, time in enumerate(block.status_time, 1) if time >= 0.0]
             assert block.status == max(noted, default=0)
+            assert block.status_flags == sum(1 << (number - 1) for number in noted)
             times = [time for time in block.phase_time if time >= 0.0]
             assert times == sorted(times)
             assert len(times) <= 10 - start

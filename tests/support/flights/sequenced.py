@@ -32,6 +32,7 @@ class Flown:
         self.block = LandingSequencer(start_phase=start_phase, mass=values.pop("mass", 600.0))
         self.see(**values)
         self.time = 0.0
+        self.answers = True
         self.block.initialize()
 
     def see(self, **values):
@@ -39,9 +40,12 @@ class Flown:
             setattr(self.block, name, value)
 
     def step(self, count=1, **values):
-        """So many steps with these inputs; returns the block."""
+        """So many steps with these inputs, answered by the guidances at once unless they say otherwise."""
+        self.answers = values.pop("answers", self.answers)
         self.see(**values)
         for _ in range(count):
+            if self.answers:
+                self.see(hover_plan=self.block.plan_number, braking_command_time=self.time)
             self.block.step(self.time, H)
             self.time = round(self.time + H, 9)
         return self.block
