@@ -10,6 +10,7 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 
 from ...flight.results import Result
+from ...verdicts.quantiles import quantiles
 from ..kit.panels import Panel, panel, swatch
 from ..kit.quantities import labelled, number, shown_factor
 from ..kit.signals import SignalGroup, distinct, signal_groups
@@ -111,7 +112,7 @@ def _cut_spikes(axes: Axes, values: np.ndarray) -> None:
     if not finite.size:
         axes.text(0.5, 0.5, "no finite value", transform=axes.transAxes, ha="center", va="center", color=FAINT)
         return
-    low, high = np.quantile(finite, [0.01, 0.99])
+    low, high = quantiles(finite, [0.01, 0.99])
     least, most = float(finite.min()), float(finite.max())
     if not (high > low and most - least > SPIKE * (high - low)):
         return
