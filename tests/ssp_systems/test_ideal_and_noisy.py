@@ -37,7 +37,7 @@ def flight(system, *sets, seed=1, **values):
         set={f"{name}.seed": seed for name in sources} | values,
         stop_time=STOP,
     )
-    return {name: np.asarray(result[name]) for name in result.names}
+    return result.signals
 
 
 def same(first, second):
