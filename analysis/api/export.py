@@ -183,7 +183,7 @@ def _export_file(
     flavours = [flavour] if flavour else [name for name in FLAVOURS if platforms or name == "python"]
     if output is None:
         for each in flavours:
-            check_file("export", own_fmu(file.stem, each))
+            check_file("export", own_fmu(file.stem, each), new_folders=3)  # build/fmus/FLAVOUR
         folder = own_fmu("x", "x").parents[1]
         written = build_own_blocks(file, folder, flavours, platforms, only=only, portable=_zig_is_here())
         if not written:
