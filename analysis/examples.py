@@ -19,8 +19,8 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
     "run": (
         ("perilune run lunar_terminal_guidance --report flight.html", "one landing and its page"),
         (
-            "perilune run lunar_landing --use guidance=astar_guidance --parameters noisy.ssv --output flight.csv",
-            "another guidance, with sensor errors; all signals to a file",
+            "perilune run lunar_landing --use guidance=astar_guidance --parameters ideal.ssv --output flight.csv",
+            "another guidance, no sensor errors; all signals to a file",
         ),
         ("perilune run lunar_terminal_guidance --require 'time < 300'", "exit status 1 if it takes longer"),
         ("perilune export flat_moon_lander", "an FMU, as any other tool writes them"),

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from collections.abc import Callable, Collection
 from pathlib import Path
 
+from .atomic import PARTIAL
 from .errors import InputError
 
+LONGEST_NAME = 255  # bytes, on all common file systems
 PAGES = (".html", ".htm")
 RESULTS = (
     "manifest.json", "trials", "draws.parquet", "summary.json", "checkpoint.json", "pareto.json", "law.json",
@@ -16,42 +19,71 @@ RESULTS = (
 )  # fmt: skip
 
 
-def check_file(option: str, path: Path | None, suffixes: Collection[str] = ()) -> None:
-    """Refuse a file that cannot be written, before anything flies. Raises InputError."""
+def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), new_folders: int = 1) -> None:
+    """Refuse a file that cannot be written, before anything flies: writing is tried. Raises InputError.
+
+    ``new_folders`` are made at most, none of them in the root.
+    """
     if path is None:
         return
-    if path.is_dir():
+    if os.path.isdir(path):
         ending = f", ending with {' or '.join(suffixes)}" if suffixes else ""
         raise InputError(option, str(path), "is a folder", f"give the name of a file in it{ending}")
     if suffixes and path.suffix not in suffixes:
         problem = f"{'neither' if len(suffixes) > 1 else 'not'} {' nor '.join(suffixes)}"
         raise InputError(option, str(path), problem, f"end the name with {' or '.join(suffixes)}")
-    _check_folder(option, path.parent)
-    if path.exists() and not os.access(path, os.W_OK):
-        raise InputError(option, str(path), "cannot be written", "give another file, or change its permissions")
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise InputError(option, str(path), "is a device, which a file would replace", "give the name of a file")
+    _check_folder(option, path, path.parent, new_folders)
+    if os.path.exists(path):
+        try:
+            path.open("ab").close()
+        except OSError as error:
+            problem = f"cannot be written: {error.strerror}"
+            raise InputError(option, str(path), problem, "give another file, or change its permissions") from error
 
 
 def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: str = "--overwrite") -> None:
     """Refuse a folder that cannot be written, or that holds results unless ``overwrite``. Raises InputError.
 
-    ``otherwise`` is the option with which it would not be refused.
+    The folder and the one that it is in may be new, but not in the root. ``otherwise`` is the option with which a
+    folder with results would not be refused.
     """
     if path is None:
         return
-    _check_folder(option, path)
-    held = [name for name in RESULTS if (path / name).exists()]
+    _check_folder(option, path, path, 2)
+    held = [name for name in RESULTS if os.path.exists(path / name)]
     if held and not overwrite:
         problem = f"holds results already ({', '.join(held)})"
         raise InputError(option, str(path), problem, f"give another, or {otherwise}")
 
 
-def _check_folder(option: str, folder: Path) -> None:
-    """A folder that is there and can be written to, or that can be made."""
-    nearest = next(place for place in (folder, *folder.absolute().parents) if place.exists())
-    if not nearest.is_dir():
-        raise InputError(option, str(folder), f"{nearest} is a file", "give another folder")
-    if not os.access(nearest, os.W_OK | os.X_OK):
-        raise InputError(option, str(folder), f"{nearest} cannot be written to", "give another folder")
+def _check_folder(option: str, path: Path, folder: Path, new_folders: int) -> None:
+    """Refuse a path, a file in ``folder`` or this itself, that cannot be written; tried in the nearest that exists."""
+    here = folder.absolute()
+    folders = [here, *here.parents]
+    nearest = next(place for place in folders if os.path.exists(place))
+    missing = folders[: folders.index(nearest)]
+    if not os.path.isdir(nearest):
+        raise InputError(option, str(path), f"{nearest} is a file", "give another folder")
+    if missing and nearest == nearest.parent:
+        remedy = f"make it first, mkdir {missing[-1]}, or leave out the leading {nearest}"
+        raise InputError(option, str(path), f"{missing[-1]} would be a new folder in the root", remedy)
+    if len(missing) > new_folders:
+        remedy = f"make it first, mkdir -p {missing[new_folders]}, or correct the path"
+        raise InputError(option, str(path), f"there is no folder {missing[-1]}", remedy)
+    name = "results" if path == folder else path.name
+    try:
+        if any(len(os.fsencode(place.name)) > LONGEST_NAME for place in missing):
+            raise OSError(errno.ENAMETOOLONG, os.strerror(errno.ENAMETOOLONG))
+        probe = nearest / f".{name}.{os.getpid()}{PARTIAL}"
+        try:
+            probe.open("wb").close()
+        finally:
+            probe.unlink(missing_ok=True)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(option, str(path), f"cannot be written in {nearest}: {reason}", "give another path") from error
 
 
 class Results:

@@ -15,6 +15,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from .data_files import DataFiles, data_problem
 from .mathlib.vector_types import VECTORS, vector
 from .units import unit_definition
 
@@ -222,7 +223,7 @@ def snake_case(name: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
 
 
-class Block:
+class Block(DataFiles):
     """A component: declared variables, `initialize` and `step`.
 
     Subclasses declare variables and write `initialize` (states and outputs at the start, from
@@ -236,7 +237,8 @@ class Block:
 
     ``class Name(Block, interface=True)`` declares connectors only and builds no FMU; ``to_write`` names the methods
     that its blocks write, without which a class is refused.
-    ``python_only = True`` with ``requires`` lets a block use libraries; it then has no C form.
+    ``python_only = True`` with ``requires`` lets a block use libraries; it then has no C form. ``data`` names files
+    next to its source, which it reads by `data_path` and which travel in its FMU.
     """
 
     variables: ClassVar[dict[str, Variable]] = {}
@@ -259,6 +261,9 @@ class Block:
                     cls.variables[name] = value
         if not (cls.__doc__ or "").strip():
             raise DeclarationError(f"{cls.__name__}: write a docstring: purpose, assumptions, source")
+        problem = data_problem(cls.data, cls.python_only)
+        if problem is not None:
+            raise DeclarationError(f"{cls.__name__}: {problem}")
         cls._check_dependencies()
         if not interface:
             cls._check_written()

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import ast
 import importlib
-import importlib.util
 import inspect
 import pkgutil
-import sys
 from functools import cache
 from pathlib import Path
 from types import ModuleType
 
 from .block import Block, DeclarationError
+from .user_modules import import_file
 
 HERE = Path(__file__).parent
 KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
@@ -55,15 +54,11 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
 
     Raises ValueError, with the file's name, when there is none or the file does not import.
     """
-    name = f"perilune_block_file_{path.stem}"
-    spec = importlib.util.spec_from_file_location(name, path)
-    if spec is None or spec.loader is None or not path.is_file():
+    if not path.is_file():
         raise ValueError(f"{path}: not a Python file; give the .py file that defines the blocks")
     _check_names(path)
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
     try:
-        spec.loader.exec_module(module)
+        module = import_file(path)
     except Exception as error:  # whatever the user's file raises is reported as one line
         # Python 3.11 wraps what a declaration raises
         reason = error.__cause__ if isinstance(error.__cause__, DeclarationError) else error

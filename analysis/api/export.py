@@ -16,9 +16,9 @@ from ...fmus_src.export.archive import read_zip, write_zip
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
 from ...fmus_src.export.native_fmu import build_native_fmu
-from ...fmus_src.export.own_blocks import build_own_blocks, own_blocks
+from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with, own_blocks
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
-from ...fmus_src.export.sources import record_source
+from ...fmus_src.export.sources import record_source, remove_outdated
 from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
 from ...fmus_src.places import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu, own_fmus
 from ..atomic import write_atomically
@@ -49,7 +49,8 @@ def export(
 ) -> Exported:
     """Build an FMU, a system as one .ssp with its FMUs, or the blocks of a .py file: `perilune export`.
 
-    ``name`` is a block's, a system's (or its folder), or a file; ``platforms`` of native FMUs (linux64, win64,
+    ``name`` is a block's, a system's (or its folder), or a file; a block of one's own is found by its name in the .py
+    files of the working folder. ``platforms`` of native FMUs (linux64, win64,
     darwin64), by default those that come built, or that a compiler here serves; ``flavour`` native, of a file both as
     far as a compiler is here; ``output`` NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises
     InputError, and ValueError with one line for what is wrong with a block.
@@ -66,6 +67,9 @@ def export(
         if text.endswith(".py"):
             _check_there(Path(text))
             return _export_file(Path(text), platforms, flavour, target)
+        own = _own_file(text)
+        if own is not None:
+            return _export_file(own, platforms, flavour, target, text if text in defines(own) else None)
         return _export_named(text, platforms, flavour or "native", target)
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
@@ -82,6 +86,22 @@ def _check_there(file: Path) -> None:
     raise InputError(str(file), "", "no such file", f"{remedy}: {suggestion(file.name, beside)}" if beside else remedy)
 
 
+def _own_file(name: str) -> Path | None:
+    """The file of the working folder that a block's name means: NAME.py, or the one with a class of that name.
+
+    None for what is known by this name otherwise, and where there is none. Raises InputError for several.
+    """
+    if not name.isidentifier() or name in catalogue() or name in system_names() or Path(name).is_dir():
+        return None
+    file = Path(f"{name}.py")
+    if file.is_file():
+        return file
+    files = [path for path in sorted(Path().glob("*.py")) if name in defines(path)]
+    if len(files) > 1:
+        raise InputError("export", name, f"defined in {', '.join(map(str, files))}", "give the file")
+    return files[0] if files else None
+
+
 def _export_named(name: str, asked: Sequence[str] | None, flavour: Flavour, output: Path | None) -> Exported:
     """An FMU or a system of this repository or of a folder."""
     platforms = [] if flavour == "python" else _platforms(asked, own=False)
@@ -95,8 +115,9 @@ def _export_named(name: str, asked: Sequence[str] | None, flavour: Flavour, outp
         check_file("--output", path, (".ssp",))
         _export_system(open_system(name), path, flavour, platforms)
     else:
-        problem = "neither an FMU, a system nor a .py file"
-        raise InputError("export", name, problem, suggestion(name, [*blocks, *system_names()]))
+        problem = "neither an FMU, a system nor a .py file, and no block of a .py file here"
+        own = [block for path in sorted(Path().glob("*.py")) for block in (path.stem, *defines(path))]
+        raise InputError("export", name, problem, suggestion(name, [*blocks, *system_names(), *own]))
     return Exported((path,), (flavour,), tuple(platforms))
 
 
@@ -154,25 +175,35 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
         write_atomically(path, packed.read_bytes())
 
 
-def _export_file(file: Path, asked: Sequence[str] | None, flavour: Flavour | None, output: Path | None) -> Exported:
-    """The blocks of a file into the working folder's build/fmus, where ``use`` finds them by name."""
+def _export_file(
+    file: Path, asked: Sequence[str] | None, flavour: Flavour | None, output: Path | None, only: str | None = None
+) -> Exported:
+    """The blocks of a file, or ``only`` one, into the working folder's build/fmus, where ``use`` finds them by name."""
     platforms = _platforms(asked, own=True)
     flavours = [flavour] if flavour else [name for name in FLAVOURS if platforms or name == "python"]
-    built_for = tuple(platforms) if "native" in flavours else ()
     if output is None:
         for each in flavours:
-            check_file("export", own_fmu(file.stem, each))
+            check_file("export", own_fmu(file.stem, each), new_folders=3)  # build/fmus/FLAVOUR
         folder = own_fmu("x", "x").parents[1]
-        written = build_own_blocks(file, folder, flavours, platforms, portable=_zig_is_here())
-        record_source(folder, file, written)
-        return Exported(tuple(path.relative_to(Path.cwd()) for path in written), tuple(flavours), built_for)
-    blocks = own_blocks(file)
+        written = build_own_blocks(file, folder, flavours, platforms, only=only, portable=_zig_is_here())
+        if not written:
+            raise InputError(file, only or file.stem, "needs Python and has no native form", "give --flavour python")
+        record_source(folder, file, written, files_with(file))
+        for block in own_blocks(file) if "native" in flavours else ():
+            if block.python_only:
+                remove_outdated(folder, file, own_fmu(block.fmu_name, "native"))
+        built = tuple(name for name in flavours if any(path.parent.name == name for path in written))
+        paths = tuple(path.relative_to(Path.cwd()) for path in written)
+        return Exported(paths, built, tuple(platforms) if "native" in built else ())
+    blocks = [block for block in own_blocks(file) if only in (None, block.fmu_name)]
     if output.suffix != ".fmu" or len(blocks) > 1:
         problem = "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} are no one FMU"
         raise InputError("--output", str(output), problem, "leave it out: FMUs go to build/fmus")
+    if flavour is None and blocks[0].python_only:
+        flavours = ["python"]
     with tempfile.TemporaryDirectory() as name:
-        built = build_own_blocks(file, Path(name), flavours[:1], platforms, portable=_zig_is_here())
-        if not built:
+        written = build_own_blocks(file, Path(name), flavours[:1], platforms, only=only, portable=_zig_is_here())
+        if not written:
             raise InputError(file, blocks[0].__name__, "needs Python and has no native form", "give --flavour python")
-        write_atomically(output, built[0].read_bytes())
-    return Exported((output,), tuple(flavours[:1]), built_for if flavours[0] == "native" else ())
+        write_atomically(output, written[0].read_bytes())
+    return Exported((output,), tuple(flavours[:1]), tuple(platforms) if flavours[0] == "native" else ())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from ...fmus_src.export.compilers import available_platforms
 from ...fmus_src.export.judge.subset import SubsetError
 from ..api.export import export
 from ..errors import InputError
@@ -25,7 +26,7 @@ def run(options: argparse.Namespace) -> int:
     except ValueError as error:  # what is wrong with a block, told by the export as one line
         print(f"perilune: {' '.join(str(error).split())}", file=sys.stderr)
         return ExitStatus.REFUSED
-    if options.name.endswith(".py") and options.flavour is None and "native" not in exported.flavours:
+    if options.flavour is None and "native" not in exported.flavours and not available_platforms():
         print("perilune: no C compiler here: the Python flavour only; pip install ziglang for both", file=sys.stderr)
     paths = [str(path) for path in exported.paths]
     document = {"paths": paths, "flavours": list(exported.flavours), "platforms": list(exported.platforms)}

@@ -28,13 +28,13 @@ def stale_fmus(system: str | Path, options: SystemOptions, others: Iterable[str]
     }
     held = {name for name, source in named.items() if source in archive.files}
     named = {name: Path(source).stem for name, source in named.items() if name not in held} | dict(options.use)
-    changed: dict[Path, set[str]] = {}
+    changed: dict[tuple[Path, Path], set[str]] = {}
     for name in dict.fromkeys([*named.values(), *others]):
         fmu = _file(name, options.flavour, archive.path)
-        source = None if fmu is None else changed_source(fmu)
-        if source is not None:
-            changed.setdefault(source, set()).add(Path(name).stem)
-    return [_line(source, sorted(names)) for source, names in changed.items()]
+        files = None if fmu is None else changed_source(fmu)
+        if files is not None:
+            changed.setdefault(files, set()).add(Path(name).stem)
+    return [_line(file, source, sorted(names)) for (file, source), names in changed.items()]
 
 
 def _file(name: str, flavour: str | None, system: Path) -> Path | None:
@@ -53,7 +53,7 @@ def _components(system: System, path: str = "") -> Iterator[tuple[str, Component
             yield from _components(element, f"{path}{element.name}.")
 
 
-def _line(source: Path, names: list[str]) -> str:
-    shown = os.path.relpath(source) if source.is_relative_to(Path.cwd()) else str(source)
+def _line(file: Path, source: Path, names: list[str]) -> str:
+    shown, again = (os.path.relpath(path) if path.is_relative_to(Path.cwd()) else str(path) for path in (file, source))
     are = "was" if len(names) == 1 else "were"
-    return f"{shown}: has changed since {', '.join(names)} {are} exported; perilune export {shown}"
+    return f"{shown}: has changed since {', '.join(names)} {are} exported; perilune export {again}"

@@ -19,9 +19,11 @@ from pathlib import Path
 from .. import __name__ as SOURCE_PACKAGE  # noqa: N812
 from ..block import Block
 from ..face import HOME_OF
+from ..user_modules import imported_names, module_name, modules_of
 
 FACE_PACKAGE = SOURCE_PACKAGE.rpartition(".")[0]  # from which the names of `face` may be imported, too
 SOURCE_ROOT = Path(__file__).parents[1]
+OUTSIDE = "outside"  # the folder, in the package, of a user's modules and data
 RUNTIME_MODULES = ("export.pythonfmu_slave", "face")  # what the slave script itself and the package import
 
 
@@ -46,15 +48,18 @@ class Closure:
         names = f"{re.escape(SOURCE_PACKAGE)}|{re.escape(FACE_PACKAGE)}"
         pattern = re.compile(rf"^(\s*(?:from|import)\s+)(?:{names})\b(?=\s|\.)".encode(), re.MULTILINE)
         replacement = rb"\g<1>" + self.package.encode()
-        return {f"{self.package}/{name}": pattern.sub(replacement, text) for name, text in self.files.items()}
+        return {
+            f"{self.package}/{name}": pattern.sub(replacement, content) if name.endswith(".py") else content
+            for name, content in self.files.items()
+        }
 
 
 def closure_of(block_class: type[Block]) -> Closure:
     """The import closure of a block within the source package, as files.
 
-    A block from outside the repository is packed as one module beside it. Raises `ClosureError`
-    for imports other than the source package, the standard library, numpy and what the block
-    declares in ``requires``.
+    A block from outside the repository is packed with the modules of its folder that it imports, and every block with
+    its ``data``. Raises `ClosureError` for imports other than these, the source package, the standard library, numpy
+    and what the block declares in ``requires``, and for data that is not there.
     """
     files: dict[str, bytes] = {}
     module = sys.modules[block_class.__module__]
@@ -64,17 +69,37 @@ def closure_of(block_class: type[Block]) -> Closure:
         _collect(block_module, files, allowed)
     else:
         path = Path(inspect.getfile(block_class))
-        block_module = "outside_" + re.sub(r"\W", "_", path.stem)  # no module of ours has such a name
-        text = path.read_bytes()
-        files[f"{block_module}.py"] = text
-        for name in _imported(text, block_module, path, allowed):
-            _collect(name, files, allowed)
+        block_module = f"{OUTSIDE}.{module_name(path)}"
+        files[f"{OUTSIDE}/__init__.py"] = b""
+        for file, text in modules_of(path).items():
+            name = f"{OUTSIDE}.{module_name(file)}"
+            files[name.replace(".", "/") + ".py"] = text
+            for imported in _imported(text, name, file, allowed):
+                _collect(imported, files, allowed)
     for name in RUNTIME_MODULES:
         _collect(name, files, allowed)
+    for path, owner in data_files(block_class).items():
+        ours = owner.__module__.startswith(f"{SOURCE_PACKAGE}.")
+        folder = owner.__module__.split(".")[-2] if ours else OUTSIDE
+        files[f"{folder}/{path.name}"] = path.read_bytes()
     digest = hashlib.sha256(block_class.fmu_name.encode())
     for name in sorted(files):
         digest.update(b"\0" + name.encode() + b"\0" + files[name])
     return Closure(files, block_module, digest.hexdigest())
+
+
+def data_files(block_class: type[Block]) -> dict[Path, type[Block]]:
+    """The files that a block declares, each with the class that does; raises `ClosureError` for one that is missing."""
+    found: dict[Path, type[Block]] = {}
+    for owner in block_class.__mro__:
+        for name in vars(owner).get("data", ()):
+            source = Path(inspect.getfile(owner)).resolve()
+            path = source.with_name(name)
+            if not path.is_file():
+                problem = f"data names {name}, and there is no such file next to {source.name}"
+                raise ClosureError(f"{source}: {owner.__name__}: {problem}; write it there, or take the name out")
+            found[path] = owner
+    return found
 
 
 def _collect(module: str, files: dict[str, bytes], allowed: frozenset[str]) -> None:
@@ -114,13 +139,24 @@ def _home(name: str, path: Path, line: int) -> str:
     return HOME_OF[name]
 
 
+def _check_siblings(node: ast.ImportFrom, path: Path) -> None:
+    """Refuse a relative import of what is not in a user's folder."""
+    for name in imported_names(node):
+        if node.level > 1 or not path.with_name(f"{name}.py").is_file():
+            written = "." * node.level + (node.module or name)
+            remedy = f"import from files next to {path.name}"
+            raise ClosureError(f"{path}:{node.lineno}: import of {written}: not packed into the FMU; {remedy}")
+
+
 @cache  # all blocks share most of their files
 def _imported(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> tuple[str, ...]:
     """Modules of the source package that a file imports, as dotted names below it."""
     package = module.rsplit(".", 1)[0].split(".") if "." in module else []
     found: list[str] = []
     for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.ImportFrom) and node.level > 0:
+        if isinstance(node, ast.ImportFrom) and node.level > 0 and package == [OUTSIDE]:
+            _check_siblings(node, path)
+        elif isinstance(node, ast.ImportFrom) and node.level > 0:
             base = package[: len(package) - (node.level - 1)]
             found += _with_submodules([*base, *(node.module or "").split(".")], node.names)
         elif isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"{SOURCE_PACKAGE}."):
@@ -133,6 +169,6 @@ def _imported(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> 
                 if name.split(".")[0] not in allowed:
                     raise ClosureError(
                         f"{path}:{node.lineno}: import of {name}: not packed into the FMU; "
-                        f"import from {FACE_PACKAGE}, or name the library in the block's requires"
+                        f"import from {FACE_PACKAGE} or a file next to this, or name the library in requires"
                     )
     return tuple(found)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..block import Block
+from ..block import Block, snake_case
 from ..catalogue import blocks_in_file, catalogue
+from ..user_modules import modules_of
+from .closure import data_files
 from .native_fmu import build_native_fmu
 from .pythonfmu_fmu import build_python_fmu
 
@@ -22,20 +25,44 @@ def own_blocks(path: Path) -> list[type[Block]]:
     return found
 
 
+def defines(path: Path) -> list[str]:
+    """The FMU names of the classes that a file defines, without importing it: blocks and others."""
+    try:
+        tree = ast.parse(path.read_bytes())
+    except (OSError, SyntaxError, ValueError):
+        return []
+    return [snake_case(node.name) for node in tree.body if isinstance(node, ast.ClassDef)]
+
+
+def files_with(path: Path) -> list[Path]:
+    """The other files that the blocks of a file are built of: modules that it imports, and data."""
+    data = [file for block in own_blocks(path) for file in data_files(block)]
+    return sorted({*modules_of(path), *data} - {path.resolve()})
+
+
 def build_own_blocks(
-    path: Path, folder: Path, flavours: Sequence[str], platforms: Sequence[str], *, portable: bool = False
+    path: Path,
+    folder: Path,
+    flavours: Sequence[str],
+    platforms: Sequence[str],
+    *,
+    only: str | None = None,
+    portable: bool = False,
 ) -> list[Path]:
-    """Build the blocks of a file as ``folder``/FLAVOUR/NAME.fmu; returns what was written.
+    """Build the blocks of a file, or ``only`` one by its FMU name, as ``folder``/FLAVOUR/NAME.fmu; returns the paths.
 
     A block that needs Python has no native form, and is left out there. Raises ValueError for what is wrong in the
     file, `CompilerMissing` and `CompilationFailed`.
     """
     written = []
     for block in own_blocks(path):
-        for flavour in flavours:
+        for flavour in flavours if only in (None, block.fmu_name) else ():
             target = folder / flavour / f"{block.fmu_name}.fmu"
             if flavour == "python":
-                written.append(build_python_fmu(block, target))
+                build_python_fmu(block, target)
             elif not block.python_only:
-                written.append(build_native_fmu(block, target, platforms=platforms, portable=portable))
+                build_native_fmu(block, target, platforms=platforms, portable=portable)
+            else:
+                continue
+            written.append(target)
     return written

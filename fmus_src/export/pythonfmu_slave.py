@@ -40,6 +40,7 @@ class BlockSlave(Fmi2Slave):
         keep_source(__package__.partition(".")[0])
         self.modelName = self.block_class.fmu_name
         self.component = Component(self.block_class)
+        self.component.block.fmu_resources = self.resources
         self.time: float | None = None  # end of the last step; not known of a state put back
         self.get_real = self.get_integer = self.get_boolean = self.get_values
         self.set_real = self.set_integer = self.set_boolean = self.component.set

@@ -1,4 +1,4 @@
-"""Of which file an FMU of one's own was built: kept in sources.json beside the FMUs, so that a change is noticed.
+"""Of which file an FMU of one's own was built: kept in sources.json with_it the FMUs, so that a change is noticed.
 
 Files are named from the folder of sources.json, whatever machine it lies on; FMUs and sources by their SHA-256.
 """
@@ -8,35 +8,54 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 NAME = "sources.json"
 
 
-def record_source(folder: Path, source: Path, fmus: Sequence[Path]) -> None:
-    """Write down that ``fmus``, which lie in ``folder``/FLAVOUR, were built of a file."""
+def record_source(folder: Path, source: Path, fmus: Sequence[Path], others: Iterable[Path] = ()) -> None:
+    """Write down that ``fmus``, which lie in ``folder``/FLAVOUR, were built of a file, with others of its folder."""
     try:
-        place = Path(os.path.relpath(source.resolve(), folder.resolve())).as_posix()
+        place = _relative(source, folder)
     except ValueError:  # on another drive, to which no way leads from here
         return
     known = _read(folder)
+    built_of = {"source": place, "sha256": _digest(source)}
+    with_it = {_relative(other, folder): _digest(other) for other in others}
     for fmu in fmus:
-        known[fmu.relative_to(folder).as_posix()] = {"fmu": _digest(fmu), "source": place, "sha256": _digest(source)}
+        known[_relative(fmu, folder)] = {"fmu": _digest(fmu), **built_of, "others": with_it}
     (folder / NAME).write_text(json.dumps(dict(sorted(known.items())), indent=1) + "\n", encoding="utf-8")
 
 
-def changed_source(fmu: Path) -> Path | None:
-    """The file that an FMU was built of, if it has other content by now; None where that is not certain."""
+def remove_outdated(folder: Path, source: Path, fmu: Path) -> None:
+    """Remove an FMU that was built of a file by which it is not made any more: it would fly before the others."""
+    entry = _read(folder).get(_relative(fmu, folder))
+    ours = entry is not None and fmu.is_file() and _digest(fmu) == entry["fmu"]
+    if ours and entry["source"] == _relative(source, folder):
+        fmu.unlink()
+
+
+def changed_source(fmu: Path) -> tuple[Path, Path] | None:
+    """The first file with other content than when the FMU was built of it, and the file to export again.
+
+    None where no such change is certain.
+    """
     folder = fmu.resolve().parents[1]
     entry = _read(folder).get(f"{fmu.resolve().parent.name}/{fmu.name}")
     if entry is None or not fmu.is_file() or _digest(fmu) != entry["fmu"]:
         return None
-    source = folder / entry["source"]
-    if not source.is_file() or _digest(source) == entry["sha256"]:
-        return None
-    return Path(os.path.normpath(source))
+    source = Path(os.path.normpath(folder / entry["source"]))
+    for name, digest in {entry["source"]: entry["sha256"], **entry.get("others", {})}.items():
+        file = Path(os.path.normpath(folder / name))
+        if file.is_file() and _digest(file) != digest:
+            return file, source
+    return None
+
+
+def _relative(path: Path, folder: Path) -> str:
+    return Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
 
 
 def _read(folder: Path) -> dict[str, Any]:

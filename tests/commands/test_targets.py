@@ -1,13 +1,15 @@
 """Where results go: refused before a flight where they cannot, whole or not there otherwise, told at the end."""
 
+import argparse
 import errno
 import json
+import sys
 from pathlib import Path
 
 import pytest
 
 from perilune.analysis.atomic import whole_file
-from perilune.analysis.cli import main
+from perilune.analysis.cli import VERBS, main, parser_of
 
 pytestmark = pytest.mark.usefixtures("fmus")
 RUN = ["run", "lunar_terminal_guidance"]
@@ -45,6 +47,97 @@ def test_targets_that_cannot_be_written_are_refused_before_a_flight(tmp_path, ca
     assert captured.err.count("\n") == 1
     assert sorted(tmp_path.rglob("*")) == before
     assert (tmp_path / "file").read_text() == "mine"
+
+
+# What each verb is given besides; of what it would do nothing is reached.
+ARGUMENTS = {
+    "list": [[]],
+    "describe": [["lunar_landing"]],
+    "validate": [["lunar_landing"]],
+    "run": [RUN[1:]],
+    "batch": [BATCH[1:]],
+    "shard": [["there", "0"]],
+    "merge": [["there"]],
+    "rare": [[*BATCH[1:4], "--failure", "position_error > 1"]],
+    "worst": [[*BATCH[1:4], "--metric", "position_error"]],
+    "compare": [["there"]],
+    "law": [["paper"]],
+    "synthesize": [["network-operator", "none.toml"]],
+    "plan": [["hover-transfer"], ["landing-bound"]],
+    "stability": [["robot_rendezvous"]],
+    "benchmark": [[]],
+    "new": [["block", "mine"], ["system", "mine"]],
+    "export": [["lunar_landing"]],
+}
+INPUTS = {"draws", "input", "folder", "result", "file", "path"}  # files and folders that are read
+ENDINGS = {("run", "output"): ".csv", ("law", "output"): ".ssv", ("law", "graph"): ".svg", ("export", "output"): ".ssp"}
+FOLDERS = ("--output", "--data")  # where no ending is asked for
+BAD = {
+    "folder": "is a folder; give the name of a file in it",
+    "file/x": "file is a file; give another folder",
+    "a/b/c/x": "there is no folder",
+    "/perilune_new/x": "/perilune_new would be a new folder in the root; make it first, mkdir /perilune_new, or leave",
+    "n" * 300: "cannot be written in",
+}
+if sys.platform == "linux":
+    BAD |= {"/proc/x": "cannot be written in /proc: ", "/dev/null": "is a device, which a file would replace"}
+
+
+def options_of(verb, arguments):
+    """The options of a verb that name what it writes: long names and whether they are files."""
+    parser = parser_of([verb, *arguments])
+    for word in [verb, *arguments]:
+        choices = [action.choices for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
+        parser = choices[0][word] if choices and word in choices[0] else parser
+    return [
+        action
+        for action in parser._actions
+        if (action.type is Path or action.metavar in ("FILE", "DIR")) and action.dest not in INPUTS
+    ]
+
+
+CASES = [
+    (verb, arguments, action.option_strings[-1], action.dest)
+    for verb, several in ARGUMENTS.items()
+    for arguments in several
+    for action in options_of(verb, arguments)
+]
+
+
+def test_every_verb_is_in_the_table():
+    assert list(ARGUMENTS) == list(VERBS)
+    assert {verb for verb, *_ in CASES} == set(VERBS) - {"shard"}  # it writes to the folder that it is given
+
+
+@pytest.mark.parametrize(
+    ("verb", "arguments", "option", "name"), CASES, ids=[f"{case[0]} {case[1][:1]} {case[2]}" for case in CASES]
+)
+def test_targets_of_every_verb_are_tried_first(tmp_path, monkeypatch, capsys, verb, arguments, option, name):
+    """Each of them refused in one line that names option and remedy, and nothing is left behind, in /proc neither."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "file").write_text("mine")
+    before = sorted(tmp_path.rglob("*"))
+    ending = ENDINGS.get((verb, name), ".html" if name == "report" else "")
+    is_folder = option in FOLDERS and not ending
+    for target, words in BAD.items():
+        if is_folder and target in ("folder", "/dev/null"):
+            continue
+        written = target if target in ("folder", "/dev/null") else target + ending
+        assert main([verb, *arguments, option, written]) == 2
+        error = capsys.readouterr().err
+        assert error.startswith(f"perilune: {option}: "), error
+        assert error.count("\n") == 1
+        assert words in error or (target == "/dev/null" and ending in error), error
+        assert sorted(tmp_path.rglob("*")) == before
+        assert not Path("/perilune_new").exists()
+
+
+def test_a_new_folder_is_made_one_level_down(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main([*RUN, "--report", "new/page.html", "--output", "other/table.csv"]) == 0
+    assert main([*BATCH, "--output", "out/noisy"]) == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"new", "other", "out"}
 
 
 def test_a_folder_with_results_is_not_written_over_without_a_word(tmp_path, capsys):

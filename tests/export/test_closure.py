@@ -106,7 +106,7 @@ def test_what_cannot_be_packed_is_refused_with_its_line(tmp_path, imports):
 def test_libraries_that_a_block_requires_are_let_through(tmp_path):
     found = block(tmp_path, "if False:\n    import filterpy\n")
     found.requires = ("filterpy",)
-    assert b"import filterpy" in closure_of(found).files["outside_outside.py"]
+    assert b"import filterpy" in closure_of(found).files["outside/outside.py"]
 
 
 def test_the_name_follows_the_content(tmp_path):

@@ -144,7 +144,7 @@ def test_an_own_guidance_without_a_compiler(installed, perform, tmp_path):
     perform("export", "mine", "--flavour", "python")
     with zipfile.ZipFile(tmp_path / "mine.ssp") as archive:
         inside = zipfile.ZipFile(io.BytesIO(archive.read("resources/linear_guidance.fmu")))
-        assert any(name.endswith("outside_linear_guidance.py") for name in inside.namelist())
+        assert any(name.endswith("outside/linear_guidance.py") for name in inside.namelist())
     (tmp_path / "elsewhere").mkdir()
     shutil.move(tmp_path / "mine.ssp", tmp_path / "elsewhere" / "mine.ssp")
     assert json.loads(perform("run", "elsewhere/mine.ssp", "--json", "-"))["final"] == final

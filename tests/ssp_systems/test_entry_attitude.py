@@ -13,7 +13,7 @@ import perilune
 from tests.support.lengths import either
 
 SYSTEM = "entry_attitude"
-IDEAL = ["without_sensor_errors.ssv"]
+IDEAL = ["ideal.ssv"]
 DEGREE = math.pi / 180.0
 pytestmark = pytest.mark.usefixtures("fmus")
 

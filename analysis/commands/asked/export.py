@@ -13,7 +13,9 @@ from ..common.options import add_json
 
 def add(parser: argparse.ArgumentParser) -> None:
     name = parser.add_argument(
-        "name", metavar="SYSTEM|FMU|FILE.py", help="a system or its folder, a block's name, or a file with blocks"
+        "name",
+        metavar="SYSTEM|FMU|FILE.py",
+        help="a system or its folder, a block's name (of a .py file in this folder, too), or a file with blocks",
     )
     completed(name, systems_and_fmus)
     parser.add_argument(

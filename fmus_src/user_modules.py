@@ -1,0 +1,129 @@
+"""Modules in a user's folder: imported as one package, whichever way they name each other.
+
+A block file says `from .helper import table` or `import helper`; both mean helper.py of its folder, here and in an
+FMU, where all of them are one package.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import importlib
+import importlib.util
+import keyword
+import re
+import sys
+from collections.abc import Sequence
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, SourceFileLoader
+from pathlib import Path
+from types import CodeType, ModuleType
+
+LIBRARIES = frozenset({"numpy", "perilune", "pythonfmu", *sys.stdlib_module_names})  # never a file of the folder
+FROM = re.compile(rb"from[\s\\]+")
+_folders: dict[str, Path] = {}
+
+
+def module_name(path: Path) -> str:
+    """A file's name as a module; one that Python could not import gets another."""
+    usable = path.stem.isidentifier() and not keyword.iskeyword(path.stem)
+    return path.stem if usable else "file_" + re.sub(r"\W", "_", path.stem)
+
+
+def is_sibling(name: str, folder: Path) -> bool:
+    """Whether `import name` in a file of the folder means a file of the folder. Libraries come first."""
+    return name not in LIBRARIES and (folder / f"{name}.py").is_file()
+
+
+def with_relative_imports(text: bytes, folder: Path) -> bytes:
+    """The source of a module in which imports of other modules of the folder are relative. Raises SyntaxError."""
+    starts = [0]
+    for line in text.splitlines(keepends=True):
+        starts.append(starts[-1] + len(line))
+    imports = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Import | ast.ImportFrom)]
+    for node in sorted(imports, key=lambda node: (node.lineno, node.col_offset), reverse=True):
+        start = starts[node.lineno - 1] + node.col_offset
+        if isinstance(node, ast.ImportFrom):
+            written = FROM.match(text, start)
+            if not node.level and written and is_sibling(node.module or "", folder):
+                text = text[: written.end()] + b"." + text[written.end() :]
+        elif any(is_sibling(alias.name, folder) for alias in node.names):
+            end = starts[(node.end_lineno or node.lineno) - 1] + (node.end_col_offset or 0)
+            text = text[:start] + "; ".join(_import(alias, folder) for alias in node.names).encode() + text[end:]
+    return text
+
+
+def modules_of(path: Path) -> dict[Path, bytes]:
+    """A file and what it imports of its folder, and that again: sources with relative imports. Raises SyntaxError."""
+    folder = path.resolve().parent
+    found: dict[Path, bytes] = {}
+    waiting = [path.resolve()]
+    while waiting:
+        file = waiting.pop()
+        if file in found or not file.is_file():
+            continue
+        found[file] = with_relative_imports(file.read_bytes(), folder)
+        for node in ast.walk(ast.parse(found[file])):
+            if isinstance(node, ast.ImportFrom) and node.level == 1:
+                waiting += [folder / f"{name}.py" for name in imported_names(node)]
+    return found
+
+
+def imported_names(node: ast.ImportFrom) -> list[str]:
+    """The modules of the folder that a relative import means: `from .a import x` a, `from . import a, b` both."""
+    return [node.module] if node.module else [alias.name for alias in node.names]
+
+
+def _import(alias: ast.alias, folder: Path) -> str:
+    renamed = f" as {alias.asname}" if alias.asname else ""
+    return f"{'from . ' if is_sibling(alias.name, folder) else ''}import {alias.name}{renamed}"
+
+
+def import_file(path: Path) -> ModuleType:
+    """A file of a user's folder as a module, anew with all that it imports of the folder.
+
+    Raises whatever the file raises, and ModuleNotFoundError for a module that is not in the folder.
+    """
+    folder = path.resolve().parent
+    package = f"perilune_user_{hashlib.sha256(str(folder).encode()).hexdigest()[:16]}"
+    for name in [name for name in sys.modules if name == package or name.startswith(f"{package}.")]:
+        del sys.modules[name]
+    if not any(isinstance(finder, _Finder) for finder in sys.meta_path):
+        sys.meta_path.append(_Finder())
+    _folders[package] = folder
+    home = sys.modules[package] = ModuleType(package)
+    home.__path__ = []
+    name = f"{package}.{module_name(path)}"
+    spec = importlib.util.spec_from_file_location(name, path, loader=_Loader(name, str(path)))
+    assert spec is not None
+    assert spec.loader is not None
+    module = sys.modules[name] = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except ModuleNotFoundError as error:
+        missing = (error.name or "").removeprefix(f"{package}.")
+        if missing == error.name:
+            raise
+        raise ModuleNotFoundError(f"no {missing}.py next to it", name=missing) from error
+    return module
+
+
+class _Finder(MetaPathFinder):
+    """Finds the modules of users' folders by the names of their packages."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        package, _, name = fullname.rpartition(".")
+        file = _folders[package] / f"{name}.py" if package in _folders else None
+        if file is None or not file.is_file():
+            return None
+        return importlib.util.spec_from_file_location(fullname, file, loader=_Loader(fullname, str(file)))
+
+
+class _Loader(SourceFileLoader):
+    """Compiles a module with its imports made relative; nothing compiled is stored in the user's folder."""
+
+    def get_code(self, fullname: str) -> CodeType:
+        path = Path(self.path)
+        return self.source_to_code(with_relative_imports(path.read_bytes(), path.parent), str(path))

@@ -1,0 +1,68 @@
+"""ideal.ssv and noisy.ssv mean the same in every system: no random errors, and all of them, whatever was set before.
+
+Truth: a flight without random errors does not depend on the seeds of its random numbers, to the last bit, and one with
+them does; a set that is applied last wins. docs/command_line.md states the rule and each system's default.
+"""
+
+import numpy as np
+import pytest
+
+import perilune
+from perilune.analysis.campaign.drawn import with_streams
+from perilune.analysis.system.prepared import prepare_system
+from perilune.fmus_src.places import ROOT, SYSTEMS
+
+pytestmark = pytest.mark.usefixtures("fmus")
+DEFAULTS = {
+    "entry_attitude": "noisy",
+    "hover_transfer": "noisy",
+    "landing_mission": "noisy",
+    "lunar_descent_2d": "ideal",
+    "lunar_landing": "noisy",
+    "lunar_terminal_guidance": "ideal",
+    "orbital_attitude": "ideal",
+    "robot_rendezvous": "noisy",
+}
+STOP = 3.0  # s: every sensor has been sampled twice
+# What is known at the start belongs to the start, and this system has ten: its noisy.ssv leaves it as it is.
+FIRST = {"landing_mission": {"navigation.first_position_sigma": 100, "navigation.first_velocity_sigma": 0.1}}
+
+
+def flight(system, *sets, seed=1, **values):
+    """All signals of a short flight with parameter sets, in their order, and a seed for every source of noise."""
+    sources = with_streams(prepare_system(system))
+    result = perilune.simulate(
+        system,
+        parameters=[f"{name}.ssv" for name in sets],
+        set={f"{name}.seed": seed for name in sources} | values,
+        stop_time=STOP,
+    )
+    return result.signals
+
+
+def same(first, second):
+    assert first.keys() == second.keys()
+    return all(np.array_equal(first[name], second[name], equal_nan=True) for name in first)
+
+
+def test_every_system_is_in_the_table():
+    assert sorted(DEFAULTS) == sorted(path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd"))
+
+
+@pytest.mark.parametrize("system", DEFAULTS)
+def test_no_random_errors_and_all_of_them(system):
+    default, other = DEFAULTS[system], {"ideal": "noisy", "noisy": "ideal"}[DEFAULTS[system]]
+    flown = {name: flight(system, name) for name in (default, other)}
+    assert same(flown["ideal"], flight(system, "ideal", seed=2))
+    assert not same(flown["noisy"], flight(system, "noisy", seed=2))
+    assert same(flown[default], flight(system))
+    assert same(flown["ideal"], flight(system, "noisy", "ideal"))
+    assert same(flown["noisy"], flight(system, "ideal", "noisy", **FIRST.get(system, {})))
+
+
+def test_the_documents_state_the_defaults():
+    table = (ROOT / "docs" / "command_line.md").read_text(encoding="utf-8")
+    for system, default in DEFAULTS.items():
+        assert f"| `{system}` | `{default}.ssv` |" in table
+        readme = (SYSTEMS / system / "README.md").read_text(encoding="utf-8")
+        assert f"As it stands, the system flies `{default}.ssv`" in readme
