@@ -16,6 +16,7 @@ from ..batch.tables import aligned
 from ..campaign.draw_space import DrawSpace
 from ..samples.flown import Flown
 from .metric import Badness
+from .search import Phase
 
 WORST = "worst.parquet"
 
@@ -28,7 +29,7 @@ class WorstResult:
     ``random`` is the number, in ``flown``, of the worst of the random trials that it is told beside; ``facts`` are what
     the result depends on, ``noise`` what is said of random numbers that components draw themselves, ``reason`` why the
     worst failed, where that is known. ``again`` gives the command that studies trial 0 of a file of draws again, where
-    another than `perilune batch` does.
+    another than `perilune batch` does. ``phases`` are those of the search, the random trials first.
     """
 
     badness: Badness
@@ -44,6 +45,7 @@ class WorstResult:
     noise_trial: int
     reason: str = ""
     again: Callable[[Path], str] | None = None
+    phases: tuple[Phase, ...] = ()
 
     @property
     def flights(self) -> int:

@@ -19,7 +19,7 @@ from .margin import SIZES, badness_of_margin
 from .margin_studies import MarginStudies
 from .metric import Badness, badness_of
 from .outcome import WorstResult
-from .search import LEAST, largest
+from .search import LEAST, Phase, largest
 
 FLIGHTS = 2000
 STUDIES = 500  # a margin costs more than a flight
@@ -135,4 +135,5 @@ class _Box:
         return WorstResult(
             badness, sigmas, found[1], found[0], int(np.argmax(values)), len(values), space, flown.whole(),
             flights_of.facts, flights_of.noise(), noise_trial,
+            phases=(Phase("random trials", len(values)), *found.phases),
         )  # fmt: skip
