@@ -18,5 +18,3 @@ def fly_recorded(plan: BatchPlan, given: GivenDraws) -> tuple[Result, PreparedSy
     (variant,) = flyer.variants
     result, _ = flyer.replay(variant, 0)
     return result, plan.prepare(flyer.variants[variant])
-
-

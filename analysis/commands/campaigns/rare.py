@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
+from pathlib import Path
 
+from ...rare.outcome import RareResult
 from ...rare.study import LEAST, SAMPLES, rare_failure
-from ...targets import Results, check_folder
+from ...targets import PAGES, Results, check_file, check_folder
 from ..common.options import check_json, tell
 from ..common.remarks import say_stale
 from ..common.requirements import check_requirements, read_requirements
@@ -16,6 +19,7 @@ NUMBERS = ("probability", "interval[1]", "interval[2]", "flights")
 
 def run(options: argparse.Namespace) -> int:
     check_folder("--output", options.output, overwrite=options.overwrite)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     requirements = read_requirements(options.require, NUMBERS)
     plan = read_samples(options)
@@ -29,6 +33,13 @@ def run(options: argparse.Namespace) -> int:
         **held(options),
     )
     files.write(options.output, result.write)
+    files.write(options.report, partial(_write_page, result))
     status = tell(result.document(), options, lambda: print(result.text()), files)
     met = check_requirements(requirements, result.values())
     return status or int(not met)
+
+
+def _write_page(result: RareResult, path: Path) -> None:
+    from ...reports.studies.rare_page import write_rare_page  # and matplotlib, which takes half a second
+
+    write_rare_page(result, path)

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import argparse
 import sys
+from functools import partial
+from pathlib import Path
 
 from ...campaign.sweeps import part_sweeps
 from ...errors import InputError
+from ...sensitivity.outcome import SensitivityResult
 from ...sensitivity.study import sensitivity
-from ...targets import Results, check_folder
+from ...targets import PAGES, Results, check_file, check_folder
 from ..common.options import check_json, system_options, tell
 from ..common.remarks import say_stale
 from ..common.sample_plans import held, read_samples
 
 NOT_WITH = (
-    "trials", "draws", "replay", "report", "require", "resume", "prepare", "until_decided", "engine",
+    "trials", "draws", "replay", "require", "resume", "prepare", "until_decided", "engine",
     "scheduler",
 )  # fmt: skip
 
@@ -29,6 +32,7 @@ def run(options: argparse.Namespace) -> int:
     for name, text in part_sweeps(system_options(options))[1].items():
         raise InputError("--sensitivity", f"--set {name}={text}", "does not go with a sweep", "give one value")
     check_folder("--output", options.output, overwrite=options.overwrite)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     plan = read_samples(options)
     say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
@@ -37,7 +41,14 @@ def run(options: argparse.Namespace) -> int:
         plan, options.sensitivity, **held(options), tell=lambda price: print(f"perilune: {price}", file=sys.stderr)
     )
     files.write(options.output, result.write)
+    files.write(options.report, partial(_write_page, result))
     return tell(result.document(), options, lambda: print(result.text()), files)
+
+
+def _write_page(result: SensitivityResult, path: Path) -> None:
+    from ...reports.studies.sensitivity_page import write_sensitivity_page  # and matplotlib: half a second
+
+    write_sensitivity_page(result, path)
 
 
 def refuse_alone(options: argparse.Namespace) -> None:

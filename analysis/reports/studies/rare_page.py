@@ -74,7 +74,7 @@ def level_table(result: RareResult) -> Table:
     ]
     heads = (
         "level", "limit state from", "samples", "simulations", "conditional probability", "cumulative",
-        "acceptance", "correlation γ", "c.o.v.",
+        "acceptance", "gamma", "c.o.v.",
     )  # fmt: skip
     return Table(heads, rows, range(len(heads)))
 

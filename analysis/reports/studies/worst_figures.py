@@ -96,7 +96,7 @@ def draw_search(axes: Axes, result: WorstResult) -> None:
     axes.set_xlim(0.0, numbers.size + 1.0)
     axes.set_ylim(low, high)
     axes.set_xlabel("simulation")
-    axes.set_title(objective.label, loc="left", fontsize=8.5, pad=14)
+    axes.set_title(objective.label, loc="left", fontsize=8.5, pad=18)
     plain_ticks(axes, x=6, y=5)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=4, handletextpad=0.2, columnspacing=1.0)
 
@@ -123,9 +123,9 @@ def draw_trials(axes: Axes, result: WorstResult) -> None:
             style = (0, (4, 2)) if colour == INK else "-"
             axes.axvline(value, color=colour, linewidth=1.8, linestyle=style, label=f"{label}: {number(float(value))}")
     axes.set_xlabel(objective.label)
-    axes.set_title("trials", loc="left", fontsize=8.5)
+    axes.set_ylabel("trials")
     plain_ticks(axes, x=5, y=5, whole_y=True)
-    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.06), ncols=1, borderaxespad=0.0)
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.02), ncols=1, borderaxespad=0.0)
 
 
 class Lane(NamedTuple):
@@ -175,7 +175,7 @@ def draw_box(axes: Axes, lanes: list[Lane], slim: bool) -> None:
         offset = -0.3 if slim else -0.22
         for x, text, side in ((0.0, lane.low, "left"), (1.0, lane.high, "right")):
             axes.annotate(
-                number(text), (x, index + offset), ha=side, va="bottom", fontsize=8.0, color=FAINT,
+                number(text, 6), (x, index + offset), ha=side, va="bottom", fontsize=8.0, color=FAINT,
                 annotation_clip=False,
             )  # fmt: skip
         if slim:

@@ -118,13 +118,14 @@ def _unit(unit: str | None) -> str:
 
 
 def flight_part(flight: Result, figures: Sequence[Figure]) -> FlightPart:
-    """What the page shows of the flight: all signals where the system asks for no figures."""
+    """What the page shows of the flight: all signals where the system asks for no time histories."""
     own = own_sections(figures, flight)
+    drawn = any(part.panels or part.drawn is not None for part in own)
     return FlightPart(
         status=flight.status,
         end=float(flight.time[-1]) if flight.time.size else None,
         trajectory=trajectory_panels(flight),
         joint=joint_findings(figures, flight),
         own=own,
-        histories=[] if own else time_histories(flight),
+        histories=[] if drawn else time_histories(flight),
     )

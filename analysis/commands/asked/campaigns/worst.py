@@ -6,7 +6,7 @@ import argparse
 
 from ...common.options import add_json
 from ...common.requirements import add_requirements
-from ...common.samples import add_folder, add_samples
+from ...common.samples import add_folder, add_report, add_samples
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -26,5 +26,6 @@ def add(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--sigmas", type=float, metavar="K", help="how far normal draws go; default: 3")
     parser.add_argument("--flights", type=int, metavar="N", help="how many to fly; default: 2000, of a margin 500")
     add_folder(parser, "worst.json, flights.parquet, and worst.parquet for perilune batch or stability --draws")
+    add_report(parser)
     add_requirements(parser, "worst, random and flights")
     add_json(parser)
