@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +11,8 @@ import numpy as np
 from ..errors import InputError, suggestion
 from ..system.faults import check_fault
 from ..system.prepared import PreparedSystem
+from .drawing.given import ALL, stream_column
+from .drawn import with_streams
 from .faults import check_drawn
 from .metrics import names_needed
 from .plan import BatchPlan
@@ -37,6 +39,8 @@ def prepare_variants(plan: BatchPlan) -> dict[str, PreparedSystem]:
 
 def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
     """Refuse draws and drawn faults that a prepared system cannot have. Raises InputError."""
+    systems = list(systems)
+    _check_streams(plan, systems)
     drawn = set(plan.campaign.drawn_names())
     varied = [(prepared, _variables(plan, prepared, drawn)) for prepared in systems]
     first = 0
@@ -48,6 +52,18 @@ def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
             for fault in trials.faults:
                 check_drawn(fault, prepared.network)
         first += part.trials
+
+
+def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
+    """Refuse given random streams of what has none."""
+    if plan.given is None:
+        return
+    known = sorted({name for prepared in systems for name in with_streams(prepared)})
+    for name in plan.given.streams:
+        if name != ALL and name not in known:
+            where = (plan.given.file or plan.campaign.file, stream_column(name))
+            remedy = suggestion(name, known) if known else "leave the column out"
+            raise InputError(*where, "no component that draws random numbers has this name", remedy)
 
 
 def _variables(plan: BatchPlan, prepared: PreparedSystem, drawn: set[str]) -> dict[str, Any]:

@@ -97,13 +97,15 @@ class DrawSpace:
 
     Choices and grids have no such coordinates and must be held. Latin hypercubes and Sobol sequences are taken for the
     uniform draws that they are designs of. Raises InputError for what is not held and must be, for a held value that
-    is not drawn or cannot be, and where nothing varies.
+    is not drawn or cannot be, and where nothing varies, unless ``may_be_empty``.
 
     ``size`` is the number of coordinates, in the order of the file; jointly normal values have as many as their
     covariance has eigenvalues above 0, along its axes.
     """
 
-    def __init__(self, campaign: Campaign, held: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self, campaign: Campaign, held: Mapping[str, float] | None = None, *, may_be_empty: bool = False
+    ) -> None:
         self.campaign = campaign
         self.held = dict(held or {})
         names = [name for draw in campaign.draws for name in draw.names]
@@ -113,8 +115,13 @@ class DrawSpace:
         found = [self._part(draw) for draw in campaign.draws]
         self._parts = [part for part in found if part is not None]
         self.size = sum(part.size for part in self._parts)
+        if not may_be_empty:
+            self.check_varies()
+
+    def check_varies(self) -> None:
+        """Refuse a space in which no draw varies. Raises InputError."""
         if not self.size:
-            raise InputError(campaign.file, "draw", "no draw varies", "declare a [draw.NAME], or hold fewer")
+            raise InputError(self.campaign.file, "draw", "no draw varies", "declare a [draw.NAME], or hold fewer")
 
     @property
     def independent(self) -> bool:
@@ -156,8 +163,8 @@ class DrawSpace:
         return found
 
     def _blocks(self, points: np.ndarray) -> list[tuple[_Part, np.ndarray]]:
-        ends = np.cumsum([part.size for part in self._parts])[:-1]
-        return list(zip(self._parts, np.split(points, ends, axis=1), strict=True))
+        ends = np.cumsum([part.size for part in self._parts])
+        return list(zip(self._parts, np.split(points, ends, axis=1)[:-1], strict=True))
 
     def _whole(self, points: int, parts: list[Columns]) -> Columns:
         """The columns of all draws, the held ones too, in the order of the file."""

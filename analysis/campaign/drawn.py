@@ -39,10 +39,13 @@ class DrawnTrials:
         noisy = with_streams(prepared)
         if noisy:
             given, campaign = self.plan.given, self.plan.campaign
-            whose = trial if given is None else given.stream_of(trial)
-            streams = stream_numbers(campaign.seed, whose, prepared.network.fmus, campaign.file)
-            for name in noisy:
-                values[f"{name}.seed"], values[f"{name}.stream"] = streams[name]
+            trials = {name: trial if given is None else given.stream_of(trial, name) for name in noisy}
+            streams = {
+                whose: stream_numbers(campaign.seed, whose, prepared.network.fmus, campaign.file)
+                for whose in set(trials.values())
+            }
+            for name, whose in trials.items():
+                values[f"{name}.seed"], values[f"{name}.stream"] = streams[whose][name]
         return values
 
 

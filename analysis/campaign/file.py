@@ -10,6 +10,7 @@ from ..errors import InputError, suggestion
 from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting
 from .distributions import read_draw
 from .drawing.declared import Draw
+from .drawing.given import stream_component
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
 from .requirements import read_requirements
@@ -17,7 +18,7 @@ from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, 
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 # of records, of the results' table and of files of draws
-COLUMNS = frozenset({"time", "trial", "variant", "status", "success", "streams_of"})
+COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})
 REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that go with one reduction only
 SCATTER = ("x", "y", "circle", "title")
 
@@ -27,7 +28,7 @@ def _check_name(table: Table, name: str, taken: Iterable[str]) -> None:
     if not is_name(name):
         remedy = 'use letters, digits and _; for a parameter "component.variable" or "component.variable[1]"'
         raise table.error(name, f"{name!r} is not a name that expressions can use", remedy)
-    if name in RESERVED or name in COLUMNS:
+    if name in RESERVED or name in COLUMNS or stream_component(name) is not None:
         raise table.error(name, f"{name!r} has a meaning of its own", "choose another name")
     if name in taken:
         raise table.error(name, f"{name!r} is declared twice", "give each value one declaration and one name")

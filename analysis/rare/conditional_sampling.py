@@ -1,66 +1,129 @@
-"""Samples of a standard normal space given that a margin is above a threshold: chains from those that are known.
+"""Samples of draws and noise given that a margin is above a threshold: chains from those that are known.
 
-Adaptive conditional sampling (Papaioannou, Betz, Zwirglmaier and Straub 2015, section 4.3): a candidate is
-rho u + sqrt(1 - rho^2) xi with xi standard normal, which leaves the normal distribution as it is, and it is taken where
-its margin is above the threshold. Its spread sqrt(1 - rho^2) follows the share of candidates that are taken.
+Two moves alternate. The draws move by adaptive conditional sampling (Papaioannou, Betz, Zwirglmaier and Straub 2015,
+section 4.3): a candidate is rho u + sqrt(1 - rho^2) xi with xi standard normal, which leaves the normal distribution as
+it is; its spread sqrt(1 - rho^2) follows the acceptance rate. The noise moves by a fresh stream for one source, chosen
+at random: a Gibbs sampler over the sources by rejection. Either is accepted where the candidate's margin is above the
+threshold, and is reversible with respect to the distribution before the condition.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-TAKEN = 0.44  # the share of candidates taken that is aimed at (ibid., section 4.3)
-GROUPS = 10  # of chains, between which the spread is adapted (ibid.: a tenth of the chains)
-FIRST_SPREAD = 0.6
+from .points import FreshStreams, MarginOf, Points
 
-MarginOf = Callable[[np.ndarray], np.ndarray]
+ACCEPTED = 0.44  # the acceptance rate of draws that is aimed at (ibid., section 4.3)
+GROUPS = 10  # of chains, between which moves are adapted (ibid.: a tenth of the chains)
+FIRST_SPREAD = 0.6
+INERT_AFTER = 10  # fresh streams of a source, none of which changes a margin
 
 
 @dataclass(frozen=True, eq=False)
 class Chains:
-    """Chains by time, ``points`` (chains, length, dimensions) and their ``margins`` (chains, length).
+    """Chains by time: points as ``draws`` (chains, length, dimensions) and ``streams`` (chains, length, sources).
 
-    The first point of each is its seed. ``taken`` is the share of candidates that were taken, ``spread`` the last one.
+    The first point of each is its seed; ``margins`` are (chains, length). ``draw_acceptance`` is the share of draw
+    moves that were accepted, None where there were none. ``noise_moves`` and ``noise_accepted`` (sources,) count the
+    moves of each source, ``spread`` is the last one.
     """
 
-    points: np.ndarray
+    draws: np.ndarray
+    streams: np.ndarray
     margins: np.ndarray
-    taken: float
+    draw_acceptance: float | None
+    noise_moves: np.ndarray
+    noise_accepted: np.ndarray
     spread: float
+
+
+class _NoiseMoves:
+    """Which streams are renewed: one source at a time, those that change no margin along with every move.
+
+    A source is inert where `INERT_AFTER` fresh streams have not changed a bit of any margin since the level began:
+    renewing it with the draws costs no move, and leaves chains as right as they are.
+    """
+
+    def __init__(self, sources: int, fresh: FreshStreams, random: np.random.Generator) -> None:
+        self.moves, self.accepted = np.zeros(sources, dtype=int), np.zeros(sources, dtype=int)
+        self._changed = np.zeros(sources, dtype=bool)
+        self._fresh, self._random = fresh, random
+        self._active = np.arange(sources)
+        self._inert = np.arange(0)
+
+    @property
+    def any(self) -> bool:
+        return bool(self._active.size)
+
+    def adapt(self) -> None:
+        """Leave out the sources that are inert so far; between groups of chains."""
+        inert = ~self._changed & (self.moves >= INERT_AFTER)
+        self._active, self._inert = np.flatnonzero(~inert), np.flatnonzero(inert)
+
+    def candidates(self, streams: np.ndarray, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Streams of the next candidates, where ``noise`` moves with one source renewed, and which (moves,)."""
+        rows = np.flatnonzero(noise)
+        chosen = self._active[self._random.integers(self._active.size, size=rows.size)] if rows.size else rows
+        found = streams.copy()
+        found[rows, chosen] = self._fresh.take(rows.size)
+        for source in self._inert:
+            found[:, source] = self._fresh.take(len(found))
+        return found, chosen
+
+    def count(self, chosen: np.ndarray, accepted: np.ndarray, changed: np.ndarray) -> None:
+        """Record moves of the sources ``chosen``: which were accepted, which changed the margin."""
+        np.add.at(self.moves, chosen, 1)
+        np.add.at(self.accepted, chosen[accepted], 1)
+        self._changed[chosen[changed]] = True
 
 
 def grow_chains(
     margin: MarginOf,
-    seeds: np.ndarray,
+    seeds: Points,
     margins: np.ndarray,
     threshold: float,
     length: int,
     spread: float,
-    random: np.random.Generator,
+    fresh: FreshStreams,
+    random: tuple[np.random.Generator, np.random.Generator],
 ) -> Chains:
-    """Chains of ``length`` points from ``seeds`` (chains, dimensions), whose ``margins`` (chains,) reach ``threshold``.
+    """Chains of ``length`` points from ``seeds``, whose ``margins`` (chains,) reach ``threshold``.
 
-    ``margin`` maps points (points, dimensions) to margins (points,); chains are independent of each other given the
-    spread, which changes from one group of them to the next (ibid., equations 25 to 27).
+    ``margin`` maps points to margins (points,); chains are independent of each other given the
+    moves, which change from one group of them to the next (ibid., equations 25 to 27). ``random`` are the generators of
+    draw moves and of noise moves. Where there are no sources, all moves are draw moves, and the other way round.
     """
-    points = np.empty((len(seeds), length, seeds.shape[1]))
-    found = np.empty((len(seeds), length))
-    taken = []
-    for number, group in enumerate(np.array_split(np.arange(len(seeds)), min(GROUPS, len(seeds)))):
-        here, worth = seeds[group], margins[group]
-        points[group, 0], found[group, 0] = here, worth
+    chains, dimensions = seeds.draws.shape
+    draws = np.empty((chains, length, dimensions))
+    streams = np.empty((chains, length, seeds.streams.shape[1]), dtype=np.int64)
+    values = np.empty((chains, length))
+    noise_moves = _NoiseMoves(streams.shape[2], fresh, random[1])
+    rates = []
+    for number, group in enumerate(np.array_split(np.arange(chains), min(GROUPS, chains))):
+        here, level = seeds.rows(group), margins[group]
+        draws[group, 0], streams[group, 0], values[group, 0] = here.draws, here.streams, level
         steps = []
         for step in range(1, length):
-            candidates = np.sqrt(1.0 - spread**2) * here + spread * random.standard_normal(here.shape)
-            values = margin(candidates)
-            good = values >= threshold
-            here, worth = np.where(good[:, np.newaxis], candidates, here), np.where(good, values, worth)
-            points[group, step], found[group, step] = here, worth
-            steps.append(float(good.mean()))
+            noise = np.zeros(len(group), dtype=bool)
+            if noise_moves.any:
+                noise = (step + group) % 2 == 1 if dimensions else ~noise
+            moved = np.sqrt(1.0 - spread**2) * here.draws + spread * random[0].standard_normal(here.draws.shape)
+            renewed, chosen = noise_moves.candidates(here.streams, noise)
+            candidates = Points(np.where(noise[:, np.newaxis], here.draws, moved), renewed)
+            found = margin(candidates)
+            good = found >= threshold
+            noise_moves.count(chosen, good[noise], found[noise] != level[noise])
+            if not noise.all():
+                steps.append(float(good[~noise].mean()))
+            kept = good[:, np.newaxis]
+            here = Points(np.where(kept, candidates.draws, here.draws), np.where(kept, renewed, here.streams))
+            level = np.where(good, found, level)
+            draws[group, step], streams[group, step], values[group, step] = here.draws, here.streams, level
+        noise_moves.adapt()
         if steps:
-            taken.append(float(np.mean(steps)))
-            spread = min(1.0, float(np.exp(np.log(spread) + (taken[-1] - TAKEN) / np.sqrt(number + 1.0))))
-    return Chains(points, found, float(np.mean(taken)) if taken else 1.0, spread)
+            rates.append(float(np.mean(steps)))
+            spread = min(1.0, float(np.exp(np.log(spread) + (rates[-1] - ACCEPTED) / np.sqrt(number + 1.0))))
+    acceptance = float(np.mean(rates)) if rates else None
+    return Chains(draws, streams, values, acceptance, noise_moves.moves, noise_moves.accepted, spread)

@@ -1,9 +1,10 @@
-"""What a study of a rare failure comes to: text, document, tables, trials to fly again."""
+"""What a study of a rare failure comes to: document, tables, trials to fly again."""
 
 from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -15,21 +16,28 @@ from ..atomic import write_atomically
 from ..batch.shards.files import write_parquet
 from ..batch.tables import aligned
 from ..campaign.draw_space import DrawSpace
+from ..campaign.drawing.declared import drawn_names
 from ..campaign.failure import Failure
+from ..samples.commands import Commands
 from ..samples.flown import Flown, strict
+from ..samples.noise import Noise, conditions, noise_line
+from ..samples.units import unit_of_expression, with_unit
 from .subset_simulation import Level, SubsetSimulation
+from .text import cost_text, estimate_text, level_rows
 from .uncertainty import CONFIDENCE
 
 TOLD = 5  # failures
-APART = 1.0  # standard deviations: a failure nearer to a likelier one is not told
+APART = 1.0  # standard deviations: a failure nearer to a more probable one is not listed
+FAILURES = "failures.parquet"
 
 
 @dataclass(frozen=True, eq=False)
 class RareResult:
     """The probability of a ``failure``, and the flights that it was found by.
 
-    ``simulation`` has the numbers, ``flown`` every flight, ``facts`` what they depend on, ``noise`` what is said of
-    random numbers that components draw themselves.
+    ``simulation`` has the numbers, ``flown`` every flight, ``facts`` what they depend on, ``noise`` the random numbers
+    that components draw themselves, random or held. ``units`` are those of draws and metrics by name, ``commands``
+    write the command lines that fly points again, where they are known.
     """
 
     failure: Failure
@@ -37,9 +45,10 @@ class RareResult:
     space: DrawSpace
     flown: Flown
     facts: dict[str, Any]
-    noise: str
-    noise_trial: int
+    noise: Noise
     samples: int
+    units: Mapping[str, str]
+    commands: Commands | None = None
 
     @property
     def probability(self) -> float | None:
@@ -58,15 +67,38 @@ class RareResult:
 
     @property
     def brute_force(self) -> float | None:
-        """How many flights of the campaign itself would have had as small a deviation; None where nothing says."""
-        share, variation = self.probability, self.simulation.interval.variation
-        return None if share is None or variation == 0.0 else (1.0 - share) / (share * variation**2)
+        """How many plain Monte Carlo flights of the campaign say as much; None where nothing says."""
+        return self.simulation.equivalent_trials
+
+    @property
+    def conditions(self) -> str:
+        """What the numbers are conditional on, as the end of a line; empty where they are not."""
+        return conditions(self.noise, self.space.held)
+
+    @property
+    def margin_unit(self) -> str:
+        """The unit of margins and thresholds; empty where they have none."""
+        return unit_of_expression(self.failure.expression, self.units)
+
+    @property
+    def why_levels_ended(self) -> str:
+        """Why no level follows the last one, where that is the noise; else empty."""
+        if not self.simulation.noise_ends:
+            return ""
+        level = self.simulation.levels[-1]
+        of = "" if level.source is None else f" of {self.noise.sources[level.source]}"
+        assert level.least_acceptance is not None
+        return (
+            f"levels end: at level {len(self.simulation.levels)} the acceptance rate of noise moves{of} is "
+            f"{100 * level.least_acceptance:.2g} %, below 5 %"
+        )
 
     @cached_property
     def failures(self) -> list[dict[str, Any]]:
-        """The likeliest failed flights: number in failures.parquet, ``distance``, ``margin``, ``draws``, ``metrics``.
+        """The most probable failed flights: ``trial`` of failures.parquet, ``distance``, ``margin``, draws and metrics.
 
-        The distance is in standard deviations from the medians of the draws, as independent normal ones.
+        The distance is in standard deviations from the medians of the draws, as independent normal ones. Of noise that
+        is random, ``streams`` are the trials whose noise each component had.
         """
         return [
             {
@@ -74,15 +106,21 @@ class RareResult:
                 "distance": float(np.linalg.norm(self.flown.points[place])),
                 "margin": strict(self.flown.values[place]),
                 **self.flown.fact(place),
+                **({"streams": self.flown.streams(int(place))} if self.noise.sources else {}),
             }
             for trial, place in enumerate(self._places)
         ]
 
     @cached_property
     def _places(self) -> np.ndarray:
-        """Of the likeliest failures among those flown: nearest to the origin first, where points are densest."""
+        """Of the failures among those flown: nearest to the origin first, where the draws are most probable.
+
+        Where no draw varies, those nearest to the limit.
+        """
         failed = np.flatnonzero(self.flown.values >= 0.0)
         points = self.flown.points
+        if not self.space.size:
+            return failed[np.argsort(self.flown.values[failed], kind="stable")][:TOLD]
         chosen: list[int] = []
         for place in failed[np.argsort(np.linalg.norm(points[failed], axis=1), kind="stable")]:
             if all(np.linalg.norm(points[place] - points[other]) > APART for other in chosen):
@@ -91,81 +129,87 @@ class RareResult:
                 break
         return np.array(chosen, dtype=int)
 
+    def replay(self, folder: Path | None, trial: int) -> str:
+        """The command that flies one of the failures again; empty where it is not written to a folder."""
+        return "" if folder is None or self.commands is None else self.commands.replay(folder / FAILURES, trial)
+
     def values(self) -> dict[str, float]:
         """The numbers that requirements are about: probability, interval[1] and [2], flights."""
         share = math.nan if self.probability is None else self.probability
         low, high = self.interval
         return {"probability": share, "interval[1]": low, "interval[2]": high, "flights": float(self.flights)}
 
-    def document(self) -> dict[str, Any]:
-        """The machine-readable result."""
+    def document(self, folder: Path | None = None) -> dict[str, Any]:
+        """The machine-readable result; ``folder`` is where it has been written, if it has."""
         simulation = self.simulation
+        failures = self.failures
+        if self.replay(folder, 0):
+            failures = [entry | {"replay": self.replay(folder, entry["trial"])} for entry in failures]
         return {
             **self.facts,
             "failure": self.failure.text,
             "samples": self.samples,
             "held": self.space.held,
-            "noise_trial": self.noise_trial if self.noise else None,
+            **self.noise.document(),
+            "conditional": bool(self.conditions),
+            "conditions": self.conditions.removeprefix(", "),
             "probability": self.probability,
             "interval": list(self.interval),
             "confidence": CONFIDENCE,
-            "variation": simulation.interval.variation,
+            "variation": strict(simulation.interval.variation),
             "flights": self.flights,
             "brute_force_flights": self.brute_force,
             "families": simulation.families,
-            "levels": [_level_fact(level) for level in simulation.levels],
-            "failures": self.failures,
+            "levels_ended": self.why_levels_ended,
+            "levels": [self._level(level) for level in simulation.levels],
+            "units": {**self.units, "margin": self.margin_unit},
+            "failures": failures,
         }
 
-    def text(self) -> str:
-        """The result for a terminal."""
-        low, high = self.interval
-        percent = f"{100 * CONFIDENCE:g} %"
-        found = f"not reached; probability below {high:.3g}, {percent}"
-        price = f"{self.flights} flights in {len(self.simulation.levels)} levels"
-        if self.probability is not None:
-            found = f"probability {self.probability:.3g}, {percent} interval {low:.3g} to {high:.3g}"
-        if self.brute_force is not None:
-            price += f"; trials of the campaign that say as much: {self.brute_force:.2g}"
-        lines = [f"{self.failure.text}: {found}", price]
-        if self.noise:
-            lines.append(self.noise)
-        if self.space.held:
-            lines.append(f"held: {', '.join(f'{name} = {value:g}' for name, value in self.space.held.items())}")
-        levels = [_level_cells(place, level) for place, level in enumerate(self.simulation.levels)]
-        lines += ["", *aligned([LEVEL_HEADS, *levels])]
+    def _level(self, level: Level) -> dict[str, Any]:
+        """A level as JSON has it."""
+        source = None if level.source is None else self.noise.sources[level.source]
+        return vars(level) | {
+            "threshold": None if level.threshold is None else strict(level.threshold),
+            "source": source,
+            "trusted": level.trusted,
+        }
+
+    def text(self, folder: Path | None = None) -> str:
+        """The result for a terminal; ``folder`` as in `document`."""
+        under, simulation = self.conditions, self.simulation
+        lines = [f"{self.failure.text}: {estimate_text(simulation)}{under}", cost_text(simulation)]
+        lines += [line for line in (noise_line(self.noise), self.bound_text()) if line]
+        unit = f" ({self.margin_unit})" if self.margin_unit else ""
+        lines += ["", f"levels, thresholds of the margin{unit}{under}", *aligned(level_rows(simulation))]
         if self.failures:
-            rows = [["likeliest failures", "sigmas", "margin", *self.space.names]]
-            for entry in self.failures:
-                margin = "-" if entry["margin"] is None else f"{entry['margin']:.4g}"
-                drawn = [f"{entry['draws'][name]:.6g}" for name in self.space.names]
-                rows.append([f"trial {entry['trial']}", f"{entry['distance']:.2f}", margin, *drawn])
-            lines += ["", *aligned(rows)]
+            lines += ["", f"most probable failures{under}", *aligned(self._failure_rows(f"margin{unit}"))]
+            replay = self.replay(folder, 0)
+            lines += ["", f"replay: {replay}" if replay else "replay: --output DIR writes the flights and the command"]
         return "\n".join(line.rstrip() for line in lines)
+
+    def bound_text(self) -> str:
+        """Why levels ended, where that is the noise, and what plain Monte Carlo takes for what is below; else empty."""
+        trials = self.brute_force
+        if not self.simulation.noise_ends or trials is None:
+            return ""
+        text = f"{self.why_levels_ended}; what is below is bounded as by {trials:.2g} Monte Carlo flights"
+        again = "" if self.commands is None else f": {self.commands.monte_carlo(round(10.0 * trials))}"
+        return f"{text}; a bound ten times lower takes {10.0 * trials:.2g}{again}"
+
+    def _failure_rows(self, margin: str) -> list[list[str]]:
+        names = self.space.names
+        rows = [["", "beta", margin, *(with_unit(name, self.units) for name in names)]]
+        for entry in self.failures:
+            value = "-" if entry["margin"] is None else f"{entry['margin']:.4g}"
+            draws = [f"{entry['draws'][name]:.6g}" for name in names]
+            rows.append([f"trial {entry['trial']}", f"{entry['distance']:.2f}", value, *draws])
+        return rows
 
     def write(self, folder: Path) -> None:
         """Write rare.json, flights.parquet and, where there are failures, failures.parquet for `--draws`."""
         if self.failures:
-            drawn = [name for draw in self.space.campaign.draws for name in draw.names]
-            write_parquet(self.flown.given(drawn, self._places), folder / "failures.parquet")
+            write_parquet(self.flown.given(drawn_names(self.space.campaign), self._places), folder / FAILURES)
         write_parquet(self.flown.table("margin"), folder / "flights.parquet")
-        write_atomically(folder / "rare.json", f"{json.dumps(self.document(), indent=1, allow_nan=False)}\n".encode())
-
-
-LEVEL_HEADS = ["level", "margin from", "flown", "probability", "taken", "gamma", "deviation"]
-
-
-def _level_fact(level: Level) -> dict[str, Any]:
-    return vars(level) | {"threshold": None if level.threshold is None else strict(level.threshold)}
-
-
-def _level_cells(place: int, level: Level) -> list[str]:
-    return [
-        str(place + 1),
-        "-" if level.threshold is None else f"{level.threshold:.4g}",
-        str(level.samples),
-        f"{level.probability:.4f}",
-        "-" if level.taken is None else f"{level.taken:.2f}",
-        f"{level.correlation:.2f}",
-        f"{level.deviation:.3f}",
-    ]
+        text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
+        write_atomically(folder / "rare.json", text.encode())

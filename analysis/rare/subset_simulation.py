@@ -2,54 +2,81 @@
 
 The failure is the last of nested events, each of which a tenth of the points of the one before are in: its probability
 is the product of theirs. Points of an event are had by chains (`conditional_sampling`) from those of the one before.
+Where chains cannot renew the noise of a level, levels end, and what is left is bounded (`_bounded`).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from .conditional_sampling import FIRST_SPREAD, MarginOf, grow_chains
-from .uncertainty import CONFIDENCE, Interval, binomial_interval, chain_correlation, family_interval
+from .conditional_sampling import FIRST_SPREAD, Chains, grow_chains
+from .points import FreshStreams, MarginOf, Points
+from .uncertainty import (
+    CONFIDENCE,
+    Interval,
+    binomial_interval,
+    chain_correlation,
+    equivalent_trials,
+    family_interval,
+    fractional_interval,
+)
 
 SHARE = 0.1  # of a level's points that are in the next event (Au and Beck 2001, section 5)
 MOST_TIED = 0.5  # of a level's points, above which they share one margin rather than approach the failure
+LEAST_ACCEPTED = 0.05  # of the noise moves, below which a level's points are not trusted
+JUDGED_ALONE = 100  # moves of one noise source
 
 
 @dataclass(frozen=True)
 class Level:
     """One of the nested events: margins not below ``threshold`` (None for the first, which is everything).
 
-    ``probability`` of the next event in it, ``taken`` and ``spread`` of the chains that sampled it (None for the
-    first), ``correlation`` gamma of Au and Beck (2001, equation 29) in them and the coefficient of variation
-    ``deviation`` of the probability (equation 28), which takes chains for independent of each other.
+    ``probability`` of the next event in it, None where its chains are not ``trusted``. ``draw_acceptance`` and
+    ``noise_acceptance`` are the acceptance rates of the two moves, None where there were none, ``least_acceptance`` is
+    the lowest of a noise source and ``source`` its place, None where that is of all sources together; ``spread`` is
+    that of the draw moves. ``correlation`` is gamma of Au and Beck (2001, equation 29), ``deviation`` the coefficient
+    of variation of the probability (equation 28), which takes chains for independent of each other.
     """
 
     threshold: float | None
     samples: int
-    probability: float
-    taken: float | None
-    spread: float | None
-    correlation: float
-    deviation: float
+    probability: float | None
+    draw_acceptance: float | None = None
+    noise_acceptance: float | None = None
+    least_acceptance: float | None = None
+    source: int | None = None
+    spread: float | None = None
+    correlation: float = 0.0
+    deviation: float | None = None
+
+    @property
+    def trusted(self) -> bool:
+        """Whether its chains renewed their noise often enough."""
+        return self.least_acceptance is None or self.least_acceptance >= LEAST_ACCEPTED
 
 
 @dataclass(frozen=True, eq=False)
 class SubsetSimulation:
-    """What came of it: ``probability``, or None where the failure was not reached and only the interval's end is known.
+    """What came of it: ``probability``, or None where no failure was reached and only the interval's end is known.
 
-    ``failures`` (failures, dimensions) are the points that failed at the last level, with their ``margins``.
-    ``families`` is of how many of the first points the last event's are descendants.
+    ``failures`` are the points that failed at the last trusted level, with their ``margins``. ``families`` is of how
+    many of the first points the last event's are descendants. ``equivalent_trials`` are the plain Monte Carlo trials
+    that would say as much, which bound the probability where ``noise_ends`` says that levels ended because the noise
+    was not renewed; None where nothing says.
     """
 
     probability: float | None
     interval: Interval
     levels: tuple[Level, ...]
     evaluations: int
-    failures: np.ndarray
+    failures: Points
     margins: np.ndarray
     families: int
+    equivalent_trials: float | None
+    noise_ends: bool = False
 
 
 class StuckError(Exception):
@@ -60,77 +87,125 @@ class StuckError(Exception):
 class _Population:
     """A level's points: ``chains`` (chains, length) are their places by time, ``family`` the first point of each."""
 
-    points: np.ndarray
+    points: Points
     margins: np.ndarray
     chains: np.ndarray
     family: np.ndarray
     threshold: float | None = None
-    taken: float | None = None
-    spread: float | None = None
+    grown: Chains | None = None
 
 
 def subset_simulation(
-    margin: MarginOf, dimensions: int, *, seed: int = 0, samples: int = 4500, least: float = 1e-9
+    margin: MarginOf,
+    dimensions: int,
+    sources: int = 0,
+    *,
+    seed: int = 0,
+    samples: int = 4500,
+    least: float = 1e-9,
 ) -> SubsetSimulation:
-    """The probability that ``margin`` is 0 or more where its points are standard normal and independent.
+    """The probability that ``margin`` is 0 or more over standard normal draws and the noise of independent sources.
 
-    ``margin`` maps points (points, dimensions) to margins (points,), the larger the nearer to failure; inf is a failure
-    and none is nan. Each level has ``samples`` points. A failure less likely than about ``least`` is given up. The
-    interval counts that points of a chain, and chains of one family, are alike. The same seed gives the same bits.
-    Raises StuckError where margins do not vary, ValueError for fewer than 100 samples or a ``least`` not in (0, 1).
+    ``margin`` maps points of ``dimensions`` draws and ``sources`` streams to margins (points,), the larger the nearer
+    to failure; inf is a failure and none is nan. Each level has ``samples`` points. A failure less likely than about
+    ``least`` is given up. The interval counts that points of a chain, and chains of one family, are alike. The same
+    seed gives the same bits. Raises StuckError where margins do not vary, ValueError for fewer than 100 samples, a
+    ``least`` not in (0, 1), or nothing random.
     """
-    if samples < 100 or not 0.0 < least < 1.0:
-        raise ValueError(f"{samples} samples, least {least}")
-    random = np.random.Generator(np.random.Philox(np.random.SeedSequence(seed)))
+    if samples < 100 or not 0.0 < least < 1.0 or dimensions + sources < 1:
+        raise ValueError(f"{samples} samples, least {least}, {dimensions} dimensions, {sources} sources")
+    sequence = np.random.SeedSequence(seed)
+    random = np.random.Generator(np.random.Philox(sequence))
+    of_noise = np.random.Generator(np.random.Philox(sequence.spawn(1)[0]))
+    fresh = FreshStreams()
     evaluations = 0
 
-    def counted(points: np.ndarray) -> np.ndarray:
+    def counted(points: Points) -> np.ndarray:
         nonlocal evaluations
         evaluations += len(points)
         return margin(points)
 
-    points = random.standard_normal((samples, dimensions))
+    normals = random.standard_normal((samples, dimensions))
+    points = Points(normals, np.repeat(fresh.take(samples)[:, np.newaxis], sources, axis=1))
     population = _Population(points, counted(points), np.arange(samples)[:, np.newaxis], np.arange(samples))
     spread, reached = FIRST_SPREAD, 1.0
     levels: list[Level] = []
     while True:
         threshold = _next_threshold(population.margins)
         inside = population.margins >= threshold
-        levels.append(_level(population, inside))
-        reached *= levels[-1].probability
+        level = _level(population, inside)
+        levels.append(level)
+        before, reached = reached, reached * float(inside.mean())
         if threshold == 0.0 or reached < least:
             break
         seeds = random.permutation(np.flatnonzero(inside))
         length = samples // len(seeds)
         chains = grow_chains(
-            counted, population.points[seeds], population.margins[seeds], threshold, length, spread, random
-        )
+            counted, population.points.rows(seeds), population.margins[seeds], threshold, length, spread, fresh,
+            (random, of_noise),
+        )  # fmt: skip
         spread = chains.spread
-        population = _Population(
-            chains.points.reshape(-1, dimensions),
+        size = chains.margins.size
+        grown = _Population(
+            Points(chains.draws.reshape(size, dimensions), chains.streams.reshape(size, sources)),
             chains.margins.reshape(-1),
-            np.arange(chains.margins.size).reshape(chains.margins.shape),
+            np.arange(size).reshape(chains.margins.shape),
             np.repeat(population.family[seeds], length),
             threshold,
-            chains.taken,
-            chains.spread,
+            chains,
         )
+        level = _level(grown, None)
+        if not level.trusted:
+            levels.append(level)
+            return _bounded(population, before, samples, levels, evaluations)
+        population = grown
     failed = population.margins >= 0.0
     families = population.family[inside]
     if len(levels) == 1:
         interval = binomial_interval(int(inside.sum()), samples, CONFIDENCE)
     else:
         interval = family_interval(reached, families, samples, CONFIDENCE)
-    if threshold != 0.0:
+    missed = threshold != 0.0
+    if missed:
         interval = Interval(0.0, interval.high, interval.variation)
     return SubsetSimulation(
-        reached if threshold == 0.0 else None,
+        None if missed else reached,
         interval,
         tuple(levels),
         evaluations,
-        population.points[failed],
+        population.points.rows(failed),
         population.margins[failed],
         len(np.unique(families)),
+        None if missed else equivalent_trials(reached, interval.variation),
+    )
+
+
+def _bounded(
+    population: _Population, reached: float, samples: int, levels: list[Level], evaluations: int
+) -> SubsetSimulation:
+    """What the last trusted level says, whose chains are in an event of the probability ``reached``.
+
+    Its points are as many plain Monte Carlo trials as would give that probability with the variance that the families
+    of all its points have. The failures among them are counted as theirs, with the interval of Clopper and Pearson.
+    """
+    failed = population.margins >= 0.0
+    share = float(failed.mean())
+    trials = float(samples)
+    if len(levels) > 2:
+        variation = family_interval(reached, population.family, samples, CONFIDENCE).variation
+        trials = equivalent_trials(reached, variation) or trials
+    interval = fractional_interval(reached * share * trials, trials, CONFIDENCE)
+    levels[-2] = _level(population, failed)
+    return SubsetSimulation(
+        reached * share if failed.any() else None,
+        interval,
+        tuple(levels),
+        evaluations,
+        population.points.rows(failed),
+        population.margins[failed],
+        len(np.unique(population.family[failed])),
+        trials,
+        noise_ends=True,
     )
 
 
@@ -152,16 +227,32 @@ def _next_threshold(margins: np.ndarray) -> float:
     return min(float(above[-1]), 0.0)
 
 
-def _level(population: _Population, inside: np.ndarray) -> Level:
+def _level(population: _Population, inside: np.ndarray | None) -> Level:
+    """The facts of a level, whose points ``inside`` are in the next event; None where it has none."""
+    of_moves = {} if population.grown is None else _moves(population.grown)
+    if inside is None:
+        return Level(population.threshold, population.margins.size, None, **of_moves)
     probability = float(inside.mean())
     correlation = chain_correlation(inside[population.chains])
-    variance = (1.0 - probability) / (probability * inside.size) * (1.0 + correlation)
+    deviation = None
+    if probability > 0.0:
+        deviation = float(np.sqrt((1.0 - probability) / (probability * inside.size) * (1.0 + correlation)))
     return Level(
-        population.threshold,
-        inside.size,
-        probability,
-        population.taken,
-        population.spread,
-        correlation,
-        float(np.sqrt(variance)),
+        population.threshold, inside.size, probability, **of_moves, correlation=correlation, deviation=deviation
     )
+
+
+def _moves(chains: Chains) -> dict[str, Any]:
+    """The acceptance rates of a level's chains."""
+    found: dict[str, Any] = {"draw_acceptance": chains.draw_acceptance, "spread": chains.spread}
+    moves, accepted = chains.noise_moves, chains.noise_accepted
+    if moves.sum():
+        found["noise_acceptance"] = float(accepted.sum() / moves.sum())
+        found["least_acceptance"] = found["noise_acceptance"]
+        alone = np.flatnonzero(moves >= JUDGED_ALONE)
+        if alone.size:
+            rates = accepted[alone] / moves[alone]
+            worst = int(np.argmin(rates))
+            if rates[worst] < found["least_acceptance"]:
+                found |= {"least_acceptance": float(rates[worst]), "source": int(alone[worst])}
+    return found

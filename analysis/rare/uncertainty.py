@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import binomtest, t
+from scipy.stats import beta, binomtest, t
 
 CONFIDENCE = 0.95
 
@@ -23,6 +23,20 @@ def binomial_interval(failures: int, samples: int, confidence: float) -> Interva
     ends = binomtest(failures, samples).proportion_ci(confidence, method="exact")
     share = failures / samples
     return Interval(float(ends.low), float(ends.high), float(np.sqrt((1.0 - share) / (share * samples))))
+
+
+def fractional_interval(failures: float, samples: float, confidence: float) -> Interval:
+    """Clopper and Pearson's interval of numbers of failures and samples that need not be whole: effective ones."""
+    outside = (1.0 - confidence) / 2.0
+    low = float(beta.ppf(outside, failures, samples - failures + 1.0)) if failures > 0.0 else 0.0
+    high = float(beta.ppf(1.0 - outside, failures + 1.0, samples - failures)) if failures < samples else 1.0
+    share = failures / samples
+    return Interval(low, high, float(np.sqrt((1.0 - share) / (share * samples))) if share > 0.0 else float("inf"))
+
+
+def equivalent_trials(probability: float, variation: float) -> float | None:
+    """The number of plain Monte Carlo trials whose share has the same coefficient of variation; None where it is 0."""
+    return None if variation == 0.0 else (1.0 - probability) / (probability * variation**2)
 
 
 def chain_correlation(inside: np.ndarray) -> float:

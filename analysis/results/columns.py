@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
-from ..campaign.drawing.given import STREAMS
+from ..campaign.drawing.given import stream_component
 
 
 class Column(NamedTuple):
@@ -50,7 +50,9 @@ def _column(name: str, provenance: Mapping[str, Any]) -> Column:
         if end is None:
             return Column("1", f"whether the fault {rest} flew")
         return Column(FAULT[end].unit, f"fault {rest.removesuffix(end)}: {FAULT[end].meaning}")
-    if rest == STREAMS:
-        return Column("1", "number of the trial whose random streams it flew with")
+    component = stream_component(rest)
+    if component is not None:
+        whose = f"random stream {component}" if component else "random streams it"
+        return Column("1", f"number of the trial whose {whose} flew with")
     swept = provenance.get("sweep", {}).get(rest)
     return Column(None, f"drawn or derived: {rest}" if swept is None else f"swept: {rest}, {swept}")

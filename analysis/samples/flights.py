@@ -15,12 +15,11 @@ from ..batch.trials import Trials, joined
 from ..campaign.campaign import Record
 from ..campaign.checks import check_draws, check_plan
 from ..campaign.drawing.declared import Columns
-from ..campaign.drawing.given import GivenDraws
-from ..campaign.drawn import with_streams
+from ..campaign.drawing.given import ALL, GivenDraws, Streams
 from ..campaign.plan import BatchPlan
 from ..errors import InputError
 from ..progress import progress_bar
-from ..system.prepared import PreparedSystem
+from .noise import given_draws, noise_of
 
 OWN = ("trials", "record", "group", "draws_sha256")  # facts of a batch that a study of samples has not
 
@@ -29,40 +28,35 @@ class SampleFlights:
     """Flies draws of one variant of a campaign that somebody chooses. Use it as a context manager: it holds workers.
 
     ``first`` are draws with which everything is checked before anything flies; ``noise_trial`` is the trial of the
-    campaign whose random streams all flights have. ``workers`` (default: one per processor) does not change results.
-    Raises InputError, also for a campaign that compares FMUs.
+    campaign whose random streams all flights have, None where `fly` is given them. ``workers`` (default: one per
+    processor) does not change results. Raises InputError, also for a campaign that compares FMUs.
     """
 
-    def __init__(self, plan: BatchPlan, first: Columns, *, noise_trial: int = 0, workers: int | None = None) -> None:
+    def __init__(
+        self, plan: BatchPlan, first: Columns, *, noise_trial: int | None = None, workers: int | None = None
+    ) -> None:
         variants = plan.campaign.variants()
         if len(variants) != 1:
             slot, fmus = next(iter(plan.campaign.compare.items()))
             problem = f"{len(variants)} variants, and a study like this flies one"
             raise InputError(plan.campaign.file, "compare", problem, f"choose: --compare {slot}={fmus[0]}")
-        if noise_trial < 0:
-            raise InputError("--noise-trial", str(noise_trial), "no such trial", "give 0 or more")
-        self._noise_trial = noise_trial
         self._count = worker_count(workers)
         plain = replace(plan.campaign, record=Record(), group=None, scatters=())
-        self.plan = replace(plan, campaign=plain).of_samples(self._given(first))
+        self.plan = replace(plan, campaign=plain).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))
         systems = check_plan(self.plan)
         self.variant, self.prepared = next(iter(systems.items()))
+        self.noise = noise_of(self.prepared, noise_trial, plan.campaign.seed)
         self.facts = {name: fact for name, fact in provenance(self.plan, systems).items() if name not in OWN}
         self.flown = 0
         self._pool = FlyerPool(self.plan, self._count, self.prepared.flies_in_threads)
         self._progress = progress_bar(unit="flight")
 
-    def noise(self) -> str:
-        """What results say of the random numbers that components draw themselves."""
-        return noise_held(self.prepared, self._noise_trial, self.plan.campaign.seed)
+    def fly(self, columns: Columns, streams: Streams) -> tuple[Trials, Mapping[str, np.ndarray]]:
+        """The trials of given draws and random streams, in their order, with the drawn and derived values.
 
-    def given(self, columns: Columns) -> Mapping[str, np.ndarray]:
-        """Draws as a file of them has them (`analysis.campaign.given`), with the trial whose noise they have."""
-        return self._given(columns).table
-
-    def fly(self, columns: Columns) -> tuple[Trials, Mapping[str, np.ndarray]]:
-        """The trials of given draws, in their order, and the drawn and derived values. Raises InputError."""
-        plan = self.plan.of_samples(self._given(columns))
+        ``streams`` are those of all sources of the noise, by component. Raises InputError.
+        """
+        plan = self.plan.of_samples(given_draws(columns, streams, self.noise))
         check_draws(plan, [self.prepared])
         trials = plan.campaign.trials
         size = max(1, min(50 if self.prepared.flies_in_threads else 10, trials // (4 * self._count)))
@@ -76,10 +70,6 @@ class SampleFlights:
         self.flown += trials
         return joined(found.values()), plan.draws.of_part(range(trials)).columns
 
-    def _given(self, columns: Columns) -> GivenDraws:
-        count = len(next(iter(columns.values())))
-        return GivenDraws(columns, np.full(count, self._noise_trial))
-
     def __enter__(self) -> SampleFlights:
         self._pool.__enter__()
         return self
@@ -87,12 +77,6 @@ class SampleFlights:
     def __exit__(self, *error: Any) -> None:
         self._progress.close()
         self._pool.__exit__(*error)
-
-
-def noise_held(prepared: PreparedSystem, trial: int, seed: int) -> str:
-    """What results say where all flights have the random streams of one trial; nothing where no component has any."""
-    noisy = with_streams(prepared)
-    return f"noise of {', '.join(noisy)} held: that of trial {trial}, seed {seed}" if noisy else ""
 
 
 def _fly(flyer: Flyer, variant: str, plan: BatchPlan) -> Trials | None:

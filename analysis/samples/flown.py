@@ -8,12 +8,16 @@ from typing import Any, NamedTuple
 import numpy as np
 import pyarrow
 
-from ..campaign.drawing.given import STREAMS
+from ..campaign.drawing.given import stream_component
 
 
 def strict(value: float) -> float | None:
     """A number as strict JSON can hold it."""
     return float(value) if np.isfinite(value) else None
+
+
+def _is_stream(name: str) -> bool:
+    return stream_component(name) is not None
 
 
 class _Part(NamedTuple):
@@ -56,13 +60,22 @@ class Flown:
     def fact(self, place: int, told: Callable[[float], float | str | None] = strict) -> dict[str, Any]:
         """Draws and metrics of one flight, as strict JSON has them: what is not finite is null, unless ``told``."""
         return {
-            "draws": {name: strict(column[place]) for name, column in self.draws.items() if name != STREAMS},
+            "draws": {name: strict(column[place]) for name, column in self.draws.items() if not _is_stream(name)},
             "metrics": {name: told(column[place]) for name, column in self.metrics.items()},
         }
 
     def given(self, drawn: list[str], places: np.ndarray) -> pyarrow.Table:
-        """The draws of some flights, as `perilune batch --draws` takes them; ``drawn`` are the campaign's."""
-        return pyarrow.table({name: self.draws[name][places] for name in (*drawn, STREAMS)})
+        """The draws of some flights, as `perilune batch --draws` takes them; ``drawn`` are the campaign's.
+
+        Their random streams are columns of the table, too.
+        """
+        streams = filter(_is_stream, self.draws)
+        return pyarrow.table({name: self.draws[name][places] for name in (*drawn, *streams)})
+
+    def streams(self, place: int) -> dict[str, int]:
+        """The trials whose random streams components had in one flight, by component; `ALL` stands for the others."""
+        found = ((stream_component(name), column) for name, column in self.draws.items())
+        return {component: int(column[place]) for component, column in found if component is not None}
 
     def table(self, worth: str) -> pyarrow.Table:
         """A row per flight: draws, metrics and, under the name ``worth``, the value."""

@@ -16,10 +16,10 @@ RESAMPLES = 999
 
 @dataclass(frozen=True, eq=False)
 class Indices:
-    """First-order and total indices (numbers, draws) with their 95 % intervals (2, numbers, draws), low and high.
+    """First-order and total indices (numbers, inputs) with their 95 % intervals (2, numbers, inputs), low and high.
 
-    The first-order index is the share of the variance that a draw makes by itself; the total one is the share that is
-    left when all other draws are known.
+    The first-order index is the share of the variance that an input makes by itself; the total one is the share that is
+    left when all other inputs are known.
     """
 
     first: np.ndarray
@@ -41,8 +41,21 @@ def saltelli_points(base: int, dimensions: int, random: np.random.Generator) -> 
     return np.concatenate([first, second, *mixed])
 
 
+def with_noise(points: np.ndarray, base: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points and streams where the noise is one input more: `saltelli_points`, and A with the streams of B.
+
+    Points are (base * (dimensions + 3), dimensions), streams (base * (dimensions + 3),) a number for each noise
+    realisation: row i of A has i, row i of B base + i, and every mix has those of A but for the last, which has B's.
+    """
+    first = np.arange(base)
+    mixes = len(points) // base - 2
+    return np.concatenate([points, points[:base]]), np.concatenate(
+        [first, first + base, *[first] * mixes, first + base]
+    )
+
+
 def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indices:
-    """Indices of numbers (numbers, base * (dimensions + 2)) at the points of `saltelli_points`.
+    """Indices of numbers (numbers, base * (inputs + 2)) at the points of `saltelli_points`, or of `with_noise`.
 
     They are finite, and none is the same everywhere. The intervals are percentiles of a bootstrap over the rows.
     """

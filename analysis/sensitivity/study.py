@@ -12,9 +12,10 @@ from ..campaign.plan import BatchPlan
 from ..errors import InputError
 from ..samples.flights import SampleFlights
 from ..samples.flown import Flown
+from ..samples.units import units_of
 from .outcome import SensitivityResult
 from .ranks import rank_correlations
-from .sobol import indices, saltelli_points
+from .sobol import indices, saltelli_points, with_noise
 
 SUCCESS = "success"
 EDGE = 2.0**-40  # of the unit interval, where a normal draw would be infinite
@@ -25,12 +26,14 @@ def sensitivity(
     base: int,
     *,
     hold: Mapping[str, float] | None = None,
-    noise_trial: int = 0,
+    noise_trial: int | None = None,
     workers: int | None = None,
     tell: Callable[[str], object] = lambda price: None,
 ) -> SensitivityResult:
-    """First-order and total Sobol' indices of every metric and of success, by ``base`` * (draws + 2) flights.
+    """First-order and total Sobol' indices of every metric and of success, by ``base`` * (draws + 3) flights.
 
+    The noise of all components is one input beside the draws, unless ``noise_trial`` gives all flights the same: then,
+    and where no component has any, it is ``base`` * (draws + 2) flights.
     ``base`` is a power of two, 32 or more; draws that are jointly normal are refused, as their shares cannot be told
     apart: hold them. ``hold`` and ``noise_trial`` are as in `rare_failure`. ``tell`` is given the price before anything
     flies. The campaign's seed is that of the points; ``workers`` does not change the result. Raises InputError.
@@ -47,10 +50,14 @@ def sensitivity(
     with SampleFlights(
         plan, space.from_normals(np.zeros((1, space.size))), noise_trial=noise_trial, workers=workers
     ) as flights:
-        tell(f"sensitivity: {base} x ({space.size} draws + 2) = {base * (space.size + 2)} flights")
-        points = saltelli_points(base, space.size, random)
+        noise = flights.noise
+        extra = 3 if noise.sources else 2
+        tell(f"sensitivity: {base} x ({space.size} draws + {extra}) = {base * (space.size + extra)} flights")
+        points, streams = saltelli_points(base, space.size, random), np.zeros(0, dtype=np.int64)
+        if noise.sources:
+            points, streams = with_noise(points, base)
         columns = space.from_normals(ndtri(np.clip(points, EDGE, 1.0 - EDGE)))
-        trials, draws = flights.fly(columns)
+        trials, draws = flights.fly(columns, noise.same(streams))
         metrics = {**trials.metrics, SUCCESS: trials.success.astype(float)}
         told = [name for name, values in metrics.items() if np.all(np.isfinite(values)) and np.ptp(values) > 0.0]
         found = indices(np.array([metrics[name] for name in told]), base, random) if told else None
@@ -60,8 +67,8 @@ def sensitivity(
         flown = Flown()
         flown.add(points, draws, trials.metrics, metrics[SUCCESS])
         return SensitivityResult(
-            base, space, tuple(told), found, _untold(metrics, told), ranks, flown.whole(), flights.facts,
-            flights.noise(), noise_trial,
+            base, space, tuple(told), found, _untold(metrics, told), ranks, flown.whole(), flights.facts, noise,
+            units_of(space, flights.prepared, flights.facts),
         )  # fmt: skip
 
 

@@ -40,9 +40,9 @@ class MarginAsked:
         assert self.request.plan is not None
         return self.request.plan
 
-    def replay(self, draws: Path) -> str:
-        """The command that studies the loop at the first row of a file of draws."""
-        return replace(self.request, draws=draws).replay(self.loop.name, 0)
+    def replay(self, draws: Path, trial: int) -> str:
+        """The command that studies the loop at a row of a file of draws."""
+        return replace(self.request, draws=draws).replay(self.loop.name, trial)
 
     def opened(self) -> PointStudy:
         """The point with the campaign's layer and what it draws, to be closed. Raises InputError, StudyError."""

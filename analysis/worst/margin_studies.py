@@ -15,13 +15,14 @@ from ..batch.runner import provenance
 from ..campaign.campaign import Record
 from ..campaign.checks import check_draws
 from ..campaign.drawing.declared import Columns
-from ..campaign.drawing.given import GivenDraws
+from ..campaign.drawing.given import ALL, GivenDraws, Streams
 from ..campaign.plan import BatchPlan
 from ..errors import InputError
 from ..loops.margin_values import Margins
 from ..process_end import leave_when_done
 from ..progress import progress_bar
-from ..samples.flights import OWN, noise_held
+from ..samples.flights import OWN
+from ..samples.noise import given_draws, noise_of
 from ..stability.bench.bench import StudyError
 from ..stability.point.point_study import PointStudy
 from ..stability.vary.dispersion import models_of_trial
@@ -45,16 +46,18 @@ class MarginStudies:
     once, at the nominal point. Raises InputError, also where that cannot be studied.
     """
 
-    def __init__(self, asked: MarginAsked, first: Columns, *, noise_trial: int = 0, workers: int | None = None) -> None:
-        if noise_trial < 0:
-            raise InputError("--noise-trial", str(noise_trial), "no such trial", "give 0 or more")
+    def __init__(
+        self, asked: MarginAsked, first: Columns, *, noise_trial: int | None = None, workers: int | None = None
+    ) -> None:
         self._count = worker_count(workers)
-        self._noise_trial = noise_trial
         plain = replace(asked.plan.campaign, record=Record(), group=None, scatters=(), faults=())
-        self._plan = replace(asked.plan, campaign=plain).of_samples(self._given(first))
+        self._plan = replace(asked.plan, campaign=plain).of_samples(
+            GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)})
+        )
         self._asked = replace(asked, request=replace(asked.request, plan=self._plan))
         self._study, self._cells = _nominal(self._asked)
-        prepared = self._study.prepared
+        prepared = self.prepared = self._study.prepared
+        self.noise = noise_of(prepared, noise_trial, self._plan.campaign.seed)
         check_draws(self._plan, [prepared])
         self.channels = [channel.name for channel in self._study.channels]
         self.reasons: list[str] = []
@@ -66,13 +69,12 @@ class MarginStudies:
             self._pool = ProcessPoolExecutor(self._count, initializer=_begin, initargs=(self._asked, self._cells))
         self._progress = progress_bar(unit="study")
 
-    def noise(self) -> str:
-        """What results say of the random numbers that components draw themselves."""
-        return noise_held(self._study.prepared, self._noise_trial, self._plan.campaign.seed)
+    def fly(self, columns: Columns, streams: Streams) -> tuple[Studied, Mapping[str, np.ndarray]]:
+        """The margins of given draws and random streams, in their order, with the drawn and derived values.
 
-    def fly(self, columns: Columns) -> tuple[Studied, Mapping[str, np.ndarray]]:
-        """The margins of given draws, in their order, and the drawn and derived values. Raises InputError."""
-        plan = self._plan.of_samples(self._given(columns))
+        ``streams`` are those of all sources of the noise, by component. Raises InputError.
+        """
+        plan = self._plan.of_samples(given_draws(columns, streams, self.noise))
         check_draws(plan, [self._study.prepared])
         rows: list[list[Margins] | None] = []
         for found in self._found([plan.of_part(range(trial, trial + 1)) for trial in range(plan.campaign.trials)]):
@@ -86,10 +88,6 @@ class MarginStudies:
         if self._pool is None:
             return (_margins(self._study, self._cells, plan) for plan in plans)
         return self._pool.map(_in_process, plans)
-
-    def _given(self, columns: Columns) -> GivenDraws:
-        count = len(next(iter(columns.values())))
-        return GivenDraws(columns, np.full(count, self._noise_trial))
 
     def __enter__(self) -> MarginStudies:
         return self

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,10 @@ from ..batch.shards.files import write_parquet
 from ..batch.tables import aligned
 from ..campaign.draw_space import DrawSpace
 from ..samples.flown import Flown
+from ..samples.noise import Noise, conditions, noise_line
+from ..samples.units import unit_of_expression, with_unit
 from .metric import Badness
+from .realisations import Fresh, Realisations
 from .search import Phase
 
 WORST = "worst.parquet"
@@ -23,28 +27,37 @@ WORST = "worst.parquet"
 
 @dataclass(frozen=True, eq=False)
 class WorstResult:
-    """The worst flight of a box of draws: its ``value`` of ``badness``, infinite where it failed, and ``place`` in the
+    """The worst point of a box of draws: its ``value`` of ``badness``, infinite where it failed, and ``place`` in the
     unit cube.
 
-    ``random`` is the number, in ``flown``, of the worst of the random trials that it is told beside; ``facts`` are what
-    the result depends on, ``noise`` what is said of random numbers that components draw themselves, ``reason`` why the
-    worst failed, where that is known. ``again`` gives the command that studies trial 0 of a file of draws again, where
-    another than `perilune batch` does. ``phases`` are those of the search, the random trials first.
+    ``row`` and ``random`` are the flights, in ``flown``, of the worst and of the worst of the random trials; ``facts``
+    are what the result depends on, ``noise`` the random numbers that components draw themselves, ``units`` those of
+    draws and metrics by name, ``reason`` why the worst failed, where that is known. ``again`` gives the command that
+    flies or studies a trial of a file of draws again. ``phases`` are those of the search by their points, the random
+    trials first.
+
+    Where the noise is random, values of points are those ``over`` its realisations, and ``fresh`` are flights of the
+    worst with others; ``noise_matters`` is whether it changed any value of the random trials, None where that was not
+    looked at.
     """
 
     badness: Badness
     sigmas: float
     value: float
     place: np.ndarray
+    row: int
     random: int
     random_trials: int
     space: DrawSpace
     flown: Flown
     facts: dict[str, Any]
-    noise: str
-    noise_trial: int
+    noise: Noise
+    units: Mapping[str, str]
+    over: Realisations | None = None
+    fresh: Fresh | None = None
+    noise_matters: bool | None = None
     reason: str = ""
-    again: Callable[[Path], str] | None = None
+    again: Callable[[Path, int], str] | None = None
     phases: tuple[Phase, ...] = ()
 
     @property
@@ -72,13 +85,26 @@ class WorstResult:
     @property
     def places(self) -> list[int]:
         """Of the worst flight and of the worst random one, among those flown."""
-        same = np.all(self.flown.points == self.place, axis=1) & (self.flown.values == self.value)
-        return [int(np.argmax(same)), self.random]
+        return [self.row, self.random]
+
+    @property
+    def conditions(self) -> str:
+        """What the numbers are conditional on, as the end of a line; empty where they are not."""
+        return conditions(self.noise, self.space.held)
+
+    @property
+    def unit(self) -> str:
+        """The unit of the number that is made worst; empty where it has none, or its text says it."""
+        return "" if self.badness.expression is None else unit_of_expression(self.badness.expression, self.units)
 
     def values(self) -> dict[str, float]:
-        """The numbers that requirements are about: worst, random, flights."""
-        worst, random = (self.badness.size(float(value)) for value in (self.value, self.flown.values[self.random]))
-        return {"worst": worst, "random": random, "flights": float(self.flights)}
+        """The numbers that requirements are about; those of fresh noise are nan where there was none."""
+        values = {"worst": self.value, "random": float(self.flown.values[self.random])}
+        values |= {
+            "fresh_worst": math.nan if self.fresh is None else self.fresh.worst,
+            "fresh_quantile": math.nan if self.fresh is None else self.fresh.at_quantile,
+        }
+        return {name: self.badness.size(value) for name, value in values.items()} | {"flights": float(self.flights)}
 
     def document(self, folder: Path | None = None) -> dict[str, Any]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
@@ -88,7 +114,14 @@ class WorstResult:
             "metric": self.badness.text,
             "sigmas": self.sigmas,
             "held": self.space.held,
-            "noise_trial": self.noise_trial if self.noise else None,
+            **self.noise.document(),
+            "conditional": bool(self.conditions),
+            "conditions": self.conditions.removeprefix(", "),
+            "unit": self.unit,
+            "units": dict(self.units),
+            **({} if self.over is None else {"objective": self.over.text, "realisations": self.over.count}),
+            **({} if self.fresh is None else {"fresh": self.fresh.document(self._told)}),
+            **({} if self.noise_matters is None else {"noise_matters": self.noise_matters}),
             "flights": self.flights,
             "random_trials": self.random_trials,
             "worst": self.worst,
@@ -98,28 +131,47 @@ class WorstResult:
         }
 
     def _replay(self, folder: Path | None) -> str:
-        return "" if folder is None or self.again is None else self.again(folder / WORST)
+        return "" if folder is None or self.again is None else self.again(folder / WORST, 0)
 
     def text(self, folder: Path | None = None) -> str:
         """The result for a terminal; ``folder`` as in `document`."""
         found, random = self.worst, self.worst_random
-        within = f"within {self.sigmas:g} sigmas of normal draws and the ends of others"
+        within = f"search box +-{self.sigmas:g} sigma (normal), full range (others)"
         outside = "" if random["inside"] else ", outside the box"
+        unit, under = f" {self.unit}" if self.unit else "", self.conditions
+        of = "" if self.over is None else f" ({self.over.text})"
         lines = [
-            f"{self.badness.text}: worst {_shown(found['value'])} in {self.flights} flights, {within}",
-            f"worst of {self.random_trials} random trials: {_shown(random['value'])}{outside}",
+            f"{self.badness.text}: worst {_shown(found['value'])}{unit}{of} in {self.flights} flights, {within}{under}",
+            f"worst of {self.random_trials} random trials: {_shown(random['value'])}{unit}{of}{outside}{under}",
+            *self._fresh_lines(unit),
         ]
         lines += [f"failed: {self.reason}"] if self.reason else []
-        lines += [self.noise] if self.noise else []
-        if self.space.held:
-            lines.append(f"held: {', '.join(f'{name} = {value:g}' for name, value in self.space.held.items())}")
+        lines += [line for line in (noise_line(self.noise),) if line and self.over is None]
         rows = [["", "trial 0: worst", "trial 1: random"]]
         for part in ("draws", "metrics"):
             names = self.space.names if part == "draws" else list(found[part])
-            rows += [[name, _shown(found[part][name]), _shown(random[part][name])] for name in names]
+            rows += [
+                [with_unit(name, self.units), _shown(found[part][name]), _shown(random[part][name])] for name in names
+            ]
         replay = self._replay(folder)
-        lines += ["", *aligned(rows), *(["", f"again: {replay}"] if replay else [])]
+        lines += ["", *([under.removeprefix(", ")] if under else []), *aligned(rows)]
+        lines += ["", f"replay: {replay}" if replay else "replay: --output DIR writes the flights and the command"]
         return "\n".join(line.rstrip() for line in lines)
+
+    def _fresh_lines(self, unit: str) -> list[str]:
+        """What fresh noise does to the worst point, and how the noise was flown; none where it is not random."""
+        if self.fresh is None or self.over is None:
+            return []
+        worst, quantile = (_shown(self._told(value)) for value in (self.fresh.worst, self.fresh.at_quantile))
+        lines = [
+            f"the worst point under {self.fresh.values.size} fresh noise realisations: "
+            f"worst {worst}{unit}, {self.over.name} {quantile}{unit}"
+        ]
+        names = ", ".join(self.noise.components)
+        every = f"the same {self.over.count} realisations at every point"
+        if self.noise_matters is False:
+            every = f"changes none of the random trials in {self.over.count} realisations, so that the search flew one"
+        return [*lines, f"noise of {names}: {every}"]
 
     def write(self, folder: Path) -> None:
         """Write worst.json, flights.parquet, and worst.parquet for `--draws`: the worst trial, and the random one."""

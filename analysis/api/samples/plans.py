@@ -3,18 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import fields
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
+import numpy as np
+
+from ...campaign.drawing.given import ALL, GivenDraws
 from ...campaign.plan import BatchPlan, read_plan
+from ...reports.batch.replays import replay_command
+from ...samples.commands import Commands
 from ...ssp.parameter_sets import SetValue
 from ...system.faults import Fault, faults_of
 from ...system.in_flight.series import Given, read_series
 from ...system.in_flight.watch import Watch
 from ..options import Compared, FilePath, check_list, compared, system_options
 
-Study = TypeVar("Study")
+
+def commands_of(plan: BatchPlan) -> Commands:
+    """What writes command lines for the flights of a study's plan."""
+    (variant,) = plan.campaign.variants()
+
+    def replay(draws: Path, trial: int) -> str:
+        given = GivenDraws({}, {ALL: np.zeros(trial + 1, dtype=np.int64)}, str(draws))
+        return replay_command(plan.of_samples(given), variant, trial)
+
+    def monte_carlo(trials: int) -> str:
+        words = replay_command(replace(plan, campaign=replace(plan.campaign, trials=trials)), variant, 0)
+        return words.removesuffix(" --replay 0")
+
+    return Commands(replay, monte_carlo)
 
 
 def sample_plan(
@@ -45,14 +63,3 @@ def sample_plan(
         series=None if input is None else read_series(input),
         watch=Watch(timeout, log),
     )
-
-
-def as_class(kind: type[Study], result: Any, **more: Any) -> Study:
-    """A study's result with what Python users have of it: of its subclass ``kind``, whose fields ``more`` are."""
-    return kind(**{field.name: getattr(result, field.name) for field in fields(result)}, **more)
-
-
-def condition_words(result: Any) -> list[str]:
-    """What a study's numbers are conditional on, for a notebook."""
-    held = [f"{name} = {value:g}" for name, value in result.space.held.items()]
-    return [result.noise, f"held: {', '.join(held)}" if held else ""]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -21,7 +21,8 @@ from ...system.in_flight.series import Given
 from ...targets import check_folder
 from ..notebook import Grid, notebook_view
 from ..options import Compared, FilePath
-from .plans import as_class, condition_words, sample_plan
+from .plans import commands_of, sample_plan
+from .results import as_class, condition_words
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -30,6 +31,8 @@ class RareResult(outcome.RareResult):
 
     ``simulation`` has the levels, ``flown`` every simulation.
     """
+
+    folder: Path | None = None
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.facts['system']}, {self.failure.text}: {self._estimate()})"
@@ -40,7 +43,7 @@ class RareResult(outcome.RareResult):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune rare --report`: one HTML file."""
-        write_rare_page(self, Path(path))
+        write_rare_page(self, Path(path), self.folder)
 
     def plot(self) -> Plot:
         """Limit state over simulations, exceedance probability, failures over the two most influential parameters."""
@@ -66,7 +69,7 @@ def rare(
     samples: int | None = None,
     least: float | None = None,
     hold: Mapping[str, float] | None = None,
-    noise_trial: int = 0,
+    noise_trial: int | None = None,
     compare: Compared | None = None,
     seed: int | None = None,
     workers: int | None = None,
@@ -89,11 +92,12 @@ def rare(
     open_inputs: Literal["refuse", "start"] = "refuse",
     no_feedthrough: Sequence[str] = (),
 ) -> RareResult:
-    """The probability of a rare failure over a campaign's draws, by subset simulation: `perilune rare`.
+    """The probability of a rare failure over a campaign's draws and noise, by subset simulation: `perilune rare`.
 
     ``failure`` is an expression over metrics and draws, by default that a trial is no success; ``samples`` are the
     flights of a level, by default 4500, and a failure less likely than ``least``, by default 1e-9, is given up.
-    ``hold`` gives draws one value in all flights, ``noise_trial`` is the trial whose noise all have, ``compare`` says
+    ``hold`` gives draws one value in all flights. The noise of components is random, unless ``noise_trial`` is the
+    trial of the campaign whose noise all flights have: then the probability is conditional on that. ``compare`` says
     which FMU flies in a slot that the campaign compares; ``output`` is a folder for rare.json, flights.parquet and
     failures.parquet. The rest is as in `batch`. Raises InputError.
     """
@@ -110,6 +114,7 @@ def rare(
             plan, failure, hold=hold, noise_trial=noise_trial, workers=workers,
             samples=SAMPLES if samples is None else samples, least=LEAST if least is None else least,
         )  # fmt: skip
+    result = replace(result, commands=commands_of(plan))
     if folder is not None:
         result.write(folder)
-    return as_class(RareResult, result)
+    return as_class(RareResult, result, folder=folder)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -20,7 +20,8 @@ from ...system.in_flight.series import Given
 from ...targets import check_folder
 from ..notebook import Grid, notebook_view
 from ..options import Compared, FilePath
-from .plans import as_class, condition_words, sample_plan
+from .plans import commands_of, sample_plan
+from .results import as_class, condition_words
 
 MOST_PLOTTED = 4  # metrics, in a notebook
 
@@ -28,6 +29,8 @@ MOST_PLOTTED = 4  # metrics, in a notebook
 @dataclass(frozen=True, eq=False, repr=False)
 class SensitivityResult(outcome.SensitivityResult):
     """Sobol' indices of metrics and success: `of` gives those of one, ``ranks`` the rank correlations."""
+
+    folder: Path | None = None
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.facts['system']}, {self.flights} simulations: {', '.join(self.told)})"
@@ -38,7 +41,7 @@ class SensitivityResult(outcome.SensitivityResult):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune batch --sensitivity N --report`: one HTML file."""
-        write_sensitivity_page(self, Path(path))
+        write_sensitivity_page(self, Path(path), self.folder)
 
     def plot(self, *metrics: str) -> Plot:
         """Total and first-order indices with their intervals, a panel for each metric; of none named all.
@@ -65,7 +68,7 @@ def sensitivity(
     base: int,
     *,
     hold: Mapping[str, float] | None = None,
-    noise_trial: int = 0,
+    noise_trial: int | None = None,
     compare: Compared | None = None,
     seed: int | None = None,
     workers: int | None = None,
@@ -90,9 +93,10 @@ def sensitivity(
 ) -> SensitivityResult:
     """Sobol' indices of a campaign's metrics and of its success: `perilune batch --sensitivity`.
 
-    ``base`` is a power of two: that many times the number of draws and 2 are flown. Draws that are jointly normal are
-    refused. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for sensitivity.json and
-    flights.parquet. The rest is as in `batch`. Raises InputError.
+    ``base`` is a power of two: that many times the number of draws and 3 are flown, or the number of draws and 2 where
+    no noise is random. The noise of all components is one input beside the draws. Draws that are jointly normal are
+    refused. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for sensitivity.json,
+    flights.parquet and draws.parquet. The rest is as in `batch`. Raises InputError.
     """
     folder = Path(output).absolute() if output is not None else None
     check_folder("output", folder, overwrite=overwrite)
@@ -104,6 +108,7 @@ def sensitivity(
     )  # fmt: skip
     with chdir(Path.cwd()):  # an FMU may change the folder
         result = study.sensitivity(plan, base, hold=hold, noise_trial=noise_trial, workers=workers)
+    result = replace(result, commands=commands_of(plan))
     if folder is not None:
         result.write(folder)
-    return as_class(SensitivityResult, result)
+    return as_class(SensitivityResult, result, folder=folder)

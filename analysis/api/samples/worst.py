@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -23,7 +23,8 @@ from ...worst.asked import check_options, margin_asked
 from ...worst.study import MARGIN, worst_case, worst_margin
 from ..notebook import Grid, notebook_view
 from ..options import Compared, FilePath, system_options
-from .plans import as_class, condition_words, sample_plan
+from .plans import commands_of, sample_plan
+from .results import as_class, condition_words
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -34,6 +35,7 @@ class WorstResult(outcome.WorstResult):
     """
 
     plan: BatchPlan | None = None
+    folder: Path | None = None
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.facts['system']}, {self.badness.text}: worst {self.worst['value']})"
@@ -47,7 +49,7 @@ class WorstResult(outcome.WorstResult):
         with chdir(Path.cwd()):  # an FMU may change the folder
             target = Path(path).absolute()
             flight, figures = (None, []) if self.plan is None else worst_flight(self, self.plan)
-        write_worst_page(self, target, flight, figures)
+        write_worst_page(self, target, flight, figures, self.folder)
 
     def plot(self) -> Plot:
         """The search over simulations, and the random trials with the worst case."""
@@ -76,7 +78,9 @@ def worst(
     sigmas: float | None = None,
     flights: int | None = None,
     hold: Mapping[str, float] | None = None,
-    noise_trial: int = 0,
+    noise_trial: int | None = None,
+    realisations: int | None = None,
+    quantile: float | None = None,
     compare: Compared | None = None,
     seed: int | None = None,
     workers: int | None = None,
@@ -107,7 +111,9 @@ def worst(
     worse than any margin, and ``compare``, ``faults``, ``input``, ``log`` and ``timeout`` do not go with one.
 
     ``sigmas`` is the box of normal draws, by default 3, others have their own ends; ``flights`` are by default 2000, of
-    a margin 500. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for worst.json,
+    a margin 500. Where components have noise, every point flies the same ``realisations`` of it, by default 5, of a
+    margin 1, whose ``quantile`` is made largest, by default 0.5, the median; the point that wins flies ten times as
+    many fresh ones. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for worst.json,
     flights.parquet and worst.parquet. The rest is as in `batch`. Raises InputError.
     """
     folder = Path(output).absolute() if output is not None else None
@@ -117,7 +123,10 @@ def worst(
         "input": input, "log": log, "timeout": timeout,
     }  # fmt: skip
     check_options(loop, given)
-    search: dict[str, Any] = {"hold": hold, "noise_trial": noise_trial, "workers": workers}
+    search: dict[str, Any] = {
+        "hold": hold, "noise_trial": noise_trial, "realisations": realisations, "quantile": quantile,
+        "workers": workers,
+    }  # fmt: skip
     search |= {name: value for name, value in (("sigmas", sigmas), ("flights", flights)) if value is not None}
     plan = None
     if loop is None:
@@ -128,7 +137,7 @@ def worst(
             no_feedthrough=no_feedthrough,
         )  # fmt: skip
         with chdir(Path.cwd()):  # an FMU may change the folder
-            result = worst_case(plan, metric, **search)
+            result = replace(worst_case(plan, metric, **search), again=commands_of(plan).replay)
     else:
         options = system_options(
             use, parameters, set, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
@@ -139,4 +148,4 @@ def worst(
             result = worst_margin(asked, margin or MARGIN, **search)
     if folder is not None:
         result.write(folder)
-    return as_class(WorstResult, result, plan=plan)
+    return as_class(WorstResult, result, plan=plan, folder=folder)

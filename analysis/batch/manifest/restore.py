@@ -7,10 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pyarrow.parquet
 
-from ...campaign.drawing.given import STREAMS, GivenDraws
+from ...campaign.drawing.given import GivenDraws, part_streams
 from ...campaign.plan import BatchPlan, campaign_of
 from ...campaign.sweeps import with_sweeps
 from ...flight.instances.reset_test import ResetVerdict, known
@@ -89,6 +88,4 @@ def _series(contents: Path, series: Mapping[str, str]) -> InputSeries:
 def _given(contents: Path, given: Mapping[str, str]) -> GivenDraws:
     table = pyarrow.parquet.read_table(stored(contents, given["content"]))
     columns = {name: table[name].to_numpy() for name in table.column_names}
-    streams = columns.pop(STREAMS, None)
-    whose = None if streams is None else streams.astype(np.int64)
-    return GivenDraws(columns, whose, given["label"], given["sha256"])
+    return GivenDraws(*part_streams(columns), given["label"], given["sha256"])

@@ -16,6 +16,7 @@ import numpy as np
 from ...errors import InputError
 from .declared import Columns, Declared, Draw, drawn_names
 from .designs import DESIGNS, check_grid, grid_columns, latin_hypercube_columns, sobol_columns
+from .given import stream_component
 from .independent import generator, independent_columns, stream_of
 
 MOST = 10**6  # trials of a table
@@ -54,8 +55,12 @@ class DrawTable:
         return {name: column.item(trial) for name, column in self.columns.items()}
 
     def parameters(self, trial: int) -> dict[str, float]:
-        """The values of one trial that are component parameters: those with a dot in their name."""
-        return {name: column.item(trial) for name, column in self.columns.items() if "." in name}
+        """The values of one trial that are component parameters: those with a dot in their name, of draws."""
+        return {
+            name: column.item(trial)
+            for name, column in self.columns.items()
+            if "." in name and stream_component(name) is None
+        }
 
 
 def parted(trials: int, size: int) -> Iterator[range]:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from ...api.samples.plans import commands_of
 from ...rare.outcome import RareResult
 from ...rare.study import LEAST, SAMPLES, rare_failure
 from ...targets import PAGES, Results, check_file, check_folder
@@ -32,14 +34,15 @@ def run(options: argparse.Namespace) -> int:
         least=LEAST if options.least is None else options.least,
         **held(options),
     )
+    result = replace(result, commands=commands_of(plan))
     files.write(options.output, result.write)
-    files.write(options.report, partial(_write_page, result))
-    status = tell(result.document(), options, lambda: print(result.text()), files)
+    files.write(options.report, partial(_write_page, result, options.output))
+    status = tell(result.document(options.output), options, lambda: print(result.text(options.output)), files)
     met = check_requirements(requirements, result.values())
     return status or int(not met)
 
 
-def _write_page(result: RareResult, path: Path) -> None:
+def _write_page(result: RareResult, folder: Path | None, path: Path) -> None:
     from ...reports.studies.rare_page import write_rare_page  # and matplotlib, which takes half a second
 
-    write_rare_page(result, path)
+    write_rare_page(result, path, folder)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from ...api.samples.plans import commands_of
 from ...campaign.sweeps import part_sweeps
 from ...errors import InputError
 from ...sensitivity.outcome import SensitivityResult
@@ -40,21 +42,22 @@ def run(options: argparse.Namespace) -> int:
     result = sensitivity(
         plan, options.sensitivity, **held(options), tell=lambda price: print(f"perilune: {price}", file=sys.stderr)
     )
+    result = replace(result, commands=commands_of(plan))
     files.write(options.output, result.write)
-    files.write(options.report, partial(_write_page, result))
-    return tell(result.document(), options, lambda: print(result.text()), files)
+    files.write(options.report, partial(_write_page, result, options.output))
+    return tell(result.document(options.output), options, lambda: print(result.text(options.output)), files)
 
 
-def _write_page(result: SensitivityResult, path: Path) -> None:
+def _write_page(result: SensitivityResult, folder: Path | None, path: Path) -> None:
     from ...reports.studies.sensitivity_page import write_sensitivity_page  # and matplotlib: half a second
 
-    write_sensitivity_page(result, path)
+    write_sensitivity_page(result, path, folder)
 
 
 def refuse_alone(options: argparse.Namespace) -> None:
     """Refuse options that go with --sensitivity only."""
     for name, given in (("--hold", options.hold), ("--noise-trial", options.noise_trial)):
-        if given:
+        if given is not None and given != []:
             text = str(given[0] if isinstance(given, list) else given)
             problem = "a batch draws all of its trials"
             raise InputError(name, text, problem, "give --sensitivity N too, or leave it out")

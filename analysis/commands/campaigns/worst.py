@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+from ...api.samples.plans import commands_of
 from ...campaign.plan import BatchPlan
 from ...targets import PAGES, Results, check_file, check_folder
 from ...worst.asked import check_options, margin_asked
@@ -17,7 +19,7 @@ from ..common.remarks import say_stale
 from ..common.requirements import check_requirements, read_requirements
 from ..common.sample_plans import held, read_samples
 
-NUMBERS = ("worst", "random", "flights")
+NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -28,9 +30,9 @@ def run(options: argparse.Namespace) -> int:
     requirements = read_requirements(options.require, NUMBERS)
     files = Results()
     plan = None if options.loop is not None else _read_plan(options)
-    result = _worst_margin(options) if plan is None else worst_case(plan, options.metric, **_search(options))
+    result = _worst_margin(options) if plan is None else _worst_case(plan, options)
     files.write(options.output, result.write)
-    files.write(options.report, partial(_write_page, result, plan))
+    files.write(options.report, partial(_write_page, result, plan, options.output))
     status = tell(result.document(options.output), options, lambda: print(result.text(options.output)), files)
     met = check_requirements(requirements, result.values())
     return status or int(not met)
@@ -42,12 +44,16 @@ def _read_plan(options: argparse.Namespace) -> BatchPlan:
     return plan
 
 
-def _write_page(result: WorstResult, plan: BatchPlan | None, path: Path) -> None:
+def _worst_case(plan: BatchPlan, options: argparse.Namespace) -> WorstResult:
+    return replace(worst_case(plan, options.metric, **_search(options)), again=commands_of(plan).replay)
+
+
+def _write_page(result: WorstResult, plan: BatchPlan | None, folder: Path | None, path: Path) -> None:
     from ...reports.studies.worst_flight import worst_flight  # and matplotlib, which takes half a second
     from ...reports.studies.worst_page import write_worst_page
 
     flight, figures = (None, []) if plan is None else worst_flight(result, plan)
-    write_worst_page(result, path, flight, figures)
+    write_worst_page(result, path, flight, figures, folder)
 
 
 def _worst_margin(options: argparse.Namespace) -> WorstResult:
@@ -65,6 +71,6 @@ def _worst_margin(options: argparse.Namespace) -> WorstResult:
 
 
 def _search(options: argparse.Namespace) -> dict[str, Any]:
-    """How is searched, and what is held."""
-    given = {"sigmas": options.sigmas, "flights": options.flights}
+    """The box, the flights, the noise, and what is held."""
+    given = {name: getattr(options, name) for name in ("sigmas", "flights", "realisations", "quantile")}
     return {name: value for name, value in given.items() if value is not None} | held(options)

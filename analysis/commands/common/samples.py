@@ -39,7 +39,10 @@ def add_held(parser: argparse.ArgumentParser) -> None:
         help="a draw that has one value in all flights; choices and grids need it",
     )
     parser.add_argument(
-        "--noise-trial", type=int, default=0, metavar="K", help="the trial whose noise all flights have; default: 0"
+        "--noise-trial",
+        type=int,
+        metavar="K",
+        help="all flights have the noise of trial K; default: the noise is random, too",
     )
 
 

@@ -7,26 +7,29 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import Any
 
-from ...campaign.draw_space import DrawSpace
+from ...rare.outcome import RareResult
+from ...samples.noise import Noise
+from ...sensitivity.outcome import SensitivityResult
+from ...worst.outcome import WorstResult
 from ..batch.batch_report import draw_rows, fmu_rows
 
 DEFAULT = "default"  # the name of a campaign's only variant
+StudyResult = RareResult | WorstResult | SensitivityResult
 
 
 @dataclass(frozen=True)
 class Conditions:
     """What stands in the headline of every study, since its numbers hold under these conditions only.
 
-    ``given`` qualifies a number in a sentence: empty where the noise is random or absent. ``noise`` says which of the
-    two it is, or whose noise all simulations have. ``draws`` are rows (name, distribution, arguments), ``fmus`` rows
-    (component, variants, SHA-256).
+    ``given`` qualifies a number at the end of its line: empty where it is conditional on neither held values nor the
+    noise of one trial. ``draws`` are rows (name, distribution, arguments), ``fmus`` rows (component, variants,
+    SHA-256).
     """
 
     system: str
     campaign: str
     variant: str
     parameters: list[str]
-    held: Mapping[str, float]
     faults: list[str]
     noise: str
     given: str
@@ -35,22 +38,32 @@ class Conditions:
     facts: Mapping[str, Any]
 
 
-def conditions_of(space: DrawSpace, facts: Mapping[str, Any], noise: str, given: str) -> Conditions:
-    """The conditions of a study over ``space``, whose result has ``facts``."""
+def conditions_of(result: StudyResult) -> Conditions:
+    """The conditions of a study's result."""
+    facts = result.facts
     (variant,) = facts["fmus"]
     return Conditions(
         system=facts["system"],
         campaign=campaign_name(facts["campaign"]),
         variant="" if variant == DEFAULT else variant,
-        parameters=space.names,
-        held=space.held,
+        parameters=result.space.names,
         faults=list(facts.get("faults", [])),
-        noise=noise or "No component draws random numbers of its own.",
-        given=given,
-        draws=draw_rows(space.campaign),
+        noise=noise_words(result.noise),
+        given=result.conditions,
+        draws=draw_rows(result.space.campaign),
         fmus=fmu_rows(facts["fmus"]),
         facts=facts,
     )
+
+
+def noise_words(noise: Noise) -> str:
+    """Whether the noise is random, absent, or that of one trial, as a sentence."""
+    if not noise.components:
+        return "No component draws random numbers of its own."
+    names = ", ".join(noise.components)
+    if noise.is_held:
+        return f"Noise of {names}: that of trial {noise.trial} in all simulations, not random."
+    return f"Noise of {names}: random."
 
 
 def campaign_name(label: str) -> str:

@@ -14,7 +14,7 @@ from ...batch.summary import success_interval
 from ...rare.outcome import RareResult
 from ...rare.uncertainty import CONFIDENCE
 from ..kit.panels import Panel, Widths, both_widths, is_slim, panel
-from ..kit.quantities import log_tick, number
+from ..kit.quantities import labelled, log_tick, number, shown_factor
 from ..kit.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 
 GREY = "#9a9a9a"
@@ -27,15 +27,15 @@ PERCENT = f"{100 * CONFIDENCE:g} %"
 class Span(NamedTuple):
     """The simulations ``first`` to ``last`` of a level, their limit state ``threshold``, and that of the next level.
 
-    ``reached`` is the probability of the level itself.
+    ``reached`` is the probability of the level itself, None where its chains are not trusted: no level follows then.
     """
 
     number: int
     first: int
     last: int
     threshold: float | None
-    following: float
-    reached: float
+    following: float | None
+    reached: float | None
 
 
 def level_spans(result: RareResult) -> list[Span]:
@@ -44,11 +44,16 @@ def level_spans(result: RareResult) -> list[Span]:
     levels = result.simulation.levels
     first, seeds, reached = 1, 0, 1.0
     for index, level in enumerate(levels):
-        last = first + level.samples - seeds - 1
-        following = levels[index + 1].threshold if index + 1 < len(levels) else None
-        spans.append(Span(index + 1, first, last, level.threshold, 0.0 if following is None else following, reached))
-        first, seeds = last + 1, round(level.probability * level.samples)
-        reached *= level.probability
+        is_last = index + 1 == len(levels)
+        last = result.simulation.evaluations if is_last else first + level.samples - seeds - 1
+        following: float | None = 0.0 if is_last else levels[index + 1].threshold
+        trusted = level.probability is not None
+        spans.append(
+            Span(index + 1, first, last, level.threshold, following if trusted else None, reached if trusted else None)
+        )
+        share = level.probability or 0.0
+        first, seeds = last + 1, round(share * level.samples)
+        reached *= share
     return spans
 
 
@@ -60,7 +65,8 @@ def limit_state_figure(result: RareResult) -> Widths:
 
 def draw_limit_state(axes: Axes, result: RareResult) -> None:
     """Simulations by number, failures in colour, and the thresholds of levels."""
-    values = result.flown.values
+    factor = shown_factor(result.margin_unit)
+    values = factor * result.flown.values
     numbers = np.arange(1, values.size + 1)
     finite = np.isfinite(values)
     low, high = limits_of(values)
@@ -75,7 +81,8 @@ def draw_limit_state(axes: Axes, result: RareResult) -> None:
         label = "failure without a finite limit state"
         axes.plot(numbers[~finite], top, "^", color=VERMILION, markersize=5, label=label)
     for span in level_spans(result):
-        axes.hlines(span.following, span.first, span.last, color=BLUE, linewidth=1.6)
+        if span.following is not None:
+            axes.hlines(factor * span.following, span.first, span.last, color=BLUE, linewidth=1.6)
         axes.axvline(span.last + 0.5, color=FAINT, linewidth=0.7, linestyle=(0, (1, 2)))
         middle = 0.5 * (span.first + span.last)
         axes.annotate(
@@ -86,7 +93,7 @@ def draw_limit_state(axes: Axes, result: RareResult) -> None:
     axes.set_xlim(0.0, values.size + 1.0)
     axes.set_ylim(low, high)
     axes.set_xlabel("simulation")
-    axes.set_ylabel("limit state")
+    axes.set_ylabel(labelled("limit state", result.margin_unit))
     plain_ticks(axes, x=6, y=5)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, markerscale=2.0, handletextpad=0.2)
 
@@ -111,12 +118,15 @@ def exceedance_panel(result: RareResult) -> Panel:
 def draw_exceedance(axes: Axes, result: RareResult) -> None:
     """The first level's empirical curve, the thresholds of levels, the failure with its interval."""
     spans = level_spans(result)
-    first = np.sort(result.flown.values[: spans[0].last])
+    factor = shown_factor(result.margin_unit)
+    first = np.sort(factor * result.flown.values[: spans[0].last])
     share = 1.0 - np.arange(first.size) / first.size
     seen = np.isfinite(first)
     axes.step(first[seen], share[seen], where="pre", color=GREY, linewidth=1.4, label="level 1: Monte Carlo")
-    thresholds = [span.threshold for span in spans if span.threshold is not None]
-    reached = [span.reached for span in spans if span.threshold is not None]
+    known = [
+        (span.threshold, span.reached) for span in spans if span.threshold is not None and span.reached is not None
+    ]
+    thresholds, reached = [factor * one for one, _ in known], [other for _, other in known]
     low, high = result.interval
     if result.probability is not None:
         thresholds, reached = [*thresholds, 0.0], [*reached, result.probability]
@@ -128,9 +138,9 @@ def draw_exceedance(axes: Axes, result: RareResult) -> None:
     axes.axvline(0.0, color=INK, linewidth=1.0, linestyle=(0, (4, 2)), zorder=1)
     log_axis(axes, "y")
     axes.set_ylim(0.5 * min([high, *reached, 1.0 / first.size] + ([low] if low > 0.0 else [])), 1.5)
-    axes.set_xlim(*limits_of(result.flown.values))
+    axes.set_xlim(*limits_of(factor * result.flown.values))
     plain_ticks(axes, x=5)
-    axes.set_xlabel("limit state")
+    axes.set_xlabel(labelled("limit state", result.margin_unit))
     axes.set_title("probability of more", loc="left", fontsize=8.5)
     axes.legend(loc="lower left")
 
@@ -189,21 +199,23 @@ def design_point_panels(result: RareResult) -> list[Panel]:
 
 def draw_design_points(axes: Axes, result: RareResult, one: str, other: str) -> None:
     """One pair: level 1 in grey, failures in colour, design points with their numbers."""
-    x, y = result.flown.draws[one], result.flown.draws[other]
+    units = [result.units.get(name) for name in (one, other)]
+    factors = [shown_factor(unit) for unit in units]
+    x, y = (factor * result.flown.draws[name] for factor, name in zip(factors, (one, other), strict=True))
     count = level_spans(result)[0].last
     failed = result.flown.values >= 0.0
     points: dict[str, object] = {"linestyle": "", "markeredgewidth": 0.0, "rasterized": x.size > 1500}
     axes.plot(x[:count], y[:count], marker="o", markersize=2.6, color=GREY, label="level 1", **points)  # type: ignore[arg-type]
     axes.plot(x[failed], y[failed], marker="o", markersize=2.4, color=VERMILION, label="failures", **points)  # type: ignore[arg-type]
     entries = result.failures
-    at = [(entry["draws"][one], entry["draws"][other]) for entry in entries]
+    at = [(factors[0] * entry["draws"][one], factors[1] * entry["draws"][other]) for entry in entries]
     if at:
         axes.plot(*zip(*at, strict=True), "D", markersize=5, color=BLUE, markeredgecolor="white", label="design points")
     for entry, point in zip(entries, at, strict=True):
         axes.annotate(str(entry["trial"]), point, xytext=(5, 4), textcoords="offset points", fontsize=8.5, color=INK)
     plain_ticks(axes, x=4, y=5)
-    axes.set_xlabel(one)
-    axes.set_title(other, loc="left", fontsize=8.5)
+    axes.set_xlabel(labelled(one, units[0]))
+    axes.set_title(labelled(other, units[1]), loc="left", fontsize=8.5)
     axes.legend(
         loc="upper center", bbox_to_anchor=(0.45, -0.22), ncols=3, handletextpad=0.0, columnspacing=0.6,
         borderaxespad=0.0, fontsize=8.0,

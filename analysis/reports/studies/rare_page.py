@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 from ...rare.outcome import RareResult
 from ..kit.page import write_page
+from ..kit.quantities import labelled
 from .conditions import conditions_of
 from .rare_figures import (
     PERCENT,
@@ -20,15 +20,13 @@ from .rare_figures import (
 )
 from .tables import Table, cell
 
-Replays = Sequence[tuple[str, str]]
 
-
-def write_rare_page(result: RareResult, path: Path, replays: Replays = ()) -> None:
+def write_rare_page(result: RareResult, path: Path, folder: Path | None = None) -> None:
     """Write one self-contained HTML page; the same result gives the same bytes.
 
-    ``replays`` are commands that fly the design points again, each with a word for it.
+    ``folder`` is where the result has been written, if it has: the page says how its failures are flown again.
     """
-    conditions = conditions_of(result.space, result.facts, result.noise, "")
+    conditions = conditions_of(result)
     write_page(
         path,
         Path(__file__).with_name("rare.html"),
@@ -41,54 +39,77 @@ def write_rare_page(result: RareResult, path: Path, replays: Replays = ()) -> No
         levels=level_table(result),
         designs=design_point_panels(result),
         design_points=design_table(result),
-        influence=Table(
-            ("parameter", "shift, standard deviations"),
-            [(name, cell(shift, 3)) for name, shift in influence(result).items()],
-            (1,),
-        ),
+        influence=influence_table(result),
         intervals=interval_figure(result),
-        equivalents=Table(
-            ("estimate", "simulations", "from", "to"),
-            [(row.label, cell(row.simulations), cell(row.low, 3), cell(row.high, 3)) for row in equivalents(result)],
-            (1, 2, 3),
-        ),
-        replays=replays,
+        equivalents=equivalent_table(result),
+        replays=replays_of(result, folder),
     )
 
 
 def level_table(result: RareResult) -> Table:
     """A row per level."""
-    rows = [
-        (
-            cell(span.number),
-            cell(span.threshold),
-            cell(level.samples),
-            cell(span.last - span.first + 1),
-            cell(level.probability),
-            cell(span.reached * level.probability, 3),
-            cell(level.taken, 2),
-            cell(level.correlation, 3),
-            cell(level.deviation, 3),
+    rows = []
+    for span, level in zip(level_spans(result), result.simulation.levels, strict=True):
+        reached = None if span.reached is None or level.probability is None else span.reached * level.probability
+        rows.append(
+            (
+                cell(span.number),
+                cell(span.threshold, 4, result.margin_unit),
+                cell(level.samples),
+                cell(span.last - span.first + 1),
+                cell(level.probability),
+                cell(reached, 3),
+                cell(level.draw_acceptance, 2),
+                cell(level.noise_acceptance, 2),
+                cell(level.least_acceptance, 2),
+                cell(level.correlation, 3),
+                cell(level.deviation, 3),
+            )
         )
-        for span, level in zip(level_spans(result), result.simulation.levels, strict=True)
-    ]
     heads = (
-        "level", "limit state from", "samples", "simulations", "conditional probability", "cumulative",
-        "acceptance", "gamma", "c.o.v.",
+        "level", labelled("threshold", result.margin_unit), "samples", "simulations", "conditional probability",
+        "cumulative", "acceptance: draws", "noise", "lowest noise source", "gamma", "c.o.v.",
     )  # fmt: skip
     return Table(heads, rows, range(len(heads)))
 
 
 def design_table(result: RareResult) -> Table:
-    """A row per design point: distance, limit state, dispersed parameters."""
+    """A row per design point: distance, limit state, dispersed parameters, the noise of each component."""
     names = result.space.names
+    sources = list(result.noise.sources)
     rows = [
         (
             cell(entry["trial"]),
             cell(entry["distance"], 3),
-            cell(entry["margin"]),
-            *(cell(entry["draws"][name], 6) for name in names),
+            cell(entry["margin"], 4, result.margin_unit),
+            *(cell(entry["draws"][name], 6, result.units.get(name)) for name in names),
+            *(cell(entry["streams"][source]) for source in sources),
         )
         for entry in result.failures
     ]
-    return Table(("point", "distance β", "limit state", *names), rows, range(3 + len(names)))
+    heads = (
+        "point",
+        "distance, standard deviations",
+        labelled("limit state", result.margin_unit),
+        *(labelled(name, result.units.get(name)) for name in names),
+        *(f"noise of {source}" for source in sources),
+    )
+    return Table(heads, rows, range(len(heads)))
+
+
+def influence_table(result: RareResult) -> Table:
+    """A row per dispersed parameter: how far failures lie from the campaign's own samples."""
+    rows = [(name, cell(shift, 3)) for name, shift in influence(result).items()]
+    return Table(("parameter", "shift, standard deviations"), rows, (1,))
+
+
+def equivalent_table(result: RareResult) -> Table:
+    """A row per estimate of the probability: this study, and Monte Carlo."""
+    rows = [(row.label, cell(row.simulations), cell(row.low, 3), cell(row.high, 3)) for row in equivalents(result)]
+    return Table(("estimate", "simulations", "from", "to"), rows, (1, 2, 3))
+
+
+def replays_of(result: RareResult, folder: Path | None) -> list[tuple[str, str]]:
+    """What flies again, and the command that does; none where nothing was written."""
+    found = [(f"design point {entry['trial']}", result.replay(folder, entry["trial"])) for entry in result.failures]
+    return [(what, command) for what, command in found if command]

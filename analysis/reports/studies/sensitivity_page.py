@@ -14,9 +14,13 @@ from .tables import Table, fraction, fractions
 WIDE = 0.3  # of an interval of a total index, from which on a larger base is advised
 
 
-def write_sensitivity_page(result: SensitivityResult, path: Path) -> None:
-    """Write one self-contained HTML page; the same result gives the same bytes."""
-    conditions = conditions_of(result.space, result.facts, result.noise, "")
+def write_sensitivity_page(result: SensitivityResult, path: Path, folder: Path | None = None) -> None:
+    """Write one self-contained HTML page; the same result gives the same bytes.
+
+    ``folder`` is where the result has been written, if it has: the page says how its flights are flown again.
+    """
+    conditions = conditions_of(result)
+    replay = result.replay(folder, 0)
     write_page(
         path,
         Path(__file__).with_name("sensitivity.html"),
@@ -30,6 +34,7 @@ def write_sensitivity_page(result: SensitivityResult, path: Path) -> None:
         tables=[(metric, index_table(result, metric)) for metric in result.told],
         ranks=rank_table(result),
         wide=wide_metrics(result),
+        replays=[("the first simulation", replay)] if replay else [],
     )
 
 

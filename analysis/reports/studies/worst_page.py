@@ -12,15 +12,15 @@ from ...flight.results import Result
 from ...worst.outcome import WorstResult
 from ..kit.page import write_page
 from ..kit.panels import Panel
+from ..kit.quantities import labelled, shown_unit
 from ..own.asked.declared import Figure
 from ..own.own_figures import joint_findings, own_sections
 from ..own.section import Section
 from ..run.time_histories import ComponentHistory, time_histories
 from ..run.trajectory import trajectory_panels
 from .conditions import conditions_of
-from .rare_page import Replays
-from .tables import Table, cell
-from .worst_figures import box_figure, box_lanes, objective_of, search_figure, trials_panel
+from .tables import Table, cell, fraction
+from .worst_figures import box_figure, box_lanes, fresh_panel, objective_of, search_figure, trials_panel
 
 
 class FlightPart(NamedTuple):
@@ -39,14 +39,15 @@ def write_worst_page(
     path: Path,
     flight: Result | None = None,
     figures: Sequence[Figure] = (),
-    replays: Replays = (),
+    folder: Path | None = None,
 ) -> None:
     """Write one self-contained HTML page; the same result gives the same bytes.
 
     ``flight`` is the worst case with all signals, None where a margin was studied; ``figures`` are those that the
-    system asks for, see own/asked/reading.py. ``replays`` are commands that fly it again, each with a word for it.
+    system asks for, see own/asked/reading.py. ``folder`` is where the result has been written, if it has: the page says
+    how the worst case is flown again.
     """
-    conditions = conditions_of(result.space, result.facts, result.noise, "")
+    conditions = conditions_of(result)
     objective = objective_of(result)
     write_page(
         path,
@@ -55,46 +56,74 @@ def write_worst_page(
         result=result,
         conditions=conditions,
         is_margin=not objective.rising,
-        worst=value_cell(result.worst["value"], 6),
-        random=value_cell(result.worst_random["value"], 6),
+        worst=value_cell(result.worst["value"], result.unit),
+        random=value_cell(result.worst_random["value"], result.unit),
+        unit=shown_unit(result.unit),
         inside=result.worst_random["inside"],
         search=search_figure(result),
         phases=phase_table(result),
-        trials=trials_panel(result),
+        points=objective.values.size,
+        panels=[one for one in (trials_panel(result), fresh_panel(result)) if one is not None],
+        fresh=fresh_cells(result),
         box=box_figure(result),
         parameters=parameter_table(result),
         metrics=metric_table(result),
         flight=None if flight is None else flight_part(flight, figures),
-        replays=replays,
+        replays=replays_of(result, folder),
     )
 
 
-def value_cell(value: float | str | None, digits: int = 4) -> Markup:
-    """A value of the objective or of a metric; a simulation without one failed."""
-    return Markup("failed") if value is None else cell(value, digits)
+def value_cell(value: float | str | None, unit: str | None) -> Markup:
+    """A value of the objective or of a metric in its shown unit; a simulation without one failed."""
+    return Markup("failed") if value is None else cell(value, 6, unit)
+
+
+class FreshCells(NamedTuple):
+    """The worst case under fresh noise: how many realisations, their worst, and the quantile by its name."""
+
+    realisations: int
+    worst: Markup
+    name: str
+    quantile: Markup
+
+
+def fresh_cells(result: WorstResult) -> FreshCells | None:
+    """What fresh noise does to the worst case; None where the noise is not random."""
+    if result.fresh is None or result.over is None:
+        return None
+    found = result.document()["fresh"]
+    worst, quantile = (value_cell(found[name], result.unit) for name in ("worst", "at_quantile"))
+    return FreshCells(found["realisations"], worst, result.over.name, quantile)
+
+
+def replays_of(result: WorstResult, folder: Path | None) -> list[tuple[str, str]]:
+    """The command that flies the worst case again; none where nothing was written."""
+    replay = result.document(folder).get("replay")
+    return [("worst case", replay)] if replay else []
 
 
 def phase_table(result: WorstResult) -> Table:
     """A row per phase of the search, with the worst value up to its end."""
-    best = objective_of(result).best_so_far()
+    worst = objective_of(result).worst_so_far()
     rows, end = [], 0
     for index, phase in enumerate(result.phases):
         end += phase.evaluations
-        value = float(best[end - 1])
+        value = float(worst[end - 1])
         rows.append((cell(index + 1), phase.name, cell(phase.evaluations), cell(value if value == value else None, 6)))
-    return Table(("", "phase", "simulations", "worst so far"), rows, (0, 2, 3))
+    head = labelled("worst so far", result.unit)
+    return Table(("", "method", "points", head), rows, (0, 2, 3))
 
 
 def parameter_table(result: WorstResult) -> Table:
     """A row per dispersed parameter: worst case, box, worst random trial."""
     rows = [
         (
-            lane.name,
-            cell(lane.worst, 6),
-            cell(lane.low, 6),
-            cell(lane.high, 6),
-            cell(lane.at(lane.worst), 3),
-            cell(lane.random, 6),
+            lane.label,
+            cell(lane.worst, 6, lane.unit),
+            cell(lane.low, 6, lane.unit),
+            cell(lane.high, 6, lane.unit),
+            fraction(lane.at(lane.worst)),
+            cell(lane.random, 6, lane.unit),
         )
         for lane in box_lanes(result)
     ]
@@ -105,16 +134,15 @@ def parameter_table(result: WorstResult) -> Table:
 def metric_table(result: WorstResult) -> Table:
     """A row per metric: worst case and worst random trial."""
     worst, random = result.worst["metrics"], result.worst_random["metrics"]
-    units = {metric.name: metric.unit for metric in result.space.campaign.metrics}
     rows = [
-        (name, value_cell(worst[name], 6), value_cell(random[name], 6), Markup("{}").format(_unit(units.get(name))))
+        (
+            labelled(name, result.units.get(name)),
+            value_cell(worst[name], result.units.get(name)),
+            value_cell(random[name], result.units.get(name)),
+        )
         for name in worst
     ]
-    return Table(("metric", "worst case", "worst random trial", "unit"), rows, (1, 2))
-
-
-def _unit(unit: str | None) -> str:
-    return "" if unit in (None, "1") else str(unit)
+    return Table(("metric", "worst case", "worst random trial"), rows, (1, 2))
 
 
 def flight_part(flight: Result, figures: Sequence[Figure]) -> FlightPart:

@@ -25,7 +25,16 @@ def add(parser: argparse.ArgumentParser) -> None:
     loop.add_argument("--at", type=float, metavar="T", help="time of the operating point of a cut, s; default: 0")
     parser.add_argument("--sigmas", type=float, metavar="K", help="how far normal draws go; default: 3")
     parser.add_argument("--flights", type=int, metavar="N", help="how many to fly; default: 2000, of a margin 500")
+    parser.add_argument(
+        "--realisations",
+        type=int,
+        metavar="K",
+        help="of random noise, the same at every point; default: 5, of a margin 1; 10 K fresh ones at the end",
+    )
+    parser.add_argument(
+        "--quantile", type=float, metavar="Q", help="over the realisations, which is made largest; default: 0.5"
+    )
     add_folder(parser, "worst.json, flights.parquet, and worst.parquet for perilune batch or stability --draws")
     add_report(parser)
-    add_requirements(parser, "worst, random and flights")
+    add_requirements(parser, "worst, random, fresh_worst, fresh_quantile and flights")
     add_json(parser)

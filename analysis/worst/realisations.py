@@ -1,0 +1,94 @@
+"""Noise in a search for the worst: the same realisations at every point, fresh ones for the point that wins."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+
+REALISATIONS = 5
+QUANTILE = 0.5
+FRESH = 10  # times as many realisations fly for the point that wins
+
+
+@dataclass(frozen=True)
+class Realisations:
+    """What a point is worth under noise: the ``quantile`` of its value over ``count`` realisations, 1 for the largest.
+
+    Quantiles are order statistics: the least value that the share does not exceed.
+    """
+
+    count: int
+    quantile: float
+
+    @property
+    def fresh(self) -> int:
+        """How many realisations, which the search has not seen, the point that wins flies."""
+        return FRESH * self.count
+
+    @property
+    def name(self) -> str:
+        """The quantile in words."""
+        return {0.5: "median", 1.0: "largest"}.get(self.quantile, f"{self.quantile:g} quantile")
+
+    @property
+    def text(self) -> str:
+        """The objective in words."""
+        return f"{self.name} of {self.count} noise realisations"
+
+    def objective(self, values: np.ndarray) -> np.ndarray:
+        """The quantile of values (points, realisations) over the realisations."""
+        return np.sort(values, axis=1)[:, rank(self.quantile, values.shape[1])]
+
+
+def rank(share: float, count: int) -> int:
+    """The rank, from 0, of the least of ``count`` values that a ``share`` of them does not exceed."""
+    return max(0, math.ceil(share * count - 1.0))
+
+
+def read_realisations(count: int | None, quantile: float | None, default: int, noise_trial: int | None) -> Realisations:
+    """What is asked of the noise; ``default`` realisations. Raises InputError."""
+    for option, value in (("--realisations", count), ("--quantile", quantile)):
+        if value is not None and noise_trial is not None:
+            problem = f"all flights have the noise of trial {noise_trial}"
+            raise InputError(option, f"{value:g}", problem, "leave it or --noise-trial out")
+    if count is not None and count < 1:
+        raise InputError("--realisations", str(count), "not a positive number", "give 1 or more")
+    share = QUANTILE if quantile is None else quantile
+    if not 0.0 < share <= 1.0:
+        raise InputError("--quantile", f"{share:g}", "not a share of the realisations", "give one above 0, up to 1")
+    found = Realisations(default if count is None else count, share)
+    least = 1 if share == 1.0 else math.ceil(1.0 / (1.0 - share) - 1e-9)
+    if quantile is not None and found.count < least:
+        problem = f"{found.count} realisations have no such quantile below their largest"
+        raise InputError("--quantile", f"{share:g}", problem, f"give --realisations {least} or more, or --quantile 1")
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Fresh:
+    """The point that won under fresh noise: ``values`` (realisations,) of the objective, the larger the worse."""
+
+    values: np.ndarray
+    quantile: float
+
+    @property
+    def worst(self) -> float:
+        return float(self.values.max())
+
+    @property
+    def at_quantile(self) -> float:
+        return float(np.sort(self.values)[rank(self.quantile, self.values.size)])
+
+    def document(self, fact: Any) -> dict[str, Any]:
+        """As JSON; ``fact`` maps a value to what JSON has for it."""
+        return {
+            "realisations": int(self.values.size),
+            "worst": fact(self.worst),
+            "quantile": self.quantile,
+            "at_quantile": fact(self.at_quantile),
+        }
