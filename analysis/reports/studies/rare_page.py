@@ -18,7 +18,7 @@ from .rare_figures import (
     level_spans,
     limit_state_figure,
 )
-from .tables import Table, cell
+from .tables import Table, cell, fraction
 
 
 def write_rare_page(result: RareResult, path: Path, folder: Path | None = None) -> None:
@@ -59,16 +59,16 @@ def level_table(result: RareResult) -> Table:
                 cell(span.last - span.first + 1),
                 cell(level.probability),
                 cell(reached, 3),
-                cell(level.draw_acceptance, 2),
-                cell(level.noise_acceptance, 2),
-                cell(level.least_acceptance, 2),
+                fraction(level.draw_acceptance),
+                fraction(level.noise_acceptance),
+                fraction(level.least_acceptance),
                 cell(level.correlation, 3),
                 cell(level.deviation, 3),
             )
         )
     heads = (
         "level", labelled("threshold", result.margin_unit), "samples", "simulations", "conditional probability",
-        "cumulative", "acceptance: draws", "noise", "lowest noise source", "gamma", "c.o.v.",
+        "cumulative", "acceptance of draws", "acceptance of noise", "lowest noise source", "gamma", "c.o.v.",
     )  # fmt: skip
     return Table(heads, rows, range(len(heads)))
 
@@ -110,6 +110,6 @@ def equivalent_table(result: RareResult) -> Table:
 
 
 def replays_of(result: RareResult, folder: Path | None) -> list[tuple[str, str]]:
-    """What flies again, and the command that does; none where nothing was written."""
-    found = [(f"design point {entry['trial']}", result.replay(folder, entry["trial"])) for entry in result.failures]
-    return [(what, command) for what, command in found if command]
+    """The command that flies the first design point again; none where nothing was written, or nothing failed."""
+    command = result.replay(folder, 0) if result.failures else ""
+    return [("design point 0, and with --replay K point K", command)] if command else []

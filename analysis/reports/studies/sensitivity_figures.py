@@ -61,11 +61,12 @@ def index_panels(result: SensitivityResult) -> list[Panel]:
 def draw_indices(axes: Axes, bars: list[Bar]) -> None:
     """Two bars for each parameter with its intervals: total above, first-order below."""
     for index, bar in enumerate(bars):
-        for value, ends, offset, colour, label in (
-            (bar.total, bar.total_interval, -0.19, BLUE, "total"),
-            (bar.first, bar.first_interval, 0.19, SKY, "first order"),
+        for order, value, ends, offset, colour in (
+            ("total", bar.total, bar.total_interval, -0.19, BLUE),
+            ("first order", bar.first, bar.first_interval, 0.19, SKY),
         ):
-            axes.barh(index + offset, value, height=0.34, color=colour, label=label if index == 0 else None)
+            (drawn,) = axes.barh(index + offset, value, height=0.34, color=colour, label=None if index else order)
+            drawn.set_gid(f"{order.split()[0]}-{index}")
             axes.plot(ends, [index + offset] * 2, color=INK, linewidth=1.1, marker="|", markersize=5)
     axes.axvline(0.0, color=INK, linewidth=0.8)
     all_ends = [end for bar in bars for end in (*bar.total_interval, *bar.first_interval)]

@@ -140,8 +140,8 @@ def trials_panel(result: WorstResult) -> Panel:
 
 
 def fresh_panel(result: WorstResult) -> Panel | None:
-    """The worst case under fresh noise realisations; None where the noise is not random."""
-    if result.fresh is None:
+    """The worst case under fresh noise realisations; None where the noise is not random, or changes nothing."""
+    if result.fresh is None or not np.any(result.fresh.values != result.fresh.values[0]):
         return None
     words = f"{result.badness.text} of the worst case under {result.fresh.values.size} fresh noise realisations"
     draw = lambda axes: draw_fresh(axes, result)  # noqa: E731
