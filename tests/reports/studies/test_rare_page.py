@@ -3,6 +3,7 @@
 Truth: the result's own arrays counted here, the closed form of the linear system's failure, scipy's binomial test.
 """
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -77,7 +78,7 @@ def test_levels_are_those_that_were_flown(rare_result):
     assert spans[0].last == rare_result.samples
     assert spans[-1].last == rare_result.flights == len(rare_result.flown.values)
     values = rare_result.flown.values
-    for span, following in zip(spans, spans[1:], strict=False):
+    for span, following in itertools.pairwise(spans):
         assert span.following == following.threshold
         own = np.sort(values[: spans[0].last])[::-1]
         if span.number == 1:  # a tenth of the first level is in the second
