@@ -42,8 +42,10 @@ class Chains:
 class _NoiseMoves:
     """Which streams are renewed: one source at a time, those that change no margin along with every move.
 
-    A source is inert where `INERT_AFTER` fresh streams have not changed a bit of any margin since the level began:
-    renewing it with the draws costs no move, and leaves chains as right as they are.
+    A source is chosen with a probability inverse to its acceptance rate so far, so that all are renewed about as often:
+    the acceptance rate of all noise moves together is then near the harmonic mean of the sources'. A source is inert
+    where `INERT_AFTER` fresh streams have not changed a bit of any margin since the level began: renewing it along with
+    other moves costs none, and leaves chains as right as they are.
     """
 
     def __init__(self, sources: int, fresh: FreshStreams, random: np.random.Generator) -> None:
@@ -51,6 +53,7 @@ class _NoiseMoves:
         self._changed = np.zeros(sources, dtype=bool)
         self._fresh, self._random = fresh, random
         self._active = np.arange(sources)
+        self._weights = np.full(sources, 1.0 / max(sources, 1))
         self._inert = np.arange(0)
 
     @property
@@ -61,11 +64,13 @@ class _NoiseMoves:
         """Leave out the sources that are inert so far; between groups of chains."""
         inert = ~self._changed & (self.moves >= INERT_AFTER)
         self._active, self._inert = np.flatnonzero(~inert), np.flatnonzero(inert)
+        weights = (self.moves[~inert] + 2.0) / (self.accepted[~inert] + 1.0)
+        self._weights = weights / weights.sum()
 
     def candidates(self, streams: np.ndarray, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Streams of the next candidates, where ``noise`` moves with one source renewed, and which (moves,)."""
         rows = np.flatnonzero(noise)
-        chosen = self._active[self._random.integers(self._active.size, size=rows.size)] if rows.size else rows
+        chosen = self._random.choice(self._active, rows.size, p=self._weights) if rows.size else rows
         found = streams.copy()
         found[rows, chosen] = self._fresh.take(rows.size)
         for source in self._inert:

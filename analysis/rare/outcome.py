@@ -22,7 +22,7 @@ from ..samples.commands import Commands
 from ..samples.flown import Flown, strict
 from ..samples.noise import Noise, conditions, noise_line
 from ..samples.units import unit_of_expression, with_unit
-from .subset_simulation import Level, SubsetSimulation
+from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
 from .text import cost_text, estimate_text, level_rows
 from .uncertainty import CONFIDENCE
 
@@ -86,12 +86,12 @@ class RareResult:
         if not self.simulation.noise_ends:
             return ""
         level = self.simulation.levels[-1]
-        of = "" if level.source is None else f" of {self.noise.sources[level.source]}"
-        assert level.least_acceptance is not None
-        return (
-            f"levels end: at level {len(self.simulation.levels)} the acceptance rate of noise moves{of} is "
-            f"{100 * level.least_acceptance:.2g} %, below 5 %"
-        )
+        assert level.noise_acceptance is not None
+        rate = f"{100 * level.noise_acceptance:.2g} % of the noise moves are accepted, below {100 * LEAST_ACCEPTED:g} %"
+        lowest = ""
+        if level.source is not None and level.least_acceptance is not None:
+            lowest = f" (least of {self.noise.sources[level.source]}, {100 * level.least_acceptance:.2g} %)"
+        return f"levels end at level {len(self.simulation.levels)}: {rate}{lowest}"
 
     @cached_property
     def failures(self) -> list[dict[str, Any]]:

@@ -27,7 +27,7 @@ from .uncertainty import (
 SHARE = 0.1  # of a level's points that are in the next event (Au and Beck 2001, section 5)
 MOST_TIED = 0.5  # of a level's points, above which they share one margin rather than approach the failure
 LEAST_ACCEPTED = 0.05  # of the noise moves, below which a level's points are not trusted
-JUDGED_ALONE = 100  # moves of one noise source
+FEW = 20  # moves of one noise source, below which its own acceptance rate says nothing
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,9 @@ class Level:
 
     ``probability`` of the next event in it, None where its chains are not ``trusted``. ``draw_acceptance`` and
     ``noise_acceptance`` are the acceptance rates of the two moves, None where there were none, ``least_acceptance`` is
-    the lowest of a noise source and ``source`` its place, None where that is of all sources together; ``spread`` is
-    that of the draw moves. ``correlation`` is gamma of Au and Beck (2001, equation 29), ``deviation`` the coefficient
-    of variation of the probability (equation 28), which takes chains for independent of each other.
+    the lowest of a noise source and ``source`` its place; ``spread`` is that of the draw moves. ``correlation`` is
+    gamma of Au and Beck (2001, equation 29), ``deviation`` the coefficient of variation of the probability (equation
+    28), which takes chains for independent of each other.
     """
 
     threshold: float | None
@@ -55,7 +55,7 @@ class Level:
     @property
     def trusted(self) -> bool:
         """Whether its chains renewed their noise often enough."""
-        return self.least_acceptance is None or self.least_acceptance >= LEAST_ACCEPTED
+        return self.noise_acceptance is None or self.noise_acceptance >= LEAST_ACCEPTED
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,11 +248,7 @@ def _moves(chains: Chains) -> dict[str, Any]:
     moves, accepted = chains.noise_moves, chains.noise_accepted
     if moves.sum():
         found["noise_acceptance"] = float(accepted.sum() / moves.sum())
-        found["least_acceptance"] = found["noise_acceptance"]
-        alone = np.flatnonzero(moves >= JUDGED_ALONE)
-        if alone.size:
-            rates = accepted[alone] / moves[alone]
-            worst = int(np.argmin(rates))
-            if rates[worst] < found["least_acceptance"]:
-                found |= {"least_acceptance": float(rates[worst]), "source": int(alone[worst])}
+        rates = np.where(moves >= FEW, accepted / np.maximum(moves, 1), np.inf)
+        if rates.min() < np.inf:
+            found |= {"least_acceptance": float(rates.min()), "source": int(np.argmin(rates))}
     return found

@@ -132,10 +132,10 @@ def test_samples_fly_one_table_after_another(odd, workers):
     with SampleFlights(plan, space.from_normals(np.zeros((1, 2))), workers=workers) as flights:
         for count in (1, 7, 130):
             columns = space.from_normals(np.random.default_rng(count).standard_normal((count, 2)))
-            trials, draws = flights.fly(columns)
+            trials, draws = flights.fly(columns, {})
             assert trials.trial.tolist() == list(range(count))
             assert trials.flown.all()
             np.testing.assert_allclose(trials.metrics["last"], expected(columns["half"], columns["late"]), rtol=1e-14)
             np.testing.assert_array_equal(draws["odd.gain"], 2 * columns["half"])
         assert flights.flown == 138
-        assert flights.noise() == ""
+        assert flights.noise.components == ()

@@ -45,7 +45,7 @@ def test_intervals_cover_what_is_true(case, probability):
     function, dimensions, limit_of = CASES[case]
     limit = limit_of(probability)
     found = [
-        subset_simulation(lambda u: function(u) - limit, dimensions, seed=seed)
+        subset_simulation(lambda at: function(at.draws) - limit, dimensions, seed=seed)
         for seed in range(REPEATS if probability == 1e-4 or case == "plane" else either(400, 4))
     ]
     flights = np.mean([result.evaluations for result in found])
@@ -62,19 +62,19 @@ def test_intervals_cover_what_is_true(case, probability):
 
 
 def test_a_probability_that_is_not_small_is_counted():
-    found = subset_simulation(lambda u: u[:, 0] - 1.0, 1, seed=1, samples=2000)
+    found = subset_simulation(lambda at: at.draws[:, 0] - 1.0, 1, seed=1, samples=2000)
     assert found.evaluations == 2000
     failures = round(found.probability * 2000)
     exact = stats.binomtest(failures, 2000).proportion_ci(0.95, method="exact")
     assert found.interval[:2] == (exact.low, exact.high)
     assert exact.low < stats.norm.sf(1.0) < exact.high
     assert len(found.failures) == failures
-    assert (found.failures[:, 0] >= 1.0).all()
+    assert (found.failures.draws[:, 0] >= 1.0).all()
 
 
 def test_the_same_seed_gives_the_same_bits():
-    first, again, other = (subset_simulation(lambda u: plane(u) - 3.0, 3, seed=seed) for seed in (5, 5, 6))
-    assert first.failures.tobytes() == again.failures.tobytes()
+    first, again, other = (subset_simulation(lambda at: plane(at.draws) - 3.0, 3, seed=seed) for seed in (5, 5, 6))
+    assert first.failures.draws.tobytes() == again.failures.draws.tobytes()
     assert (first.probability, first.interval) == (again.probability, again.interval)
     assert first.probability != other.probability
 
@@ -82,7 +82,10 @@ def test_the_same_seed_gives_the_same_bits():
 def test_failures_are_distributed_as_failures():
     """Given failure the distance along the plane is a truncated normal, and what is across it is as ever."""
     points = np.concatenate(
-        [subset_simulation(lambda u: u[:, 0] - 3.0, 2, seed=seed).failures for seed in range(either(40, 10))]
+        [
+            subset_simulation(lambda at: at.draws[:, 0] - 3.0, 2, seed=seed).failures.draws
+            for seed in range(either(40, 10))
+        ]
     )
     truth = stats.truncnorm(3.0, np.inf)
     assert points[:, 0].mean() == pytest.approx(truth.mean(), abs=0.02)
@@ -92,7 +95,7 @@ def test_failures_are_distributed_as_failures():
 
 
 def test_what_is_not_reached_has_a_bound():
-    found = subset_simulation(lambda u: u[:, 0] - 8.0, 1, seed=2, samples=1000, least=1e-6)
+    found = subset_simulation(lambda at: at.draws[:, 0] - 8.0, 1, seed=2, samples=1000, least=1e-6)
     assert found.probability is None
     assert found.interval.low == 0.0
     assert stats.norm.sf(8.0) < found.interval.high < 1e-5
@@ -101,23 +104,23 @@ def test_what_is_not_reached_has_a_bound():
 
 def test_infinite_margins_are_failures():
     """A part of the space where nothing can be told but that it is a failure."""
-    found = subset_simulation(lambda u: np.where(u[:, 0] > 3.0, np.inf, u[:, 0] - 3.5), 2, seed=3)
+    found = subset_simulation(lambda at: np.where(at.draws[:, 0] > 3.0, np.inf, at.draws[:, 0] - 3.5), 2, seed=3)
     assert found.interval.low < stats.norm.sf(3.0) < found.interval.high
 
 
 def test_steps_of_the_margin():
     """Margins with few values: levels are where they are, not at a tenth."""
-    found = subset_simulation(lambda u: np.floor(4.0 * u[:, 0]) / 4.0 - 3.5, 1, seed=4)
+    found = subset_simulation(lambda at: np.floor(4.0 * at.draws[:, 0]) / 4.0 - 3.5, 1, seed=4)
     assert found.interval.low < stats.norm.sf(3.5) < found.interval.high
     with pytest.raises(StuckError) as caught:
-        subset_simulation(lambda u: np.where(u[:, 0] > 9.0, 1.0, -1.0), 1, seed=4)
+        subset_simulation(lambda at: np.where(at.draws[:, 0] > 9.0, 1.0, -1.0), 1, seed=4)
     assert caught.value.args == (-1.0, 1.0)
 
 
 @pytest.mark.parametrize("options", [{"samples": 99}, {"least": 0.0}, {"least": 1.0}])
 def test_wrong_numbers(options):
     with pytest.raises(ValueError, match="samples"):
-        subset_simulation(lambda u: u[:, 0], 1, **options)
+        subset_simulation(lambda at: at.draws[:, 0], 1, **options)
 
 
 def test_correlation_of_chains():

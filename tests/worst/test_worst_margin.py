@@ -151,7 +151,7 @@ def test_among_unstable_loops_the_largest_multiplier_is_worst(late, written, tmp
     assert main([*line, "--workers", "1", "--output", str(out), "--require", "worst > 0"]) == 1
     captured = capsys.readouterr()
     assert captured.out.startswith("gain margin of loop at there (dB): worst unstable in ")
-    assert f"again: perilune stability {late}" in captured.out
+    assert f"replay: perilune stability {late}" in captured.out
     assert "--require: worst > 0: not met" in captured.err
     worst = json.loads((out / "worst.json").read_text())["worst"]
     truth = [np.max(abs(late_double_integrator(derivative=d).closed)) for d in np.linspace(0.5, 2.0, 31)]

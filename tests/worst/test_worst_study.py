@@ -51,7 +51,7 @@ def test_it_flies_again_to_the_last_bit(found, linear):
     assert again.tolist() == [result.worst["value"], result.worst_random["value"]]
     document = json.loads((folder / "worst.json").read_text())
     assert document["worst"]["metrics"]["total"] == result.value
-    assert document == result.document()
+    assert document == result.document(folder)
 
 
 def test_workers_do_not_matter(found, linear):
