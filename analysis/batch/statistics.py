@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..verdicts.order_statistics import Blocks, order_statistics
+from ..verdicts.order_statistics import Blocks
+from ..verdicts.quantiles import column_quantiles
 
 QUANTILES = {"p5": 5, "p50": 50, "p95": 95, "p99": 99}  # %
 STATISTICS = ("mean", "std", "rms", "min", *QUANTILES, "max")  # as tables show them
@@ -22,9 +23,8 @@ def statistics(column: Blocks, unit: str) -> dict[str, Any]:
 
     ``count`` is of the finite ones, and so are ``mean``, sample deviation ``std``, ``rms``, ``max`` and ``min``. Sums
     are rounded once, whatever the blocks. Quantiles are over all but nan, infinite ones included, which are then "inf"
-    or "-inf": the least of the values that the share of them does not exceed, so each is that of a trial (the inverse
-    of the empirical distribution function; Hyndman and Fan 1996, definition 1). What cannot be had from so few values
-    (the deviation from one, everything from none) is None.
+    or "-inf": each is that of a trial, see verdicts/quantiles.py. What cannot be had from so few values (the deviation
+    from one, everything from none) is None.
     """
     column = _read_once(column)
     count, known, least, most = 0, 0, math.inf, -math.inf
@@ -71,9 +71,8 @@ def _sum(column: Blocks, of: Callable[[np.ndarray], np.ndarray]) -> float:
 def _quantiles(column: Blocks, known: int) -> dict[str, float | str | None]:
     if not known:
         return dict.fromkeys(QUANTILES)
-    ranks = [_rank(percent / 100.0, known) for percent in QUANTILES.values()]
-    found = order_statistics(column, ranks)
-    return {key: value if math.isfinite(value) else str(value) for key, value in zip(QUANTILES, found, strict=True)}
+    values = column_quantiles(column, known, [percent / 100.0 for percent in QUANTILES.values()])
+    return {key: value if math.isfinite(value) else str(value) for key, value in zip(QUANTILES, values, strict=True)}
 
 
 def quantile(column: Blocks, share: float) -> float:
@@ -81,12 +80,5 @@ def quantile(column: Blocks, share: float) -> float:
 
     Exact, in memory that their number does not change. Raises ValueError unless 0 <= share <= 1.
     """
-    if not 0.0 <= share <= 1.0:
-        raise ValueError(f"the share {share!r} is not between 0 and 1")
     known = sum(int(np.count_nonzero(~np.isnan(values))) for values in column())
-    return order_statistics(column, [_rank(share, known)])[0] if known else math.nan
-
-
-def _rank(share: float, count: int) -> int:
-    """The rank, from 0, of the least of ``count`` values that a ``share`` of them does not exceed."""
-    return max(0, math.ceil(share * count - 1.0))
+    return column_quantiles(column, known, [share])[0]

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.stats import binomtest, norm, quantile_test
 
 from ..batch.summary import CONFIDENCE
+from ..verdicts.quantiles import quantiles
 
 Interval = tuple[float, float]
 
@@ -34,8 +35,9 @@ class PairedValues:
     """A number of variants A and B in the same trials; ``count`` is of trials where both have a finite one.
 
     ``smaller``, ``equal`` and ``larger`` count trials by what A's is against B's. ``median`` is that
-    of A less B; its ``interval`` is None where there are too few trials for one. ``p_value`` is that of
-    the sign test, ties left out. All None without trials.
+    of A less B (of an even number the lower of the two in the middle, as all our quantiles); its
+    ``interval`` is None where there are too few trials for one. ``p_value`` is that of the sign test, ties
+    left out. All None without trials.
     """
 
     count: int
@@ -89,7 +91,7 @@ def paired_values(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) 
         smaller=smaller,
         equal=int(difference.size) - smaller - larger,
         larger=larger,
-        median=float(np.median(difference)),
+        median=float(quantiles(difference, [0.5])[0]),
         interval=(low, high) if np.isfinite(low) and np.isfinite(high) else None,
         p_value=_even_split(smaller, larger),
     )

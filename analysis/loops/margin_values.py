@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
+from ..verdicts.quantiles import quantile_rank
 from .decibels import decibel_size, degree_size
 from .readings import Classical, Robust
 
@@ -90,8 +91,7 @@ class Margins:
 
 def order_statistic(sizes: Sequence[float], level: float) -> float:
     """The least size that a share ``level`` of all do not exceed (0: the least), `UNSTABLE` before all numbers."""
-    ranked = sorted(sizes)
-    return ranked[max(0, math.ceil(level * len(ranked)) - 1)]
+    return sorted(sizes)[quantile_rank(level, len(sizes))]
 
 
 def worst_of(found: Sequence[Margins]) -> int:

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 
 from ...batch.results import BatchResult
 from ...campaign.campaign import Metric
+from ...verdicts.quantiles import quantiles
 from ..kit.panels import Panel, panel, swatch
 from ..kit.quantities import labelled, shown_factor
 from ..kit.style import Look, log_ticks_x, look, plain_ticks
@@ -92,7 +93,7 @@ def _limits(values: np.ndarray) -> tuple[float, float, bool]:
     least, most = float(values.min()), float(values.max())
     positive = values[values > 0.0]
     if least >= 0.0 and positive.size:
-        start = float(np.quantile(positive, TAIL))
+        start = float(quantiles(positive, [TAIL])[0])
         if np.log10(most / start) > DECADES:
             return start / 1.5, most * 1.5, True
     margin = 0.05 * (most - least) or 0.05 * abs(most) or 1.0

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from scipy.stats import chi2, norm
 
+from ...verdicts.quantiles import quantiles
 from ..kit.panels import Panel, far, panel
 from ..kit.quantities import number, shown_factor, shown_unit
 from ..kit.style import FAILED, FAINT, Look, plain_ticks
@@ -63,7 +64,7 @@ def bands_of(quantity: Quantity, flights: Sequence[Flight]) -> Bands | None:
     values = np.stack([_resampled(grid, time, row, quantity.held) for time, row in histories])
     flying = np.sum(np.isfinite(values), axis=0)
     enough = flying >= max(1.0, FEWEST * len(histories))
-    percentiles = np.nanpercentile(values[:, enough], LEVELS, axis=0)
+    percentiles = quantiles(values[:, enough], [level / 100.0 for level in LEVELS])
     failed = bad[:FAILURES] if good and quantity.kind != "consistency" else []
     return Bands(grid[enough], percentiles, len(histories), histories[:SINGLES], failed)
 

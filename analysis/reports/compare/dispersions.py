@@ -8,12 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
+from ...verdicts.quantiles import quantiles
 from ..kit.panels import Panel, far, panel
 from ..kit.style import FAINT, INK, Look, plain_ticks
 from .bundles import TARGET
 from .targets import Ends
 
 SIGMAS = (1.0, 2.0, 3.0)
+RADII = (0.5, 0.99)  # fractions of the trials that end within the distances shown
 UNEVEN = 4.0  # scales that differ by more are shown a second time, each contender to its own
 HEIGHT = 3.1  # in
 MANY = 1000  # points from which on they are stored as an image, not one by one
@@ -41,7 +43,7 @@ def dispersion(ends: Ends) -> Dispersion:
     if not good.size:
         return Dispersion(0, None, None, None, None)
     miss = np.hypot(good[:, 0], good[:, 1])
-    radii = [*np.quantile(miss, [0.5, 0.99]).tolist(), float(miss.max())]
+    radii = [*quantiles(miss, RADII).tolist(), float(miss.max())]
     mean = good.mean(axis=0).tolist()
     if len(good) < 2:
         return Dispersion(len(good), mean, None, None, radii)

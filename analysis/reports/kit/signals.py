@@ -11,6 +11,15 @@ import numpy as np
 from ...flight.results import Result
 from ...system.names import parted
 
+STATES = (
+    "position", "relative_position", "altitude", "height", "central_angle", "longitude", "latitude", "velocity",
+    "speed", "path_angle", "course", "mass", "attitude", "quaternion", "angles", "attack", "sideslip", "bank", "tilt",
+    "angular_velocity", "angular_rate", "gimbal_angles",
+)  # fmt: skip
+COMMANDS = (
+    "thrust", "throttle", "thrust_angle", "thrust_direction", "thrust_acceleration", "force_command", "torque_command",
+    "jet_thrust", "gimbal_rates", "pulse_lengths",
+)  # fmt: skip
 INDEXED = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
 
 
@@ -69,6 +78,17 @@ def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup,
     return {
         group: first.setdefault((group.unit, group.type, group.values(result).tobytes()), group) for group in groups
     }
+
+
+def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[SignalGroup]:
+    """States and commands, by the names of variables alone: of each the first component's signal that changes."""
+    first: dict[str, SignalGroup] = {}
+    for group in groups:
+        if group.component and group.is_real and group.variable in STATES + COMMANDS:
+            values = group.values(result)
+            if np.any(values != values[:, :1]):
+                first.setdefault(group.variable, group)
+    return list(first.values())
 
 
 def position_groups(result: Result) -> list[SignalGroup]:

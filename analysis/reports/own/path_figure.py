@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from ...flight.results import Result
 from ..kit.panels import both_widths, far, is_slim
 from ..kit.quantities import labelled, shown_unit
-from ..kit.style import BLUE, look, plain_ticks
+from ..kit.style import BLUE, INK, look, plain_ticks
 from .asked.histories import Path, Point
 from .asked.values import Arc, Signal
 from .section import Section, choice, chosen_rows, nothing_chosen, sentence, trimmed
@@ -41,6 +41,8 @@ def path_section(path: Path, result: Result, name: str) -> Section:
             _draw_point(axes, point, (scales[0] * line(point.x), scales[1] * line(point.y)), index)
         axes.set_xlabel(_axis(path.x, scales[0]))
         axes.set_ylabel(_axis(path.y, scales[1]))
+        if _over_ground(path):
+            axes.axhline(0.0, color=INK, linewidth=0.8, zorder=0.9)
         plain_ticks(axes, x=5 if is_slim(figure) else 10, y=6)
         axes.margins(0.05, 0.08)
         if path.equal:
@@ -48,9 +50,10 @@ def path_section(path: Path, result: Result, name: str) -> Section:
         if path.points:
             axes.legend(loc="best")
 
+    beyond = isinstance(path.x, Arc) and bool(np.nanmax(x, initial=0.0) > 0.5 * np.pi * path.x.radius)
     what = f"{path.title}: {path.y.label} over {path.x.label}"
     drawn = both_widths(name, what, draw, EQUAL_HEIGHT if path.equal else HEIGHT, SLIM_HEIGHT)
-    return Section(title=path.title, drawn=drawn, notes=_reading(path))
+    return Section(title=path.title, drawn=drawn, notes=_reading(path, beyond))
 
 
 def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
@@ -61,6 +64,11 @@ def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
         return factor, factor
     first, second = (far(values)[0] if is_length else 1.0 for values, is_length in zip((x, y), metres, strict=True))
     return first, second
+
+
+def _over_ground(path: Path) -> bool:
+    """Whether the ordinate is an altitude over the sphere along which the abscissa goes."""
+    return isinstance(path.x, Arc) and path.y.label.rpartition(".")[2] == "altitude"
 
 
 def _axis(signal: Signal | Arc, scale: float) -> str:
@@ -82,7 +90,7 @@ def _draw_point(axes: Axes, point: Point, position: tuple[np.ndarray, np.ndarray
     )  # fmt: skip
 
 
-def _reading(path: Path) -> list[Markup]:
+def _reading(path: Path, beyond: bool) -> list[Markup]:
     words = Markup("ring: the end")
     if path.points:
         names = ", ".join(f"{point.name} ({point.x.label}, {point.y.label})" for point in path.points)
@@ -93,4 +101,10 @@ def _reading(path: Path) -> list[Markup]:
     words = Markup("{}; {}").format(words, scale)
     if isinstance(path.x, Arc):
         words = Markup("{}; range: along the ground, from the origin to below {}").format(words, path.x.position.label)
+        if beyond:
+            words = Markup("{}, beyond a quarter of the circumference along the great circle of the track").format(
+                words
+            )
+    if _over_ground(path):
+        words = Markup("{}; dark line: the surface").format(words)
     return [sentence(words), *(Markup("{}").format(note) for note in path.notes)]

@@ -14,7 +14,7 @@ from ..kit.signals import SignalGroup, distinct, signal_groups
 from ..own.asked.declared import Figure
 from ..own.own_figures import joint_findings, own_sections
 from .time_histories import time_histories
-from .trajectory import trajectory_panels
+from .trajectory import trajectory_panels, trajectory_reading
 
 STATUS_WORDS = {
     "finished": "Ended by itself: the system reported that it is finished.",
@@ -44,6 +44,7 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
         provenance=result.provenance,
         key_values=key_values(result),
         trajectory=trajectory_panels(result),
+        trajectory_reading=trajectory_reading(result),
         joint=joint_findings(figures, result),
         own=own_sections(figures, result),
         histories=time_histories(result),

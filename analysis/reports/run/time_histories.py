@@ -1,4 +1,4 @@
-"""Every signal of a run over time: a panel each, by component, in order of unit."""
+"""Every signal of a run over time: a panel each, by component; states and commands first, the rest folded away."""
 
 from __future__ import annotations
 
@@ -10,12 +10,14 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 
 from ...flight.results import Result
+from ...verdicts.quantiles import quantiles
 from ..kit.panels import Panel, panel, swatch
 from ..kit.quantities import labelled, number, shown_factor
-from ..kit.signals import SignalGroup, distinct, signal_groups
+from ..kit.signals import SignalGroup, distinct, signal_groups, states_and_commands
 from ..kit.style import FAINT, look, plain_ticks
 
 HEIGHT = 1.9  # in
+MOST = 12  # panels that are open where no name says which are states and commands
 SPIKE = 8.0  # a range so many times wider than the middle 98 % of the values is cut, and the panel says so
 
 
@@ -33,30 +35,68 @@ class ComponentHistory:
     constant: list[tuple[str, list[float | int | bool], str | None]]
     copies: list[tuple[str, str]]
 
+    @property
+    def is_empty(self) -> bool:
+        return not (self.panels or self.constant or self.copies)
 
-def time_histories(result: Result) -> list[ComponentHistory]:
+
+@dataclass(frozen=True)
+class Histories:
+    """Sections of the states and commands, ``first``, and of the ``rest``, which are folded away.
+
+    Without a signal whose name says that it is one, the first `MOST` panels are ``first``.
+    """
+
+    first: list[ComponentHistory]
+    rest: list[ComponentHistory]
+    are_named: bool
+
+    @property
+    def folded(self) -> int:
+        """How many panels are folded away."""
+        return sum(len(history.panels) for history in self.rest)
+
+
+def time_histories(result: Result) -> Histories:
     """The sections of all components in the order of the record; a run without rows has none."""
     if not result.time.size:
-        return []
+        return Histories([], [], False)
     groups = signal_groups(result)
     originals = distinct(groups, result)
+    drawn = [group for group in groups if originals[group] == group and not _is_constant(group, result)]
+    named = states_and_commands(drawn, result)
+    open_ = named or drawn[:MOST]
+    components = list(dict.fromkeys(group.component for group in groups))
+    first, rest = [], []
+    for number_, component in enumerate(components):
+        mine = [group for group in groups if group.component == component]
+        shown = [group for group in open_ if group.component == component]
+        if shown:
+            name = f"history{number_}-first"
+            first.append(ComponentHistory(component, _panels(shown, result, name), _legend(shown), [], []))
+        rest.append(_folded(component, [group for group in mine if group not in open_], originals, result, number_))
+    return Histories(first, [history for history in rest if not history.is_empty], bool(named))
+
+
+def _folded(
+    component: str,
+    groups: list[SignalGroup],
+    originals: dict[SignalGroup, SignalGroup],
+    result: Result,
+    number_: int,
+) -> ComponentHistory:
+    """The section of a component's signals that are not among the first: drawn, constant, or copies of others."""
+    still = [group for group in groups if _is_constant(group, result)]
+    copies = [(group, originals[group]) for group in groups if originals[group] != group and group not in still]
+    drawn = [group for group in groups if group not in still and originals[group] == group]
     final = result.final()
-    sections = []
-    for number_, component in enumerate(dict.fromkeys(group.component for group in groups)):
-        own = [group for group in groups if group.component == component]
-        still = [group for group in own if _is_constant(group, result)]
-        copies = [(group, originals[group]) for group in own if originals[group] != group and group not in still]
-        drawn = [group for group in own if group not in still and originals[group] == group]
-        sections.append(
-            ComponentHistory(
-                component=component,
-                panels=_panels(drawn, result, f"history{number_}"),
-                legend=_legend(drawn),
-                constant=[(group.label, [final[name] for name in group.names], group.unit) for group in still],
-                copies=[(group.label, original.label) for group, original in copies],
-            )
-        )
-    return sections
+    return ComponentHistory(
+        component=component,
+        panels=_panels(drawn, result, f"history{number_}"),
+        legend=_legend(drawn),
+        constant=[(group.label, [final[name] for name in group.names], group.unit) for group in still],
+        copies=[(group.label, original.label) for group, original in copies],
+    )
 
 
 def _is_constant(group: SignalGroup, result: Result) -> bool:
@@ -111,7 +151,7 @@ def _cut_spikes(axes: Axes, values: np.ndarray) -> None:
     if not finite.size:
         axes.text(0.5, 0.5, "no finite value", transform=axes.transAxes, ha="center", va="center", color=FAINT)
         return
-    low, high = np.quantile(finite, [0.01, 0.99])
+    low, high = quantiles(finite, [0.01, 0.99])
     least, most = float(finite.min()), float(finite.max())
     if not (high > low and most - least > SPIKE * (high - low)):
         return

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,11 +13,14 @@ from matplotlib.ticker import MaxNLocator
 from ...flight.results import Result
 from ..kit.panels import HALF_WIDTH, Panel, far, panel
 from ..kit.quantities import number
-from ..kit.signals import position_groups
-from ..kit.style import FAINT, INK, Look, house_style, look, new_figure, plain_ticks
+from ..kit.round_body import altitude_over, radius_of, track_angles
+from ..kit.signals import SignalGroup, position_groups
+from ..kit.style import FAINT, GRID, INK, Look, house_style, look, new_figure, plain_ticks
 
 HEIGHT = 3.2  # in
 MAXIMUM_STRETCH = 4.0  # axes whose ranges differ by less are drawn to one scale
+FAR = 0.35  # rad along the ground, beyond which a plan on the tangent plane would fold back: the ground track instead
+GROUND = 0.05  # of the height: what is drawn of the ground
 
 
 class View(NamedTuple):
@@ -37,6 +40,20 @@ def trajectory_panels(result: Result) -> list[Panel]:
     ]
 
 
+def trajectory_reading(result: Result) -> str:
+    """How to read the panels."""
+    words = "Dots: times since the start; ring: the end."
+    groups = position_groups(result)
+    radius = _radius(groups, [group.values(result) for group in groups], result) if result.time.size else None
+    if radius is None:
+        return f"{words} Elements of the position in the frame that the component states."
+    return (
+        f"{words} Grey: the ground. Altitude and distances along the ground are over a sphere of {radius / 1e3:.1f} km "
+        "radius, as the recorded altitude shows it; downrange grows in the direction of flight and is 0 at the origin "
+        "of the position's frame. position[k]: elements in that frame."
+    )
+
+
 def trajectory_plot(result: Result) -> Figure | None:
     """The same in one figure; None where nothing has a position."""
     views = _views(result)
@@ -51,37 +68,96 @@ def trajectory_plot(result: Result) -> Figure | None:
 
 
 def _views(result: Result) -> list[View]:
-    """Plan (elements 1 and 2) and side view (3 over the wider of the two); none where nothing has a position."""
+    """Seen from above and from the side; none where nothing has a position.
+
+    Of flights over a round body, altitude over downrange distance; else, and from above, elements of the position.
+    """
     groups = position_groups(result)
     if not groups or not result.time.size:
         return []
     paths = [group.values(result) for group in groups]
-    everything = np.concatenate(paths, axis=1)
-    scale, unit = far(everything)
-    spans = np.ptp(everything, axis=1)
+    labels = [group.label for group in groups]
+    who = ", ".join(group.component for group in groups)
+    radius = _radius(groups, paths, result)
+    if radius is None:
+        return _flat_views(paths, labels, result.time, who)
+    arcs = [np.stack([radius * angle for angle in track_angles(path, radius)]) for path in paths]
+    heights = [np.stack([arc[0], altitude_over(path, radius)]) for arc, path in zip(arcs, paths, strict=True)]
+    downrange = "downrange of the origin"
+    side = View("Side view", "side", f"Altitude over downrange distance of {who}, over the surface",
+                _drawing(heights, labels, result.time, (downrange, "altitude"), ground=True))  # fmt: skip
+    if np.nanmax(np.abs(arcs[0][0])) > FAR * radius:
+        draw = _drawing(arcs, labels, result.time, (downrange, "across"))
+        return [View("Ground track", "plan", f"Ground track of {who}", draw), side]
+    return [*_flat_views(paths, labels, result.time, who)[:-1], side]
+
+
+def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: Result) -> float | None:
+    """The radius (m) of the body, from the first component that has a position and its altitude; None without one."""
+    for group, path in zip(groups, paths, strict=True):
+        altitude = f"{group.component}.altitude"
+        if result.units.get(altitude) == "m" and (radius := radius_of(path, result[altitude])) is not None:
+            return radius
+    return None
+
+
+def _flat_views(paths: Sequence[np.ndarray], labels: Sequence[str], time: np.ndarray, who: str) -> list[View]:
+    """Plan (elements 1 and 2) and side view (3 over the wider of the two); where one stays the same, the latter."""
+    spans = np.ptp(np.concatenate(paths, axis=1), axis=1)
     across = 0 if spans[0] >= spans[1] else 1
-    flat = spans[1 - across] == 0.0
-    marks = _marked_rows(result.time)
 
     def view(title: str, name: str, x: int, y: int) -> View:
-        def draw(axes: Axes) -> None:
-            for index, (group, path) in enumerate(zip(groups, paths, strict=True)):
-                _draw_path(axes, scale * path[[x, y]], look(index), group.label, marks)
-            plain_ticks(axes, x=5, y=6)
-            axes.set_xlabel(f"position[{x + 1}], {unit}")
-            axes.set_ylabel(f"position[{y + 1}], {unit}")
-            _scale(axes, spans[x], spans[y])
-            _label_times(axes, scale * paths[0][[x, y]], result.time, marks)
-            if len(groups) > 1:
-                axes.legend(loc="best")
+        names = (f"position[{x + 1}]", f"position[{y + 1}]")
+        draw = _drawing([path[[x, y]] for path in paths], labels, time, names)
+        return View(title, name, f"{title} of the path of {who}", draw)
 
-        words = f"{title} of the path of {', '.join(group.component for group in groups)}"
-        return View(title, name, words, draw)
-
-    if flat:
+    if spans[1 - across] == 0.0:
         constant = number(float(paths[0][1 - across][0]))
         return [view(f"Side view; position[{2 - across}] stays at {constant} m", "side", across, 2)]
     return [view("Plan", "plan", across, 1 - across), view("Side view", "side", across, 2)]
+
+
+def _drawing(
+    paths: Sequence[np.ndarray],
+    labels: Sequence[str],
+    time: np.ndarray,
+    names: tuple[str, str],
+    *,
+    ground: bool = False,
+) -> Callable[[Axes], None]:
+    """What draws paths, abscissa and ordinate in m by rows; ``ground``: the ordinate is above a surface, drawn too."""
+    everything = np.concatenate(paths, axis=1)
+    width, height = np.ptp(everything, axis=1)
+    if ground:
+        height = max(height, float(np.nanmax(everything[1])))
+    if _is_even(width, height):
+        (scale, unit) = far(everything)
+        scales, units = (scale, scale), (unit, unit)
+    else:
+        scales, units = zip(*map(far, everything), strict=True)
+    drawn = [np.array(scales)[:, None] * path for path in paths]
+    marks = _marked_rows(time)
+
+    def draw(axes: Axes) -> None:
+        for index, (path, label) in enumerate(zip(drawn, labels, strict=True)):
+            _draw_path(axes, path, look(index), label, marks)
+        if ground:
+            axes.axhspan(-GROUND * scales[1] * height, 0.0, facecolor=GRID, edgecolor="none", zorder=0.8)
+            axes.axhline(0.0, color=INK, linewidth=0.8, zorder=0.9)
+        plain_ticks(axes, x=5, y=6)
+        axes.set_xlabel(f"{names[0]}, {units[0]}")
+        axes.set_ylabel(f"{names[1]}, {units[1]}")
+        _scale(axes, width, height)
+        _label_times(axes, drawn[0], time, marks)
+        if len(paths) > 1:
+            axes.legend(loc="best")
+
+    return draw
+
+
+def _is_even(width: float, height: float) -> bool:
+    """Whether one scale for both axes leaves something to see."""
+    return height > 0.0 and 1.0 / MAXIMUM_STRETCH <= width / height <= MAXIMUM_STRETCH
 
 
 def _marked_rows(time: np.ndarray) -> np.ndarray:
@@ -126,8 +202,13 @@ def _write_time(axes: Axes, time: float, point: np.ndarray, offset: tuple[int, i
 def _scale(axes: Axes, width: float, height: float) -> None:
     """One scale for both axes where that leaves something to see, else say that there are two."""
     axes.margins(0.1, 0.12)
-    if height > 0.0 and 1.0 / MAXIMUM_STRETCH <= width / height <= MAXIMUM_STRETCH:
+    if _is_even(width, height):
         axes.set_aspect("equal", adjustable="datalim")
         axes.set_title("axes to one scale", loc="right", fontsize=8.0, color=FAINT)
+    elif height > 0.0 and width / height > 1.0:
+        stretch = number(float(width / height), 2)
+        axes.set_title(
+            f"not to scale: the path is {stretch} times as wide as high", loc="right", fontsize=8.0, color=FAINT
+        )
     else:
         axes.set_title("axes to different scales", loc="right", fontsize=8.0, color=FAINT)

@@ -105,6 +105,17 @@ def test_metrics_of_the_successful_and_of_all_trials(page, trials):
     assert f">{math.degrees(tilt):.4g}</data>" in page
 
 
+def test_a_quantile_printed_twice_is_one_number(tmp_path):
+    """Misses without a vertical part: the metric's table and that of the ends tell of the same numbers."""
+    write_sample(tmp_path / "out", flat=True)
+    page = write([tmp_path / "out"], tmp_path / "page.html")
+    metric = table_rows(section(page, "Metrics of the successful trials"), 10)[:3]
+    ends = table_rows(section(page, "At the end"), 12)[:3]
+    for row, end in zip(metric, ends, strict=True):
+        median, most_of, largest = row[5], row[7], row[8]
+        assert end[-3:] == pytest.approx([median, most_of, largest], rel=1e-12)
+
+
 def test_pairs_of_rates(page, trials):
     rows = []
     for against_reference in (True, False):
@@ -136,7 +147,7 @@ def test_pairs_of_metrics(page, trials):
             smaller = int(np.sum(x < y))
             p = scipy.stats.binomtest(smaller, int(both.sum())).pvalue
             counts = [smaller, 0, int(np.sum(x > y)), int(both.sum())]
-            expected.append([np.median(x - y), interval.low, interval.high, p, *counts])
+            expected.append([np.quantile(x - y, 0.5, method="inverted_cdf"), interval.low, interval.high, p, *counts])
     found = [numbers(row) for row in table.xpath(".//tr") if len(numbers(row)) == 8]
     np.testing.assert_allclose(found, expected, rtol=1e-9)
 
@@ -161,7 +172,7 @@ def test_dispersions_at_the_end(page, trials):
             # semi-axes of the 1-sigma ellipse are singular values of the centred points over sqrt(n - 1)
             centred = errors[:, :2] - errors[:, :2].mean(axis=0)
             axes = np.linalg.svd(centred, compute_uv=False) / math.sqrt(len(errors) - 1)
-            radii = [np.percentile(miss, 50), np.percentile(miss, 99), miss.max()]
+            radii = [*np.percentile(miss, [50, 99], method="inverted_cdf"), miss.max()]
             expected.append([len(errors), *errors.mean(axis=0), *errors.std(axis=0, ddof=1), *axes, *radii])
     np.testing.assert_allclose(table_rows(section(page, "At the end"), 12), expected, rtol=1e-9)
     assert "the ellipses hold 39.3, 86.5 and 98.9 %" in text_of(page)  # test_comparison_figures.py: they do

@@ -102,7 +102,7 @@ def test_they_are_on_the_page_above_the_time_histories(tmp_path):
     assert_self_contained(page)
     headings = [part.text for part in parse(page).xpath("//h2 | //h3")]
     begin = headings.index("Figures of this system")
-    assert headings[begin + 1 : begin + 6] == ["Angles", "Jets", "Error", "Jets & more", "Time histories"]
+    assert headings[begin + 1 : begin + 6] == ["Angles", "Jets", "Error", "Jets & more", "States and commands"]
     for words in ("Settled from 97.5 s on: roll", "20 pulses", "within sigma", "Not drawn: lengths: no such signal."):
         assert words in text_of(page)
     assert {"97.5", "40.5"} <= set(data_values(page))

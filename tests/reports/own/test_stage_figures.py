@@ -221,6 +221,20 @@ def test_a_path_over_the_ground():
     assert notes(section)[0].endswith("range: along the ground, from the origin to below ship.place.")
 
 
+def test_a_range_goes_on_beyond_half_the_circumference():
+    """Once round from 1.2 half circumferences away, in the plane of the origin or a little off it."""
+    angle = np.linspace(1.2 * math.pi, 0.0, TIME.size)
+    radius = 1000.0
+    for across in (0.0, 1e-4):
+        place = np.stack([radius * np.sin(angle), np.full(TIME.size, radius * across), radius * (np.cos(angle) - 1.0)])
+        shown = Arc(vector("ship.place", 3, METRE), radius).shown(mission(place=place))[0]
+        np.testing.assert_allclose(shown, radius * angle, atol=2.0 * radius * across)
+        assert np.all(np.diff(shown) < 0.0)
+    section = one(replace(PATH, x=Arc(vector("ship.place", 3, METRE), radius), rows=None, points=(), equal=False),
+                  mission(place=place))  # fmt: skip
+    assert notes(section)[0].endswith("along the great circle of the track.")
+
+
 def test_curves_each_and_together():
     apart = one(CURVE, mission())
     assert [panel.label for panel in apart.panels] == ["tilt", "lean"]

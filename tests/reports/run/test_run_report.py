@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from perilune.analysis.reports.kit.style import new_figure
 from perilune.analysis.reports.run.run_report import STATUS_WORDS, write_run_report
+from perilune.analysis.reports.run.trajectory import _views
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.samples import DIGEST, run_result
 
@@ -133,3 +135,70 @@ def test_a_system_without_any_of_what_one_looks_at_first(many, tmp_path):
     assert ("No position, velocity or status" in words) == many
     if not many:
         assert {repr(float(result[name][-1])) for name in kept} <= set(section.xpath(".//data/@value"))
+
+
+def sections_and_folds(page):
+    """Figures by their labels: those that are open, and those that are folded away."""
+    labels = [
+        (figure.get("aria-label"), bool(figure.xpath("ancestor::details[not(@open)]")))
+        for figure in parse(page).xpath("//*[local-name()='svg'][@aria-label]")
+    ]
+    return [label for label, folded in labels if not folded], [label for label, folded in labels if folded]
+
+
+def test_states_and_commands_come_first_and_the_rest_is_folded(page):
+    """What moves and what it is told by name; everything else is in the page, without a script."""
+    shown, folded = sections_and_folds(page)
+    assert "ship.position over time" in shown
+    assert "ship.tilt over time" in shown
+    assert {"crew.cook.spike over time", "crew.cook.awake over time", "finished over time"} <= set(folded)
+    assert "ship.mass" not in " ".join(shown)  # constant: said, not drawn
+    assert "<script" not in page
+    headings = [heading.text for heading in parse(page).xpath("//h2")]
+    assert headings[:4] == ["At the end", "Trajectory", "States and commands", "All signals"]
+
+
+def test_where_no_name_says_what_is_a_state_the_first_panels_are_open(tmp_path):
+    result = run_result()
+    for name in list(result.signals):
+        del result.signals[name]
+    for place in range(20):
+        name = f"ship.extra_{place}"
+        result.signals[name], result.units[name], result.types[name] = result.time + place, None, "Real"
+    shown, folded = sections_and_folds(write(result, tmp_path / "run.html"))
+    assert [len(shown), len(folded)] == [12, 8]
+
+
+def over_the_moon(way):
+    """A flight that descends from 50 km along ``way`` (rad of the Moon) to the origin."""
+    result, radius = run_result(), 1.7374e6
+    angle = np.linspace(-way, 0.0, result.time.size)
+    altitude = 5e4 * np.abs(angle) / way
+    position = [(radius + altitude) * np.sin(angle), 0.0 * angle, (radius + altitude) * np.cos(angle) - radius]
+    for name in [name for name in result.signals if name.startswith("crew.cook.position")]:
+        del result.signals[name]
+    for k, values in enumerate(position, 1):
+        result.signals[f"ship.position[{k}]"] = values
+    result.signals["ship.altitude"], result.units["ship.altitude"], result.types["ship.altitude"] = (
+        altitude,
+        "m",
+        "Real",
+    )
+    return result
+
+
+@pytest.mark.parametrize("way", [0.15, 3.5])
+def test_a_side_view_over_a_round_body_is_altitude_over_the_ground(way, tmp_path):
+    """A steady descent stays one: on the tangent plane it would rise first (0.15 rad), or go round (3.5 rad)."""
+    views = {view.name: view for view in _views(over_the_moon(way))}
+    figure = new_figure(3.0)
+    axes = figure.subplots()
+    views["side"].draw(axes)
+    x, y = axes.lines[0].get_data()
+    np.testing.assert_allclose(x, 1737.4 * np.linspace(-way, 0.0, x.size), atol=1e-3)
+    np.testing.assert_allclose(y, np.linspace(50.0, 0.0, y.size), atol=1e-3)
+    assert [axes.get_xlabel(), axes.get_ylabel()] == ["downrange of the origin, km", "altitude, km"]
+    assert any(np.all(np.asarray(line.get_ydata()) == 0.0) for line in axes.lines)  # the surface
+    text = text_of(write(over_the_moon(way), tmp_path / "run.html"))
+    assert "a sphere of 1737.4 km radius" in text
+    assert ("Ground track" in text) == (way > 1.0)

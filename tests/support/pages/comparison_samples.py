@@ -120,8 +120,12 @@ def sample_batch(
     final=True,
     text=CAMPAIGN,
     targets=True,
+    flat=False,
 ) -> BatchResult:
-    """A batch in which alpha is good, beta worse, gamma off to one side; ``noise`` scales all misses."""
+    """A batch in which alpha is good, beta worse, gamma off to one side; ``noise`` scales all misses.
+
+    ``flat`` ones are horizontal.
+    """
     names = [*POSITION, *VELOCITY, "ship.mass"] if final else []
     sampling = SAMPLING.format(signals=SIGNALS, traced=traced) if traced else ""
     campaign = parse_campaign(
@@ -137,6 +141,8 @@ def sample_batch(
     for number, variant in enumerate(variants):
         source = np.random.default_rng(100 * seed + number)
         errors = noise * (1.0 + 0.5 * number) * source.normal(size=(trials, 3)) + [0.4 * number, 0.0, 0.0]
+        if flat:
+            errors[:, 2] = 0.0
         ends = TARGET + errors
         speeds = 0.1 * source.normal(size=(trials, 3))
         mass = 60.0 - number + 0.5 * source.normal(size=trials)

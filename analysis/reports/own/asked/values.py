@@ -9,6 +9,7 @@ import numpy as np
 from ....flight.results import Flight
 from ....ssp.units import Unit
 from ...kit.quantities import shown_factor
+from ...kit.round_body import ground_range
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ class Signal:
 
 @dataclass(frozen=True)
 class Arc:
-    """How far along the ground a ``position`` is from the origin of its frame.
+    """How far along the ground a ``position`` is from the origin of its frame, see kit/round_body.py.
 
     The origin is on a sphere of ``radius`` (m) around (0, 0, -radius); the position has three elements in m.
     """
@@ -60,8 +61,7 @@ class Arc:
 
     def shown(self, flight: Flight) -> np.ndarray:
         """In m, one row as of a scalar; nan for what is not finite."""
-        x, y, z = self.position.shown(flight)
-        return (self.radius * np.arctan2(np.hypot(x, y), z + self.radius))[None]
+        return ground_range(self.position.shown(flight), self.radius)[None]
 
 
 @dataclass(frozen=True)

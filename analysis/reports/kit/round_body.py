@@ -1,0 +1,78 @@
+"""Positions over a round body: its radius where the signals show it, and how far along its ground they are.
+
+Positions are in m in the frame of a landing site: z is up there, the body's centre at (0, 0, -radius).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+FLATNESS = 1e-3  # m; altitudes that differ by less from the height above the tangent plane show no curvature
+MISMATCH = 1e-3  # m, and this fraction of 1e6 of the distance: altitudes further from the sphere's are not above it
+
+
+def radius_of(position: np.ndarray, altitude: np.ndarray) -> float | None:
+    """The radius (m) of the sphere above which positions, [3, n], have these altitudes, [n]; None if there is none.
+
+    With the centre at (0, 0, -R) and |p - centre| = R + a, |p|^2 - a^2 = 2 R (a - z): a line through the origin, whose
+    slope is fitted by least squares. None too where nothing moves far enough for the curvature to be seen.
+    """
+    finite = np.all(np.isfinite(position), axis=0) & np.isfinite(altitude)
+    place, height = position[:, finite], altitude[finite]
+    rise = 2.0 * (height - place[2])
+    if not rise.size or np.max(np.abs(rise)) < FLATNESS:
+        return None
+    square = np.sum(place**2, axis=0) - height**2
+    radius = float(np.sum(rise * square) / np.sum(rise**2))
+    if radius <= 0.0:
+        return None
+    error = np.abs(altitude_over(place, radius) - height)
+    return radius if np.all(error <= MISMATCH + 1e-6 * np.linalg.norm(place, axis=0)) else None
+
+
+def altitude_over(position: np.ndarray, radius: float) -> np.ndarray:
+    """Altitudes (m) of positions, [3, n], above a sphere of this radius (m)."""
+    x, y, z = position
+    return np.sqrt(x**2 + y**2 + (z + radius) ** 2) - radius
+
+
+def track_angles(
+    position: np.ndarray, radius: float, target: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Angles (rad) at the body's centre along and across the great circle through the target that fits a track best.
+
+    ``position``, [3, n]; ``target``, [3], the origin of the frame if None. Along is 0 at the target, grows in the
+    direction of flight, and goes on beyond half the circumference; the row nearest to the target is within half of
+    it. nan for what is not finite. A track without a direction, straight up or at rest, is taken as one along x.
+    """
+    centre = np.array([0.0, 0.0, -radius])
+    up = (np.zeros(3) if target is None else target) - centre
+    up = up / np.linalg.norm(up)
+    finite = np.all(np.isfinite(position), axis=0)
+    along, across = np.full(position.shape[1], np.nan), np.full(position.shape[1], np.nan)
+    if not finite.any():
+        return along, across
+    direction = position[:, finite] - centre[:, None]
+    direction = direction / np.linalg.norm(direction, axis=0)
+    turning = np.sum(np.cross(direction[:, :-1], direction[:, 1:], axis=0), axis=1)
+    normal = turning - (turning @ up) * up
+    if np.linalg.norm(normal) < 1e-12:
+        normal = np.cross(up, [1.0, 0.0, 0.0])
+    normal = normal / np.linalg.norm(normal)
+    angle = np.unwrap(np.arctan2(np.cross(normal, up) @ direction, up @ direction))
+    nearest = int(np.argmax(up @ direction))
+    along[finite] = angle - 2.0 * np.pi * np.round(angle[nearest] / (2.0 * np.pi))
+    across[finite] = np.arcsin(np.clip(normal @ direction, -1.0, 1.0))
+    return along, across
+
+
+def ground_range(position: np.ndarray, radius: float) -> np.ndarray:
+    """How far (m) along the ground positions, [3, n], are from the origin; nan for what is not finite.
+
+    Up to a quarter of the circumference the shortest way; beyond, along the great circle of the track, past half the
+    circumference too. Both are the same at a quarter, whatever lies across.
+    """
+    along, _ = track_angles(position, radius)
+    x, y, z = position
+    shortest = np.arctan2(np.hypot(x, y), z + radius)
+    return radius * np.where(np.abs(along) <= 0.5 * np.pi, shortest, np.abs(along))
