@@ -31,7 +31,7 @@ from ..system.in_flight.series import Given, read_series
 from ..system.in_flight.watch import Watch
 from ..targets import check_folder
 from .notebook import Grid, metric_grid, notebook_view
-from .options import FilePath, check_list, system_options
+from .options import Compared, FilePath, check_list, compared, system_options
 
 MOST_PLOTTED = 6  # metrics, in a notebook
 
@@ -60,6 +60,10 @@ class BatchResult(results.BatchResult):
         draws = {name: whole_column(rows, f"draw.{name}") for name in drawn_names(campaign)}
         metrics = {metric.name: whole_column(rows, f"metric.{metric.name}") for metric in campaign.metrics}
         return rank_correlations(draws, metrics)
+
+    def write(self, folder: FilePath) -> None:
+        """Write what `perilune batch --output` does: trials, draws, summary, traces where the campaign keeps them."""
+        super().write(Path(folder))
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune batch --report`: one HTML file."""
@@ -114,7 +118,7 @@ def batch(
     system: FilePath,
     campaign: FilePath,
     *,
-    compare: Mapping[str, Sequence[str]] | None = None,
+    compare: Compared | None = None,
     trials: int | None = None,
     seed: int | None = None,
     workers: int | None = None,
@@ -145,14 +149,14 @@ def batch(
 ) -> BatchResult:
     """Fly a campaign, by name or path of its .toml file: `perilune batch`.
 
-    ``compare`` maps slots to the FMUs flown there on the same draws; ``output`` is a folder for trials, draws and
-    summary, refused if it holds results unless ``overwrite``, or ``resume``, which goes on with what it holds;
-    ``until_decided`` ends with the first shard after which the campaign's requirements are met, or are not;
-    ``engine`` is what flies side by side, threads or processes, and ``scheduler`` the address of a dask scheduler whose
-    workers fly instead; ``faults`` fly in every trial,
-    after the campaign's own, and every trial has the same ``input``; one that takes longer than ``timeout`` (s, wall
-    clock) ends ``timed_out``, is no success, and the next one flies; ``draws`` is a Parquet file of draws to fly, a
-    trial for each row. In ``set`` a text "low:high:step" is a sweep. The rest is as in `simulate`. Raises InputError.
+    ``compare`` maps slots to the FMUs flown there on the same draws, one or a list; ``output`` is a folder for
+    trials, draws and summary, refused if it holds results unless ``overwrite``, or ``resume``, which goes on with
+    what it holds; ``until_decided`` ends with the first shard after which the campaign's requirements are met, or
+    are not; ``engine`` is what flies side by side, threads or processes, and ``scheduler`` the address of a dask
+    scheduler whose workers fly instead; ``faults`` fly in every trial, after the campaign's own, and every trial
+    has the same ``input``; one that takes longer than ``timeout`` (s, wall clock) ends ``timed_out``, is no
+    success, and the next one flies; ``draws`` is a Parquet file of draws to fly, a trial for each row. In ``set`` a
+    text "low:high:step" is a sweep. The rest is as in `simulate`. Raises InputError.
     """
     folder = Path(output) if output is not None else None
     if resume and folder is None:
@@ -165,8 +169,8 @@ def batch(
     check_list("faults", faults)
     options, sweeps = part_sweeps(options)
     plan = read_plan(
-        Path(system), str(campaign), options, trials=trials, seed=seed, compare=compare, faults=faults_of(faults),
-        series=None if input is None else read_series(input), watch=Watch(timeout, log),
+        Path(system), str(campaign), options, trials=trials, seed=seed, compare=compared(compare),
+        faults=faults_of(faults), series=None if input is None else read_series(input), watch=Watch(timeout, log),
         until_decided=until_decided,
         draws=None if draws is None else Path(draws),
         sweeps=sweeps,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from ..reports.compare.page import write_comparison_page
 from ..reports.compare.plots import metric_plot, varying_metrics
 from ..reports.kit.quantities import number
 from .notebook import Grid, metric_grid, notebook_view
-from .options import FilePath
+from .options import FilePath, path_list
 
 MOST_PLOTTED = 6  # metrics, in a notebook
 
@@ -85,15 +86,16 @@ class Comparison(comparison.Comparison):
         return notebook_view(system, words, grids, metric_plot(self, drawn) if drawn else None)
 
 
-def compare(*results: FilePath, reference: str | None = None) -> Comparison:
+def compare(*results: FilePath | Sequence[FilePath], reference: str | None = None) -> Comparison:
     """Put the variants of stored batches side by side: `perilune compare`.
 
-    ``results`` are folders that `batch` wrote to its ``output``, all flown on the same draws; ``reference`` names the
-    variant that others are put against, by default the first. Raises InputError.
+    ``results`` are folders that `batch` wrote to its ``output``, or a list of them, all flown on the same draws;
+    ``reference`` names the variant that others are put against, by default the first. Raises InputError.
     """
-    if not results:
+    folders = [Path(folder) for folder in path_list(results)]
+    if not folders:
         raise InputError("compare", "", "no folder of results", "name what batch(..., output=...) wrote")
-    return Comparison(**vars(side_by_side([Path(folder) for folder in results], reference)))
+    return Comparison(**vars(side_by_side(folders, reference)))
 
 
 def _percent(rate: dict[str, Any]) -> str:

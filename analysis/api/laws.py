@@ -28,6 +28,10 @@ class Law(laws.Law):
         """The law as a formula, for a terminal."""
         return formula_text(self)
 
+    def write(self, path: FilePath) -> None:
+        """Write the law's file (.json)."""
+        super().write(Path(path))
+
     def write_parameters(self, path: FilePath, component: str = "guidance") -> None:
         """Write the parameter set (.ssv) that makes a component fly it."""
         write_atomically(Path(path), parameter_set(self, component))

@@ -11,6 +11,7 @@ from ..ssp.parameter_sets import SetValue
 from ..system.options import SystemOptions
 
 FilePath = str | os.PathLike[str]
+Compared = Mapping[str, FilePath | Sequence[FilePath]]
 
 
 def system_options(
@@ -33,6 +34,24 @@ def system_options(
         no_feedthrough=tuple(no_feedthrough),
         **others,
     )
+
+
+def compared(compare: Compared | None) -> dict[str, list[str]] | None:
+    """The FMUs of each slot that is compared, names or paths; one alone stands for a list of one."""
+    if compare is None:
+        return None
+    return {
+        slot: [os.fspath(fmus)] if isinstance(fmus, str | os.PathLike) else [os.fspath(fmu) for fmu in fmus]
+        for slot, fmus in compare.items()
+    }
+
+
+def path_list(given: Sequence[FilePath | Sequence[FilePath]]) -> list[str]:
+    """Paths of a call that takes them one by one, or as a list."""
+    found: list[str] = []
+    for entry in given:
+        found += [os.fspath(entry)] if isinstance(entry, str | os.PathLike) else [os.fspath(path) for path in entry]
+    return found
 
 
 def check_list(name: str, given: Sequence[object]) -> None:

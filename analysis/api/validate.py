@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -27,13 +26,13 @@ from ..synthesis.synthesis_file import read_synthesis
 from ..system.fmu import Fmu, load_fmu
 from ..system.options import SystemOptions
 from ..system.prepared import prepare_system
-from .options import FilePath, system_options
+from .options import FilePath, path_list, system_options
 
 FILES = (".ssv", ".json", ".toml")  # that are no systems
 
 
 def validate(
-    *paths: FilePath,
+    *paths: FilePath | Sequence[FilePath],
     use: Mapping[str, FilePath] | None = None,
     parameters: Sequence[FilePath] = (),
     set: Mapping[str, SetValue] | None = None,
@@ -50,14 +49,15 @@ def validate(
 ) -> list[dict[str, Any]]:
     """Check systems, FMUs, parameter sets, campaigns, laws: `perilune validate`.
 
-    A row for each: ``path``, ``problems`` (lines, none where it is good) and ``notes``. Of a system all variants are
-    checked unless ``variant`` names one; the options are those of `simulate`, for systems and FMUs alone.
+    They are given one by one or as a list. A row for each: ``path``, ``problems`` (lines, none where it is good) and
+    ``notes``. Of a system all variants are checked unless ``variant`` names one; the options are those of `simulate`,
+    for systems and FMUs alone.
     """
     options = system_options(
         use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
         variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
     )  # fmt: skip
-    return validated([os.fspath(path) for path in paths], options)
+    return validated(path_list(paths), options)
 
 
 def validated(paths: Sequence[str], options: SystemOptions) -> list[dict[str, Any]]:

@@ -45,6 +45,9 @@ class _Interval:
     def from_box(self, places: np.ndarray, sigmas: float) -> Columns:
         return {self.names[0]: self.low + (self.high - self.low) * places[:, 0]}
 
+    def ranges(self, sigmas: float) -> dict[str, tuple[float, float]]:
+        return {self.names[0]: (self.low, self.high)}
+
     def to_box(self, columns: Mapping[str, np.ndarray], sigmas: float) -> np.ndarray:
         return ((columns[self.names[0]] - self.low) / (self.high - self.low))[:, np.newaxis]
 
@@ -74,6 +77,13 @@ class _Normals:
 
     def from_box(self, places: np.ndarray, sigmas: float) -> Columns:
         return self.from_normals(sigmas * (2.0 * places - 1.0))
+
+    def ranges(self, sigmas: float) -> dict[str, tuple[float, float]]:
+        half = sigmas * np.sum(np.abs(self.factor), axis=1)
+        return {
+            name: (float(mean - width), float(mean + width))
+            for name, mean, width in zip(self.names, self.mean, half, strict=True)
+        }
 
     def to_box(self, columns: Mapping[str, np.ndarray], sigmas: float) -> np.ndarray:
         return 0.5 + 0.5 * self.to_normals(columns) / sigmas
@@ -141,6 +151,16 @@ class DrawSpace:
     def to_box(self, columns: Mapping[str, np.ndarray], sigmas: float) -> np.ndarray:
         """The inverse of `from_box`; draws outside the box have places below 0 or above 1."""
         return np.column_stack([part.to_box(columns, sigmas) for part in self._parts])
+
+    def ranges(self, sigmas: float) -> dict[str, tuple[float, float]]:
+        """The least and the largest value of each draw that varies in the box of `from_box`.
+
+        Jointly normal values reach them one at a time: the box is along the axes of their covariance.
+        """
+        found: dict[str, tuple[float, float]] = {}
+        for part in self._parts:
+            found |= part.ranges(sigmas)
+        return found
 
     def _blocks(self, points: np.ndarray) -> list[tuple[_Part, np.ndarray]]:
         ends = np.cumsum([part.size for part in self._parts])

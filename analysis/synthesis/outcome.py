@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -103,8 +104,9 @@ class SynthesisResult:
             "members": [self._member(candidate) for candidate in front],
         }
 
-    def write(self, folder: Path) -> None:
+    def write(self, folder: str | os.PathLike[str]) -> None:
         """Write pareto.json, law.json, law.ssv, law.svg and log.csv."""
+        folder = Path(folder)
         text = json.dumps(self.document(), indent=1, allow_nan=False) + "\n"
         write_atomically(folder / "pareto.json", text.encode())
         self.law.write(folder / "law.json")

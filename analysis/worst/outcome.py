@@ -20,6 +20,7 @@ from ..samples.noise import Noise, conditions, noise_line
 from ..samples.units import unit_of_expression, with_unit
 from .metric import Badness
 from .realisations import Fresh, Realisations
+from .search import Phase
 
 WORST = "worst.parquet"
 
@@ -32,7 +33,8 @@ class WorstResult:
     ``row`` and ``random`` are the flights, in ``flown``, of the worst and of the worst of the random trials; ``facts``
     are what the result depends on, ``noise`` the random numbers that components draw themselves, ``units`` those of
     draws and metrics by name, ``reason`` why the worst failed, where that is known. ``again`` gives the command that
-    flies or studies a trial of a file of draws again.
+    flies or studies a trial of a file of draws again. ``phases`` are those of the search by their points, the random
+    trials first.
 
     Where the noise is random, values of points are those ``over`` its realisations, and ``fresh`` are flights of the
     worst with others; ``noise_matters`` is whether it changed any value of the random trials, None where that was not
@@ -56,6 +58,7 @@ class WorstResult:
     noise_matters: bool | None = None
     reason: str = ""
     again: Callable[[Path, int], str] | None = None
+    phases: tuple[Phase, ...] = ()
 
     @property
     def flights(self) -> int:

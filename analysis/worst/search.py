@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import differential_evolution, minimize
@@ -22,6 +23,21 @@ RADII = (0.1, 1e-4)  # of COBYQA's trust region, in edges of the cube
 LEAST = 100  # evaluations
 
 
+class Phase(NamedTuple):
+    """A part of a search: its method, and how many evaluations it has used."""
+
+    name: str
+    evaluations: int
+
+
+class Maximum(NamedTuple):
+    """The best ``point`` (dimensions,) of a search with its ``value``, and the ``phases`` in their order."""
+
+    point: np.ndarray
+    value: float
+    phases: tuple[Phase, ...]
+
+
 class _EndError(Exception):
     """Nothing is left to do: the evaluations are spent, or something is infinite, than which nothing is larger."""
 
@@ -32,8 +48,20 @@ class _Counted:
     def __init__(self, function: Function, points: np.ndarray, values: np.ndarray, evaluations: int) -> None:
         self._function = function
         self.left = evaluations
+        self._begun: list[tuple[str, int]] = []
         best = int(np.argmax(values))
         self.point, self.value = points[best], float(values[best])
+
+    def begin(self, phase: str) -> None:
+        """What is evaluated from here on is of a phase."""
+        if not self._begun or self._begun[-1][0] != phase:
+            self._begun.append((phase, self.left))
+
+    def phases(self) -> tuple[Phase, ...]:
+        """The phases that have evaluated anything."""
+        ends = [left for _, left in self._begun[1:]] + [self.left]
+        used = [Phase(name, left - end) for (name, left), end in zip(self._begun, ends, strict=True)]
+        return tuple(phase for phase in used if phase.evaluations)
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
         if self.left <= 0 or self.value == np.inf:
@@ -49,8 +77,8 @@ class _Counted:
 
 def largest(
     function: Function, points: np.ndarray, values: np.ndarray, evaluations: int, random: np.random.Generator
-) -> tuple[np.ndarray, float]:
-    """The point (dimensions,) of the unit cube with the largest value that is found, and that value.
+) -> Maximum:
+    """The point (dimensions,) of the unit cube with the largest value that is found, that value, and the phases.
 
     ``function`` maps points (points, dimensions) to values (points,), of which none is nan and inf ends the search;
     ``points`` and ``values`` are known ones to begin with, one or more; ``evaluations`` are spent besides.
@@ -61,7 +89,7 @@ def largest(
         _climb(counted)
     except _EndError:
         pass
-    return counted.point, counted.value
+    return Maximum(counted.point, counted.value, counted.phases())
 
 
 def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: np.random.Generator) -> None:
@@ -80,6 +108,7 @@ def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: n
             raise _EndError
         return -found
 
+    counted.begin("differential evolution")
     differential_evolution(
         badly,
         [(0.0, 1.0)] * dimensions,
@@ -124,13 +153,16 @@ def _climb(counted: _Counted) -> None:
     def badly(point: np.ndarray) -> float:
         return -float(counted(point[np.newaxis])[0])
 
+    counted.begin("ends of each parameter")
     _to_ends(counted)
     bounds = [(0.0, 1.0)] * counted.point.size
     smooth = {"maxfev": counted.left // 2, "initial_tr_radius": RADII[0], "final_tr_radius": RADII[1]}
     if smooth["maxfev"] > 2 * counted.point.size + 1:  # what its first model takes
+        counted.begin("COBYQA")
         minimize(badly, counted.point, method="COBYQA", bounds=bounds, options=smooth)
     while counted.left > 0:
         before = counted.value
+        counted.begin("Nelder and Mead")
         minimize(badly, counted.point, method="Nelder-Mead", bounds=bounds, options={"adaptive": True, "fatol": 0.0})
         if counted.value == before:
             return

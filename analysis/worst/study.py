@@ -24,7 +24,7 @@ from .margin_studies import MarginStudies
 from .metric import Badness, badness_of
 from .outcome import WorstResult
 from .realisations import REALISATIONS, Fresh, Realisations, read_realisations
-from .search import LEAST, largest
+from .search import LEAST, Phase, largest
 
 FLIGHTS = 2000
 STUDIES = 500  # a margin costs more than a flight
@@ -137,7 +137,7 @@ class _Box:
             raise InputError("--sigmas", f"{sigmas:g}", problem, "give more")
         left = budget - points.flights
         points.leave_out_noise_without_effect()
-        place, value = largest(
+        place, value, phases = largest(
             lambda points_: points.fly(points_, space.from_box(points_, sigmas)),
             places[inside],
             values[inside],
@@ -150,6 +150,7 @@ class _Box:
         return WorstResult(
             badness, sigmas, value, place, worst, worst_random, len(values), space, points.flown.whole(),
             flights_of.facts, flights_of.noise, units, points.over, fresh, points.effect,
+            phases=(Phase("random trials", len(values)), *phases),
         )  # fmt: skip
 
     def _budget(self, points: _Points) -> int:

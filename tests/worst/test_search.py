@@ -44,8 +44,9 @@ def found(function, evaluations=1600, seed=1):
         spent[0] += len(places)
         return function(places)
 
-    point, value = largest(counted, points, function(points), evaluations, random)
+    point, value, phases = largest(counted, points, function(points), evaluations, random)
     assert spent[0] <= evaluations
+    assert sum(phase.evaluations for phase in phases) == spent[0]
     assert function(point[None])[0] == value
     return point, value
 
@@ -73,7 +74,7 @@ def test_what_is_infinite_ends_the_search():
         return np.where(x[:, 0] > 0.9, np.inf, x[:, 1])
 
     start = np.array([[0.5, 0.5]])
-    point, value = largest(function, start, np.array([0.5]), 2000, np.random.default_rng(3))
+    point, value, _ = largest(function, start, np.array([0.5]), 2000, np.random.default_rng(3))
     assert value == np.inf
     assert point[0] > 0.9
     assert sum(calls) < 100

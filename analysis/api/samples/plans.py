@@ -17,7 +17,7 @@ from ...ssp.parameter_sets import SetValue
 from ...system.faults import Fault, faults_of
 from ...system.in_flight.series import Given, read_series
 from ...system.in_flight.watch import Watch
-from ..options import FilePath, check_list, system_options
+from ..options import Compared, FilePath, check_list, compared, system_options
 
 
 def commands_of(plan: BatchPlan) -> Commands:
@@ -39,7 +39,7 @@ def sample_plan(
     system: FilePath,
     campaign: FilePath,
     *,
-    compare: Mapping[str, str] | None,
+    compare: Compared | None,
     seed: int | None,
     use: Mapping[str, FilePath] | None,
     parameters: Sequence[FilePath],
@@ -59,7 +59,7 @@ def sample_plan(
         str(campaign),
         system_options(use, parameters, set, feedthrough, no_feedthrough, **options),
         seed=seed,
-        compare=None if compare is None else {slot: [fmu] for slot, fmu in compare.items()},
+        compare=compared(compare),
         faults=faults_of(faults),
         series=None if input is None else read_series(input),
         watch=Watch(timeout, log),

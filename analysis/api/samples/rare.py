@@ -4,18 +4,61 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from ...rare.outcome import RareResult
+from matplotlib.figure import Figure as Plot
+
+from ...rare import outcome
 from ...rare.study import LEAST, SAMPLES, rare_failure
+from ...reports.kit.quantities import number
+from ...reports.studies.plots import rare_plot
+from ...reports.studies.rare_page import design_table, level_table, write_rare_page
 from ...ssp.parameter_sets import SetValue
 from ...system.faults import Fault
 from ...system.in_flight.series import Given
 from ...targets import check_folder
-from ..options import FilePath
+from ..notebook import Grid, notebook_view
+from ..options import Compared, FilePath
 from .plans import commands_of, sample_plan
+from .results import as_class, condition_words
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RareResult(outcome.RareResult):
+    """A rare failure: ``probability``, ``interval``, ``flights``, ``failures``, and the conditions of all of them.
+
+    ``simulation`` has the levels, ``flown`` every simulation.
+    """
+
+    folder: Path | None = None
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.facts['system']}, {self.failure.text}: {self._estimate()})"
+
+    def write(self, folder: FilePath) -> None:
+        """Write rare.json, flights.parquet and, where there are failures, failures.parquet."""
+        super().write(Path(folder))
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune rare --report`: one HTML file."""
+        write_rare_page(self, Path(path), self.folder)
+
+    def plot(self) -> Plot:
+        """Limit state over simulations, exceedance probability, failures over the two most influential parameters."""
+        return rare_plot(self)
+
+    def _estimate(self) -> str:
+        low, high = self.interval
+        if self.probability is None:
+            return f"not reached, probability below {number(high, 3)}"
+        return f"probability {number(self.probability, 3)}, 95 % interval {number(low, 3)} to {number(high, 3)}"
+
+    def _repr_html_(self) -> str:
+        grids = [Grid(table.heads, table.rows) for table in (level_table(self), design_table(self))]
+        words = [self.failure.text, self._estimate(), f"{self.flights} simulations", *condition_words(self)]
+        return notebook_view(f"{self.facts['system']}: rare failure", words, grids, self.plot())
 
 
 def rare(
@@ -27,7 +70,7 @@ def rare(
     least: float | None = None,
     hold: Mapping[str, float] | None = None,
     noise_trial: int | None = None,
-    compare: Mapping[str, str] | None = None,
+    compare: Compared | None = None,
     seed: int | None = None,
     workers: int | None = None,
     output: FilePath | None = None,
@@ -76,4 +119,4 @@ def rare(
     result = replace(result, commands=commands_of(plan))
     if folder is not None:
         result.write(folder)
-    return result
+    return as_class(RareResult, result, folder=folder)

@@ -4,18 +4,62 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from ...sensitivity import study
-from ...sensitivity.outcome import SensitivityResult
+from matplotlib.figure import Figure as Plot
+
+from ...errors import suggestion
+from ...reports.studies.plots import sensitivity_plot
+from ...reports.studies.sensitivity_page import driver_table, rank_table, write_sensitivity_page
+from ...sensitivity import outcome, study
 from ...ssp.parameter_sets import SetValue
 from ...system.faults import Fault
 from ...system.in_flight.series import Given
 from ...targets import check_folder
-from ..options import FilePath
+from ..notebook import Grid, notebook_view
+from ..options import Compared, FilePath
 from .plans import commands_of, sample_plan
+from .results import as_class, condition_words
+
+MOST_PLOTTED = 4  # metrics, in a notebook
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SensitivityResult(outcome.SensitivityResult):
+    """Sobol' indices of metrics and success: `of` gives those of one, ``ranks`` the rank correlations."""
+
+    folder: Path | None = None
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.facts['system']}, {self.flights} simulations: {', '.join(self.told)})"
+
+    def write(self, folder: FilePath) -> None:
+        """Write sensitivity.json and flights.parquet."""
+        super().write(Path(folder))
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune batch --sensitivity N --report`: one HTML file."""
+        write_sensitivity_page(self, Path(path), self.folder)
+
+    def plot(self, *metrics: str) -> Plot:
+        """Total and first-order indices with their intervals, a panel for each metric; of none named all.
+
+        Raises KeyError for a metric that has no indices, ValueError where none has any.
+        """
+        for name in metrics:
+            if name not in self.told:
+                raise KeyError(f"no indices of {name}; {suggestion(name, self.told)}")
+        if not self.told:
+            raise ValueError("no metric has indices")
+        return sensitivity_plot(self, list(metrics or self.told))
+
+    def _repr_html_(self) -> str:
+        grids = [Grid(table.heads, table.rows) for table in (driver_table(self), rank_table(self))]
+        words = [f"{self.flights} simulations", *condition_words(self)]
+        plot = self.plot(*self.told[:MOST_PLOTTED]) if self.told else None
+        return notebook_view(f"{self.facts['system']}: sensitivity", words, grids, plot)
 
 
 def sensitivity(
@@ -25,7 +69,7 @@ def sensitivity(
     *,
     hold: Mapping[str, float] | None = None,
     noise_trial: int | None = None,
-    compare: Mapping[str, str] | None = None,
+    compare: Compared | None = None,
     seed: int | None = None,
     workers: int | None = None,
     output: FilePath | None = None,
@@ -69,4 +113,4 @@ def sensitivity(
     result = replace(result, commands=commands_of(plan))
     if folder is not None:
         result.write(folder)
-    return result
+    return as_class(SensitivityResult, result, folder=folder)

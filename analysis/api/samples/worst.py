@@ -4,19 +4,66 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import chdir
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
+from matplotlib.figure import Figure as Plot
+
+from ...campaign.plan import BatchPlan
+from ...reports.studies.plots import worst_plot
+from ...reports.studies.worst_flight import worst_flight
+from ...reports.studies.worst_page import metric_table, parameter_table, write_worst_page
 from ...ssp.parameter_sets import SetValue
 from ...system.faults import Fault
 from ...system.in_flight.series import Given
 from ...targets import check_folder
+from ...worst import outcome
 from ...worst.asked import check_options, margin_asked
-from ...worst.outcome import WorstResult
 from ...worst.study import MARGIN, worst_case, worst_margin
-from ..options import FilePath, system_options
+from ..notebook import Grid, notebook_view
+from ..options import Compared, FilePath, system_options
 from .plans import commands_of, sample_plan
+from .results import as_class, condition_words
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WorstResult(outcome.WorstResult):
+    """A worst case: ``worst`` and ``worst_random`` with their draws and metrics, and every simulation in ``flown``.
+
+    ``plan`` is what flew; None where a margin was studied.
+    """
+
+    plan: BatchPlan | None = None
+    folder: Path | None = None
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.facts['system']}, {self.badness.text}: worst {self.worst['value']})"
+
+    def write(self, folder: FilePath) -> None:
+        """Write worst.json, flights.parquet and worst.parquet."""
+        super().write(Path(folder))
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune worst --report`: one HTML file. The worst case is flown once more for it."""
+        with chdir(Path.cwd()):  # an FMU may change the folder
+            target = Path(path).absolute()
+            flight, figures = (None, []) if self.plan is None else worst_flight(self, self.plan)
+        write_worst_page(self, target, flight, figures, self.folder)
+
+    def plot(self) -> Plot:
+        """The search over simulations, and the random trials with the worst case."""
+        return worst_plot(self)
+
+    def _repr_html_(self) -> str:
+        grids = [Grid(table.heads, table.rows) for table in (parameter_table(self), metric_table(self))]
+        worst, random = self.worst["value"], self.worst_random["value"]
+        words = [
+            f"{self.badness.text}: worst {worst} in {self.flights} simulations",
+            f"worst of {self.random_trials} random trials {random}",
+            *condition_words(self),
+        ]
+        return notebook_view(f"{self.facts['system']}: worst case", words, grids, self.plot())
 
 
 def worst(
@@ -34,7 +81,7 @@ def worst(
     noise_trial: int | None = None,
     realisations: int | None = None,
     quantile: float | None = None,
-    compare: Mapping[str, str] | None = None,
+    compare: Compared | None = None,
     seed: int | None = None,
     workers: int | None = None,
     output: FilePath | None = None,
@@ -82,6 +129,7 @@ def worst(
         "workers": workers,
     }  # fmt: skip
     search |= {name: value for name, value in (("sigmas", sigmas), ("flights", flights)) if value is not None}
+    plan = None
     if loop is None:
         plan = sample_plan(
             system, campaign, compare=compare, seed=seed, use=use, parameters=parameters, set=set, faults=faults,
@@ -102,4 +150,4 @@ def worst(
             result = worst_margin(asked, margin or MARGIN, **search)
     if folder is not None:
         result.write(folder)
-    return result
+    return as_class(WorstResult, result, plan=plan, folder=folder)

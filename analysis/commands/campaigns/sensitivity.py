@@ -5,18 +5,21 @@ from __future__ import annotations
 import argparse
 import sys
 from dataclasses import replace
+from functools import partial
+from pathlib import Path
 
 from ...api.samples.plans import commands_of
 from ...campaign.sweeps import part_sweeps
 from ...errors import InputError
+from ...sensitivity.outcome import SensitivityResult
 from ...sensitivity.study import sensitivity
-from ...targets import Results, check_folder
+from ...targets import PAGES, Results, check_file, check_folder
 from ..common.options import check_json, system_options, tell
 from ..common.remarks import say_stale
 from ..common.sample_plans import held, read_samples
 
 NOT_WITH = (
-    "trials", "draws", "replay", "report", "require", "resume", "prepare", "until_decided", "engine",
+    "trials", "draws", "replay", "require", "resume", "prepare", "until_decided", "engine",
     "scheduler",
 )  # fmt: skip
 
@@ -31,6 +34,7 @@ def run(options: argparse.Namespace) -> int:
     for name, text in part_sweeps(system_options(options))[1].items():
         raise InputError("--sensitivity", f"--set {name}={text}", "does not go with a sweep", "give one value")
     check_folder("--output", options.output, overwrite=options.overwrite)
+    check_file("--report", options.report, PAGES)
     check_json(options)
     plan = read_samples(options)
     say_stale(options, [fmu for fmus in plan.campaign.compare.values() for fmu in fmus])
@@ -40,7 +44,14 @@ def run(options: argparse.Namespace) -> int:
     )
     result = replace(result, commands=commands_of(plan))
     files.write(options.output, result.write)
+    files.write(options.report, partial(_write_page, result, options.output))
     return tell(result.document(options.output), options, lambda: print(result.text(options.output)), files)
+
+
+def _write_page(result: SensitivityResult, folder: Path | None, path: Path) -> None:
+    from ...reports.studies.sensitivity_page import write_sensitivity_page  # and matplotlib: half a second
+
+    write_sensitivity_page(result, path, folder)
 
 
 def refuse_alone(options: argparse.Namespace) -> None:

@@ -46,5 +46,9 @@ def add_held(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_report(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--report", type=Path, metavar="F.html", help="write a page with figures")
+
+
 def add_folder(parser: argparse.ArgumentParser, names: str) -> None:
     parser.add_argument("--output", type=Path, metavar="DIR", help=f"write {names}")

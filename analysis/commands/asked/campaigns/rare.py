@@ -6,7 +6,7 @@ import argparse
 
 from ...common.options import add_json
 from ...common.requirements import add_requirements
-from ...common.samples import add_folder, add_samples
+from ...common.samples import add_folder, add_report, add_samples
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -19,5 +19,6 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--least", type=float, metavar="P", help="give up a failure less likely than this; default: 1e-9"
     )
     add_folder(parser, "rare.json, flights.parquet, and failures.parquet for perilune batch --draws")
+    add_report(parser)
     add_requirements(parser, "probability, interval[1], interval[2] and flights")
     add_json(parser)

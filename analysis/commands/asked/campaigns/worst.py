@@ -6,7 +6,7 @@ import argparse
 
 from ...common.options import add_json
 from ...common.requirements import add_requirements
-from ...common.samples import add_folder, add_samples
+from ...common.samples import add_folder, add_report, add_samples
 
 
 def add(parser: argparse.ArgumentParser) -> None:
@@ -35,5 +35,6 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--quantile", type=float, metavar="Q", help="over the realisations, which is made largest; default: 0.5"
     )
     add_folder(parser, "worst.json, flights.parquet, and worst.parquet for perilune batch or stability --draws")
+    add_report(parser)
     add_requirements(parser, "worst, random, fresh_worst, fresh_quantile and flights")
     add_json(parser)

@@ -1,0 +1,72 @@
+"""What the numbers of a study are conditional on: system, campaign, dispersed parameters, held values, noise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+from typing import Any
+
+from ...rare.outcome import RareResult
+from ...samples.noise import Noise
+from ...sensitivity.outcome import SensitivityResult
+from ...worst.outcome import WorstResult
+from ..batch.batch_report import draw_rows, fmu_rows
+
+DEFAULT = "default"  # the name of a campaign's only variant
+StudyResult = RareResult | WorstResult | SensitivityResult
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """What stands in the headline of every study, since its numbers hold under these conditions only.
+
+    ``given`` qualifies a number at the end of its line: empty where it is conditional on neither held values nor the
+    noise of one trial. ``draws`` are rows (name, distribution, arguments), ``fmus`` rows (component, variants,
+    SHA-256).
+    """
+
+    system: str
+    campaign: str
+    variant: str
+    parameters: list[str]
+    faults: list[str]
+    noise: str
+    given: str
+    draws: list[tuple[str, str, str]]
+    fmus: list[tuple[str, str, str]]
+    facts: Mapping[str, Any]
+
+
+def conditions_of(result: StudyResult) -> Conditions:
+    """The conditions of a study's result."""
+    facts = result.facts
+    (variant,) = facts["fmus"]
+    return Conditions(
+        system=facts["system"],
+        campaign=campaign_name(facts["campaign"]),
+        variant="" if variant == DEFAULT else variant,
+        parameters=result.space.names,
+        faults=list(facts.get("faults", [])),
+        noise=noise_words(result.noise),
+        given=result.conditions,
+        draws=draw_rows(result.space.campaign),
+        fmus=fmu_rows(facts["fmus"]),
+        facts=facts,
+    )
+
+
+def noise_words(noise: Noise) -> str:
+    """Whether the noise is random, absent, or that of one trial, as a sentence."""
+    if not noise.components:
+        return "No component draws random numbers of its own."
+    names = ", ".join(noise.components)
+    if noise.is_held:
+        return f"Noise of {names}: that of trial {noise.trial} in all simulations, not random."
+    return f"Noise of {names}: random."
+
+
+def campaign_name(label: str) -> str:
+    """A campaign's name as commands take it: of a system's own campaign its stem, else the file."""
+    inside = label.partition("!")[2]
+    return PurePosixPath(inside).stem if inside else label

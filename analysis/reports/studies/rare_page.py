@@ -1,0 +1,115 @@
+"""The page of a rare failure: probability, interval and their conditions, levels, design points, replays."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...rare.outcome import RareResult
+from ..kit.page import write_page
+from ..kit.quantities import labelled
+from .conditions import conditions_of
+from .rare_figures import (
+    PERCENT,
+    design_point_panels,
+    equivalents,
+    exceedance_panel,
+    influence,
+    interval_figure,
+    level_spans,
+    limit_state_figure,
+)
+from .tables import Table, cell, fraction
+
+
+def write_rare_page(result: RareResult, path: Path, folder: Path | None = None) -> None:
+    """Write one self-contained HTML page; the same result gives the same bytes.
+
+    ``folder`` is where the result has been written, if it has: the page says how its failures are flown again.
+    """
+    conditions = conditions_of(result)
+    write_page(
+        path,
+        Path(__file__).with_name("rare.html"),
+        title=f"{conditions.system}: rare failure",
+        result=result,
+        conditions=conditions,
+        percent=PERCENT,
+        limit_state=limit_state_figure(result),
+        exceedance=exceedance_panel(result),
+        levels=level_table(result),
+        designs=design_point_panels(result),
+        design_points=design_table(result),
+        influence=influence_table(result),
+        intervals=interval_figure(result),
+        equivalents=equivalent_table(result),
+        replays=replays_of(result, folder),
+    )
+
+
+def level_table(result: RareResult) -> Table:
+    """A row per level."""
+    rows = []
+    for span, level in zip(level_spans(result), result.simulation.levels, strict=True):
+        reached = None if span.reached is None or level.probability is None else span.reached * level.probability
+        rows.append(
+            (
+                cell(span.number),
+                cell(span.threshold, 4, result.margin_unit),
+                cell(level.samples),
+                cell(span.last - span.first + 1),
+                cell(level.probability),
+                cell(reached, 3),
+                fraction(level.draw_acceptance),
+                fraction(level.noise_acceptance),
+                fraction(level.least_acceptance),
+                cell(level.correlation, 3),
+                cell(level.deviation, 3),
+            )
+        )
+    heads = (
+        "level", labelled("threshold", result.margin_unit), "samples", "simulations", "conditional probability",
+        "cumulative", "acceptance of draws", "acceptance of noise", "lowest noise source", "gamma", "c.o.v.",
+    )  # fmt: skip
+    return Table(heads, rows, range(len(heads)))
+
+
+def design_table(result: RareResult) -> Table:
+    """A row per design point: distance, limit state, dispersed parameters, the noise of each component."""
+    names = result.space.names
+    sources = list(result.noise.sources)
+    rows = [
+        (
+            cell(entry["trial"]),
+            cell(entry["distance"], 3),
+            cell(entry["margin"], 4, result.margin_unit),
+            *(cell(entry["draws"][name], 6, result.units.get(name)) for name in names),
+            *(cell(entry["streams"][source]) for source in sources),
+        )
+        for entry in result.failures
+    ]
+    heads = (
+        "point",
+        "distance, standard deviations",
+        labelled("limit state", result.margin_unit),
+        *(labelled(name, result.units.get(name)) for name in names),
+        *(f"noise of {source}" for source in sources),
+    )
+    return Table(heads, rows, range(len(heads)))
+
+
+def influence_table(result: RareResult) -> Table:
+    """A row per dispersed parameter: how far failures lie from the campaign's own samples."""
+    rows = [(name, cell(shift, 3)) for name, shift in influence(result).items()]
+    return Table(("parameter", "shift, standard deviations"), rows, (1,))
+
+
+def equivalent_table(result: RareResult) -> Table:
+    """A row per estimate of the probability: this study, and Monte Carlo."""
+    rows = [(row.label, cell(row.simulations), cell(row.low, 3), cell(row.high, 3)) for row in equivalents(result)]
+    return Table(("estimate", "simulations", "from", "to"), rows, (1, 2, 3))
+
+
+def replays_of(result: RareResult, folder: Path | None) -> list[tuple[str, str]]:
+    """The command that flies the first design point again; none where nothing was written, or nothing failed."""
+    command = result.replay(folder, 0) if result.failures else ""
+    return [("design point 0, and with --replay K point K", command)] if command else []

@@ -1,0 +1,159 @@
+"""The page of a worst case: its value and conditions, the search, random trials, the box, its flight."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from markupsafe import Markup
+
+from ...flight.results import Result
+from ...worst.outcome import WorstResult
+from ..kit.page import write_page
+from ..kit.panels import Panel
+from ..kit.quantities import labelled, shown_unit
+from ..own.asked.declared import Figure
+from ..own.own_figures import joint_findings, own_sections
+from ..own.section import Section
+from ..run.time_histories import ComponentHistory, time_histories
+from ..run.trajectory import trajectory_panels
+from .conditions import conditions_of
+from .tables import Table, cell, fraction
+from .worst_figures import box_figure, box_lanes, fresh_panel, objective_of, search_figure, trials_panel
+
+
+class FlightPart(NamedTuple):
+    """The flight of the worst case on its page: the path, what the system asks for, or else every signal."""
+
+    status: str
+    end: float | None
+    trajectory: list[Panel]
+    joint: list[Markup]
+    own: list[Section]
+    histories: list[ComponentHistory]
+
+
+def write_worst_page(
+    result: WorstResult,
+    path: Path,
+    flight: Result | None = None,
+    figures: Sequence[Figure] = (),
+    folder: Path | None = None,
+) -> None:
+    """Write one self-contained HTML page; the same result gives the same bytes.
+
+    ``flight`` is the worst case with all signals, None where a margin was studied; ``figures`` are those that the
+    system asks for, see own/asked/reading.py. ``folder`` is where the result has been written, if it has: the page says
+    how the worst case is flown again.
+    """
+    conditions = conditions_of(result)
+    objective = objective_of(result)
+    write_page(
+        path,
+        Path(__file__).with_name("worst.html"),
+        title=f"{conditions.system}: worst case",
+        result=result,
+        conditions=conditions,
+        is_margin=not objective.rising,
+        worst=value_cell(result.worst["value"], result.unit),
+        random=value_cell(result.worst_random["value"], result.unit),
+        unit=shown_unit(result.unit),
+        inside=result.worst_random["inside"],
+        search=search_figure(result),
+        phases=phase_table(result),
+        points=objective.values.size,
+        panels=[one for one in (trials_panel(result), fresh_panel(result)) if one is not None],
+        fresh=fresh_cells(result),
+        box=box_figure(result),
+        parameters=parameter_table(result),
+        metrics=metric_table(result),
+        flight=None if flight is None else flight_part(flight, figures),
+        replays=replays_of(result, folder),
+    )
+
+
+def value_cell(value: float | str | None, unit: str | None) -> Markup:
+    """A value of the objective or of a metric in its shown unit; a simulation without one failed."""
+    return Markup("failed") if value is None else cell(value, 6, unit)
+
+
+class FreshCells(NamedTuple):
+    """The worst case under fresh noise: how many realisations, their worst, and the quantile by its name."""
+
+    realisations: int
+    worst: Markup
+    name: str
+    quantile: Markup
+
+
+def fresh_cells(result: WorstResult) -> FreshCells | None:
+    """What fresh noise does to the worst case; None where the noise is not random."""
+    if result.fresh is None or result.over is None:
+        return None
+    found = result.document()["fresh"]
+    worst, quantile = (value_cell(found[name], result.unit) for name in ("worst", "at_quantile"))
+    return FreshCells(found["realisations"], worst, result.over.name, quantile)
+
+
+def replays_of(result: WorstResult, folder: Path | None) -> list[tuple[str, str]]:
+    """The command that flies the worst case again; none where nothing was written."""
+    replay = result.document(folder).get("replay")
+    return [("worst case", replay)] if replay else []
+
+
+def phase_table(result: WorstResult) -> Table:
+    """A row per phase of the search, with the worst value up to its end."""
+    worst = objective_of(result).worst_so_far()
+    rows, end = [], 0
+    for index, phase in enumerate(result.phases):
+        end += phase.evaluations
+        value = float(worst[end - 1])
+        rows.append((cell(index + 1), phase.name, cell(phase.evaluations), cell(value if value == value else None, 6)))
+    head = labelled("worst so far", result.unit)
+    return Table(("", "method", "points", head), rows, (0, 2, 3))
+
+
+def parameter_table(result: WorstResult) -> Table:
+    """A row per dispersed parameter: worst case, box, worst random trial."""
+    rows = [
+        (
+            lane.label,
+            cell(lane.worst, 6, lane.unit),
+            cell(lane.low, 6, lane.unit),
+            cell(lane.high, 6, lane.unit),
+            fraction(lane.at(lane.worst)),
+            cell(lane.random, 6, lane.unit),
+        )
+        for lane in box_lanes(result)
+    ]
+    heads = ("parameter", "worst case", "box from", "to", "fraction of the box", "worst random trial")
+    return Table(heads, rows, range(1, 6))
+
+
+def metric_table(result: WorstResult) -> Table:
+    """A row per metric: worst case and worst random trial."""
+    worst, random = result.worst["metrics"], result.worst_random["metrics"]
+    rows = [
+        (
+            labelled(name, result.units.get(name)),
+            value_cell(worst[name], result.units.get(name)),
+            value_cell(random[name], result.units.get(name)),
+        )
+        for name in worst
+    ]
+    return Table(("metric", "worst case", "worst random trial"), rows, (1, 2))
+
+
+def flight_part(flight: Result, figures: Sequence[Figure]) -> FlightPart:
+    """What the page shows of the flight: all signals where the system asks for no time histories."""
+    own = own_sections(figures, flight)
+    drawn = any(part.panels or part.drawn is not None for part in own)
+    return FlightPart(
+        status=flight.status,
+        end=float(flight.time[-1]) if flight.time.size else None,
+        trajectory=trajectory_panels(flight),
+        joint=joint_findings(figures, flight),
+        own=own,
+        histories=[] if drawn else time_histories(flight),
+    )

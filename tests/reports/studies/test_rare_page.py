@@ -1,0 +1,149 @@
+"""The page of a rare failure: numbers, figures, conditions.
+
+Truth: the result's own arrays counted here, the closed form of the linear system's failure, scipy's binomial test.
+"""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from scipy import stats
+
+from perilune.analysis.reports.studies.rare_figures import (
+    draw_design_points,
+    draw_exceedance,
+    draw_limit_state,
+    equivalents,
+    influence,
+    level_spans,
+)
+from perilune.analysis.reports.studies.rare_page import level_table, write_rare_page
+from perilune.analysis.samples.noise import Noise
+from tests.support.pages.checks import assert_self_contained, data_values, text_of
+from tests.support.pages.studies import LIMIT
+
+
+def page_of(result, folder):
+    result.report(folder / "page.html")
+    return (folder / "page.html").read_text(encoding="utf-8")
+
+
+def axes_of(draw, *arguments):
+    axes = Figure().subplots()
+    draw(axes, *arguments)
+    return axes
+
+
+def test_the_headline_states_the_estimate_and_its_conditions(rare_result, tmp_path):
+    page = page_of(rare_result, tmp_path)
+    assert_self_contained(page)
+    values = set(data_values(page))
+    assert {repr(rare_result.probability), *map(repr, rare_result.interval), repr(rare_result.flights)} <= values
+    words = text_of(page)
+    assert f"Failure: total > {LIMIT}" in words
+    assert "Dispersed: 3 parameters (a.gain, b.gain, c.gain)" in words
+    assert "No component draws random numbers of its own." in words
+    assert "conditional on" not in words.casefold()
+    assert page_of(rare_result, tmp_path) == page
+
+
+def test_noise_of_one_trial_stands_in_every_section(rare_result, tmp_path):
+    held = replace(rare_result, noise=Noise(("imu", "star"), 4, 7))
+    words = text_of(page_of(held, tmp_path))
+    assert "Noise of imu, star: that of trial 4 in all simulations, not random." in words
+    assert "All numbers are conditional on the noise realisation of trial 4." in words
+    lead = words[words.index("Failure probability") : words.index("Failure: total")]
+    assert "conditional on the noise realisation of trial 4" in lead
+    assert words.casefold().count("conditional on the noise realisation of trial 4.") >= 6
+
+
+def test_random_noise_is_no_condition(rare_result, tmp_path):
+    flown = rare_result.flown
+    number = len(flown.values)
+    drawn = {**flown.draws, "streams_of.imu": np.arange(number)}
+    flown = type(flown)()
+    flown.add(rare_result.flown.points, drawn, rare_result.flown.metrics, rare_result.flown.values)
+    random = replace(rare_result, noise=Noise(("imu",), None, 7), flown=flown.whole())
+    words = text_of(page_of(random, tmp_path))
+    assert "Noise of imu: random." in words
+    assert "conditional on" not in words.casefold()
+    assert "noise of imu" in words  # a column of the design points
+
+
+def test_levels_are_those_that_were_flown(rare_result):
+    spans = level_spans(rare_result)
+    assert [span.first for span in spans] == [1, *(span.last + 1 for span in spans[:-1])]
+    assert spans[0].last == rare_result.samples
+    assert spans[-1].last == rare_result.flights == len(rare_result.flown.values)
+    values = rare_result.flown.values
+    for span, following in itertools.pairwise(spans):
+        assert span.following == following.threshold
+        own = np.sort(values[: spans[0].last])[::-1]
+        if span.number == 1:  # a tenth of the first level is in the second
+            assert own[int(0.1 * own.size) - 1] == following.threshold
+    rows = level_table(rare_result).rows
+    assert len(rows) == len(spans)
+    product = np.prod([level.probability for level in rare_result.simulation.levels])
+    assert product == pytest.approx(rare_result.probability, rel=1e-12)
+    assert f'value="{spans[-1].reached * rare_result.simulation.levels[-1].probability!r}"' in rows[-1][5]
+
+
+def test_the_limit_state_of_every_simulation_is_drawn(rare_result):
+    axes = axes_of(draw_limit_state, rare_result)
+    good, failed = axes.lines[:2]
+    numbers = np.concatenate([good.get_xdata(), failed.get_xdata()])
+    values = np.concatenate([good.get_ydata(), failed.get_ydata()])
+    np.testing.assert_array_equal(values[np.argsort(numbers)], rare_result.flown.values)
+    assert np.all(failed.get_ydata() >= 0.0)
+    assert np.all(good.get_ydata() < 0.0)
+
+
+def test_the_curve_of_the_first_level_is_its_empirical_one(rare_result):
+    axes = axes_of(draw_exceedance, rare_result)
+    x, y = axes.lines[0].get_data()
+    own = rare_result.flown.values[: rare_result.samples]
+    for place in (0, 17, len(x) - 1):
+        assert y[place] == pytest.approx(np.mean(own >= x[place]), rel=1e-12)
+    thresholds, reached = axes.lines[1].get_data()
+    assert thresholds[-1] == 0.0
+    assert reached[-1] == rare_result.probability
+
+
+def test_design_points_lie_behind_the_plane_of_the_failure(rare_result):
+    """The failure is a half space at LIMIT standard deviations: nothing that failed is nearer."""
+    assert all(entry["distance"] >= LIMIT for entry in rare_result.failures)
+    assert set(influence(rare_result)) == {"a.gain", "b.gain", "c.gain"}
+    axes = axes_of(draw_design_points, rare_result, "a.gain", "b.gain")
+    cloud, failures, points = axes.lines
+    assert cloud.get_xdata().size == rare_result.samples
+    assert failures.get_xdata().size == np.count_nonzero(rare_result.flown.values >= 0.0)
+    assert points.get_xdata().tolist() == [entry["draws"]["a.gain"] for entry in rare_result.failures]
+
+
+def test_monte_carlo_equivalents(rare_result):
+    study, as_many, same = equivalents(rare_result)
+    assert (study.low, study.high) == rare_result.interval
+    share, trials = rare_result.probability, same.simulations
+    variation = rare_result.simulation.interval.variation
+    assert np.sqrt((1.0 - share) / (share * trials)) == pytest.approx(variation, rel=1e-3)
+    for row in (as_many, same):
+        ends = stats.binomtest(round(share * row.simulations), row.simulations).proportion_ci(0.95, method="exact")
+        assert (row.low, row.high) == pytest.approx((ends.low, ends.high), rel=1e-9)
+
+
+def test_a_failure_that_was_not_reached_is_a_bound(rare_result, tmp_path):
+    simulation = replace(rare_result.simulation, probability=None, equivalent_trials=None)
+    bound = replace(rare_result, simulation=simulation)
+    write_rare_page(bound, tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert_self_contained(page)
+    assert "Failure not reached: probability below" in text_of(page)
+
+
+def test_the_command_that_flies_a_design_point_again(rare_result, tmp_path):
+    words = text_of(page_of(rare_result, tmp_path))
+    assert rare_result.replay(rare_result.folder, 0) in words
+    without = text_of(page_of(replace(rare_result, folder=None), tmp_path))
+    assert "The draws were not written" in without

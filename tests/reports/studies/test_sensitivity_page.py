@@ -1,0 +1,58 @@
+"""The page of a sensitivity study: indices, their bars, what has none.
+
+Truth: the shares of the variance of a sum of independent draws; lengths measured in the page's own SVG.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+from perilune.analysis.reports.studies.sensitivity_figures import bars_of
+from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.studies import SHARES
+
+
+@pytest.fixture(scope="module")
+def page(sensitivity_result, tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "page.html"
+    sensitivity_result.report(path)
+    return path.read_text(encoding="utf-8")
+
+
+def test_stands_alone(page):
+    assert_self_contained(page)
+    words = text_of(page)
+    assert "Sobol' indices of 1 of 3 numbers" in words
+    assert "same (-1 in all flights)" in words
+    assert "Dispersed: 3 parameters (a.gain, b.gain, c.gain)" in words
+
+
+def test_the_shares_of_a_sum_lie_in_the_intervals(sensitivity_result):
+    bars = bars_of(sensitivity_result, "total")
+    assert [bar.name for bar in bars] == sorted(SHARES, key=lambda name: -SHARES[name])
+    for bar in bars:
+        assert bar.total_interval[0] < SHARES[bar.name] < bar.total_interval[1]
+        assert bar.first_interval[0] < SHARES[bar.name] < bar.first_interval[1]
+
+
+def test_the_table_has_the_numbers_of_the_result(sensitivity_result, page):
+    values = set(data_values(page))
+    for entry in sensitivity_result.of("total").values():
+        for name in ("first", "total"):
+            assert {repr(entry[name]), *map(repr, entry[f"{name}_interval"])} <= values
+        assert repr(entry["rank"]) in values
+
+
+def test_bars_are_as_long_as_the_indices(sensitivity_result, page):
+    """Every bar begins at 0 and all have one scale, which is that of the first."""
+    bars = bars_of(sensitivity_result, "total")
+    root = parse(page)
+    lengths, indices = [], []
+    for order in ("total", "first"):
+        for index, bar in enumerate(bars):
+            (path,) = root.xpath(f"//*[@id='indices-0-{order}-{index}']//*[local-name()='path']/@d")
+            x = [float(value) for value in re.findall(r"[ML] (-?[\d.]+) ", path)]
+            lengths.append(max(x) - min(x))
+            indices.append(abs(getattr(bar, order)))
+    np.testing.assert_allclose(np.array(lengths) / lengths[0], np.array(indices) / indices[0], atol=2e-3)

@@ -1,0 +1,120 @@
+"""The page of a worst case: the search, the box, the flight, noise realisations.
+
+Truth: the corner of the box that is the worst of a linear system; numpy's running maximum and median.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from perilune.analysis.reports.studies.worst_figures import (
+    box_lanes,
+    draw_fresh,
+    draw_search,
+    draw_trials,
+    objective_of,
+    point_values,
+)
+from perilune.analysis.reports.studies.worst_flight import worst_flight
+from perilune.analysis.samples.flown import Flown
+from perilune.analysis.samples.noise import Noise
+from perilune.analysis.worst.realisations import Fresh, Realisations
+from tests.support.pages.checks import assert_self_contained, data_values, text_of
+
+# a.gain to 3 times 1.2; b and c along the axes (1, 1) and (1, -1) of their covariance, variances 1.28 and 0.72.
+CORNER = 0.5 * (3.6 + 3.0 * np.sqrt(2.0 * 1.28))
+REACH = 3.0 * (np.sqrt(1.28) + np.sqrt(0.72)) / np.sqrt(2.0)  # of b and c from their means, one at a time
+
+
+def page_of(result, folder):
+    result.report(folder / "page.html")
+    return (folder / "page.html").read_text(encoding="utf-8")
+
+
+def test_the_page(worst_result, tmp_path):
+    page = page_of(worst_result, tmp_path)
+    assert_self_contained(page)
+    assert {repr(worst_result.value), repr(worst_result.worst_random["value"])} <= set(data_values(page))
+    words = text_of(page)
+    assert "total: worst" in words
+    assert "A search proves no bound" in words
+    assert "Dispersed: 3 parameters (a.gain, b.gain, c.gain)" in words
+    assert f"{worst_result.folder}/worst.parquet" in words
+    assert "Flight of the worst case" in words
+
+
+def test_every_point_and_the_worst_so_far_are_drawn(worst_result):
+    axes = Figure().subplots()
+    draw_search(axes, worst_result)
+    points, line = axes.lines[:2]
+    np.testing.assert_array_equal(points.get_ydata(), worst_result.flown.values)
+    np.testing.assert_array_equal(line.get_ydata(), np.maximum.accumulate(worst_result.flown.values))
+    assert line.get_ydata()[-1] == pytest.approx(CORNER, rel=1e-4)
+    phases = worst_result.phases
+    assert (phases[0].name, phases[0].evaluations) == ("random trials", worst_result.random_trials)
+    assert sum(phase.evaluations for phase in phases) == len(worst_result.flown.values)
+
+
+def test_the_histogram_holds_the_random_trials(worst_result):
+    axes = Figure().subplots()
+    draw_trials(axes, worst_result)
+    assert sum(patch.get_height() for patch in axes.patches) == worst_result.random_trials == 60
+    marks = [line.get_xdata()[0] for line in axes.lines]
+    assert marks == [worst_result.flown.values[:60].max(), worst_result.value]
+
+
+def test_the_worst_is_in_the_corner_of_the_box(worst_result):
+    lanes = {lane.name: lane for lane in box_lanes(worst_result)}
+    assert lanes["a.gain"].at(lanes["a.gain"].worst) == pytest.approx(1.0, abs=1e-4)
+    assert (lanes["a.gain"].low, lanes["a.gain"].high) == pytest.approx((-3.6, 3.6))
+    assert (lanes["b.gain"].low, lanes["b.gain"].high) == pytest.approx((1.0 - REACH, 1.0 + REACH))
+    assert (lanes["c.gain"].low, lanes["c.gain"].high) == pytest.approx((-1.0 - REACH, -1.0 + REACH))
+
+
+def test_the_flight_is_that_of_the_worst_case(worst_result):
+    flight, _ = worst_flight(worst_result, worst_result.plan)
+    final = flight.final()
+    assert final["a.y"] + final["b.y"] + final["c.y"] - 6.0 == worst_result.value
+
+
+def noisy(result, matters):
+    """The first 30 simulations as 10 random trials of 3 realisations, the rest as the search, 9 fresh ones."""
+    flown = Flown()
+    later = 3 if matters else 1
+    count = 30 + later * ((result.flown.values.size - 30 - 9) // later) + 9
+    drawn = {**{name: column[:count] for name, column in result.flown.draws.items()}, "streams_of.imu": np.zeros(count)}
+    metrics = {name: column[:count] for name, column in result.flown.metrics.items()}
+    flown.add(result.flown.points[:count], drawn, metrics, result.flown.values[:count])
+    fresh = Fresh(result.flown.values[count - 9 : count], 0.5)
+    return replace(
+        result, flown=flown.whole(), over=Realisations(3, 0.5), fresh=fresh, noise_matters=matters, random_trials=10,
+        noise=Noise(("imu",), None, 7), plan=None, phases=(),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("matters", [True, False])
+def test_a_point_has_the_median_of_its_realisations(worst_result, matters, tmp_path):
+    result = noisy(worst_result, matters)
+    flown = result.flown.values
+    found = point_values(result)
+    np.testing.assert_array_equal(found[:10], np.median(flown[:30].reshape(10, 3), axis=1))
+    rest = flown[30:-9]
+    np.testing.assert_array_equal(found[10:], np.median(rest.reshape(-1, 3), axis=1) if matters else rest)
+    assert objective_of(result).random == int(np.argmax(found[:10]))
+    axes = Figure().subplots()
+    draw_fresh(axes, result)
+    assert axes.lines[0].get_ydata()[-1] == 1.0
+    median, worst, _ = (line.get_xdata()[0] for line in axes.lines[1:])
+    assert (median, worst) == (np.median(flown[-9:]), flown[-9:].max())
+    words = text_of(page_of(result, tmp_path))
+    assert "under 9 fresh noise realisations" in words
+    assert "(median of 3 noise realisations)" in words
+
+
+def test_a_margin_is_worse_where_it_is_smaller(worst_result):
+    margin = replace(worst_result.badness, size=lambda value: 0.0 - value)
+    objective = objective_of(replace(worst_result, badness=margin))
+    assert not objective.rising
+    np.testing.assert_array_equal(objective.worst_so_far(), np.minimum.accumulate(-worst_result.flown.values))
