@@ -38,4 +38,6 @@ def order_section(report: StabilityReport) -> OrderSection:
             ends = link(report, index), loop.point, name, gain_margin(each.margins), phase_margin(each.margins)
             rows.append((*ends, delay, *margins, verdict(loop.verdict)))
     sentences = [f"{sentence[0].upper()}{sentence[1:]}." for sentence in order_sentences(report)]
+    if report.orders is None:  # of FMUs that no loop passes
+        sentences = [f"Assumed: {note}." for note in report.provenance.get("assumptions", ())]
     return OrderSection(sentences, Table(HEAD, "sssnnnnns", rows, "margins in both orders"))
