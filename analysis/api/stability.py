@@ -11,6 +11,7 @@ from matplotlib.figure import Figure as Plot
 
 from ..errors import suggestion
 from ..flight.results import require_pandas
+from ..reports.stability.orders.words import order_sentences
 from ..reports.stability.page import write_stability_page
 from ..reports.stability.plots import Diagram, loop_plot
 from ..reports.stability.words import gain_margin, phase_margin, size, verdict
@@ -119,7 +120,11 @@ class StabilityReport(report.StabilityReport):
             )
             for loop in self.loops
         ]
-        words = [str(self.verdict), *(f"{item.name} at {item.point} not studied" for item in self.unstudied)]
+        words = [
+            str(self.verdict),
+            *order_sentences(self),
+            *(f"{item.name} at {item.point} not studied" for item in self.unstudied),
+        ]
         plot = loop_plot(self._decisive(), Diagram.BODE) if self.loops else None
         return notebook_view(f"{self.system}: stability", words, [Grid(head, rows)], plot)
 

@@ -46,13 +46,15 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
     if not _can_be_direct(subject, request, direct):
         without = [name for name in fmus if any(cut.partition(" -> ")[2].startswith(f"{name}.") for cut in cuts)]
         direct = [name for name in fmus if name not in without]
-    other = None
+    other: StabilityReport | None = None
     if direct and _can_be_direct(subject, request, direct):
         options = replace(request.options, feedthrough=(*request.options.feedthrough, *direct))
         loops = tuple(replace(loop, elements=()) for loop in request.declaration.loops)
         declaration = replace(request.declaration, loops=loops, sweeps=())
         other = make(replace(request, options=options, declaration=declaration))
-    orders = Orders(fmus, tuple(direct) if other is not None else (), tuple(without), tuple(cuts), other)
+    else:
+        direct, without = [], list(fmus)
+    orders = Orders(fmus, tuple(direct), tuple(without), tuple(cuts), other)
     return _judged(report, orders)
 
 

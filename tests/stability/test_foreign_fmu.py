@@ -1,5 +1,6 @@
 """A loop of FMUs that are not ours, in C by hand and of stock pythonfmu: no memory, no units, so by injection only.
 
+The law declares no dependencies; it is said to have feedthrough, for its own step of delay is what is to be seen.
 Truth: an integrator over one step of delay. With g = gain times step and a = w step, |L| = g/(2 sin(a/2)) and its
 phase is -pi/2 - 3a/2, so the gain margin is 1/g and the phase margin pi/2 - 3 asin(g/2).
 """
@@ -19,6 +20,7 @@ from tests.support.loops.foreign_fmus import build_foreign_fmus
 STEP, GAIN = 0.1, 4.0
 G = GAIN * STEP
 GAIN_MARGIN, PHASE_MARGIN = -20.0 * math.log10(G), math.degrees(0.5 * math.pi - 3.0 * math.asin(0.5 * G))
+DIRECT = ["--feedthrough", "law"]
 ENDS = "input u Real; output y Real"
 
 
@@ -41,7 +43,7 @@ def assert_margins(loop):
 
 @pytest.mark.parametrize("cut", ["law.y", "plant.y", "law.u"])
 def test_by_injection_wherever_it_is_cut(path, cut):
-    report = perilune.stability(path, loops=[cut], at=1.0)
+    report = perilune.stability(path, loops=[cut], at=1.0, feedthrough=["law"])
     (loop,) = report.loops
     assert_margins(loop)
     assert (loop.cut, loop.unit, loop.sample_period) == (cut, None, pytest.approx(STEP))
@@ -54,7 +56,7 @@ def test_by_injection_wherever_it_is_cut(path, cut):
 
 
 def test_route_a_is_not_applicable_and_says_why(path):
-    report = perilune.stability(path, loops=["law.y"], at=1.0)
+    report = perilune.stability(path, loops=["law.y"], at=1.0, feedthrough=["law"])
     (loop,) = report.loops
     assert "law.fmu" in loop.not_applicable["route A"]
     assert "does not tell how it serialises its memory" in loop.not_applicable["route A"]
@@ -68,7 +70,7 @@ def test_route_a_is_not_applicable_and_says_why(path):
 
 def test_the_command_line(path, tmp_path, capsys):
     page, file = tmp_path / "report.html", tmp_path / "report.json"
-    options = ["--loop", "law.y", "--at", "1", "--report", str(page), "--json", str(file)]
+    options = ["--loop", "law.y", "--at", "1", "--feedthrough", "law", "--report", str(page), "--json", str(file)]
     assert main(["stability", str(path), *options]) == 0
     found = json.loads(file.read_text())
     (loop,) = found["loops"]
@@ -86,7 +88,7 @@ def test_exit_status_1_and_one_line_per_failed_requirement(path, capsys):
     """With g = 0.8 the margins are 1.9 dB and 19.3 deg, and -1 is as near as this."""
     z = np.exp(1j * np.linspace(0.1, math.pi, 100001))
     modulus = np.min(abs(1.0 + 0.8 / (z * (z - 1.0))))
-    assert main(["stability", str(path), "--loop", "law.y", "--set", "law.gain=8"]) == 1
+    assert main(["stability", str(path), "--loop", "law.y", "--set", "law.gain=8", *DIRECT]) == 1
     lines = capsys.readouterr().err.splitlines()
     assert [line.partition(": loop law.y at t = 0 s: ")[2] for line in lines] == [
         "gain margin 1.938 dB misses the limit 6 dB",
@@ -104,12 +106,12 @@ def test_exit_status_1_and_one_line_per_failed_requirement(path, capsys):
 )
 def test_an_unstable_loop_that_injection_cannot_measure(path, capsys, gain, words):
     """z (z - 1) + g = 0 has its roots outside of the unit circle for g above 1: nothing settles."""
-    report = perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": gain})
+    report = perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": gain}, feedthrough=["law"])
     (lost,) = report.unstudied
     assert (report.loops, lost.name, lost.what) == ((), "law.y", "loop")
     assert lost.reason.startswith("law.y: route A: ")
     assert words in lost.reason
-    assert main(["stability", str(path), "--loop", "law.y", "--at", "1", "--set", f"law.gain={gain}"]) == 1
+    assert main(["stability", str(path), "--loop", "law.y", "--at", "1", "--set", f"law.gain={gain}", *DIRECT]) == 1
     (line,) = capsys.readouterr().err.splitlines()
     assert line == f"perilune: loop law.y at t = 1 s: not studied: {lost.reason}"
 

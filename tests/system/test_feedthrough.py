@@ -4,13 +4,16 @@ Truth: pencil and paper, as in test_schedule.py. A gain that declares its feedth
 does not declare it answers a step later, unless the user or the SSD says that it is direct.
 """
 
+import json
 import re
 
 import numpy as np
 import pytest
 
+import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
+from perilune.analysis.reports.batch.replays import replay_command
 from perilune.analysis.system.options import SystemOptions
 from perilune.analysis.system.order.feedthrough import Origin
 from perilune.analysis.system.prepared import prepare_system
@@ -155,3 +158,47 @@ def test_what_is_assumed_is_said_where_one_looks(undeclared, capsys):
     assert "feedthrough     direct, as an option says" in capsys.readouterr().out
     assert main(["describe", str(undeclared / "open_gain.fmu")]) == 0
     assert "feedthrough     not declared of y" in capsys.readouterr().out
+
+
+CAMPAIGN = """
+system = "s.ssp"
+trials = 2
+seed = 3
+
+[draw."ramp.slope"]
+distribution = "uniform"
+low = 1
+high = 3
+
+[metric.end]
+expression = "gain.y"
+reduction = "final"
+
+[success]
+expression = "end > 0"
+"""
+
+
+def test_a_campaign_keeps_the_option_and_its_page_says_what_is_assumed(undeclared, tmp_path):
+    path, campaign = chain(undeclared), tmp_path / "ends.toml"
+    campaign.write_text(CAMPAIGN)
+    late = perilune.batch(path, campaign, workers=1, output=tmp_path / "late")
+    direct = perilune.batch(path, campaign, workers=1, output=tmp_path / "direct", feedthrough=["gain"])
+    slope = late.table()["draw.ramp.slope"].to_numpy()
+    assert late.table()["metric.end"].to_numpy() == pytest.approx(3.0 * (1.0 + 0.75 * slope))
+    assert direct.table()["metric.end"].to_numpy() == pytest.approx(3.0 * (1.0 + slope))
+    manifest = json.loads((tmp_path / "direct" / "manifest.json").read_text())
+    assert (manifest["options"]["feedthrough"], manifest["options"]["no_feedthrough"]) == (["gain"], [])
+    again = perilune.merge(tmp_path / "direct")
+    assert again.plan.options.feedthrough == ("gain",)
+    command = replay_command(direct.plan, direct.plan.campaign.variants()[0], 1)
+    assert "--feedthrough gain" in command
+    for result, is_said in ((late, True), (direct, False)):
+        result.report(tmp_path / "page.html")
+        assert ("Assumed: gain: FMU gain does not declare" in (tmp_path / "page.html").read_text()) is is_said
+
+
+def test_the_page_of_a_run_says_what_is_assumed(undeclared, tmp_path):
+    for options, is_said in (({}, True), ({"no_feedthrough": ["gain"]}, False)):
+        perilune.simulate(chain(undeclared), **options).report(tmp_path / "page.html")
+        assert ("Assumed: gain: FMU gain does not declare" in (tmp_path / "page.html").read_text()) is is_said

@@ -200,7 +200,7 @@ def hash_table(provenance: dict[str, Any]) -> Table:
 
 def facts(provenance: dict[str, Any]) -> list[tuple[str, Cell]]:
     """Everything else that the study depends on: seed, step, versions and so on."""
-    shown = {"system", "system_sha256", "fmus", "parameters"}
+    shown = {"system", "system_sha256", "fmus", "parameters", "assumptions"}
     return [
         (key.replace("_", " "), fact(value) + Markup(" s") if key in TIMES else fact(value))
         for key, value in provenance.items()

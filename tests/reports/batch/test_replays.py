@@ -87,12 +87,13 @@ def test_every_option_is_in_the_command():
         variant="Other",
         flavour="python",
         allow_unmatched=True,
+        feedthrough=("law",),
         no_feedthrough=("plant",),
     )
     fault = parse_fault("plant.x=bias:0.5@1..2")
     command = replay_command(replace(plan, options=options, faults=(fault,)), Variant("default", {}), 2)
-    words = "--use plant=other --parameters 'a set.ssv' --set plant.latch=true --set plant.x=1.5 --no-feedthrough plant"
-    more = "--step 0.1 --stop-time 20.0 --variant Other --flavour python --algorithm jacobi"
+    words = "--use plant=other --parameters 'a set.ssv' --set plant.latch=true --set plant.x=1.5 --feedthrough law"
+    more = "--no-feedthrough plant --step 0.1 --stop-time 20.0 --variant Other --flavour python --algorithm jacobi"
     assert command == (
         f"perilune batch ship --campaign test.toml --trials 3 --seed 7 {words} {more} --fault {fault} "
         "--allow-unmatched --replay 2"

@@ -101,7 +101,7 @@ def make_studies(folder: Path, fmus: Path) -> Studies:
         wild_pair=perilune.stability(pair, set={"control.derivative[1]": 0.0}),
         relay=perilune.stability(relay),
         weak=perilune.stability(str(resonance().packed(folder, fmus)), set={"control.gain": 0.05}),
-        foreign=perilune.stability(foreign_system(folder), loops=["law.y"], at=1.0),
+        foreign=perilune.stability(foreign_system(folder), loops=["law.y"], at=1.0, feedthrough=["law"]),
     )
 
 

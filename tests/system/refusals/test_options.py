@@ -39,6 +39,8 @@ from tests.support.refused import PLAIN, RAMP, ssp
         (["--step", "1e-13"], ["--step", "rows do not fit"]),
         (["--step", "1e-320"], ["--step", "does not advance a time of 1 s"]),
         (["--stop-time", "1e300"], ["--stop-time", "does not advance", "earlier times"]),
+        (["--feedthrough", "nobody"], ["--feedthrough: nobody", "use one of gain, ramp"]),
+        (["--feedthrough", "gain", "--no-feedthrough", "gain"], ["--feedthrough: gain: is given to --no-feedthrough"]),
         (["--no-feedthrough", "nobody"], ["--no-feedthrough: nobody", "use one of gain, ramp"]),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) and value[0].startswith("--") else "",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ....loops.margin_values import Quantity
 from ....stability.results.report import StabilityReport
 from ..tables import Table, link
-from ..words import gain_margin, numeral, phase_margin, size, state, verdict
+from ..words import NO_CROSSING, gain_margin, numeral, phase_margin, size, state, verdict
 from .words import order_loops, order_sentences
 
 HEAD = (
@@ -33,9 +33,11 @@ def order_section(report: StabilityReport) -> OrderSection:
         for name, each in (("none", loop), ("all", other)) if others else ():
             if each is None:
                 continue
-            delay = state(each.margins) or numeral(each.classical.delay_margin)
+            delay = state(each.margins) or numeral(each.classical.delay_margin, infinite=NO_CROSSING)
             margins = [size(each.margins.size(quantity)) for quantity in (Quantity.MODULUS, Quantity.DISK)]
             ends = link(report, index), loop.point, name, gain_margin(each.margins), phase_margin(each.margins)
             rows.append((*ends, delay, *margins, verdict(loop.verdict)))
     sentences = [f"{sentence[0].upper()}{sentence[1:]}." for sentence in order_sentences(report)]
+    if report.orders is None:  # of FMUs that no loop passes
+        sentences = [f"Assumed: {note}." for note in report.provenance.get("assumptions", ())]
     return OrderSection(sentences, Table(HEAD, "sssnnnnns", rows, "margins in both orders"))

@@ -18,11 +18,9 @@ def order_sentences(report: StabilityReport) -> list[str]:
     orders = report.orders
     if orders is None:
         return []
-    one = len(orders.undeclared) == 1
-    who, whose = ("does", "its") if one else ("do", "their")
     found = [
-        f"{_fmus(orders)} {who} not declare which inputs {whose} outputs depend on directly: assumed none, and stepped "
-        "with the inputs of the step's start"
+        f"direct dependencies of outputs on inputs are not declared by {_fmus(orders)}: assumed none, and stepped with "
+        "the inputs of the step's start"
     ]
     if orders.without:
         cannot = f"{', '.join(orders.without)} cannot have feedthrough{' as well' if orders.direct else ''}"
