@@ -68,9 +68,10 @@ def worst_case(
 
     ``metric`` is over metrics and draws, by default the margin by which a trial is no success. ``hold`` and
     ``noise_trial`` are as in `rare_failure`. Where components have noise, every point flies the same ``realisations``
-    of it (5, or one for every hundred ``flights`` where these are fewer), whose ``quantile`` (the median) is made largest; the point that wins flies ten times as many fresh ones.
-    A fifth of the ``flights`` are random trials, to begin with and to compare
-    with. The campaign's seed is that of the search; ``workers`` does not change the result. Raises InputError.
+    of it (5, or one for every hundred ``flights`` where these are fewer than 500), whose ``quantile`` (the median) is
+    made largest; the point that wins flies ten times as many fresh ones. A fifth of the ``flights`` are random trials,
+    to begin with and to compare with. The campaign's seed is that of the search; ``workers`` does not change the
+    result. Raises InputError.
     """
     over = read_realisations(realisations, quantile, flights, noise_trial)
     box = _Box(plan, sigmas, flights, hold)
