@@ -117,7 +117,7 @@ def grow_chains(
     streams = np.empty((chains, length, seeds.streams.shape[1]), dtype=np.int64)
     values = np.empty((chains, length))
     noise_moves = _NoiseMoves(streams.shape[2], fresh, random[1])
-    rates = []
+    rates: list[float] = []
     for number, group in enumerate(np.array_split(np.arange(chains), min(GROUPS, chains))):
         here, level = seeds.rows(group), margins[group]
         draws[group, 0], streams[group, 0], values[group, 0] = here.draws, here.streams, level
