@@ -1,10 +1,10 @@
 """Samples of draws and noise given that a margin is above a threshold: chains from those that are known.
 
-Two moves alternate. The draws move by adaptive conditional sampling (Papaioannou, Betz, Zwirglmaier and Straub 2015,
-section 4.3): a candidate is rho u + sqrt(1 - rho^2) xi with xi standard normal, which leaves the normal distribution as
-it is; its spread sqrt(1 - rho^2) follows the acceptance rate. The noise moves by a fresh stream for one source, chosen
-at random: a Gibbs sampler over the sources by rejection. Either is accepted where the candidate's margin is above the
-threshold, and is reversible with respect to the distribution before the condition.
+Two moves alternate (`_NoiseMoves.choose`). The draws move by adaptive conditional sampling (Papaioannou, Betz,
+Zwirglmaier and Straub 2015, section 4.3): a candidate is rho u + sqrt(1 - rho^2) xi with xi standard normal, which
+leaves the normal distribution as it is; its spread sqrt(1 - rho^2) follows the acceptance rate. The noise moves by a
+fresh stream for one source, chosen at random: a Gibbs sampler over the sources by rejection. Either is accepted where
+the candidate's margin is above the threshold, and is reversible with respect to the distribution before the condition.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class _NoiseMoves:
         self._changed = np.zeros(sources, dtype=bool)
         self._fresh, self._random = fresh, random
         self._active = np.arange(sources)
-        self._weights = np.full(sources, 1.0 / max(sources, 1))
+        self._weights = np.ones(sources)
         self._inert = np.arange(0)
 
     @property
@@ -64,13 +64,25 @@ class _NoiseMoves:
         """Leave out the sources that are inert so far; between groups of chains."""
         inert = ~self._changed & (self.moves >= INERT_AFTER)
         self._active, self._inert = np.flatnonzero(~inert), np.flatnonzero(inert)
-        weights = (self.moves[~inert] + 2.0) / (self.accepted[~inert] + 1.0)
-        self._weights = weights / weights.sum()
+        self._weights = (self.moves[~inert] + 2.0) / (self.accepted[~inert] + 1.0)
+
+    def choose(self, chains: np.ndarray, step: int, draws: float | None) -> np.ndarray:
+        """Which ``chains`` (by number) renew noise in a step, and do not move draws.
+
+        They alternate, unless draws are renewed as a whole, with the acceptance rate ``draws``: then they are chosen as
+        often as a source of that rate, if that is less often.
+        """
+        if draws is None:
+            return (step + chains) % 2 == 1
+        noise = float(self._weights.sum())
+        return self._random.random(chains.size) < max(0.5, noise / (noise + 1.0 / max(draws, 0.01)))
 
     def candidates(self, streams: np.ndarray, noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Streams of the next candidates, where ``noise`` moves with one source renewed, and which (moves,)."""
         rows = np.flatnonzero(noise)
-        chosen = self._random.choice(self._active, rows.size, p=self._weights) if rows.size else rows
+        chosen = (
+            self._random.choice(self._active, rows.size, p=self._weights / self._weights.sum()) if rows.size else rows
+        )
         found = streams.copy()
         found[rows, chosen] = self._fresh.take(rows.size)
         for source in self._inert:
@@ -105,7 +117,7 @@ def grow_chains(
     streams = np.empty((chains, length, seeds.streams.shape[1]), dtype=np.int64)
     values = np.empty((chains, length))
     noise_moves = _NoiseMoves(streams.shape[2], fresh, random[1])
-    rates = []
+    rates: list[float] = []
     for number, group in enumerate(np.array_split(np.arange(chains), min(GROUPS, chains))):
         here, level = seeds.rows(group), margins[group]
         draws[group, 0], streams[group, 0], values[group, 0] = here.draws, here.streams, level
@@ -113,7 +125,8 @@ def grow_chains(
         for step in range(1, length):
             noise = np.zeros(len(group), dtype=bool)
             if noise_moves.any:
-                noise = (step + group) % 2 == 1 if dimensions else ~noise
+                whole = rates[-1] if rates and spread == 1.0 else None
+                noise = noise_moves.choose(group, step, whole) if dimensions else ~noise
             moved = np.sqrt(1.0 - spread**2) * here.draws + spread * random[0].standard_normal(here.draws.shape)
             renewed, chosen = noise_moves.candidates(here.streams, noise)
             candidates = Points(np.where(noise[:, np.newaxis], here.draws, moved), renewed)

@@ -77,4 +77,4 @@ def noise_line(noise: Noise) -> str:
     names = ", ".join(noise.components)
     if noise.is_held:
         return f"noise of {names}: that of trial {noise.trial} in all flights, seed {noise.seed}"
-    return f"noise of {names}: random, a realisation of each flight's own"
+    return f"noise of {names}: random"

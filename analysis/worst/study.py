@@ -23,7 +23,7 @@ from .margin import SIZES, badness_of_margin
 from .margin_studies import MarginStudies
 from .metric import Badness, badness_of
 from .outcome import WorstResult
-from .realisations import REALISATIONS, Fresh, Realisations, read_realisations
+from .realisations import Fresh, Realisations, read_realisations
 from .search import LEAST, Phase, largest
 
 FLIGHTS = 2000
@@ -68,11 +68,12 @@ def worst_case(
 
     ``metric`` is over metrics and draws, by default the margin by which a trial is no success. ``hold`` and
     ``noise_trial`` are as in `rare_failure`. Where components have noise, every point flies the same ``realisations``
-    of it (5), whose ``quantile`` (the median) is made largest; the point that wins flies ten times as many fresh ones.
-    A fifth of the ``flights`` are random trials, to begin with and to compare
-    with. The campaign's seed is that of the search; ``workers`` does not change the result. Raises InputError.
+    of it (5, or one for every hundred ``flights`` where these are fewer than 500), whose ``quantile`` (the median) is
+    made largest; the point that wins flies ten times as many fresh ones. A fifth of the ``flights`` are random trials,
+    to begin with and to compare with. The campaign's seed is that of the search; ``workers`` does not change the
+    result. Raises InputError.
     """
-    over = read_realisations(realisations, quantile, REALISATIONS, noise_trial)
+    over = read_realisations(realisations, quantile, flights, noise_trial)
     box = _Box(plan, sigmas, flights, hold)
     badness = badness_of(plan.campaign, metric)
     with SampleFlights(plan, box.middle, noise_trial=noise_trial, workers=workers) as flights_of:
@@ -99,7 +100,7 @@ def worst_margin(
     """
     if margin not in SIZES:
         raise InputError("--margin", margin, "no such margin", f"give {', '.join(SIZES)}")
-    over = read_realisations(realisations, quantile, 1, noise_trial)
+    over = read_realisations(realisations, quantile, flights, noise_trial, default=1)
     box = _Box(asked.plan, sigmas, flights, hold)
     with MarginStudies(asked, box.middle, noise_trial=noise_trial, workers=workers) as studies:
         badness = badness_of_margin(asked.loop.name, asked.point.name, studies.channels, margin)
@@ -154,16 +155,8 @@ class _Box:
         )  # fmt: skip
 
     def _budget(self, points: _Points) -> int:
-        """The flights of the search, those of fresh noise left out. Raises InputError."""
-        if points.over is None:
-            return self._flights
-        least = LEAST * points.over.count + points.over.fresh
-        if self._flights < least:
-            problem = (
-                f"too few: {points.over.count} noise realisations of {LEAST} points, {points.over.fresh} fresh ones"
-            )
-            raise InputError("--flights", str(self._flights), problem, f"give {least} or more, or --realisations 1")
-        return self._flights - points.over.fresh
+        """The flights of the search, those of fresh noise left out."""
+        return self._flights if points.over is None else self._flights - points.over.fresh
 
 
 class _Points:

@@ -1,7 +1,7 @@
 """A rare failure of a real campaign, beside the trials of a batch that fail.
 
 Truth: the share of a batch's trials that fail, with its exact binomial interval (Clopper and Pearson); a million trials
-under `make long`.
+under `make long`, and counts of stored ones of a noisy landing.
 """
 
 import pytest
@@ -9,6 +9,9 @@ from pyarrow.compute import field
 from scipy.stats import binomtest
 
 import perilune
+from tests.support.landing_counts import CAMPAIGN as LANDING
+from tests.support.landing_counts import GUIDANCE, MISSES
+from tests.support.landing_counts import TRIALS as LANDINGS
 from tests.support.lengths import LONG, either
 
 CAMPAIGN = ("lunar_terminal_guidance", "paper")
@@ -36,3 +39,20 @@ def test_the_intervals_of_both_meet(tmp_path):
         assert low < exact.high
         assert high > exact.low
         assert found.flights < TRIALS
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.parametrize("limit", list(MISSES) if LONG else [3.5])
+def test_a_noisy_landing_beside_its_trials(limit):
+    """The noise of one trial gives anything between 0 and 1 here; what the trials give is an integral over it."""
+    exact = binomtest(MISSES[limit], LANDINGS).proportion_ci(method="exact")
+    found = perilune.rare(
+        *LANDING, compare={"guidance": GUIDANCE}, failure=f"position_error > {limit}", samples=either(4500, 200),
+        workers=either(None, 1),
+    )  # fmt: skip
+    low, high = found.interval
+    print(f"{limit}: {exact.low:.3g} to {exact.high:.3g}; rare {found.probability}, {low} to {high}, {high / low:.2f}")
+    assert low < exact.high
+    assert high > exact.low
+    if limit == 3.5:
+        assert high / low < 4.0

@@ -94,7 +94,7 @@ def test_held_noise_is_a_condition(fmus):
         ({"quantile": 0.0}, "--quantile: 0: not a share of the realisations"),
         ({"quantile": 0.9}, "5 realisations have no such quantile below their largest; give --realisations 10 or more"),
         ({"realisations": 3, "noise_trial": 0}, "--realisations: 3: all flights have the noise of trial 0"),
-        ({"flights": 300}, "too few: 5 noise realisations of 100 points, 50 fresh ones; give 550 or more"),
+        ({"flights": 300, "realisations": 5}, "--realisations: 5: 300 flights are too few.*give --flights 500 or more"),
     ],
 )
 @pytest.mark.usefixtures("fmus")
@@ -115,5 +115,6 @@ def test_objectives_are_order_statistics(share):
 
 
 def test_defaults():
-    assert read_realisations(None, None, 5, None) == Realisations(5, 0.5)
-    assert read_realisations(None, None, 5, 3) == Realisations(5, 0.5)
+    assert read_realisations(None, None, 2000, None) == Realisations(5, 0.5)
+    assert read_realisations(None, None, 300, None) == Realisations(3, 0.5)
+    assert read_realisations(None, None, 2000, None, default=1) == Realisations(1, 0.5)

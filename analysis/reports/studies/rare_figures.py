@@ -13,6 +13,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from ...batch.summary import success_interval
 from ...rare.outcome import RareResult
 from ...rare.uncertainty import CONFIDENCE
+from ...verdicts.quantiles import quantiles
 from ..kit.panels import Panel, Widths, both_widths, is_slim, panel
 from ..kit.quantities import labelled, log_tick, number, shown_factor
 from ..kit.style import BLUE, FAINT, INK, VERMILION, plain_ticks
@@ -101,7 +102,7 @@ def draw_limit_state(axes: Axes, result: RareResult) -> None:
 def limits_of(values: np.ndarray) -> tuple[float, float]:
     """Ends of an axis that shows all limit-state values but the smallest few, and 0."""
     finite = values[np.isfinite(values)]
-    low = min(float(np.quantile(finite, CUT)), 0.0) if finite.size else -1.0
+    low = min(float(quantiles(finite, [CUT])[0]), 0.0) if finite.size else -1.0
     high = max(float(finite.max()), 0.0) if finite.size else 1.0
     margin = 0.06 * (high - low) or 1.0
     return low - margin, high + margin

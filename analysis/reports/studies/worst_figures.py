@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...verdicts.quantiles import quantiles
 from ...worst.margin import MOST
 from ...worst.outcome import WorstResult
 from ..kit.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel
@@ -40,7 +41,7 @@ class Objective(NamedTuple):
         found = self.values[np.isfinite(self.values)]
         if not found.size:
             return -1.0, 1.0
-        level = np.quantile(found, CUT if self.rising else 1.0 - CUT)
+        (level,) = quantiles(found, [CUT if self.rising else 1.0 - CUT])
         worst = found.max() if self.rising else found.min()
         low, high = float(min(level, worst)), float(max(level, worst))
         margin = 0.08 * (high - low) or 0.05 * abs(high) or 1.0

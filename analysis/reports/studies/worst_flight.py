@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ...batch.flying.flyer import Flyer
 from ...campaign.campaign import Record
 from ...campaign.drawing.declared import drawn_names
 from ...campaign.drawing.given import GivenDraws, part_streams, stream_component
 from ...campaign.plan import BatchPlan
 from ...flight.results import Result
-from ...samples.recorded import fly_recorded
 from ...worst.outcome import WorstResult
 from ..own.asked.declared import Figure
 from ..own.asked.reading import read_figures
@@ -21,5 +21,7 @@ def worst_flight(result: WorstResult, plan: BatchPlan) -> tuple[Result, list[Fig
     names = [*drawn_names(plan.campaign), *(name for name in drawn if stream_component(name) is not None)]
     given = GivenDraws(*part_streams({name: drawn[name][[result.row]] for name in names}))
     plain = replace(plan, campaign=replace(plan.campaign, record=Record(), group=None, scatters=()))
-    flight, prepared = fly_recorded(plain, given)
-    return flight, read_figures(prepared)
+    flyer = Flyer(plain.of_samples(given))
+    (variant,) = flyer.variants
+    flight, _ = flyer.replay(variant, 0)
+    return flight, read_figures(plain.prepare(flyer.variants[variant]))

@@ -16,22 +16,23 @@ from ..kit.quantities import labelled, shown_unit
 from ..own.asked.declared import Figure
 from ..own.own_figures import joint_findings, own_sections
 from ..own.section import Section
-from ..run.time_histories import ComponentHistory, time_histories
-from ..run.trajectory import trajectory_panels
+from ..run.time_histories import Histories, time_histories
+from ..run.trajectory import trajectory_panels, trajectory_reading
 from .conditions import conditions_of
 from .tables import Table, cell, fraction
 from .worst_figures import box_figure, box_lanes, fresh_panel, objective_of, search_figure, trials_panel
 
 
 class FlightPart(NamedTuple):
-    """The flight of the worst case on its page: the path, what the system asks for, or else every signal."""
+    """The flight of the worst case on its page, as the page of a run shows one."""
 
     status: str
     end: float | None
     trajectory: list[Panel]
+    reading: str
     joint: list[Markup]
     own: list[Section]
-    histories: list[ComponentHistory]
+    histories: Histories
 
 
 def write_worst_page(
@@ -146,14 +147,13 @@ def metric_table(result: WorstResult) -> Table:
 
 
 def flight_part(flight: Result, figures: Sequence[Figure]) -> FlightPart:
-    """What the page shows of the flight: all signals where the system asks for no time histories."""
-    own = own_sections(figures, flight)
-    drawn = any(part.panels or part.drawn is not None for part in own)
+    """What the page shows of the flight."""
     return FlightPart(
         status=flight.status,
         end=float(flight.time[-1]) if flight.time.size else None,
         trajectory=trajectory_panels(flight),
+        reading=trajectory_reading(flight),
         joint=joint_findings(figures, flight),
-        own=own,
-        histories=[] if drawn else time_histories(flight),
+        own=own_sections(figures, flight),
+        histories=time_histories(flight),
     )

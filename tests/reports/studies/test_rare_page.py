@@ -142,6 +142,26 @@ def test_a_failure_that_was_not_reached_is_a_bound(rare_result, tmp_path):
     assert "Failure not reached: probability below" in text_of(page)
 
 
+def test_levels_that_end_for_the_noise_are_a_bound(rare_result, tmp_path):
+    """The last level has no probability, and its simulations are those that are left."""
+    simulation = rare_result.simulation
+    *trusted, last = simulation.levels
+    ended = replace(last, probability=None, deviation=None, noise_acceptance=0.04, least_acceptance=0.01, source=None)
+    simulation = replace(
+        simulation, levels=(*trusted, ended), probability=None, noise_ends=True, equivalent_trials=500.0
+    )
+    result = replace(rare_result, simulation=simulation)
+    assert level_spans(result)[-1].last == rare_result.flights
+    assert level_spans(result)[-1].reached is None
+    page = page_of(replace(result, noise=Noise(("imu",), 1, 7)), tmp_path)  # held, so that failures need no streams
+    assert_self_contained(page)
+    words = text_of(page)
+    assert "Failure not reached: probability below" in words
+    assert "4 % of the noise moves are accepted, below 5 %" in words
+    assert "a bound ten times lower, by Monte Carlo: perilune batch" in words
+    assert "--trials 5000" in words
+
+
 def test_the_command_that_flies_a_design_point_again(rare_result, tmp_path):
     words = text_of(page_of(rare_result, tmp_path))
     assert rare_result.replay(rare_result.folder, 0) in words
