@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import chdir
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from matplotlib.figure import Figure as Plot
 
@@ -18,7 +18,7 @@ from ..reports.own.asked.declared import Figure
 from ..reports.own.asked.histories import Band
 from ..reports.own.asked.reading import read_figures
 from ..reports.own.asked.stages import Limits
-from ..reports.own.limit_table import limit_rows
+from ..reports.own.limit_table import limit_document, limit_rows
 from ..reports.run.plots import signal_plot
 from ..reports.run.run_report import key_values, write_run_report
 from ..reports.run.trajectory import trajectory_plot
@@ -58,13 +58,21 @@ class Result(results.Result):
             raise ValueError(f"{self.system}: no signal COMPONENT.position of three elements in m; plot others by name")
         return plot
 
+    @property
+    def limits(self) -> list[dict[str, Any]]:
+        """What the SSD's `Limits` say of the end: name, value, unit, least, most and verdict of each.
+
+        The verdict is ``kept``, ``not kept`` or ``not evaluated``, with the reason why not.
+        """
+        return limit_document(self.figures, self)
+
     def _repr_html_(self) -> str:
         end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
         words = f"{self.status}{end}, {self.time.size} rows, {len(self.signals)} signals"
         grids = [
             Grid((figure.title, "value", "limit", "unit", ""), limit_rows(figure, self))
             for figure in self.figures
-            if isinstance(figure, Limits) and self.time.size
+            if isinstance(figure, Limits)
         ]
         if not grids:
             rows = [(row["label"], row["note"], value_text(row["values"], row["unit"])) for row in key_values(self)]

@@ -15,10 +15,11 @@ from ..flight.results import Result
 from ..flight.simulation import Simulation
 from ..reports.own.asked.declared import Figure
 from ..reports.own.asked.reading import read_figures
+from ..reports.own.limit_table import limit_document
 from ..system.prepared import prepare_system
 from ..targets import PAGES, Results, check_file
 from .common.exit_status import ExitStatus, exit_status
-from .common.flight import check_flight, flight_lines, limit_document
+from .common.flight import check_flight, flight_lines
 from .common.in_flight import series, watch
 from .common.options import check_json, faults, json_number, system_options, write_json
 from .common.remarks import note_lines, say_stale

@@ -153,16 +153,19 @@ def test_the_sweep_is_in_the_manifest_and_in_the_results(folder, capsys):
 
 
 def test_a_trial_of_a_sweep_flies_again(folder, tmp_path, capsys):
-    """The page's command has the sweep; what it flies has the mass of its point."""
+    """By the page's command, which names the folder, and with the options of the batch; the mass is its point's."""
     page, replayed = tmp_path / "page.html", tmp_path / "replay.json"
     assert main(["merge", str(folder), "--report", str(page)]) == 0
-    assert f"--set {SWEEP}" in page.read_text()
+    assert f"perilune replay {folder} " in page.read_text()
     words = ["--compare", "guidance=analytic_guidance", "--trials", "20", "--set", SWEEP, "--replay", "7"]
     assert main(["batch", SYSTEM, "--campaign", "paper", *words, "--json", str(replayed)]) == 0
     row = perilune.merge(folder).table().to_pylist()[7]
     assert row[f"draw.{MASS}"] == 950
     again = json.loads(replayed.read_text())["variants"]["analytic_guidance"]["metrics"]
     assert again["position_error"] == row["metric.position_error"]
+    stored = perilune.replay(folder, 7)
+    assert stored.metrics["position_error"] == row["metric.position_error"]
+    assert stored.differences == ()
     capsys.readouterr()
 
 

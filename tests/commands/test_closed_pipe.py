@@ -56,7 +56,7 @@ def test_nothing_is_lost(verb, tmp_path):
 @pytest.mark.parametrize(
     ("words", "status", "unbuffered"),
     [
-        (f"run {SYSTEM} --require time<1", 1, False),
+        ("plan hover-transfer --dry-mass 590", 1, False),
         ("run --help", 0, False),
     ],
 )
@@ -83,18 +83,18 @@ def test_the_first_line_is_enough_for_a_reader(tmp_path):
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no device that is always full")
 def test_output_that_goes_to_a_full_disk_is_named_and_costs_no_file(tmp_path):
     with Path("/dev/full").open("w") as full:
-        done = perilune(f"run {SYSTEM} --output a.csv", tmp_path, full)
+        done = perilune("law diveev_2013 --output a.ssv", tmp_path, full)
     assert done.returncode == 2
     assert done.stderr.startswith("perilune: standard output: No space left on device; ")
     assert done.stderr.count("\n") == 1
-    assert (tmp_path / "a.csv").is_file()
+    assert (tmp_path / "a.ssv").is_file()
 
 
 def test_standard_error_that_nobody_reads(tmp_path):
     done = subprocess.run(
-        ["bash", "-c", f"{sys.executable} -m perilune run {SYSTEM} --require 'time < 1' --output a.csv 2>&- >&-"],
+        ["bash", "-c", f"{sys.executable} -m perilune plan hover-transfer --dry-mass 590 --json a.json 2>&- >&-"],
         cwd=tmp_path,
         check=False,
     )
     assert done.returncode == 1
-    assert (tmp_path / "a.csv").is_file()
+    assert (tmp_path / "a.json").is_file()

@@ -11,9 +11,10 @@ from ...batch.replay import ReplayedTrial, replay_trial
 from ...batch.tables import aligned, faults_line
 from ...flight.interruptible import StuckError
 from ...reports.own.asked.reading import read_figures
+from ...reports.own.limit_table import limit_document
 from ...targets import PAGES, Results, check_file
 from ..common.exit_status import ExitStatus, exit_status
-from ..common.flight import check_flight, flight_lines, limit_document
+from ..common.flight import check_flight, flight_lines
 from ..common.in_flight import watch
 from ..common.options import check_json, json_number, write_json
 from ..common.requirements import check_requirements, read_requirements

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from typing import Any
 
 from ...flight.results import Flight, Result
 from ...flight.statuses import status_lines
 from ...reports.own.asked.declared import Figure
 from ...reports.own.asked.stages import Limits
 from ...reports.own.asked.values import Undrawn
-from ...reports.own.limit_table import Verdict, evaluate, limit_facts, limit_lines
+from ...reports.own.limit_table import Verdict, evaluate, limit_lines
 from ...system.prepared import PreparedSystem
 
 REMEDIES = {
@@ -32,17 +31,6 @@ def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Re
         elif isinstance(figure, Undrawn) and figure.has_limits:
             lines += [f"{figure.title}: {Verdict.NOT_EVALUATED}, {note}" for note in figure.notes]
     return [*lines, *status_lines(prepared.network, result)]
-
-
-def limit_document(figures: Sequence[Figure], result: Result) -> list[dict[str, Any]]:
-    """The limits for other programs, a dictionary each."""
-    found = []
-    for figure in figures:
-        if isinstance(figure, Limits):
-            found += limit_facts(figure, result)
-        elif isinstance(figure, Undrawn) and figure.has_limits:
-            found += [{"name": figure.title, "verdict": Verdict.NOT_EVALUATED, "reason": note} for note in figure.notes]
-    return found
 
 
 def check_flight(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> bool:

@@ -12,19 +12,19 @@ from ..batch.replays import FAILURES, Replay
 
 
 def failures_to_replay(comparison: Comparison) -> list[Replay]:
-    """The first failures of each contender, and whether the reference succeeds in that trial."""
+    """The first failures of each contender, and how many of the others succeed in that trial."""
     found: list[Replay] = []
-    reference = comparison.contenders[comparison.reference].trials
-    succeeds = dict(zip(reference.trial.tolist(), reference.success.tolist(), strict=True))
     for label, contender in comparison.contenders.items():
-        folder, trials = contender.stored.folder, contender.trials
-        if not (folder / MANIFEST).is_file():
+        stored, trials = contender.stored, contender.trials
+        if not (stored.folder / MANIFEST).is_file():
             continue
+        others = [other.trials.success for name, other in comparison.contenders.items() if name != label]
         for row in np.flatnonzero(~trials.success)[:FAILURES]:
             trial = int(trials.trial[row])
             reasons = [Markup("{}").format(trials.statuses[row])]
-            if label != comparison.reference and succeeds[trial]:
-                reasons.append(Markup("{} succeeds").format(comparison.reference))
-            command = stored_replay(folder, contender.stored.variants, contender.name, trial)
+            if others:
+                count = sum(bool(success[row]) for success in others)
+                reasons.append(Markup("{} of {} others succeed").format(count, len(others)))
+            command = stored_replay(stored.folder, stored.variants, contender.name, trial)
             found.append(Replay(label, trial, reasons, command))
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import StrEnum
 from math import isfinite
 from typing import Any
@@ -11,7 +12,9 @@ from markupsafe import Markup
 from ...flight.results import Flight
 from ..kit.page import exact
 from ..kit.quantities import shown_unit
+from .asked.declared import Figure
 from .asked.stages import Limit, Limits
+from .asked.values import Undrawn
 
 
 class Verdict(StrEnum):
@@ -51,6 +54,17 @@ def limit_lines(limits: Limits, result: Flight) -> list[str]:
 def limit_rows(limits: Limits, result: Flight) -> list[tuple[Markup | str, ...]]:
     """A row for each limit: its name, the value at the end, the limit, their unit, the verdict."""
     return [_row(limit, verdict, result) for limit, verdict in evaluate(limits, result)]
+
+
+def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, Any]]:
+    """All limits that a system asks for, for other programs, a dictionary each."""
+    found: list[dict[str, Any]] = []
+    for figure in figures:
+        if isinstance(figure, Limits):
+            found += limit_facts(figure, result)
+        elif isinstance(figure, Undrawn) and figure.has_limits:
+            found += [{"name": figure.title, "verdict": Verdict.NOT_EVALUATED, "reason": note} for note in figure.notes]
+    return found
 
 
 def limit_facts(limits: Limits, result: Flight) -> list[dict[str, Any]]:

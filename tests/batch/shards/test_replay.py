@@ -165,6 +165,7 @@ def test_a_comparison_names_the_failures_of_each_variant(tmp_path, monkeypatch):
     names = ("analytic_guidance", "astar_guidance")
     expected = [f"perilune replay both {trial} --configuration {name}" for name in names for trial in (0, 1)]
     assert [row.command for row in rows] == [*expected, "perilune replay one 0", "perilune replay one 1"]
+    assert [str(row.reasons[1]) for row in rows] == ["0 of 2 others succeed"] * 6
     comparison.report("page.html")
     page = (tmp_path / "page.html").read_text()
     assert all(row.command in page for row in rows)

@@ -9,6 +9,7 @@ import shutil
 import numpy as np
 import pytest
 
+import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.errors import InputError
 from perilune.analysis.planning.stored_bound import MissingBound, StoredBound
@@ -347,6 +348,9 @@ def test_limits_of_an_fmu_that_is_put_in_and_lacks_them_are_not_evaluated(tiny_f
     assert main(["run", path]) == 0
     capsys.readouterr()
     use = ["--use", f"ramp={tiny / 'gain.fmu'}", "--open-inputs", "start"]
+    flight = perilune.simulate(path, use={"ramp": tiny / "gain.fmu"}, open_inputs="start")
+    assert [limit["verdict"] for limit in flight.limits] == ["not evaluated"]
+    assert [limit["verdict"] for limit in perilune.simulate(path).limits] == ["kept"]
     assert main(["run", path, *use]) == 1
     captured = capsys.readouterr()
     why = "signal ramp.count: no such signal, with gain as ramp"
