@@ -30,6 +30,8 @@ class Settings:
     """Values by (component, variable), and of system connectors by node name; ``origins``: where each comes from.
 
     ``left_out`` is where values come from that no mapping passes on, by what they would be applied to without one.
+    ``chosen`` are the values that options give, ``replaced`` what parameters of the system take the place of: the
+    parameter's name and the value before, by component and variable.
     """
 
     variables: dict[tuple[str, str], ParameterValue] = field(default_factory=dict)
@@ -38,6 +40,8 @@ class Settings:
     nodes: dict[str, float | str] = field(default_factory=dict)
     unmatched: list[str] = field(default_factory=list)
     left_out: dict[str, str] = field(default_factory=dict)
+    chosen: list[Assignment] = field(default_factory=list)
+    replaced: dict[tuple[str, str], tuple[str, ParameterValue]] = field(default_factory=dict)
 
 
 def collect_settings(
@@ -57,7 +61,8 @@ def collect_settings(
                     _apply(network, settings, path, f"{element.name}.", assignment, allow_unmatched)
         for assignment in _bound(network, settings, archive, system.bindings, path):
             _apply(network, settings, path, "", assignment, allow_unmatched)
-    for assignment in [part for given in assignments for part in _elements(network, given)]:
+    settings.chosen = [part for given in assignments for part in _elements(network, given)]
+    for assignment in settings.chosen:
         _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
     _pass_parameters(network, settings)
@@ -285,7 +290,10 @@ def _pass_parameters(network: Network, settings: Settings) -> None:
                 value = _passed(network, link, value)
             kind: Any = {"Real": float, "Boolean": bool, "String": str}.get(node.type_name or "", int)
             target = node.component or "", node.variable
+            before = settings.variables.get(target)
             settings.variables[target] = kind(value)
+            if before is not None and before != settings.variables[target]:
+                settings.replaced[target] = outermost, before
             settings.origins[target] = f"{outermost} of {settings.node_origins[outermost]}"
 
 

@@ -1,4 +1,4 @@
-"""What can be told of a system before it flies: an FMU that does not fit its slot, samples closer than the step."""
+"""Checks before a system flies: FMUs that do not fit their slots, shared parameters set apart, samples too close."""
 
 from __future__ import annotations
 
@@ -33,6 +33,22 @@ def _fitting(component: Component) -> Iterator[str]:
             variables = read_model_description(str(path), validate=False).modelVariables
             if wanted <= {(variable.name, variable.causality) for variable in variables}:
                 yield name
+
+
+def check_shared(network: Network, settings: Settings) -> None:
+    """Refuse a chosen value that a parameter of the system replaces by another one.
+
+    What several components must agree on is such a parameter, so that none of them can be set apart from the others.
+    Raises InputError.
+    """
+    last = {assignment.name: assignment for assignment in settings.chosen}
+    for (component, variable), (shared, value) in settings.replaced.items():
+        name = f"{component}.{variable}"
+        if name in last:
+            readers = {link.target.name for link in network.driver.values() if link.source.name == shared} | {name}
+            given = settings.variables[component, variable]
+            problem = f"{value} is not {given}, which {shared} of the system gives to {', '.join(sorted(readers))}"
+            raise InputError(last[name].file, last[name].where, problem, f"set {shared} instead: they must agree")
 
 
 def check_samples(network: Network, settings: Settings, step: float, periods: dict[str, int]) -> None:

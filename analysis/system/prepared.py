@@ -18,7 +18,7 @@ from ..ssp.parameter_sets import Assignment, read_parameter_file
 from ..ssp.reading import read_description
 from .alone import describe_alone
 from .assignments import Settings, collect_settings, single_value
-from .checks import check_samples, unfit
+from .checks import check_samples, check_shared, unfit
 from .drive import Drive, drive_inputs, driven_inputs
 from .fmu import Fmu, load_fmu
 from .in_flight.series import InputSeries
@@ -146,6 +146,7 @@ def _prepared(
     if series is not None:
         network.driven = driven_inputs(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     settings = collect_settings(network, archive, _assignments(archive, options, elsewhere), options)
+    check_shared(network, settings)
     for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
     algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]

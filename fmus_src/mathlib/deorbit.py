@@ -58,3 +58,32 @@ def deorbit_burn(
     speed = norm(velocity - sinking * up)
     distance = norm(from_centre(position, radius))
     return (speed - apocentre_speed(distance, pericentre, mu)) / acceleration
+
+
+def lowest_altitude(position: Vector3, velocity: Vector3, angle: float, radius: float, mu: float) -> float:
+    """Least altitude (m) of free flight from here over the next ``angle`` (rad) about the Moon's centre.
+
+    With the radial speed w and the angular momentum h, the distance r obeys 1/r(a) = A + B cos a - C sin a, where
+    A = mu/h^2, B = 1/r(0) - A, C = w/h; it is least at the pericentre where that lies ahead, else at one of both ends.
+    Without horizontal velocity the centre is where the fall leads. ``position`` must not be the centre.
+    Source: the conic in polar coordinates, such as Battin 1999, section 3.3.
+    """
+    centred = from_centre(position, radius)
+    distance = norm(centred)
+    up = centred / distance
+    momentum = norm(across(velocity, up)) * distance
+    if not momentum > 0.0:
+        return -radius
+    a = mu / (momentum * momentum)
+    b = 1.0 / distance - a
+    c = dot(velocity, up) / momentum
+    inverse = 1.0 / distance
+    end = a + b * math.cos(angle) - c * math.sin(angle)
+    if end > inverse:
+        inverse = end
+    pericentre = math.atan2(-c, b)
+    if pericentre < 0.0:
+        pericentre = pericentre + 2.0 * math.pi
+    if pericentre < angle:
+        inverse = a + math.sqrt(b * b + c * c)
+    return 1.0 / inverse - radius

@@ -58,9 +58,10 @@ class LandingSequencer(OrbitPhases, HoverPhases):
         """Whether the parameters make no landing."""
         times = self.hold_time + self.deorbit_patience + self.pointing_patience + self.handover_time_to_go
         times = times + self.braking_patience + self.solution_patience + self.hover_time + self.hover_patience
-        times = times + self.lookahead + self.descent_wait + self.settling_time
+        times = times + self.lookahead + self.descent_wait + self.settling_time + self.coast_patience + self.cycle
         lengths = self.braking_range + self.pericentre_altitude + self.lowest_coast + self.far_range + self.moon_radius
         lengths = lengths + self.settled_distance + self.second_reach + self.lowest_hover + self.cut_altitude
+        lengths = lengths + self.coast_clearance
         others = self.deorbit_throttle + self.pointing_tolerance + self.slow_speed + self.settled_speed
         others = others + self.reach_over_drop + self.reserve + self.dry_mass + self.gravitational_parameter
         moves = self.sampled_move_1.x + self.sampled_move_1.y + self.sampled_move_2.x + self.sampled_move_2.y

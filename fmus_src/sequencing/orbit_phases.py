@@ -3,7 +3,7 @@
 import math
 
 from ..block import Parameter, State
-from ..mathlib.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range
+from ..mathlib.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range, lowest_altitude
 from ..mathlib.gravity import altitude_of, from_centre
 from ..mathlib.vectors import dot, norm
 from .landing_sequence import BRAKING, BRAKING_FAILED, BRAKING_GUIDANCE, NEVER, OWN, ROUNDING, TIMEOUT, LandingSequence
@@ -29,7 +29,18 @@ class OrbitPhases(LandingSequence, interface=True):
     deorbit_throttle = Parameter(0.1, unit="1", minimum=1e-3, maximum=1.0, description="part of maximum_thrust")
     hold_time = Parameter(1.0, unit="s", minimum=0.0, description="before its end the deorbit's burn is held")
     deorbit_patience = Parameter(2.0, unit="1", minimum=1.0, description="longest burn over the planned one")
-    lowest_coast = Parameter(12e3, unit="m", description="altitude below which the coast is given up")
+    lowest_coast = Parameter(
+        12e3, unit="m", description="altitude below which the coast is given up where it would come to the ground"
+    )
+    coast_clearance = Parameter(
+        300.0,
+        unit="m",
+        minimum=0.0,
+        description="least altitude of the coast up to braking_range; below: to the ground",
+    )
+    coast_patience = Parameter(
+        20.0, unit="s", minimum=0.0, description="how long the estimate must say so: the first fixes settle meanwhile"
+    )
     pointing_tolerance = Parameter(
         2.0 * math.pi / 180.0, unit="rad", minimum=0.0, description="ignite with the axis so close to its command"
     )
@@ -42,6 +53,9 @@ class OrbitPhases(LandingSequence, interface=True):
     ignition_time = State(NEVER, frozen=True, unit="s", description="of the deorbit; -1: not yet")
     planned_burn = State(0.0, frozen=True, unit="s", description="of the deorbit, as it was at ignition")
     holding = State(False, description="the deorbit's burn is held")
+    falling_since = State(
+        NEVER, unit="s", description="the estimate has led to the ground before braking_range from then on; -1: no"
+    )
     unsolved_since = State(
         NEVER, unit="s", description="the braking guidance has had no solution from then on; -1: it has"
     )
@@ -99,12 +113,29 @@ class OrbitPhases(LandingSequence, interface=True):
         """Until the site is near."""
         self.face_back(t)
         before_site = self.sampled_position.z > -self.moon_radius
-        if before_site and ground_range(self.sampled_position, self.moon_radius) <= self.braking_range:
+        left = ground_range(self.sampled_position, self.moon_radius) - self.braking_range
+        if before_site and left <= 0.0:
             return OVER
-        if altitude_of(self.sampled_position, self.moon_radius) < self.lowest_coast:
+        if not self.is_falling(left / self.moon_radius):
+            self.falling_since = NEVER
+        elif self.falling_since < 0.0:
+            self.falling_since = t
+        if self.falling_since >= 0.0 and ahead - self.falling_since >= self.coast_patience - ROUNDING:
             self.note(TIMEOUT, ahead)
             return OVER
         return GOES_ON
+
+    def is_falling(self, angle: float) -> bool:
+        """Whether the coast is low and comes to the ground before its end, which is an ``angle`` (rad) ahead.
+
+        A low pericentre alone is no reason to brake from farther away, which takes more propellant than there is.
+        """
+        if altitude_of(self.sampled_position, self.moon_radius) >= self.lowest_coast:
+            return False
+        lowest = lowest_altitude(
+            self.sampled_position, self.sampled_velocity, angle, self.moon_radius, self.gravitational_parameter
+        )
+        return lowest < self.coast_clearance
 
     def begin_braking(self) -> None:
         """The braking guidance's command, without thrust until the axis is on it."""

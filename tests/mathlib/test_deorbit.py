@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
@@ -19,6 +19,7 @@ from perilune.fmus_src.mathlib.deorbit import (
     central_angle,
     deorbit_burn,
     ground_range,
+    lowest_altitude,
 )
 from perilune.fmus_src.mathlib.landing_site import above_site, redesignated, site_below, within_reach
 from perilune.fmus_src.mathlib.vectors import vector
@@ -89,9 +90,9 @@ def test_a_burn_of_that_length_comes_down_to_the_pericentre():
         push = -0.54 * horizontal / np.linalg.norm(horizontal) if t < burn else 0.0
         return np.concatenate([y[3:], -MU * centred / np.linalg.norm(centred) ** 3 + push])
 
-    settings = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-9}
-    braked = solve_ivp(slope, (0.0, burn - 1e-9), [*place, *speed], **settings).y[:, -1]
-    coast = solve_ivp(slope, (burn, 5000.0), braked, dense_output=True, **settings)
+    method = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-9}
+    braked = solve_ivp(slope, (0.0, burn - 1e-9), [*place, *speed], **method).y[:, -1]
+    coast = solve_ivp(slope, (burn, 5000.0), braked, dense_output=True, **method)
     lowest = min(np.linalg.norm(coast.sol(t)[:3] - CENTRE) for t in np.arange(3000.0, 4000.0, 1.0))
     assert lowest - RADIUS == pytest.approx(15e3, abs=100.0)
 
@@ -125,3 +126,29 @@ def test_a_move_never_exceeds_its_reach(x, y, reach):
     else:
         assert math.hypot(*allowed) == pytest.approx(reach, rel=1e-12)
         assert abs(allowed[0] * y - allowed[1] * x) <= 1e-9 * length * max(reach, 1.0)
+
+
+@settings(max_examples=40)
+@given(st.floats(5e3, 1.2e5), st.floats(-200.0, 200.0), st.floats(1200.0, 2000.0), st.floats(0.01, 3.0))
+def test_the_lowest_altitude_of_a_coast_is_that_of_the_motion(altitude, climbing, speed, angle):
+    """Free flight integrated by scipy until it has gone round by the angle."""
+    place, ahead = on_orbit(2.0, altitude)
+    up = (place - CENTRE) / np.linalg.norm(place - CENTRE)
+    momentum = (RADIUS + altitude) * speed
+
+    def slope(t, y):
+        return [y[1], momentum**2 / y[0] ** 3 - MU / y[0] ** 2, momentum / y[0] ** 2]
+
+    def arrived(t, y):
+        return y[2] - angle
+
+    arrived.terminal = True
+    begin = [RADIUS + altitude, climbing, 0.0]
+    coast = solve_ivp(slope, (0.0, 2e4), begin, "DOP853", events=arrived, rtol=1e-11, atol=1e-8, dense_output=True)
+    truth = coast.sol(np.linspace(0.0, coast.t[-1], 4001))[0].min() - RADIUS
+    velocity = speed * ahead + climbing * up
+    assert lowest_altitude(vector(*place), vector(*velocity), angle, RADIUS, MU) == pytest.approx(truth, abs=5.0)
+
+
+def test_straight_down_leads_to_the_centre():
+    assert lowest_altitude(vector(0.0, 0.0, 5e3), vector(0.0, 0.0, -20.0), 0.3, RADIUS, MU) == -RADIUS

@@ -13,6 +13,7 @@ import pytest
 from scipy import stats
 
 import perilune
+from perilune.analysis.cli import main
 from tests.support.lengths import LONG, either
 
 SYSTEM = "landing_mission"
@@ -126,6 +127,37 @@ def test_noisy_flights_touch_down_within_all_limits(guidance):
         assert low < np.sum(found.metrics[f"nees_{phase}"]) < high, phase
 
 
+def test_a_start_that_is_badly_known_lands_too():
+    """500 m and 1 m/s bring the pericentre from 4 to 26 km: a low one is flown to the braking range all the same."""
+    trials = either(60, 9)
+    batch = perilune.batch(
+        SYSTEM,
+        "contacts",
+        parameters=["noisy.ssv"],
+        compare={"guidance": ["analytic_exact_guidance"]},
+        trials=trials,
+        set={"navigation.first_position_sigma": 500, "navigation.first_velocity_sigma": 1},
+    )
+    (flown,) = batch.trials.values()
+    assert flown.success.sum() >= math.floor(59 / 60 * trials)
+
+
+@pytest.mark.parametrize("name", ["hover.sample_period", "inertial.sample_period", "sequencer.cycle"])
+def test_the_flight_software_has_one_sample_period(name, capfd):
+    """None of those who share it can be set apart: refused before the flight, with who else has it."""
+    assert main(["run", SYSTEM, "--parameters", "start_9.ssv", "--set", f"{name}=0.2"]) == 2
+    said = capfd.readouterr().err
+    for word in (
+        "--set",
+        f"{name}: 0.2 is not 0.1",
+        "hover.sample_period, inertial.sample_period",
+        "set sample_period",
+    ):
+        assert word in said
+    assert len(said.splitlines()) == 1
+    assert perilune.simulate(SYSTEM, parameters=["start_9.ssv"], set={name: 0.1}).status == "finished"
+
+
 @pytest.mark.parametrize("phase", range(1, 10))
 def test_a_flight_may_begin_with_any_phase(phase):
     first = [f"start_{phase}.ssv", "noisy.ssv"]
@@ -189,7 +221,7 @@ def test_the_mass_of_a_phase_is_of_its_start(ideal):
 
 STATUSES = {
     1: {"parameters": ["start_5.ssv"], "set": {"sequencer.redesignation_1[1]": -3200}},
-    2: {"parameters": ["start_4.ssv"]},
+    2: {"parameters": ["start_5.ssv"], "set": {"plant.initial_position[3]": 50}},
     3: {"parameters": ["start_6.ssv"], "set": {"sequencer.settled_speed": 0}},
     4: {
         "parameters": ["start_3.ssv"],

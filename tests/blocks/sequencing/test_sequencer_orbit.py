@@ -76,8 +76,39 @@ def test_the_coast_ends_at_the_range(angle, comes):
     assert not block.engine_on
 
 
-def test_a_coast_that_comes_too_low_is_ended():
-    flown = Flown(2, **at(1.0, altitude=12.1e3))
-    assert flown.step().phase == 2
-    assert flown.step(**at(1.0, altitude=11.9e3)).phase == 3
+def ellipse(pericentre, angle):
+    """Estimate at a central angle on the ellipse from 100 km down to a pericentre altitude, 285 km before the site."""
+    low, high = RADIUS + pericentre, ORBIT
+    eccentricity, parameter = (high - low) / (high + low), 2.0 * high * low / (high + low)
+    anomaly = 285e3 / RADIUS - angle
+    radius = parameter / (1.0 + eccentricity * math.cos(anomaly))
+    across = math.sqrt(MU / parameter) * (1.0 + eccentricity * math.cos(anomaly))
+    along = math.sqrt(MU / parameter) * eccentricity * math.sin(anomaly)
+    estimate = at(angle, altitude=radius - RADIUS, speed=across)
+    x, y, z = estimate["estimated_velocity"]
+    estimate["estimated_velocity"] = [x + along * math.sin(angle), y, z + along * math.cos(angle)]
+    return estimate, radius - RADIUS
+
+
+@pytest.mark.parametrize(("pericentre", "ends"), [(11e3, False), (400.0, False), (200.0, True), (-5e3, True)])
+def test_a_low_coast_is_ended_only_where_it_comes_to_the_ground(pericentre, ends):
+    """From 30 deg before the pericentre: 300 m are to be left over the ground, and the estimate says so for 20 s."""
+    flown = Flown(2, **ellipse(pericentre, 285e3 / RADIUS + math.radians(30.0))[0])
+    above = 0
+    for n in range(400):
+        estimate, altitude = ellipse(pericentre, 285e3 / RADIUS + math.radians(30.0 - 0.02 * n))
+        flown.step(**estimate)
+        above += altitude >= 12e3
+        assert flown.block.phase == (3 if ends and n + 1 >= above + 200 else 2), (n, altitude)
+    assert flown.block.status == (3 if ends else 0)
+
+
+def test_first_fixes_may_say_that_the_coast_falls():
+    """19 s of an estimate that leads to the ground, then one that does not: the coast goes on."""
+    low, high = (ellipse(pericentre, 285e3 / RADIUS + 0.3)[0] for pericentre in (-5e3, 8e3))
+    flown = Flown(2, **low)
+    assert flown.step(190).phase == 2
+    assert flown.step(1, **high).phase == 2
+    assert flown.step(190, **low).phase == 2
+    assert flown.step(11).phase == 3
     assert flown.block.status == 3

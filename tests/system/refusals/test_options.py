@@ -9,7 +9,7 @@ import re
 import pytest
 
 from perilune.analysis.cli import main
-from tests.support.builders import document, inline, retouched, system
+from tests.support.builders import component, connection, document, inline, retouched, system
 from tests.support.refused import PLAIN, RAMP, ssp
 
 
@@ -72,3 +72,13 @@ def test_step_that_no_one_proposes(tmp_path, tiny, refused):
 def test_step_annotation_that_is_no_number(tmp_path, tiny, refused):
     text = document(PLAIN).replace('size="0.25"', 'size="often"')
     refused(ssp(tmp_path, tiny, files={"SystemStructure__ssd": text}), "CommunicationStep", "positive number")
+
+
+def test_a_parameter_that_the_system_shares_cannot_be_set_apart(tmp_path, tiny, refused):
+    """The system's value would replace it, so what was asked for would not fly."""
+    inside = "input u Real m; output y Real m; parameter factor Real"
+    parts = component("gain", "gain", inside), component("second", "gain", inside)
+    wires = connection("shared", "gain.factor") + connection("shared", "second.factor")
+    root = system(*parts, connections=wires, declared="parameter shared Real", bindings=inline("shared=Real:2"))
+    words = ["--set: second.factor", "3.0 is not 2.0", "gain.factor, second.factor", "set shared instead"]
+    refused(ssp(tmp_path, tiny, root), *words, options=["--set", "second.factor=3", "--open-inputs", "start"])
