@@ -87,7 +87,9 @@ def _draw_gain_margins(loop: LoopReport, found: Classical, axes: Axes) -> None:
         return
     axes.plot([gain.frequency] * 2, [0.0, -decibels(gain.value)], **MARGIN)
     if limit is not None:
-        _draw_limit(axes, gain.frequency, -limit if gain.value >= 1.0 else limit, f"{number(limit)} dB", right=True)
+        _draw_limit(
+            axes, gain.frequency, -limit if gain.value >= 1.0 else limit, f"{number(limit)} dB", right=gain.value >= 1.0
+        )
 
 
 def _draw_phase_margins(loop: LoopReport, found: Classical, degrees: np.ndarray, axes: Axes) -> None:
@@ -116,7 +118,7 @@ def _within(axes: Axes, frequency: float) -> float:
 def _draw_limit(axes: Axes, frequency: float, height: float, words: str, *, right: bool) -> None:
     """A margin that is required, as a short dashed line at its crossover, with its size on the ``right`` or the left.
 
-    A response falls: it passes the line of the gain on the left, that of the phase on the right.
+    A response falls: where it lies below the line it has passed it on the left, where above it does so on the right.
     """
     low, high = (math.log10(end) for end in axes.get_xlim())
     frequency = _within(axes, frequency)
