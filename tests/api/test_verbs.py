@@ -25,7 +25,7 @@ FUNCTIONS = {
     "new": "new_block", "benchmark": "benchmark", "export": "export",
 }  # fmt: skip
 # Options that are something else in Python: methods of the result, its values, or another name.
-PRINTED = {"help", "json", "report", "require", "replay", "output", "prepare"}
+PRINTED = {"help", "json", "report", "data", "require", "replay", "output", "prepare"}
 APART = {"batch": {"sensitivity", "hold", "noise_trial"}}  # a function of its own
 
 NAMES = {"loop": "loops", "fault": "faults", "platform": "platforms"}

@@ -199,7 +199,7 @@ def test_a_time_behind_the_end_of_a_point_is_refused(packed, capsys):
         (["--loop", "lop"], "--loop: lop: the SSD names no such loop; "),
         (["--loop", "plant.q"], "no connector plant.q"),
         (["--at", "3,-1"], "--at: -1: not a time of the flight; give seconds from 0 on"),
-        (["--data", "page.html/x"], "--data: "),
+        (["--data", "/dev/null/x"], "--data: /dev/null/x: /dev/null is a file; give another folder"),
         (["--trial", "0"], "--trial: 0: there is no campaign"),
         (["--trials", "3"], "--trials: 3: there is no campaign"),
         (["--seed", "3"], "--seed: 3: there is no campaign"),

@@ -12,7 +12,7 @@ from ..kit.panels import Panel
 from .shared import Shared
 
 FEW = 3  # loops with figures of their own that are printed in full
-MOST = 54  # figures of the others
+MOST = 40  # figures of the others
 TIERS = (  # the first are seen at first sight, sensitivities stand beside the tables, the others are a row
     ("Bode", "Nichols"),
     ("Sensitivities",),

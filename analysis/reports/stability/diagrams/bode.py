@@ -81,13 +81,15 @@ def _draw_gain_margins(loop: LoopReport, found: Classical, axes: Axes) -> None:
     """Every crossing of -180 deg, a bar to the nearest, and the gain at which its margin would be the one required."""
     gain, limit = found.gain_margin, limits_of(loop).gain
     for crossing in found.gain:
-        style = {**GAIN_MARK, **(DECISIVE if crossing is gain else OTHER)}
-        axes.plot(crossing.frequency, -decibels(crossing.value), **style)
+        style = {**GAIN_MARK, **({**DECISIVE, "clip_on": False} if crossing is gain else OTHER)}
+        axes.plot(_within(axes, crossing.frequency), -decibels(crossing.value), **style)
     if gain is None:
         return
     axes.plot([gain.frequency] * 2, [0.0, -decibels(gain.value)], **MARGIN)
     if limit is not None:
-        _draw_limit(axes, gain.frequency, -limit if gain.value >= 1.0 else limit, f"{number(limit)} dB", right=True)
+        _draw_limit(
+            axes, gain.frequency, -limit if gain.value >= 1.0 else limit, f"{number(limit)} dB", right=gain.value >= 1.0
+        )
 
 
 def _draw_phase_margins(loop: LoopReport, found: Classical, degrees: np.ndarray, axes: Axes) -> None:
@@ -107,13 +109,19 @@ def _draw_phase_margins(loop: LoopReport, found: Classical, degrees: np.ndarray,
         )
 
 
+def _within(axes: Axes, frequency: float) -> float:
+    """A frequency that the axis has: a crossing lies at 0 where L is real at its start."""
+    low, high = axes.get_xlim()
+    return min(max(frequency, low), high)
+
+
 def _draw_limit(axes: Axes, frequency: float, height: float, words: str, *, right: bool) -> None:
     """A margin that is required, as a short dashed line at its crossover, with its size on the ``right`` or the left.
 
-    A response falls: it passes the line of the gain on the left, that of the phase on the right.
+    A response falls: where it lies below the line it has passed it on the left, where above it does so on the right.
     """
     low, high = (math.log10(end) for end in axes.get_xlim())
-    frequency = max(frequency, 10.0**low)  # 0 where L is real at its start
+    frequency = _within(axes, frequency)
     reach = 10.0 ** (REACH * (high - low))
     ends = max(frequency / reach, 10.0**low), min(frequency * reach, 10.0**high)
     axes.plot(ends, [height] * 2, **{**LIMIT, "linewidth": 1.4})

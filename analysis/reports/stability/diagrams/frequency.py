@@ -26,7 +26,7 @@ MEASURED: Any = {
     "markeredgewidth": 0.7, "zorder": 3,
 }  # fmt: skip
 MARGIN: Any = {"color": VERMILION, "linewidth": 1.8, "zorder": 4, "solid_capstyle": "butt"}
-DECISIVE: Any = {"markersize": 6.0, "clip_on": False}  # the nearest crossing; others are hollow
+DECISIVE: Any = {"markersize": 6.0}  # the nearest crossing; others are hollow
 OTHER: Any = {"markerfacecolor": "white"}
 GAIN_MARK: Any = {"linestyle": "", "marker": "D", "markersize": 4.5, "color": VERMILION, "zorder": 5}
 PHASE_MARK: Any = {"linestyle": "", "marker": "s", "markersize": 4.5, "color": VERMILION, "zorder": 5}
