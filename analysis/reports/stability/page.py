@@ -35,7 +35,7 @@ from .tables import (
     trim_table,
     verdict_table,
 )
-from .words import UNSTABLE_WORD, gain_margin, numeral, phase_margin, size, verdict
+from .words import UNSTABLE_WORD, gain_margin, left_out, numeral, phase_margin, size, verdict
 
 FEW = 2  # loops; of more, only those that fail are unfolded at first
 
@@ -50,6 +50,7 @@ class Card:
     verdict: Markup
     period: Markup
     about: list[tuple[str, str]]
+    left_out: list[Markup]
     summary: Table
     figures: list[Panel]
     elsewhere: list[tuple[Markup, list[str]]]
@@ -128,6 +129,7 @@ def _card(report: StabilityReport, summary: Table, index: int, shared: Shared, p
         verdict=verdict(loop.verdict),
         period=numeral(loop.sample_period),
         about=about(loop),
+        left_out=[left_out(part, reason, loop) for part, reason in loop.not_applicable.items()],
         summary=Table(summary.head[2:-1], summary.kinds[2:-1], [summary.rows[index][2:-1]]),
         figures=shared.panels[""],
         elsewhere=[(link(report, other), labels) for other, labels in shared.elsewhere.items()],
