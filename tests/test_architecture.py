@@ -21,6 +21,7 @@ PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 OURS = {"perilune", "analysis", "fmus_src"}
 EVERYWHERE = {
     "analysis/errors",
+    "analysis/percent",
     "analysis/atomic",
     "analysis/process_end",
     "analysis/progress",

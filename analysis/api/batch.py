@@ -20,10 +20,10 @@ from ..campaign.plan import read_plan
 from ..campaign.sweeps import part_sweeps
 from ..errors import InputError, suggestion
 from ..flight.results import require_pandas
+from ..percent import short_percent
 from ..reports.batch.batch_report import write_batch_report
 from ..reports.batch.distributions import sort_metrics
 from ..reports.batch.plots import metric_plot
-from ..reports.kit.quantities import number
 from ..sensitivity.ranks import rank_correlations
 from ..ssp.parameter_sets import SetValue
 from ..system.faults import Fault, faults_of
@@ -41,7 +41,7 @@ class BatchResult(results.BatchResult):
     """All trials of all variants; ``summary`` has rates and statistics by variant, ``trials`` the numbers behind."""
 
     def __repr__(self) -> str:
-        rates = ", ".join(f"{name} {100 * found['success_rate']:.4g} %" for name, found in self.summary.items())
+        rates = ", ".join(f"{name} {short_percent(found['success_rate'])} %" for name, found in self.summary.items())
         return f"{type(self).__name__}({self.provenance['system']}, {self.plan.campaign.trials} trials: {rates})"
 
     def to_pandas(self) -> Any:
@@ -92,8 +92,8 @@ class BatchResult(results.BatchResult):
             (
                 *who_cells(row, group),
                 str(row.entry["trials"]),
-                number(100.0 * row.entry["success_rate"]),
-                " to ".join(number(100.0 * end) for end in row.entry["success_interval"]),
+                short_percent(row.entry["success_rate"]),
+                " to ".join(short_percent(end) for end in row.entry["success_interval"]),
                 ", ".join(f"{count} {status}" for status, count in row.entry["statuses"].items()),
             )
             for row in rows

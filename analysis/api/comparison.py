@@ -16,9 +16,9 @@ from ..compare import comparison
 from ..compare.side_by_side import compare as side_by_side
 from ..errors import InputError, suggestion
 from ..flight.results import require_pandas
+from ..percent import short_percent
 from ..reports.compare.page import write_comparison_page
 from ..reports.compare.plots import metric_plot, varying_metrics
-from ..reports.kit.quantities import number
 from .notebook import Grid, metric_grid, notebook_view
 from .options import FilePath, path_list
 
@@ -99,5 +99,5 @@ def compare(*results: FilePath | Sequence[FilePath], reference: str | None = Non
 
 
 def _percent(rate: dict[str, Any]) -> str:
-    low, high = (100.0 * end for end in rate["interval"])
-    return f"{number(100.0 * rate['rate'])} ({number(low)} to {number(high)})"
+    low, high = map(short_percent, rate["interval"])
+    return f"{short_percent(rate['rate'])} ({low} to {high})"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from ..percent import percent
 from .statistics import STATISTICS
 from .summary import CONFIDENCE, SummaryRow, summary_rows
 
@@ -51,7 +52,7 @@ def requirement_lines(summary: Mapping[str, Any]) -> list[str]:
     head = ["requirement", "variant", "flights", "failures", "risk %", "verdict", "more for 0, 1, 2 failures"]
     cells, bounds = [head], []
     for variant, name, found in requirement_rows(summary):
-        risk = f"{100 * found['consumer_risk']:.2f}"
+        risk = percent(found["consumer_risk"])
         more = ", ".join("-" if number is None else str(number) for number in found["flights_to_decide"].values())
         text, flights = f"{name}: {found['text']}", str(found["flights"])
         cells.append([text, variant, flights, str(found["failures"]), risk, found["verdict"], more])
@@ -92,8 +93,8 @@ def summary_text(summary: Mapping[str, Any], group: str | None = None) -> str:
     for row in rows:
         low, high = row.entry["success_interval"]
         statuses = ", ".join(f"{count} {status}" for status, count in row.entry["statuses"].items())
-        rate = f"{100 * row.entry['success_rate']:.2f}"
-        interval = f"{100 * low:.2f} to {100 * high:.2f}"
+        rate = percent(row.entry["success_rate"])
+        interval = f"{percent(low)} to {percent(high)}"
         rates.append([*who_cells(row, group), str(row.entry["trials"]), rate, interval, statuses])
     metrics = dict.fromkeys(metric for variant in summary.values() for metric in variant["metrics"])
     found = metric_lines(rows, metrics, group)

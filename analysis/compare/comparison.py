@@ -17,6 +17,7 @@ from ..batch.tables import aligned, faults_line, metric_lines, who_cells, who_he
 from ..batch.trials import Trials
 from ..campaign.campaign import Metric
 from ..campaign.groups import Group
+from ..percent import percent
 from .paired import PairedRates, PairedValues, paired_rates, paired_values
 
 SUCCESS = "success"
@@ -224,7 +225,7 @@ def _head(name: str) -> str:
 
 def _percent(rate: Mapping[str, Any]) -> str:
     low, high = rate["interval"]
-    return f"{100 * rate['rate']:.2f} ({100 * low:.2f} to {100 * high:.2f})"
+    return f"{percent(rate['rate'])} ({percent(low)} to {percent(high)})"
 
 
 def name_of(rate: Metric | None) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..percent import short_percent
 from ..system.names import parted
 from ..system.network import Network
 from ..system.status_words import STATUS, status_meaning
@@ -29,4 +30,4 @@ def status_lines(network: Network, flight: Flight) -> list[str]:
 
 
 def _percent(share: float) -> str:
-    return "all" if share == 1.0 else f"{100 * share:.2g} %"
+    return "all" if share == 1.0 else f"{short_percent(share)} %"

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ...batch.results import BatchResult
+from ...percent import percent
 from ..kit.panels import Widths, both_widths, is_slim
 from ..kit.style import INK, look, plain_ticks
 
@@ -36,7 +37,13 @@ def rates_figure(result: BatchResult, published: Mapping[str, float] | None = No
         for index, (name, (low, high)) in enumerate(zip(names, intervals, strict=True)):
             rate = 100.0 * result.summary[name]["success_rate"]
             _draw_rate(axes, index, rate, low, high)
-            _write_rate(axes, index, name, f"{rate:.2f} % ({low:.2f} to {high:.2f})", slim)
+            _write_rate(
+                axes,
+                index,
+                name,
+                f"{percent(rate / 100.0)} % ({percent(low / 100.0)} to {percent(high / 100.0)})",
+                slim,
+            )
             if published is not None and name in published:
                 axes.plot(100.0 * published[name], index, **RING)
         axes.set_yticks(range(len(names)), [""] * len(names) if slim else names)

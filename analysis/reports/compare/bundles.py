@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 
 from ...compare.comparison import Contender
 from ..kit.panels import Panel, far, panel
-from ..kit.style import FAILED, FAINT, INK, Look, plain_ticks
+from ..kit.round_body import radius_of, track_angles
+from ..kit.style import FAILED, FAINT, GRID, INK, Look, plain_ticks
 from .recorded import Flight, find_vector, kept_names, variable_of
 from .targets import target_of
 
@@ -22,8 +23,8 @@ ROOM = 0.12  # of the successful flights' extent, around them; failed flights ma
 
 @dataclass(frozen=True)
 class Path:
-    """A flight in space: ``along`` (m from the target along the line from the start to it, horizontal,
-    negative before it), ``height`` (m), and ``plan`` (x and y by rows, m)."""
+    """A flight in space: ``along`` (m from the target along the ground or, where that is not known to be round, along
+    the horizontal line from the start to it, negative before it), ``height`` (m), and ``plan`` (x and y by rows, m)."""
 
     success: bool
     along: np.ndarray
@@ -33,11 +34,20 @@ class Path:
 
 @dataclass(frozen=True)
 class Bundle:
-    """The paths of one contender, the horizontal place of its target, and what its height is called."""
+    """The paths of one contender, the horizontal place of its target, and what its height is called.
+
+    ``radius`` (m) is that of the body over whose ground downrange goes; None where no altitude shows that it is round.
+    """
 
     paths: list[Path]
     target: np.ndarray
     height: str
+    radius: float | None
+
+    @property
+    def over_ground(self) -> bool:
+        """Whether the height is one over the ground."""
+        return self.height.rpartition(".")[2] == "altitude"
 
 
 def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
@@ -51,14 +61,16 @@ def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
     height = next((name for name in altitudes if contender.stored.parted(name)[0] == owner), position[2])
     target = target_of(contender, "position")
     row = {int(trial): index for index, trial in enumerate(contender.trials.trial)}
-    paths = []
+    paths, radius = [], None
     for flight in _spread([flight for flight in flights if {*position, height} <= set(flight.signals)]):
         index = row[flight.trial]
-        *plan, heights = _to_the_end(contender, flight, (*position[:2], height), index)
+        *places, heights = _to_the_end(contender, flight, (*position, height), index)
         if heights.size > 1:
-            along = _along(np.stack(plan), target.values[index, :2])
-            paths.append(Path(flight.success, along, heights, np.stack(plan)))
-    return Bundle(paths, target.values[0, :2], height) if paths else None
+            path, aim = np.stack(places), target.values[index]
+            radius = radius or (radius_of(path, heights) if height != position[2] else None)
+            along = _along(path[:2], aim[:2]) if radius is None else radius * track_angles(path, radius, aim)[0]
+            paths.append(Path(flight.success, along, heights, path[:2]))
+    return Bundle(paths, target.values[0, :2], height, radius) if paths else None
 
 
 def _spread(flights: Sequence[Flight]) -> list[Flight]:
@@ -83,10 +95,11 @@ def _along(plan: np.ndarray, target: np.ndarray) -> np.ndarray:
 
 
 def side_panels(bundles: Mapping[str, Bundle], looks: Mapping[str, Look]) -> list[Panel]:
-    """Height over downrange distance, one scale in all panels; heights are stretched."""
+    """Height over downrange distance, one scale in all panels, with the surface below altitudes; not to scale."""
     framed = _framed(bundles)
+    ground = all(bundle.over_ground for bundle in bundles.values())
     along = np.concatenate([path.along for path in framed] + [np.zeros(1)])
-    height = np.concatenate([path.height for path in framed])
+    height = np.concatenate([path.height for path in framed] + ([np.zeros(1)] if ground else []))
     x_scale, x_unit = far(along)
     y_scale, y_unit = far(height)
     panels = []
@@ -96,6 +109,11 @@ def side_panels(bundles: Mapping[str, Bundle], looks: Mapping[str, Look]) -> lis
             for path in bundle.paths:
                 _line(axes, x_scale * path.along, y_scale * path.height, colour, path.success)
             axes.axvline(0.0, color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
+            if ground:
+                axes.axhspan(
+                    -ROOM * y_scale * float(np.nanmax(height)), 0.0, facecolor=GRID, edgecolor="none", zorder=0.8
+                )
+                axes.axhline(0.0, color=INK, linewidth=0.8, zorder=0.9)
             axes.set_xlim(*_limits(x_scale * along))
             axes.set_ylim(*_limits(y_scale * height))
             axes.set_xlabel(f"downrange from the target, {x_unit}")

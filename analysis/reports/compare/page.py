@@ -93,6 +93,8 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         metric_pairs_all=metric_pairs(comparison, paired, successful=False),
         side=side_panels(bundles, looks) if bundles else [],
         plan=plan_panels(bundles, looks) if bundles else [],
+        radius=next((bundle.radius for bundle in bundles.values() if bundle.radius is not None), None),
+        over_ground=all(bundle.over_ground for bundle in bundles.values()),
         flights={label: len(found) for label, found in flights.items()},
         most_drawn=DRAWN,
         ends=ends,

@@ -9,6 +9,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from ...atomic import write_atomically
+from ...percent import percent
 from .quantities import in_shown_unit, number, shown_unit
 
 FOLDER = Path(__file__).parent
@@ -41,7 +42,13 @@ def render_page(template: Path, **content: Any) -> str:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.filters |= {"exact": exact, "unit": shown_unit, "number": number, "breakable": breakable}
+    environment.filters |= {
+        "exact": exact,
+        "unit": shown_unit,
+        "number": number,
+        "breakable": breakable,
+        "percent": percent,
+    }
     style = Markup((FOLDER / "page.css").read_text(encoding="utf-8"))
     return environment.get_template(template.name).render(style=style, **content)
 

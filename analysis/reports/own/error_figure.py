@@ -8,8 +8,9 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 
 from ...flight.results import Result
+from ...percent import short_percent
 from ..kit.panels import Panel
-from ..kit.quantities import number, shown_unit
+from ..kit.quantities import shown_unit
 from ..kit.style import BLUE, FAINT, ORANGE
 from .asked.histories import Error
 from .section import (
@@ -107,7 +108,7 @@ def _normal(times: float) -> float:
 
 
 def _percent(share: float) -> Markup:
-    return Markup('<data value="{}">{}</data> %').format(repr(share), number(100.0 * share, 3))
+    return Markup('<data value="{}">{}</data> %').format(repr(share), short_percent(share, 1))
 
 
 def _reading(error: Error, sigma: np.ndarray) -> list[Markup]:

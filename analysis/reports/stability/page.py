@@ -37,7 +37,7 @@ from .tables import (
     trim_table,
     verdict_table,
 )
-from .words import UNSTABLE_WORD, gain_margin, numeral, phase_margin, size, verdict
+from .words import UNSTABLE_WORD, gain_margin, left_out, numeral, phase_margin, size, verdict
 
 SEEN = ("Bode", "Nichols")  # labels of the figures that are seen at first sight
 SIGHT = "sight"  # key of the figures that are seen at first sight
@@ -52,6 +52,7 @@ class Card:
     verdict: Markup
     period: Markup
     about: list[tuple[str, str]]
+    left_out: list[Markup]
     summary: Table
     sight: list[Panel]
     seen_elsewhere: list[tuple[Markup, list[str]]]
@@ -133,6 +134,7 @@ def _card(report: StabilityReport, summary: Table, index: int, shared: Shared, p
         verdict=verdict(loop.verdict),
         period=numeral(loop.sample_period),
         about=about(loop),
+        left_out=[left_out(part, reason, loop) for part, reason in loop.not_applicable.items()],
         summary=Table(summary.head[2:-1], summary.kinds[2:-1], [summary.rows[index][2:-1]]),
         sight=shared.panels[SIGHT],
         seen_elsewhere=_elsewhere(report, shared, seen=True),

@@ -14,7 +14,7 @@ from ...stability.results.nonlinear import Nonlinearity
 from ...stability.results.routes import Mode
 from ...stability.results.varied import LEVELS, Dispersion
 from ..kit.panels import Panel
-from ..kit.quantities import MINUS, shown_unit
+from ..kit.quantities import MINUS, NONE, shown_unit
 from .tables import Cell, Table
 from .words import (
     NO_CROSSING,
@@ -24,6 +24,7 @@ from .words import (
     gain_margin,
     in_decibels,
     in_degrees,
+    mode_numbers,
     numeral,
     per_cent,
     phase_margin,
@@ -109,7 +110,12 @@ def classical(loop: LoopReport) -> Part:
     unstable = numeral(loop.unstable_open) if loop.unstable_open is not None else "not known"
     rows.append(("unstable poles of the open loop", unstable, "", ""))
     rows.append(("closed loop", closed_loop(loop.stable), "", ""))
-    note = "The closed loop is unstable: its crossings are not margins." if loop.margins.unstable else ""
+    note = f"Nyquist's criterion: N encirclements of {MINUS}1 and P unstable poles of the open loop leave P {MINUS} N "
+    note += (
+        "unstable closed-loop poles, and stable is P = N. Integrators (z = 1) are passed on the outside: not among P."
+    )
+    if loop.margins.unstable:
+        note = f"The closed loop is unstable: its crossings are not margins. {note}"
     return Part("classical", "Classical", Table(("quantity", "value", "unit", "at rad/s"), "tntn", rows), note)
 
 
@@ -146,9 +152,7 @@ def modes(loop: LoopReport) -> Part:
         (
             complex_number(mode.z),
             numeral(abs(mode.z)),
-            complex_number(mode.s),
-            numeral(mode.damping, digits=3),
-            numeral(mode.frequency),
+            *mode_numbers(mode.z, mode.s, mode.damping, mode.frequency),
             mode.kind,
             numeral(mode.controllability, digits=2),
             numeral(mode.observability, digits=2),
@@ -156,9 +160,13 @@ def modes(loop: LoopReport) -> Part:
         for mode in upper(loop.modes)
     ]
     head = ("z", "|z|", "s, rad/s", "damping", "frequency, rad/s", "kind", "controllability", "observability")
-    return Part(
-        "modes", "Modes", Table(head, "nnnnntnn", rows, "modes"), "A pair of conjugate modes is one line, with ±."
-    )
+    note = "A pair of conjugate modes is one line, with ±."
+    if any(mode.z.imag == 0.0 and mode.z.real < 0.0 for mode in loop.modes):
+        note += (
+            " A real z below 0 is one pole, no pair: it changes its sign with every sample and shrinks to |z| in each, "
+            f"so s = ln(z)/T, damping and frequency are left out ({NONE})."
+        )
+    return Part("modes", "Modes", Table(head, "nnnnntnn", rows, "modes"), note)
 
 
 def structure(loop: LoopReport) -> Part:

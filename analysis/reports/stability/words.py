@@ -15,6 +15,7 @@ from markupsafe import Markup
 
 from ...loops.decibels import decibel_size, decibels, degree_size
 from ...loops.margin_values import UNSTABLE, Margins
+from ...stability.results.loop import LoopReport
 from ...stability.results.requirement import Requirement, Verdict
 from ..kit.page import exact
 from ..kit.quantities import MINUS, NONE, number, shown_unit
@@ -68,6 +69,29 @@ def complex_number(value: complex, digits: int = 4) -> Markup:
     if value.imag:
         shown += f" {'±' if value.imag > 0.0 else MINUS} {number(abs(value.imag), digits)} j"
     return Markup('<data value="{}">{}</data>').format(repr(value).strip("()"), shown)
+
+
+def left_out(part: str, reason: str, loop: LoopReport) -> Markup:
+    """Why a part of a loop's study could not be had; without a count of encirclements, what judges stability."""
+    if part != "encirclements" or loop.classical.encirclements is not None:
+        return Markup("{} is not applicable: {}").format(part, reason)
+    words = Markup("Encirclements of {}1 are not counted: {}.").format(MINUS, reason)
+    if loop.stable is None:
+        return words
+    return words + Markup(
+        " The verdict does not rest on the count: the closed loop is {} by its poles, largest |z| {}."
+    ).format(closed_loop(loop.stable), numeral(loop.margins.largest, digits=6))
+
+
+def mode_numbers(z: complex, s: complex, damping: float, frequency: float) -> tuple[Markup, Markup, Markup]:
+    """s (rad/s), damping and frequency (rad/s) of a closed-loop pole z; dashes where they mean nothing.
+
+    ln(z)/T of a real z below 0 has an imaginary part, that of half the sampling rate, and no conjugate: there is one
+    pole, which changes its sign with every sample. At z = 0 there is no logarithm.
+    """
+    if z.imag == 0.0 and z.real <= 0.0:
+        return numeral(None), numeral(None), numeral(None)
+    return complex_number(s), numeral(damping, digits=3), numeral(frequency)
 
 
 def state(margins: Margins) -> Markup | None:

@@ -31,7 +31,7 @@ from perilune.analysis.reports.compare.recorded import (
 )
 from perilune.analysis.reports.compare.targets import Ends, ends_of, target_of
 from perilune.analysis.reports.kit.style import Look
-from tests.support.pages.comparison_samples import DIRECTION, SIGNALS, TARGET, VELOCITY, write_sample
+from tests.support.pages.comparison_samples import DIRECTION, POSITION, SIGNALS, TARGET, VELOCITY, write_sample
 
 
 @pytest.fixture(scope="module")
@@ -91,6 +91,36 @@ def test_altitude_takes_the_place_of_height(tmp_path):
     flights = read_flights(contender, range(12), kept_names(batch))
     paths = bundle_of(contender, flights).paths
     assert [path.plan.shape[1] for path in paths] == [flight.time.size for flight in flights]
+
+
+def test_downrange_over_a_round_body_is_along_its_ground(tmp_path):
+    """A steady descent over 0.4 rad of a sphere of 1000 km to the target, whose altitude is recorded."""
+    result = write_sample(tmp_path / "out")
+    result.provenance["record"]["signals"] = ["ship.altitude", *SIGNALS]
+    result.provenance["signals"]["ship.altitude"] = {"unit": "m", "type": "Real"}
+    result.provenance["targets"] = {name: {} for name in result.trials}
+    radius = 1e6
+    for trials in result.trials.values():
+        trials.final.clear()
+        for trace in trials.traces.values():
+            angle = np.linspace(-0.4, 0.0, trace["time"].size)
+            altitude = 100.0 - 1e5 * angle
+            trace["ship.altitude"] = altitude
+            for name, values in zip(
+                POSITION,
+                ((radius + altitude) * np.sin(angle), 0.0 * angle, (radius + altitude) * np.cos(angle) - radius),
+                strict=True,
+            ):
+                trace[name] = values
+    result.write(tmp_path / "out")
+    batch = read_batch(tmp_path / "out")
+    contender = compare([tmp_path / "out"]).contenders["alpha"]
+    bundle = bundle_of(contender, read_flights(contender, [0], kept_names(batch)))
+    assert bundle.radius == pytest.approx(radius, rel=1e-9)
+    assert bundle.over_ground
+    path = bundle.paths[0]
+    np.testing.assert_allclose(path.along, radius * np.linspace(-0.4, 0.0, path.along.size), atol=1e-3)
+    np.testing.assert_allclose(path.height, 100.0 - 0.1 * path.along, atol=1e-3)  # 1e5 m a radian of 1000 km
 
 
 def test_values_of_quantities(batch, flights):
