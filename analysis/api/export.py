@@ -91,7 +91,8 @@ def _own_file(name: str) -> Path | None:
 
     None for what is known by this name otherwise, and where there is none. Raises InputError for several.
     """
-    if not name.isidentifier() or name in catalogue() or name in system_names() or Path(name).is_dir():
+    is_system = name in system_names() or Path(name, "SystemStructure.ssd").is_file()
+    if not name.isidentifier() or name in catalogue() or is_system:
         return None
     file = Path(f"{name}.py")
     if file.is_file():

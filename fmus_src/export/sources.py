@@ -32,8 +32,9 @@ def record_source(folder: Path, source: Path, fmus: Sequence[Path], others: Iter
 def remove_outdated(folder: Path, source: Path, fmu: Path) -> None:
     """Remove an FMU that was built of a file by which it is not made any more: it would fly before the others."""
     entry = _read(folder).get(_relative(fmu, folder))
-    ours = entry is not None and fmu.is_file() and _digest(fmu) == entry["fmu"]
-    if ours and entry["source"] == _relative(source, folder):
+    if entry is None or not fmu.is_file():
+        return
+    if _digest(fmu) == entry["fmu"] and entry["source"] == _relative(source, folder):
         fmu.unlink()
 
 

@@ -20,7 +20,7 @@ def test_list(capsys):
     found = json.loads(capsys.readouterr().out)
     assert set(found["systems"]) == {path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd")}
     landing = found["systems"]["lunar_terminal_guidance"]
-    assert landing["parameter_sets"] == ["exact.ssv", "noisy.ssv", "paper.ssv"]
+    assert landing["parameter_sets"] == ["exact.ssv", "ideal.ssv", "noisy.ssv", "paper.ssv"]
     assert landing["campaigns"] == ["noisy", "paper"]
     assert set(catalogue()) <= set(found["fmus"])
     assert "python" in found["fmus"]["astar_guidance"]["built"]

@@ -71,6 +71,7 @@ TAKES_LONG = {
     "lunar_landing --report": "320 s of flight and its page",
     "entry_attitude --report": "a flight through air and its page",
     "hover_transfer --parameters ideal.ssv --report": "a flight and its page",
+    "guidance=analytic_guidance,neural_guidance": "twenty flights of a guidance in Python",
 }
 FAILS = (  # exit status 1
     "attitude_control.lead_time=",  # the thin and the unstable loop

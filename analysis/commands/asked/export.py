@@ -14,7 +14,7 @@ from ..common.options import add_json
 def add(parser: argparse.ArgumentParser) -> None:
     name = parser.add_argument(
         "name",
-        metavar="SYSTEM|FMU|FILE.py",
+        metavar="SYSTEM|FMU|BLOCK|FILE.py",
         help="a system or its folder, a block's name (of a .py file in this folder, too), or a file with blocks",
     )
     completed(name, systems_and_fmus)
