@@ -1,8 +1,7 @@
 """The exit status of every verb: 0 done and met, 1 done and something is not, 2 refused; in the help and the docs.
 
 Truth: the rule, row by row: what is asked of each command, and what is so of its flights by construction (a thrust of
-1e308 N ends a flight, a second is no landing, a contact that has not happened). At 44dd066 ten of these rows ended
-with another status.
+1e308 N ends a flight, a second is no landing, a contact that has not happened).
 """
 
 from __future__ import annotations
