@@ -169,7 +169,7 @@ class Trouble(Block):
                 self.y = self.y - self.y
 '''
 
-# A stock pythonfmu FMU: no units, no dependencies (so all on all), a String parameter.
+# A stock pythonfmu FMU: no units, no dependencies (so stepped without a lead), a String parameter.
 STRANGER = """
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real, String
 

@@ -114,7 +114,8 @@ def test_connectors_that_do_not_fit_are_refused(tiny, path, tmp_path, change, wo
 def test_a_stranger_without_units_fits(tiny, path, tmp_path):
     shutil.copy(tiny / "stranger.fmu", tmp_path / "odd.fmu")
     result = fly(path, use={"gain": str(tmp_path / "odd.fmu")})
-    assert result["gain.y"].tolist() == [2.0, 2.5, 3.0, 3.5, 4.0]
+    assert result["gain.y"].tolist() == [2.0, 2.0, 2.5, 3.0, 3.5]  # undeclared: u of the step's start
+    assert fly(path, use={"gain": str(tmp_path / "odd.fmu")}, feedthrough=("gain",))["gain.y"].tolist()[1:3] == [2.5, 3]
 
 
 def test_one_fmu_in_two_slots_keeps_two_states(tiny, tmp_path):

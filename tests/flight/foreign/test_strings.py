@@ -66,7 +66,7 @@ def chain(folder, path, **options):
         component("second", "Listener", TOLD),
         connections=connection("speaker.word", "first.heard") + connection("first.echo", "second.heard"),
     )
-    return fly(pack(path, folder, document(root)), **options)
+    return fly(pack(path, folder, document(root)), feedthrough=("first", "second"), **options)
 
 
 def test_strings_arrive(folder, tmp_path):
