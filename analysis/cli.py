@@ -26,7 +26,7 @@ VERBS = {
     "batch": "fly a campaign: many trials, variants compared on the same draws",
     "shard": "fly some shards of a campaign that perilune batch --prepare, or a batch that ended early, has left",
     "merge": "put the flown shards of a campaign together: summary, page, requirements",
-    "rare": "the probability of a rare failure over a campaign's draws, and the likeliest draws that make it",
+    "rare": "the probability of a rare failure over a campaign's draws, and the most probable draws that make it",
     "worst": "the draws within a campaign's box that make a number worst",
     "compare": "compare the variants of one or several stored batches on the same trials",
     "law": "print a network operator's law as a formula, or write it as parameter set or drawing",

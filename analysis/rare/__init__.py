@@ -1,1 +1,1 @@
-"""Rare failures: their probability by subset simulation, and the likeliest draws that make them."""
+"""Rare failures: their probability by subset simulation of draws and noise, and the most probable draws."""

@@ -168,7 +168,7 @@ class WorstResult:
             f"worst {worst}{unit}, {self.over.name} {quantile}{unit}"
         ]
         names = ", ".join(self.noise.components)
-        every = f"the same {self.over.count} realisations at every point"
+        every = f"{_every(self.over.count)} at every point"
         if self.noise_matters is False:
             every = f"changes none of the random trials in {self.over.count} realisations, so that the search flew one"
         return [*lines, f"noise of {names}: {every}"]
@@ -181,6 +181,10 @@ class WorstResult:
         write_atomically(
             folder / "worst.json", f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n".encode()
         )
+
+
+def _every(count: int) -> str:
+    return "the same realisation" if count == 1 else f"the same {count} realisations"
 
 
 def _shown(value: float | str | None) -> str:

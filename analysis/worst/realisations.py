@@ -39,7 +39,7 @@ class Realisations:
     @property
     def text(self) -> str:
         """The objective in words."""
-        return f"{self.name} of {self.count} noise realisations"
+        return "one noise realisation" if self.count == 1 else f"{self.name} of {self.count} noise realisations"
 
     def objective(self, values: np.ndarray) -> np.ndarray:
         """The quantile of values (points, realisations) over the realisations."""

@@ -63,7 +63,7 @@ TAKES_LONG = {
     "--campaign inertia --trials 20": "twenty linearisations",
     "--optimum": "direct multiple shooting",
     "--direct": "a direct method",
-    "perilune worst robot_rendezvous": "three hundred linearisations",
+    "perilune worst robot_rendezvous": "a hundred linearisations",
     "modal_comparison": "two minutes of random plants",
     "perilune benchmark": "importers that take a minute each",
     "lunar_landing --parameters noisy.ssv --use": "320 s of flight with all sensors and a table of it",

@@ -131,7 +131,14 @@ def test_no_random_trial_of_the_box_is_worse(case):
     system, campaign, compare, options, metric = CASES[case]
     trials = either(100_000, 1000)
     result = perilune.worst(
-        system, campaign, metric=metric, compare=compare, flights=either(2000, 300), workers=1, **options
+        system,
+        campaign,
+        metric=metric,
+        compare=compare,
+        flights=either(2000, 300),
+        noise_trial=0,
+        workers=1,
+        **options,
     )
     chosen = None if compare is None else {slot: [fmu] for slot, fmu in compare.items()}
     plan = read_plan(system, campaign, SystemOptions(**options), compare=chosen)
