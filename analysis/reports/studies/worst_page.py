@@ -57,9 +57,8 @@ def write_worst_page(
         result=result,
         conditions=conditions,
         is_margin=not objective.rising,
-        worst=value_cell(result.worst["value"], result.unit),
-        random=value_cell(result.worst_random["value"], result.unit),
-        unit=shown_unit(result.unit),
+        worst=with_unit(result.worst["value"], result.unit),
+        random=with_unit(result.worst_random["value"], result.unit),
         inside=result.worst_random["inside"],
         search=search_figure(result),
         phases=phase_table(result),
@@ -79,6 +78,12 @@ def value_cell(value: float | str | None, unit: str | None) -> Markup:
     return Markup("failed") if value is None else cell(value, 6, unit)
 
 
+def with_unit(value: float | str | None, unit: str) -> Markup:
+    """A value of the objective with its unit behind it, if it has one."""
+    shown = value_cell(value, unit)
+    return Markup("{} {}").format(shown, shown_unit(unit)) if shown_unit(unit) and value is not None else shown
+
+
 class FreshCells(NamedTuple):
     """The worst case under fresh noise: how many realisations, their worst, and the quantile by its name."""
 
@@ -93,7 +98,7 @@ def fresh_cells(result: WorstResult) -> FreshCells | None:
     if result.fresh is None or result.over is None:
         return None
     found = result.document()["fresh"]
-    worst, quantile = (value_cell(found[name], result.unit) for name in ("worst", "at_quantile"))
+    worst, quantile = (with_unit(found[name], result.unit) for name in ("worst", "at_quantile"))
     return FreshCells(found["realisations"], worst, result.over.name, quantile)
 
 
