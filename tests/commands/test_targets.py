@@ -57,6 +57,7 @@ ARGUMENTS = {
     "run": [RUN[1:]],
     "batch": [BATCH[1:]],
     "shard": [["there", "0"]],
+    "replay": [["there", "0"]],
     "merge": [["there"]],
     "rare": [[*BATCH[1:4], "--failure", "position_error > 1"]],
     "worst": [[*BATCH[1:4], "--metric", "position_error"]],
@@ -70,7 +71,13 @@ ARGUMENTS = {
     "export": [["lunar_landing"]],
 }
 INPUTS = {"draws", "input", "folder", "result", "file", "path"}  # files and folders that are read
-ENDINGS = {("run", "output"): ".csv", ("law", "output"): ".ssv", ("law", "graph"): ".svg", ("export", "output"): ".ssp"}
+ENDINGS = {
+    ("run", "output"): ".csv",
+    ("replay", "output"): ".csv",
+    ("law", "output"): ".ssv",
+    ("law", "graph"): ".svg",
+    ("export", "output"): ".ssp",
+}
 FOLDERS = ("--output", "--data")  # where no ending is asked for
 BAD = {
     "folder": "is a folder; give the name of a file in it",
