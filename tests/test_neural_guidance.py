@@ -1,4 +1,4 @@
-"""The guidance of docs/neural_network_guidance.md, trained, built and flown as the page says.
+"""The guidance of docs/guides/neural_network_guidance.md, trained, built and flown as the page says.
 
 Truth: the limits of the landing and the starts of the campaign, none of which it was trained on; the gradient by
 differences.
@@ -13,7 +13,7 @@ import perilune
 from tests.support.documented import page_text, saved_files
 from tests.support.lengths import LONG
 
-PAGE = "docs/neural_network_guidance.md"
+PAGE = "docs/guides/neural_network_guidance.md"
 GRADIENT = """
 from train_network import *
 from scipy.optimize import check_grad

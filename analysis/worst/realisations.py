@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..verdicts.quantiles import quantiles
 from .search import LEAST
 
 REALISATIONS = 5
@@ -18,10 +19,7 @@ FRESH = 10  # times as many realisations fly for the point that wins
 
 @dataclass(frozen=True)
 class Realisations:
-    """What a point is worth under noise: the ``quantile`` of its value over ``count`` realisations, 1 for the largest.
-
-    Quantiles are order statistics: the least value that the share does not exceed.
-    """
+    """The objective of a point under noise: a ``quantile`` of its values over ``count`` realisations, 1 the largest."""
 
     count: int
     quantile: float
@@ -43,12 +41,7 @@ class Realisations:
 
     def objective(self, values: np.ndarray) -> np.ndarray:
         """The quantile of values (points, realisations) over the realisations."""
-        return np.sort(values, axis=1)[:, rank(self.quantile, values.shape[1])]
-
-
-def rank(share: float, count: int) -> int:
-    """The rank, from 0, of the least of ``count`` values that a ``share`` of them does not exceed."""
-    return max(0, math.ceil(share * count - 1.0))
+        return quantiles(values.T, (self.quantile,))[0]
 
 
 def read_realisations(
@@ -88,7 +81,7 @@ class Fresh:
 
     @property
     def at_quantile(self) -> float:
-        return float(np.sort(self.values)[rank(self.quantile, self.values.size)])
+        return float(quantiles(self.values, (self.quantile,))[0])
 
     def document(self, fact: Any) -> dict[str, Any]:
         """As JSON; ``fact`` maps a value to what JSON has for it."""

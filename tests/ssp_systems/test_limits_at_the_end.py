@@ -9,6 +9,7 @@ import math
 import re
 
 import pytest
+from lxml import html
 
 import perilune
 from perilune.analysis.cli import main
@@ -79,3 +80,19 @@ def test_what_is_subtracted_follows_the_parameters_that_fly():
         prepared = prepare_system(name, SystemOptions(set=changes))
         (limits,) = [figure for figure in read_figures(prepared) if isinstance(figure, Limits)]
         assert limits.limits[0].value(flight) == pytest.approx(target(height)(flight.final()), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("options", "status", "words"),
+    [
+        ([], "status", "Limits kept: 2."),
+        (["--set", "guidance.target_position[3]=900", "--stop-time", "60"], "status bad", "Limits not kept: "),
+    ],
+)
+def test_the_head_of_the_page_says_whether_limits_are_kept(tmp_path, capsys, options, status, words):
+    page = tmp_path / "flight.html"
+    assert main(["run", "lunar_terminal_guidance", *options, "--report", str(page)]) == (0 if status == "status" else 1)
+    capsys.readouterr()
+    head = html.parse(str(page)).find(".//header").find("div[@class]")
+    assert head.get("class") == status
+    assert words in head.text_content()

@@ -12,6 +12,7 @@ from ...flight.results import Result
 from ..kit.page import write_page
 from ..kit.signals import SignalGroup, distinct, signal_groups
 from ..own.asked.declared import Figure
+from ..own.limit_table import Verdict, limit_document
 from ..own.own_figures import joint_findings, own_sections
 from .time_histories import time_histories
 from .trajectory import trajectory_panels, trajectory_reading
@@ -40,6 +41,7 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
         title=title,
         result=result,
         words=STATUS_WORDS[result.status],
+        limits=limits_by_verdict(figures, result),
         end_time=float(result.time[-1]) if result.time.size else None,
         provenance=result.provenance,
         key_values=key_values(result),
@@ -50,6 +52,16 @@ def write_run_report(result: Result, path: Path, title: str, figures: Sequence[F
         histories=time_histories(result),
         signals=signal_table(result),
     )
+
+
+def limits_by_verdict(figures: Sequence[Figure], result: Result) -> dict[str, list[str]]:
+    """The names of the system's limits by verdict, those that are not kept first; verdicts of none are left out."""
+    limits = limit_document(figures, result)
+    named = {
+        str(verdict): [limit["name"] for limit in limits if limit["verdict"] is verdict]
+        for verdict in (Verdict.NOT_KEPT, Verdict.NOT_EVALUATED, Verdict.KEPT)
+    }
+    return {verdict: names for verdict, names in named.items() if names}
 
 
 def key_values(result: Result) -> list[dict[str, Any]]:
