@@ -18,6 +18,7 @@ from ..batch.tables import aligned
 from ..campaign.draw_space import DrawSpace
 from ..campaign.drawing.declared import drawn_names
 from ..campaign.failure import Failure
+from ..percent import short_percent
 from ..samples.commands import Commands
 from ..samples.flown import Flown, strict
 from ..samples.noise import Noise, conditions, noise_line
@@ -87,11 +88,12 @@ class RareResult:
             return ""
         level = self.simulation.levels[-1]
         assert level.noise_acceptance is not None
-        rate = f"{100 * level.noise_acceptance:.2g} % of the noise moves are accepted, below {100 * LEAST_ACCEPTED:g} %"
+        rate, least = short_percent(level.noise_acceptance), short_percent(LEAST_ACCEPTED)
         lowest = ""
         if level.source is not None and level.least_acceptance is not None:
-            lowest = f" (least of {self.noise.sources[level.source]}, {100 * level.least_acceptance:.2g} %)"
-        return f"levels end at level {len(self.simulation.levels)}: {rate}{lowest}"
+            lowest = f" (least of {self.noise.sources[level.source]}, {short_percent(level.least_acceptance)} %)"
+        place = len(self.simulation.levels)
+        return f"levels end at level {place}: {rate} % of the noise moves are accepted, below {least} %{lowest}"
 
     @cached_property
     def failures(self) -> list[dict[str, Any]]:

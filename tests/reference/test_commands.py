@@ -80,7 +80,7 @@ FAILS = (  # exit status 1
 )
 # What begins the work of a verb, once all that it was given has been looked at.
 WORK = {
-    "batch": ["campaigns.batch.run_batch", "campaigns.batch.open_campaign"],
+    "batch": ["campaigns.batch.run_batch", "campaigns.batch.open_campaign", "campaigns.sensitivity.sensitivity"],
     "benchmark": ["benchmark.run_benchmark"],
     "compare": ["compare.compare"],
     "plan": ["plans.hover_transfer.hover_study", "plans.landing_bound.landing_study"],

@@ -169,7 +169,7 @@ def influence(result: RareResult) -> dict[str, float]:
     for name in result.space.names:
         column = result.flown.draws[name]
         start = column[:count]
-        middle, spread = float(np.median(start)), float(np.std(start))
+        middle, spread = float(quantiles(start, (0.5,))[0]), float(np.std(start))
         if spread == 0.0:
             continue
         shift = abs(float(np.mean(column[failed]) - np.mean(start)))

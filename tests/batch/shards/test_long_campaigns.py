@@ -72,6 +72,9 @@ def counted(tmp_path_factory):
     return path
 
 
+REPLAYS = r"<p class=.note.>.*--output.*</p>|<code>perilune [^<]*"  # from the folder, where there is one
+
+
 def test_a_result_in_a_folder_is_the_one_in_memory(tmp_path):
     """Summary, page, table and correlations, of trials that are read shard by shard."""
     options = {"trials": 60, "step": 1.0, "stop_time": 20.0}
@@ -81,9 +84,11 @@ def test_a_result_in_a_folder_is_the_one_in_memory(tmp_path):
     assert stored.summary == held.summary
     assert stored.rank_correlations("astar_guidance") == held.rank_correlations("astar_guidance")
     assert stored.table().equals(held.table())
-    for name, result in (("held", held), ("stored", stored)):
-        result.report(tmp_path / f"{name}.html")
-    assert (tmp_path / "held.html").read_bytes() == (tmp_path / "stored.html").read_bytes()
+    pages = []
+    for result in (held, stored):
+        result.report(tmp_path / "page.html")
+        pages.append(re.sub(REPLAYS, "", (tmp_path / "page.html").read_text()))
+    assert pages[0] == pages[1]
 
 
 def test_draws_by_a_counter_fly_in_any_part(counted, tmp_path):
