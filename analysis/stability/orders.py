@@ -14,11 +14,12 @@ from ..system.order.schedule import origin
 from ..system.prepared import PreparedSystem
 from .ask.request import Request
 from .ask.subject import Subject
+from .bench.bench import StudyError
 from .results.loop import JointReport, LoopReport
-from .results.report import Orders, StabilityReport
+from .results.report import Orders, StabilityReport, Unstudied
 from .results.requirement import Requirement
 
-NOT_STUDIED = "not studied with it"
+NOT_STUDIED, DIFFERENT = "not studied", "not known, since the routes differ"  # notes of requirements without a verdict
 
 
 def in_both_orders(request: Request, make: Callable[[Request], StabilityReport]) -> StabilityReport:
@@ -26,7 +27,8 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
 
     Of several such FMUs the extremes are studied: none of them with feedthrough, which is what flies, and all. Where
     all would close an algebraic loop, those at which the initialisation cuts it stay without: a component that cannot
-    be direct is stepped as it must be. Sweeps and nonlinear elements are those of what flies.
+    be direct is stepped as it must be. Sweeps and nonlinear elements are those of what flies. Where no flight with
+    feedthrough can be studied, what passes or fails without it is withheld. Raises as ``make`` does for the request.
     """
     report = make(request)
     subject = Subject(request.system, request.options)
@@ -51,7 +53,10 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
         options = replace(request.options, feedthrough=(*request.options.feedthrough, *direct))
         loops = tuple(replace(loop, elements=()) for loop in request.declaration.loops)
         declaration = replace(request.declaration, loops=loops, sweeps=())
-        other = make(replace(request, options=options, declaration=declaration))
+        try:
+            other = make(replace(request, options=options, declaration=declaration))
+        except StudyError as error:
+            other = _unstudied(report, str(error))
     else:
         direct, without = [], list(fmus)
     orders = Orders(fmus, tuple(direct), tuple(without), tuple(cuts), other)
@@ -68,6 +73,12 @@ def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> 
     except InputError:  # the system itself has been prepared before
         return False
     return True
+
+
+def _unstudied(report: StabilityReport, reason: str) -> StabilityReport:
+    """A study with the points of ``report`` that has no results, for this reason."""
+    lost = tuple(Unstudied(report.system, point.name, "system", reason) for point in report.points)
+    return replace(report, loops=(), joint=(), sweeps=(), unstudied=lost)
 
 
 def _on_loops(prepared: PreparedSystem) -> set[str]:
@@ -107,7 +118,7 @@ def _judged(report: StabilityReport, orders: Orders) -> StabilityReport:
 
 def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
     """A loop whose requirements know those of the ``other`` order; what its routes differ on is not passed."""
-    note = "" if other is None or not other.doubted else "the routes differ with it"
+    note = "" if other is None or not other.doubted else DIFFERENT
     found = replace(loop, requirements=_both(loop.requirements, () if other is None else other.requirements, note))
     if loop.dispersion is not None:
         spread = None if other is None else other.dispersion

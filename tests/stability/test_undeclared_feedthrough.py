@@ -7,15 +7,22 @@ known exactly: they differ by one step.
 
 import itertools
 import json
+from dataclasses import replace
 
 import control
 import numpy as np
 import pytest
+from scipy.io import loadmat
 
 import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.loops.margin_values import MARGINS, Quantity
+from perilune.analysis.reports.stability.orders.words import order_sentences, withheld_line
+from perilune.analysis.stability.ask.request import read_request
+from perilune.analysis.stability.bench.bench import StudyError
+from perilune.analysis.stability.orders import in_both_orders
 from perilune.analysis.stability.results.requirement import Verdict
+from perilune.analysis.system.options import SystemOptions
 from tests.support.builders import component, connection, document, inline, pack, system
 from tests.support.foreign.lag import lag_fmu
 from tests.support.loops.exact_systems import difference, with_stability
@@ -133,6 +140,38 @@ def test_said_either_way_there_is_one_order(folder, exact_fmus, reports):
     assert report.verdict is Verdict.PASS
 
 
+def test_files_have_both_orders(reports, tmp_path):
+    without, direct = both(reports[1])
+    reports[1].write_data(tmp_path)
+    content = json.loads((tmp_path / "loops.json").read_text())
+    structs = loadmat(tmp_path / "loops.mat", simplify_cells=True)
+    assert "not declared by wheel (FMU lag)" in content["feedthrough"]
+    assert structs["feedthrough"] == content["feedthrough"]
+    for name, loop in (("loops", without), ("loops_with_feedthrough", direct)):
+        (record,) = content[name]
+        assert record["modulus_margin"] == structs[name]["modulus_margin"] == loop.margins.size(Quantity.MODULUS)
+    assert (content["loops"][0]["verdict"], content["loops_with_feedthrough"][0]["verdict"]) == ("withheld", "pass")
+    rows = (tmp_path / "responses.csv").read_text().splitlines()[1:]
+    assert {row.split(",")[2] for row in rows} == {"measured", "measured_with_feedthrough"}
+
+
+def test_withheld_where_no_flight_with_feedthrough_can_be_studied(folder, exact_fmus, reports):
+    path = wheel_satellite(folder, exact_fmus, PERIOD)
+    reason = "the flight for point there ended early"
+
+    def make(request):
+        if request.options.feedthrough:
+            raise StudyError(reason)
+        return replace(reports[1].orders.report)  # any report in one order; this one passes
+
+    report = in_both_orders(read_request(path, SystemOptions()), make)
+    assert report.verdict is Verdict.WITHHELD
+    assert {item.requirement.as_feedthrough.note for item in report.judged()} == {"not studied"}
+    assert any(sentence.endswith(f"is not studied: {reason}") for sentence in order_sentences(report))
+    subject, requirement = next(report.judged())
+    assert ", not studied with it, limit " in withheld_line(report, subject, requirement)
+
+
 def ring_of_lags(folder, *names):
     """Lags in a ring with a control that answers at once: all of them direct they would close an algebraic loop."""
     parts = [component("control", "difference", ENDS, inline("proportional=Real:0.5; derivative=Real:0"))]
@@ -182,4 +221,4 @@ def test_text_json_page_and_exit_status(folder, exact_fmus, tmp_path, capsys):
     assert (judged["passed"], judged["verdict"], judged["as_feedthrough"]["passed"]) == (None, "withheld", True)
     text = page.read_text(encoding="utf-8")
     assert "Undeclared dependencies" in text
-    assert "withheld" in text
+    assert "What fails or is withheld" in text

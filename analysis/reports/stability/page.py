@@ -91,7 +91,7 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
         verdict=verdict(report.verdict),
         counts=counts(rows),
         over_time=over_time(report),
-        failing=verdict_table([row for row in rows if row[-1].verdict is Verdict.FAIL]),
+        failing=verdict_table([row for row in rows if row[-1].verdict in (Verdict.FAIL, Verdict.WITHHELD)]),
         requirements=verdict_table(rows),
         summary=summary,
         joint=joint_table(report),

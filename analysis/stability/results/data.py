@@ -18,7 +18,7 @@ from ...atomic import write_atomically
 from .document import document
 from .loop import JointReport, LoopReport
 from .mat_file import mat_bytes, struct_array
-from .report import StabilityReport
+from .report import Orders, StabilityReport
 from .routes import RouteB
 from .state_space import StateSpace
 
@@ -36,22 +36,45 @@ MODEL = (
 )
 COLUMNS = ("loop", "operating_point", "response", "frequency_rad_s", "real", "imaginary")
 LINEARISED, MEASURED = "linearised", "measured"
+DIRECT = "with_feedthrough"  # ending of what is of the other order, where FMUs leave their dependencies undeclared
 MARGINS = ("gain_margin_db", "phase_margin_deg", "modulus_margin", "disk_margin", "delay_margin_s")
 Curves = tuple[tuple[str, np.ndarray, np.ndarray], ...]  # which response, frequency (rad/s), L
 
 
 def write_data(report: StabilityReport, folder: Path) -> None:
     """Write the three files into a folder, which is made; the same study gives the same bytes. Raises OSError."""
-    facts = document(report)
-    times = {point.name: point.time for point in report.points}
-    loops = [_loop(loop, found, times) for loop, found in zip(report.loops, facts["loops"], strict=True)]
-    joint = [_joint(item, found, times) for item, found in zip(report.joint, facts["joint"], strict=True)]
+    facts, results = document(report), _results(report)
     about = {"system": report.system, "sign": SIGN, "model": MODEL}
-    content = {**about, "points": facts["points"], "loops": loops, "joint": joint, "provenance": facts["provenance"]}
+    if report.orders is not None:
+        about["feedthrough"] = _assumption(report.orders)
+        if report.orders.report is not None:
+            results |= {f"{name}_{DIRECT}": items for name, items in _results(report.orders.report).items()}
+    content = {**about, "points": facts["points"], **results, "provenance": facts["provenance"]}
     write_atomically(folder / JSON, (json.dumps(content, default=_plain, indent=1, allow_nan=False) + "\n").encode())
-    structs = {"loops": struct_array(loops), "joint": struct_array(joint)}
+    structs = {name: struct_array(items) for name, items in results.items()}
     write_atomically(folder / MAT, mat_bytes({**about, **{name: item for name, item in structs.items() if item.size}}))
     write_atomically(folder / CSV, _table(report).encode())
+
+
+def _results(report: StabilityReport) -> dict[str, list[dict[str, Any]]]:
+    """The records of one study, in one order."""
+    facts = document(report)
+    times = {point.name: point.time for point in report.points}
+    return {
+        "loops": [_loop(loop, found, times) for loop, found in zip(report.loops, facts["loops"], strict=True)],
+        "joint": [_joint(item, found, times) for item, found in zip(report.joint, facts["joint"], strict=True)],
+    }
+
+
+def _assumption(orders: Orders) -> str:
+    """Which FMUs leave their dependencies undeclared, and which records are of which order."""
+    names = ", ".join(f"{name} (FMU {fmu})" for name, fmu in orders.undeclared.items())
+    words = f"Direct dependencies are not declared by {names}: stepped with the inputs of the step's start."
+    if orders.report is not None:
+        direct = ", ".join(orders.direct)
+        words += f" In loops_{DIRECT} and joint_{DIRECT} stepped with the inputs of the step's end: {direct}."
+        words += " verdict in loops is of both orders."
+    return words
 
 
 def _loop(loop: LoopReport, found: dict[str, Any], times: dict[str, float]) -> dict[str, Any]:
@@ -134,10 +157,13 @@ def _table(report: StabilityReport) -> str:
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(COLUMNS)
-    for loop in report.loops:
-        for name, frequency, values in _curves(loop):
-            for w, value in zip(frequency.tolist(), values.tolist(), strict=True):
-                rows.writerow((loop.name, loop.point, name, repr(w), repr(value.real), repr(value.imag)))
+    other = None if report.orders is None else report.orders.report
+    for loops, ending in ((report.loops, ""), (other.loops if other is not None else (), f"_{DIRECT}")):
+        for loop in loops:
+            for name, frequency, values in _curves(loop):
+                for w, value in zip(frequency.tolist(), values.tolist(), strict=True):
+                    row = loop.name, loop.point, f"{name}{ending}", repr(w), repr(value.real), repr(value.imag)
+                    rows.writerow(row)
     return text.getvalue()
 
 

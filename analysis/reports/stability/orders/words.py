@@ -30,6 +30,10 @@ def order_sentences(report: StabilityReport) -> list[str]:
             f"as feedthrough: {', '.join(orders.direct)} stepped with the inputs of the step's end; what an FMU makes "
             "of its inputs within a step lies between the two"
         )
+        found += [
+            f"with feedthrough {item.what} {item.name} at {item.point} is not studied: {item.reason}"
+            for item in orders.report.unstudied
+        ]
         if report.sweeps:
             found.append("margins over parameters are without feedthrough")
     return found
@@ -64,6 +68,6 @@ def _unit(item: Requirement) -> str:
 
 
 def _value(item: Requirement) -> str:
-    if item.value is None:
+    if item.value is None or item.passed is None:
         return item.note or "not known"
     return {UNSTABLE: "unstable", UNLIMITED: "no crossing"}.get(item.value, f"{item.value:.4g}{_unit(item)}")
