@@ -65,6 +65,14 @@ def test_as_scipy_does_of_a_function():
     np.testing.assert_allclose(ours.total[0], theirs.total_order, rtol=1e-12)
 
 
+def test_one_number_of_one_input_is_all_its_variance():
+    points = saltelli_points(256, 1, np.random.default_rng(1))
+    result = indices(3.0 * points.T - 1.0, 256, np.random.default_rng(2))
+    assert (result.first.shape, result.first_interval.shape) == ((1, 1), (2, 1, 1))
+    assert result.first[0, 0] == pytest.approx(1.0, abs=0.02)
+    assert result.total[0, 0] == pytest.approx(1.0, abs=0.02)
+
+
 def test_the_same_random_numbers_give_the_same_intervals():
     first, again = found(64, 3), found(64, 3)
     assert first.total_interval.tobytes() == again.total_interval.tobytes()
