@@ -102,9 +102,9 @@ def test_downrange_over_a_round_body_is_along_its_ground(tmp_path):
     radius = 1e6
     for trials in result.trials.values():
         trials.final.clear()
-        for trace in trials.traces.values():
-            angle = np.linspace(-0.4, 0.0, trace["time"].size)
-            altitude = 100.0 - 1e5 * angle
+        for number, trace in enumerate(trials.traces.values()):
+            angle = np.linspace(-0.4, 0.0, trace["time"].size) if number else np.zeros(trace["time"].size)
+            altitude = 100.0 - 1e5 * angle  # the first flight stays over the target: it shows no curvature
             trace["ship.altitude"] = altitude
             for name, values in zip(
                 POSITION,
@@ -115,10 +115,10 @@ def test_downrange_over_a_round_body_is_along_its_ground(tmp_path):
     result.write(tmp_path / "out")
     batch = read_batch(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["alpha"]
-    bundle = bundle_of(contender, read_flights(contender, [0], kept_names(batch)))
+    bundle = bundle_of(contender, read_flights(contender, [0, 1], kept_names(batch)))
     assert bundle.radius == pytest.approx(radius, rel=1e-9)
     assert bundle.over_ground
-    path = bundle.paths[0]
+    path = bundle.paths[1]
     np.testing.assert_allclose(path.along, radius * np.linspace(-0.4, 0.0, path.along.size), atol=1e-3)
     np.testing.assert_allclose(path.height, 100.0 - 0.1 * path.along, atol=1e-3)  # 1e5 m a radian of 1000 km
 
