@@ -196,6 +196,11 @@ def test_a_campaign_keeps_the_option_and_its_page_says_what_is_assumed(undeclare
     for result, is_said in ((late, True), (direct, False)):
         result.report(tmp_path / "page.html")
         assert ("Assumed: gain: FMU gain does not declare" in (tmp_path / "page.html").read_text()) is is_said
+    perilune.compare([tmp_path / "late", tmp_path / "direct"]).report(tmp_path / "page.html")
+    (line,) = re.findall("[^>]*does not declare[^<]*", (tmp_path / "page.html").read_text())
+    assert line.startswith("late: assumed: gain: FMU gain")
+    perilune.sensitivity(path, campaign, 32, workers=1).report(tmp_path / "page.html")
+    assert "Assumed: gain: FMU gain does not declare" in (tmp_path / "page.html").read_text()
 
 
 def test_the_page_of_a_run_says_what_is_assumed(undeclared, tmp_path):
