@@ -13,15 +13,15 @@ VALUES = {"true": True, "false": False}
 
 
 def feedthrough_of_component(component: etree._Element, file: str) -> bool | None:
-    """True: all its outputs on all its inputs, False: none on any, None: it is not said. Raises InputError."""
+    """True: all its outputs on all its inputs, False: none on any, None: not stated. Raises InputError."""
     reader = AnnotationReader(file)
     annotations = children(child(component, "ssd:Annotations"), "ssc:Annotation")
-    found = [annotation for annotation in annotations if annotation.get("type") == ANNOTATION]
-    if not found:
+    matches = [annotation for annotation in annotations if annotation.get("type") == ANNOTATION]
+    if not matches:
         return None
-    if len(found) > 1:
-        raise reader.refuse(found[1], f"the second of type {ANNOTATION}", "write one")
-    element = reader.content(found[0], ELEMENT)
+    if len(matches) > 1:
+        raise reader.refuse(matches[1], f"the second of type {ANNOTATION}", "write one")
+    element = reader.content(matches[0], ELEMENT)
     text = reader.attributes(element, ("direct",))["direct"]
     if text not in VALUES:
         raise reader.refuse(element, f"direct is {text!r}", 'write direct="true" or direct="false"')

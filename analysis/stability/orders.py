@@ -66,10 +66,10 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
 def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> bool:
     """Whether components can have feedthrough together: whether that closes no algebraic loop."""
     options = replace(subject.options, feedthrough=(*subject.options.feedthrough, *names))
-    tried = replace(subject, options=options)
+    trial = replace(subject, options=options)
     try:
         for point in request.declaration.points:
-            tried.at(point)
+            trial.at(point)
     except InputError:  # the system itself has been prepared before
         return False
     return True
@@ -88,18 +88,18 @@ def _on_loops(prepared: PreparedSystem) -> set[str]:
         start = origin(prepared.network, link).component
         if start is not None and link.target.component is not None and not link.is_parameter:
             readers.setdefault(start, set()).add(link.target.component)
-    found = set()
+    looped = set()
     for component in readers:
         seen: set[str] = set()
-        ahead = list(readers[component])
-        while ahead:
-            here = ahead.pop()
-            if here not in seen:
-                seen.add(here)
-                ahead += readers.get(here, ())
+        queue = list(readers[component])
+        while queue:
+            current = queue.pop()
+            if current not in seen:
+                seen.add(current)
+                queue += readers.get(current, ())
         if component in seen:
-            found.add(component)
-    return found
+            looped.add(component)
+    return looped
 
 
 def _judged(report: StabilityReport, orders: Orders) -> StabilityReport:
@@ -117,14 +117,14 @@ def _judged(report: StabilityReport, orders: Orders) -> StabilityReport:
 
 
 def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
-    """A loop whose requirements know those of the ``other`` order; what its routes differ on is not passed."""
+    """A loop with the requirements of both orders; where the routes differ in the other order, nothing passes in it."""
     note = "" if other is None or not other.doubted else DIFFERENT
-    found = replace(loop, requirements=_both(loop.requirements, () if other is None else other.requirements, note))
+    judged = replace(loop, requirements=_both(loop.requirements, () if other is None else other.requirements, note))
     if loop.dispersion is not None:
         spread = None if other is None else other.dispersion
         both = _both(loop.dispersion.requirements, () if spread is None else spread.requirements, note)
-        found.dispersion = replace(loop.dispersion, requirements=both)
-    return found
+        judged.dispersion = replace(loop.dispersion, requirements=both)
+    return judged
 
 
 def _joint(joint: JointReport, other: JointReport | None) -> JointReport:
@@ -133,10 +133,10 @@ def _joint(joint: JointReport, other: JointReport | None) -> JointReport:
 
 def _both(items: Sequence[Requirement], others: Sequence[Requirement], note: str = "") -> tuple[Requirement, ...]:
     by_title = {other.title: other for other in others}
-    found = []
+    paired = []
     for item in items:
         other = by_title.get(item.title) or replace(item, value=None, passed=None, note=NOT_STUDIED)
         if note and other.passed:
             other = replace(other, passed=None, note=note)
-        found.append(replace(item, as_feedthrough=other))
-    return tuple(found)
+        paired.append(replace(item, as_feedthrough=other))
+    return tuple(paired)

@@ -18,10 +18,10 @@ import numpy as np
 from ..results.state_space import StateSpace
 from .lifted import LiftedModel, Port
 
-LOWEST, HIGHEST, LOOKS = 1e-3, 0.97, 60  # frequencies, over the Nyquist frequency, at which L is compared
-LEAST_LOOK = 0.03  # of |L|, and 1/33 the other way: margins are decided where L is about 1
+LOWEST, HIGHEST, COUNT = 1e-3, 0.97, 60  # frequencies, over the Nyquist frequency, at which L is compared
+SMALLEST_GAIN = 0.03  # of |L|, and 1/33 the other way: margins are decided where L is about 1
 SAME = 1e-3  # relative difference of L up to which one state space stands for all samples
-NEGLIGIBLE = 1e-11  # singular values over the largest that tell nothing of A
+NEGLIGIBLE = 1e-11  # relative size of singular values that carry no information on A
 
 
 def open_loop(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
@@ -71,7 +71,7 @@ def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, 
         blocks.append(blocks[-1] @ lifted.a)
     rows = np.vstack(blocks)
     size = np.max(abs(rows), axis=0, initial=0.0)
-    size[size == 0.0] = 1.0  # states in units in which each tells as much
+    size[size == 0.0] = 1.0  # states in units of their largest effect on the outputs
     scaled = rows / size
     a = np.linalg.lstsq(scaled[:-count], scaled[count:], rcond=NEGLIGIBLE)[0]
     period = ports[0].seconds
@@ -87,13 +87,13 @@ def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, 
         outputs=tuple(f"{port.channel.name} returned, negative" for port in ports),
         signal_units=tuple(port.channel.unit for port in ports),
     )
-    frequency = np.geomspace(LOWEST, HIGHEST, LOOKS) * np.pi / period
+    frequency = np.geomspace(LOWEST, HIGHEST, COUNT) * np.pi / period
     return replace(single, error=_difference(single.response(frequency), model.response(ports, frequency)))
 
 
 def _error(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, ...]) -> float:
     """How far opening the cuts and going over to units has moved L."""
-    frequency = np.geomspace(LOWEST, HIGHEST, LOOKS) * np.pi / ports[0].seconds
+    frequency = np.geomspace(LOWEST, HIGHEST, COUNT) * np.pi / ports[0].seconds
     return _difference(_waves(lifted, ports, frequency), model.response(ports, frequency))
 
 
@@ -107,6 +107,6 @@ def _waves(lifted: StateSpace, ports: tuple[Port, ...], frequency: np.ndarray) -
 
 def _difference(found: np.ndarray, expected: np.ndarray) -> float:
     size = np.linalg.norm(expected, axis=(1, 2))
-    seen = (size > LEAST_LOOK) & (size < 1.0 / LEAST_LOOK)
+    seen = (size > SMALLEST_GAIN) & (size < 1.0 / SMALLEST_GAIN)
     change = np.linalg.norm(found - expected, axis=(1, 2))[seen] / size[seen]
     return float(np.max(np.where(np.isfinite(change), change, 1.0), initial=0.0))

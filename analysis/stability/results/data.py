@@ -68,8 +68,7 @@ def _results(report: StabilityReport) -> dict[str, list[dict[str, Any]]]:
 
 def _assumption(orders: Orders) -> str:
     """Which FMUs leave their dependencies undeclared, and which records are of which order."""
-    names = ", ".join(f"{name} (FMU {fmu})" for name, fmu in orders.undeclared.items())
-    words = f"Direct dependencies are not declared by {names}: stepped with the inputs of the step's start."
+    words = f"Direct dependencies are not declared by {orders.fmus}: stepped with the inputs of the step's start."
     if orders.report is not None:
         direct = ", ".join(orders.direct)
         words += f" In loops_{DIRECT} and joint_{DIRECT} stepped with the inputs of the step's end: {direct}."

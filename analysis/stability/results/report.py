@@ -63,6 +63,11 @@ class Orders:
     cuts: tuple[str, ...]
     report: StabilityReport | None
 
+    @property
+    def fmus(self) -> str:
+        """The components with their FMUs, as ``wheel (FMU lag)``."""
+        return ", ".join(f"{name} (FMU {fmu})" for name, fmu in self.undeclared.items())
+
 
 @dataclass
 class StabilityReport:

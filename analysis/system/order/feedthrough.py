@@ -1,4 +1,4 @@
-"""Which outputs depend directly on which inputs: as FMUs declare it, as the SSD or a user says, as it is assumed."""
+"""Direct dependencies of outputs on inputs: declared by FMUs, stated by the SSD or a user, or assumed."""
 
 from __future__ import annotations
 
@@ -57,23 +57,23 @@ ASSUMED = (
 
 
 def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *, is_alone: bool) -> Feedthrough:
-    """What is declared, said and assumed of every component.
+    """The direct dependencies of every component, and which of them are assumed.
 
-    A user's option goes before the SSD's annotation, which speaks of the FMU that the SSD names and so not of one in
-    its place (``use``); both go before the FMU. An FMU alone (``is_alone``) is given the inputs of t_n for the step to
+    A user's option overrides the SSD's annotation, which applies to the FMU that the SSD names and not to one that
+    replaces it (``use``); both override the FMU. An FMU alone (``is_alone``) is given the inputs of t_n for the step to
     t_(n+1), as FMPy does it, whatever its outputs depend on. Jacobi's algorithm gives them to every FMU, so there is
     nothing to assume but at the start. Raises InputError for an unknown component, one in both options, and for
     ``feedthrough`` of an FMU alone.
     """
     _check(network.fmus, options, is_alone=is_alone)
-    said = {
+    stated = {
         name: (part.feedthrough, Origin.SSD)
         for name, part in network.components()
         if name not in options.use and part.feedthrough is not None
     }
-    said |= dict.fromkeys(network.fmus, (False, Origin.ALONE)) if is_alone else {}
-    said |= dict.fromkeys(options.feedthrough, (True, Origin.OPTION))
-    said |= dict.fromkeys(options.no_feedthrough, (False, Origin.OPTION))
+    stated |= dict.fromkeys(network.fmus, (False, Origin.ALONE)) if is_alone else {}
+    stated |= dict.fromkeys(options.feedthrough, (True, Origin.OPTION))
+    stated |= dict.fromkeys(options.no_feedthrough, (False, Origin.OPTION))
     stepping: Dependencies = {}
     initial: Dependencies = {}
     origins: dict[str, Origin] = {}
@@ -81,8 +81,8 @@ def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *
         declared = fmu.declared_dependencies()
         every = {variable.name for variable in fmu.variables.values() if variable.causality == "input"}
         is_open = None in declared.values()
-        if name in said:
-            direct, origins[name] = said[name]
+        if name in stated:
+            direct, origins[name] = stated[name]
             stepping[name] = initial[name] = dict.fromkeys(declared, every) if direct else {}
             continue
         origins[name] = Origin.ASSUMED if is_open and _is_driven(network, name) else Origin.FMU
@@ -137,16 +137,16 @@ def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, 
 def _reaches_itself(network: Network, name: str, direct: Dependencies, readers: dict[str, list[str]]) -> bool:
     """Whether the value of an input comes back to it in the same communication point."""
     seen: set[str] = set()
-    ahead = [name]
-    while ahead:
-        here = ahead.pop()
-        node = network.nodes.get(here)
-        found = list(readers.get(here, ()))
+    queue = [name]
+    while queue:
+        current = queue.pop()
+        node = network.nodes.get(current)
+        successors = list(readers.get(current, ()))
         if node is not None and node.component is not None and node.kind == "input":
             outputs = direct[node.component].items()
-            found += [f"{node.component}.{output}" for output, inputs in outputs if node.variable in inputs]
-        if name in found:
+            successors += [f"{node.component}.{output}" for output, inputs in outputs if node.variable in inputs]
+        if name in successors:
             return True
-        ahead += [other for other in found if other not in seen]
-        seen.update(found)
+        queue += [other for other in successors if other not in seen]
+        seen.update(successors)
     return False

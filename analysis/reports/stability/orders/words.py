@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ....loops.margin_values import UNLIMITED, UNSTABLE
 from ....stability.results.loop import JointReport, LoopReport
-from ....stability.results.report import Orders, StabilityReport
+from ....stability.results.report import StabilityReport
 from ....stability.results.requirement import Requirement, Verdict
 
 
@@ -19,7 +19,7 @@ def order_sentences(report: StabilityReport) -> list[str]:
     if orders is None:
         return []
     found = [
-        f"direct dependencies of outputs on inputs are not declared by {_fmus(orders)}: assumed none, and stepped with "
+        f"direct dependencies of outputs on inputs are not declared by {orders.fmus}: assumed none, and stepped with "
         "the inputs of the step's start"
     ]
     if orders.without:
@@ -47,7 +47,7 @@ def withheld_line(report: StabilityReport, subject: LoopReport | JointReport, it
     options = " or ".join(f"{option} {name}" for name in names for option in ("--feedthrough", "--no-feedthrough"))
     return (
         f"loop {subject.name} at {subject.point}: {item.title} withheld: {_value(item)} without feedthrough of "
-        f"{_fmus(report.orders)}, {_value(item.as_feedthrough)} with it, limit {item.limit:g}{_unit(item)}; "
+        f"{report.orders.fmus}, {_value(item.as_feedthrough)} with it, limit {item.limit:g}{_unit(item)}; "
         f"say {options}, or take a smaller step"
     )
 
@@ -57,10 +57,6 @@ def order_note(item: Requirement) -> str:
     if item.verdict is not Verdict.WITHHELD or item.as_feedthrough is None:
         return item.note
     return f"{_value(item.as_feedthrough)} as feedthrough"
-
-
-def _fmus(orders: Orders) -> str:
-    return ", ".join(f"{name} (FMU {fmu})" for name, fmu in orders.undeclared.items())
 
 
 def _unit(item: Requirement) -> str:
