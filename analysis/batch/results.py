@@ -19,7 +19,7 @@ from .shards.numbering import Numbering, shard_size
 from .shown import Shown, shown
 from .store import FlownRows
 from .summary import summarise
-from .tables import faults_line, summary_text
+from .tables import assumption_lines, faults_line, summary_text
 from .trials import Trials
 from .verdicts import add_verdicts
 
@@ -60,9 +60,9 @@ class BatchResult:
 
     def text(self) -> str:
         """The summary for a terminal."""
-        found = summary_text(self.summary, self.plan.campaign.group)
         faults = self.plan.fault_texts()
-        return f"{found}\n{faults_line(faults)}" if faults else found
+        lines = [summary_text(self.summary, self.plan.campaign.group), *([faults_line(faults)] if faults else [])]
+        return "\n".join([*lines, *assumption_lines(self.provenance)])
 
     def write(self, folder: Path) -> None:
         """Write trials/, draws.parquet, summary.json, and traces/ where the campaign keeps them.

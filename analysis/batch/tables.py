@@ -21,6 +21,11 @@ def aligned(rows: list[list[str]]) -> list[str]:
     ]
 
 
+def assumption_lines(facts: Mapping[str, Any]) -> list[str]:
+    """What a result's ``facts`` assume since an FMU does not declare it, a line for each assumption."""
+    return [f"assumed: {assumption}" for assumption in facts.get("assumptions", ())]
+
+
 def who_heads(group: str | None) -> list[str]:
     """Headings of `who_cells`; ``group`` is what trials are grouped by, if they are."""
     return ["variant"] if group is None else ["variant", group]

@@ -83,11 +83,11 @@ class _NoiseMoves:
         chosen = (
             self._random.choice(self._active, rows.size, p=self._weights / self._weights.sum()) if rows.size else rows
         )
-        found = streams.copy()
-        found[rows, chosen] = self._fresh.take(rows.size)
+        renewed = streams.copy()
+        renewed[rows, chosen] = self._fresh.take(rows.size)
         for source in self._inert:
-            found[:, source] = self._fresh.take(len(found))
-        return found, chosen
+            renewed[:, source] = self._fresh.take(len(renewed))
+        return renewed, chosen
 
     def count(self, chosen: np.ndarray, accepted: np.ndarray, changed: np.ndarray) -> None:
         """Record moves of the sources ``chosen``: which were accepted, which changed the margin."""
@@ -130,14 +130,14 @@ def grow_chains(
             moved = np.sqrt(1.0 - spread**2) * here.draws + spread * random[0].standard_normal(here.draws.shape)
             renewed, chosen = noise_moves.candidates(here.streams, noise)
             candidates = Points(np.where(noise[:, np.newaxis], here.draws, moved), renewed)
-            found = margin(candidates)
-            good = found >= threshold
-            noise_moves.count(chosen, good[noise], found[noise] != level[noise])
+            proposed = margin(candidates)
+            good = proposed >= threshold
+            noise_moves.count(chosen, good[noise], proposed[noise] != level[noise])
             if not noise.all():
                 steps.append(float(good[~noise].mean()))
             kept = good[:, np.newaxis]
             here = Points(np.where(kept, candidates.draws, here.draws), np.where(kept, renewed, here.streams))
-            level = np.where(good, found, level)
+            level = np.where(good, proposed, level)
             draws[group, step], streams[group, step], values[group, step] = here.draws, here.streams, level
         noise_moves.adapt()
         if steps:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..atomic import write_atomically
 from ..batch.shards.files import write_parquet
-from ..batch.tables import aligned
+from ..batch.tables import aligned, assumption_lines
 from ..campaign.draw_space import DrawSpace
 from ..campaign.drawing.declared import drawn_names
 from ..campaign.failure import Failure
@@ -177,11 +177,16 @@ class RareResult:
             "trusted": level.trusted,
         }
 
+    def headline(self) -> str:
+        """The failure, its probability and what that is conditional on."""
+        return f"{self.failure.text}: {estimate_text(self.simulation)}{self.conditions}"
+
     def text(self, folder: Path | None = None) -> str:
         """The result for a terminal; ``folder`` as in `document`."""
         under, simulation = self.conditions, self.simulation
-        lines = [f"{self.failure.text}: {estimate_text(simulation)}{under}", cost_text(simulation)]
+        lines = [self.headline(), cost_text(simulation, under)]
         lines += [line for line in (noise_line(self.noise), self.bound_text()) if line]
+        lines += assumption_lines(self.facts)
         unit = f" ({self.margin_unit})" if self.margin_unit else ""
         lines += ["", f"levels, thresholds of the margin{unit}{under}", *aligned(level_rows(simulation))]
         if self.failures:
@@ -196,8 +201,20 @@ class RareResult:
         if not self.simulation.noise_ends or trials is None:
             return ""
         text = f"{self.why_levels_ended}; what is below is bounded as by {trials:.2g} Monte Carlo flights"
-        again = "" if self.commands is None else f": {self.commands.monte_carlo(round(10.0 * trials))}"
-        return f"{text}; a bound ten times lower takes {10.0 * trials:.2g}{again}"
+        command = self.monte_carlo
+        again = f": {command}" if command else ""
+        return f"{text}; a bound ten times lower takes {10.0 * trials:.2g}{again}{self.conditions}"
+
+    @property
+    def monte_carlo(self) -> str:
+        """The batch whose trials give a bound ten times lower, where the noise ends levels; else empty.
+
+        Empty also where a value is held, since a batch holds none: its trials would not be those of this result.
+        """
+        trials = self.brute_force
+        if not self.simulation.noise_ends or trials is None or self.commands is None or self.space.held:
+            return ""
+        return self.commands.monte_carlo(round(10.0 * trials))
 
     def _failure_rows(self, margin: str) -> list[list[str]]:
         names = self.space.names

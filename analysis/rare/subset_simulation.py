@@ -244,11 +244,11 @@ def _level(population: _Population, inside: np.ndarray | None) -> Level:
 
 def _moves(chains: Chains) -> dict[str, Any]:
     """The acceptance rates of a level's chains."""
-    found: dict[str, Any] = {"draw_acceptance": chains.draw_acceptance, "spread": chains.spread}
+    facts: dict[str, Any] = {"draw_acceptance": chains.draw_acceptance, "spread": chains.spread}
     moves, accepted = chains.noise_moves, chains.noise_accepted
     if moves.sum():
-        found["noise_acceptance"] = float(accepted.sum() / moves.sum())
+        facts["noise_acceptance"] = float(accepted.sum() / moves.sum())
         rates = np.where(moves >= FEW, accepted / np.maximum(moves, 1), np.inf)
         if rates.min() < np.inf:
-            found |= {"least_acceptance": float(rates.min()), "source": int(np.argmin(rates))}
-    return found
+            facts |= {"least_acceptance": float(rates.min()), "source": int(np.argmin(rates))}
+    return facts

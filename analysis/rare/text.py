@@ -6,7 +6,7 @@ from .subset_simulation import Level, SubsetSimulation
 from .uncertainty import CONFIDENCE
 
 LEVEL_HEADS = [
-    "level", "threshold", "flights", "probability", "accepted: draws", "noise", "lowest source", "gamma", "c.o.v.",
+    "level", "threshold", "samples", "probability", "accepted: draws", "noise", "lowest source", "gamma", "c.o.v.",
 ]  # fmt: skip
 
 
@@ -18,12 +18,12 @@ def estimate_text(simulation: SubsetSimulation) -> str:
     return f"probability {simulation.probability:.3g}, {percent} interval {interval.low:.3g} to {interval.high:.3g}"
 
 
-def cost_text(simulation: SubsetSimulation) -> str:
-    """How many flights it took, and how many plain Monte Carlo takes for as much."""
+def cost_text(simulation: SubsetSimulation, conditions: str) -> str:
+    """How many flights it took, and how many plain Monte Carlo takes for as much under the same ``conditions``."""
     levels = len(simulation.levels)
     text = f"{simulation.evaluations} flights in {levels} level{'s' if levels > 1 else ''}"
     trials = simulation.equivalent_trials
-    return text if trials is None else f"{text}; equivalent Monte Carlo sample size: {trials:.2g}"
+    return text if trials is None else f"{text}; equivalent Monte Carlo sample size: {trials:.2g}{conditions}"
 
 
 def level_rows(simulation: SubsetSimulation) -> list[list[str]]:

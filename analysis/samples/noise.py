@@ -65,9 +65,9 @@ def given_draws(columns: Columns, streams: Streams, noise: Noise) -> GivenDraws:
 
 def conditions(noise: Noise, held: Mapping[str, float]) -> str:
     """What a result is conditional on, as the end of a line; empty where it is on nothing."""
-    found = [f"{name} = {value:g}" for name, value in held.items()]
-    found += [f"the noise realisation of trial {noise.trial}"] if noise.is_held else []
-    return f", conditional on {' and '.join(found)}" if found else ""
+    given = [f"{name} = {value:g}" for name, value in held.items()]
+    given += [f"the noise realisation of trial {noise.trial}"] if noise.is_held else []
+    return f", conditional on {' and '.join(given)}" if given else ""
 
 
 def noise_line(noise: Noise) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..atomic import write_atomically
 from ..batch.shards.files import write_parquet
-from ..batch.tables import aligned
+from ..batch.tables import aligned, assumption_lines
 from ..campaign.draw_space import DrawSpace
 from ..campaign.drawing.declared import drawn_names
 from ..samples.commands import Commands
@@ -106,6 +106,7 @@ class SensitivityResult:
         lines += [line for line in (noise_line(self.noise),) if line]
         if self.noise.sources:
             lines.append(f"{NOISE}: all of these components as one input; rank correlations leave it out")
+        lines += assumption_lines(self.facts)
         for number in self.told:
             found = self.of(number)
             rows = [[with_unit(number, self.units), "total", percent, "first", percent, "rank"]]
@@ -133,4 +134,4 @@ class SensitivityResult:
 
 
 def _told(value: float | None) -> str:
-    return "-" if value is None else f"{value:.2f}"
+    return "-" if value is None else f"{round(value, 2) + 0.0:.2f}"

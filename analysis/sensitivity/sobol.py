@@ -63,12 +63,12 @@ def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indic
 
     def statistic(rows: np.ndarray) -> np.ndarray:
         part = pages[:, :, rows]
-        if part.shape[:2] == (1, 3):  # SciPy fails on one number of one input, whose indices it makes scalars
-            part = np.concatenate([part, part])
+        if part.shape[:2] == (1, 3):  # one number of one input, which scipy refuses: twice, and the first of the two
+            part = np.repeat(part, 2, axis=0)
         parts = {"f_A": part[:, 0], "f_B": part[:, 1], "f_AB": part[:, 2:].swapaxes(0, 1)}
         found = scipy.stats.sobol_indices(func=parts, n=base)
         shape = (len(part), -1)  # which a single number has lost
-        return np.stack([found.first_order.reshape(shape), found.total_order.reshape(shape)])[:, : len(pages)]
+        return np.stack([order.reshape(shape)[: len(pages)] for order in (found.first_order, found.total_order)])
 
     whole = statistic(np.arange(base))
     spread = scipy.stats.bootstrap(

@@ -1,4 +1,4 @@
-"""Margins at draws of a campaign that somebody chooses, by processes that stay: each has the loop's bench."""
+"""Margins at chosen draws of a campaign, by processes that stay: each has the loop's bench."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Studied(NamedTuple):
 
 
 class MarginStudies:
-    """Studies a loop at draws that somebody chooses. Use it as a context manager: it holds processes.
+    """Studies a loop at chosen draws. Use it as a context manager: it holds processes.
 
     ``first`` are draws with which everything is checked; the rest is as in `SampleFlights`, whose place it takes.
     ``reasons`` say of every study why it found no margin, empty where it did. The memory that matters is looked for

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..atomic import write_atomically
 from ..batch.shards.files import write_parquet
-from ..batch.tables import aligned
+from ..batch.tables import aligned, assumption_lines
 from ..campaign.draw_space import DrawSpace
 from ..samples.flown import Flown
 from ..samples.noise import Noise, conditions, noise_line
@@ -135,18 +135,10 @@ class WorstResult:
 
     def text(self, folder: Path | None = None) -> str:
         """The result for a terminal; ``folder`` as in `document`."""
-        found, random = self.worst, self.worst_random
-        within = f"search box +-{self.sigmas:g} sigma (normal), full range (others)"
-        outside = "" if random["inside"] else ", outside the box"
-        unit, under = f" {self.unit}" if self.unit else "", self.conditions
-        of = "" if self.over is None else f" ({self.over.text})"
-        lines = [
-            f"{self.badness.text}: worst {_shown(found['value'])}{unit}{of} in {self.flights} flights, {within}{under}",
-            f"worst of {self.random_trials} random trials: {_shown(random['value'])}{unit}{of}{outside}{under}",
-            *self._fresh_lines(unit),
-        ]
-        lines += [f"failed: {self.reason}"] if self.reason else []
+        found, random, under = self.worst, self.worst_random, self.conditions
+        lines = [*self.headline(), *([f"failed: {self.reason}"] if self.reason else [])]
         lines += [line for line in (noise_line(self.noise),) if line and self.over is None]
+        lines += assumption_lines(self.facts)
         rows = [["", "trial 0: worst", "trial 1: random"]]
         for part in ("draws", "metrics"):
             names = self.space.names if part == "draws" else list(found[part])
@@ -158,14 +150,28 @@ class WorstResult:
         lines += ["", f"replay: {replay}" if replay else "replay: --output DIR writes the flights and the command"]
         return "\n".join(line.rstrip() for line in lines)
 
+    def headline(self) -> list[str]:
+        """The worst case, the worst random trial and what fresh noise does to the worst case, with their conditions."""
+        found, random = self.worst, self.worst_random
+        within = f"search box +-{self.sigmas:g} sigma (normal), full range (others)"
+        outside = "" if random["inside"] else ", outside the box"
+        unit, under = f" {self.unit}" if self.unit else "", self.conditions
+        of = "" if self.over is None else f" ({self.over.text})"
+        return [
+            f"{self.badness.text}: worst {_shown(found['value'])}{unit}{of} in {self.flights} flights, {within}{under}",
+            f"worst of {self.random_trials} random trials: {_shown(random['value'])}{unit}{of}{outside}{under}",
+            *self._fresh_lines(unit),
+        ]
+
     def _fresh_lines(self, unit: str) -> list[str]:
         """What fresh noise does to the worst point, and how the noise was flown; none where it is not random."""
         if self.fresh is None or self.over is None:
             return []
         worst, quantile = (_shown(self._told(value)) for value in (self.fresh.worst, self.fresh.at_quantile))
+        at_quantile = "" if self.over.quantile == 1.0 else f", {self.over.name} {quantile}{unit}"
         lines = [
             f"the worst point under {self.fresh.values.size} fresh noise realisations: "
-            f"worst {worst}{unit}, {self.over.name} {quantile}{unit}"
+            f"worst {worst}{unit}{at_quantile}{self.conditions}"
         ]
         names = ", ".join(self.noise.components)
         every = f"{_every(self.over.count)} at every point"

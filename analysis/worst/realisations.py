@@ -19,7 +19,7 @@ FRESH = 10  # times as many realisations fly for the point that wins
 
 @dataclass(frozen=True)
 class Realisations:
-    """The objective of a point under noise: a ``quantile`` of its values over ``count`` realisations, 1 the largest."""
+    """The objective of a point under noise: a ``quantile`` of its values over ``count`` realisations, 1 the worst."""
 
     count: int
     quantile: float
@@ -31,8 +31,8 @@ class Realisations:
 
     @property
     def name(self) -> str:
-        """The quantile in words."""
-        return {0.5: "median", 1.0: "largest"}.get(self.quantile, f"{self.quantile:g} quantile")
+        """The quantile in words, for metrics, which are worse where larger, and for margins, where smaller."""
+        return {0.5: "median", 1.0: "worst"}.get(self.quantile, f"{self.quantile:g} quantile from best to worst")
 
     @property
     def text(self) -> str:

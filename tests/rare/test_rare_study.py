@@ -4,6 +4,7 @@ Truth: Phi(-beta) of the linear system; flights again of what is told; one worke
 """
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pyarrow.parquet
@@ -111,7 +112,21 @@ def test_what_is_held_is_said(tmp_path, capsys):
     assert main(line) == 2
     assert "a choice has single values, and this study goes between them; hold it" in capsys.readouterr().err
     assert main([*line, "--hold", "a.count=1", "--failure", "total > 2.5"]) == 0  # count 1 is what total is made for
-    assert ", conditional on a.count = 1" in capsys.readouterr().out
+    text = capsys.readouterr().out
+    for part in ("total > 2.5: probability", "equivalent Monte Carlo sample size", "levels, thresholds"):
+        line = next(line for line in text.splitlines() if part in line)
+        assert line.endswith(", conditional on a.count = 1")
+
+
+def test_no_batch_is_printed_for_held_values(tmp_path):
+    """A batch holds nothing: its trials would not be those of a result with held values."""
+    linear = linear_system(tmp_path, CHOICE)
+    result = perilune.rare(*linear, failure="total > 2.5", samples=100, hold={"a.count": 1}, workers=1)
+    assert "conditional on a.count = 1" in repr(result)
+    ended = replace(result, simulation=replace(result.simulation, noise_ends=True))
+    assert ended.monte_carlo == ""
+    ended.space.held.clear()
+    assert ended.monte_carlo.startswith("perilune batch ")
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,8 @@ Truth: a sum of draws and noise, whose shares of the variance are known; a produ
 a draw; of flights, the noise held and the same flights again.
 """
 
+import re
+
 import numpy as np
 import pyarrow.parquet
 import pytest
@@ -35,6 +37,14 @@ def test_shares_of_a_sum_and_of_a_product():
         assert np.all((order[0, 0] < truth) & (truth < order[1, 0]))
 
 
+def test_one_number_of_one_input():
+    """All of the variance is its own."""
+    random = np.random.Generator(np.random.Philox(5))
+    found = indices(saltelli_points(64, 1, random).T, 64, random)
+    assert found.first.shape == found.total.shape == (1, 1)
+    np.testing.assert_allclose([found.first[0, 0], found.total[0, 0]], 1.0, atol=0.2)
+
+
 def test_rows_differ_in_one_input_only():
     points, streams = with_noise(saltelli_points(64, 3, np.random.Generator(np.random.Philox(1))), 64)
     first, second, *mixes = np.split(np.column_stack([points, streams]), 6)
@@ -54,6 +64,7 @@ def test_the_noise_of_a_landing(tmp_path, capsys):
     assert "conditional" not in captured.out
     assert "rank correlations leave it out" in captured.out
     assert "position_error, m" in captured.out
+    assert not re.search(r"-0\.00(?!\d)", captured.out)
     result = perilune.sensitivity(*CAMPAIGN, 32, compare=ONE, workers=1)
     assert result.flights == 288
     entry = result.of("position_error")["noise realisation"]

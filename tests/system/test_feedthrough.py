@@ -196,11 +196,29 @@ def test_a_campaign_keeps_the_option_and_its_page_says_what_is_assumed(undeclare
     for result, is_said in ((late, True), (direct, False)):
         result.report(tmp_path / "page.html")
         assert ("Assumed: gain: FMU gain does not declare" in (tmp_path / "page.html").read_text()) is is_said
+        assert ("assumed: gain: FMU gain does not declare" in result.text()) is is_said
     perilune.compare([tmp_path / "late", tmp_path / "direct"]).report(tmp_path / "page.html")
     (line,) = re.findall("[^>]*does not declare[^<]*", (tmp_path / "page.html").read_text())
     assert line.startswith("late: assumed: gain: FMU gain")
-    perilune.sensitivity(path, campaign, 32, workers=1).report(tmp_path / "page.html")
-    assert "Assumed: gain: FMU gain does not declare" in (tmp_path / "page.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("study", "options"),
+    [
+        (perilune.rare, {"failure": "end > 7", "samples": 100}),
+        (perilune.worst, {"metric": "end", "flights": 100}),
+        (perilune.sensitivity, {"base": 32}),
+    ],
+)
+def test_studies_say_what_is_assumed(study, options, undeclared, tmp_path):
+    path, campaign = chain(undeclared), tmp_path / "ends.toml"
+    campaign.write_text(CAMPAIGN)
+    for said in ((), ("gain",)):
+        result = study(path, campaign, workers=1, feedthrough=said, **options)
+        assert ("assumed: gain: FMU gain does not declare" in result.text()) is (not said)
+        if not said:
+            result.report(tmp_path / "page.html")
+            assert "Assumed: gain: FMU gain does not declare" in (tmp_path / "page.html").read_text()
 
 
 def test_the_page_of_a_run_says_what_is_assumed(undeclared, tmp_path):

@@ -69,7 +69,7 @@ def test_what_is_printed(found, capsys):
     folder, result = found
     text = result.text(folder)
     assert "position_error: worst " in text
-    assert f" m (largest of {COUNT} noise realisations) in {result.flights} flights" in text
+    assert f" m (worst of {COUNT} noise realisations) in {result.flights} flights" in text
     assert f"under {10 * COUNT} fresh noise realisations: worst " in text
     assert "conditional" not in text
     assert "position_error, m" in text

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure as Plot
 
 from ...rare import outcome
 from ...rare.study import LEAST, SAMPLES, rare_failure
-from ...reports.kit.quantities import number
 from ...reports.studies.plots import rare_plot
 from ...reports.studies.rare_page import design_table, level_table, write_rare_page
 from ...ssp.parameter_sets import SetValue
@@ -35,7 +34,7 @@ class RareResult(outcome.RareResult):
     folder: Path | None = None
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.facts['system']}, {self.failure.text}: {self._estimate()})"
+        return f"{type(self).__name__}({self.facts['system']}, {self.headline()})"
 
     def write(self, folder: FilePath) -> None:
         """Write rare.json, flights.parquet and, where there are failures, failures.parquet."""
@@ -49,15 +48,9 @@ class RareResult(outcome.RareResult):
         """Limit state over simulations, exceedance probability, failures over the two most influential parameters."""
         return rare_plot(self)
 
-    def _estimate(self) -> str:
-        low, high = self.interval
-        if self.probability is None:
-            return f"not reached, probability below {number(high, 3)}"
-        return f"probability {number(self.probability, 3)}, 95 % interval {number(low, 3)} to {number(high, 3)}"
-
     def _repr_html_(self) -> str:
         grids = [Grid(table.heads, table.rows) for table in (level_table(self), design_table(self))]
-        words = [self.failure.text, self._estimate(), f"{self.flights} simulations", *condition_words(self)]
+        words = [self.headline(), f"{self.flights} simulations", *condition_words(self)]
         return notebook_view(f"{self.facts['system']}: rare failure", words, grids, self.plot())
 
 

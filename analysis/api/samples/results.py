@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any, TypeVar
 
+from ...batch.tables import assumption_lines
 from ...reports.studies.conditions import StudyResult, conditions_of
 
 Study = TypeVar("Study")
@@ -18,4 +19,9 @@ def as_class(kind: type[Study], result: Any, **more: Any) -> Study:
 def condition_words(result: StudyResult) -> list[str]:
     """What a study's numbers are conditional on, for a notebook."""
     conditions = conditions_of(result)
-    return [f"campaign {conditions.campaign}", conditions.noise.rstrip("."), conditions.given.removeprefix(", ")]
+    return [
+        f"campaign {conditions.campaign}",
+        conditions.noise.rstrip("."),
+        conditions.given.removeprefix(", "),
+        *assumption_lines(result.facts),
+    ]

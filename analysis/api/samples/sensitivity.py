@@ -36,7 +36,7 @@ class SensitivityResult(outcome.SensitivityResult):
         return f"{type(self).__name__}({self.facts['system']}, {self.flights} simulations: {', '.join(self.told)})"
 
     def write(self, folder: FilePath) -> None:
-        """Write sensitivity.json and flights.parquet."""
+        """Write sensitivity.json, flights.parquet and draws.parquet."""
         super().write(Path(folder))
 
     def report(self, path: FilePath) -> None:

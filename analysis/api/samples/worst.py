@@ -38,7 +38,7 @@ class WorstResult(outcome.WorstResult):
     folder: Path | None = None
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.facts['system']}, {self.badness.text}: worst {self.worst['value']})"
+        return f"{type(self).__name__}({self.facts['system']}, {self.headline()[0]})"
 
     def write(self, folder: FilePath) -> None:
         """Write worst.json, flights.parquet and worst.parquet."""
@@ -57,12 +57,7 @@ class WorstResult(outcome.WorstResult):
 
     def _repr_html_(self) -> str:
         grids = [Grid(table.heads, table.rows) for table in (parameter_table(self), metric_table(self))]
-        worst, random = self.worst["value"], self.worst_random["value"]
-        words = [
-            f"{self.badness.text}: worst {worst} in {self.flights} simulations",
-            f"worst of {self.random_trials} random trials {random}",
-            *condition_words(self),
-        ]
+        words = [*self.headline(), *condition_words(self)]
         return notebook_view(f"{self.facts['system']}: worst case", words, grids, self.plot())
 
 

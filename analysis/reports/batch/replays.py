@@ -104,6 +104,7 @@ def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
     words += [word for name, text in campaign.sweeps.items() for word in ("--set", f"{name}={text}")]
     words += [word for option, text in _options(options) for word in (option, text)]
     words += [word for fault in plan.faults for word in ("--fault", str(fault))]
+    words += ["--input", plan.series.file] if plan.series is not None and plan.series.lines else []
     words += ["--allow-unmatched"] if options.allow_unmatched else []
     words += ["--strict"] if options.strict else []
     return shlex.join([*words, "--replay", str(trial)])

@@ -45,7 +45,7 @@ def sensitivity_plot(result: SensitivityResult, metrics: list[str]) -> Figure:
     """A panel of indices for each metric."""
     columns = min(COLUMNS, len(metrics))
     rows = -(-len(metrics) // columns)
-    lanes = min(MOST, len(result.space.names))
+    lanes = min(MOST, len(result.inputs))
     with house_style():
         figure = new_figure(rows * (1.1 + LANE * lanes), 0.5 * WIDTH * columns)
         panels = figure.subplots(rows, columns, squeeze=False).flatten()

@@ -112,8 +112,7 @@ def equivalent_table(result: RareResult) -> Table:
 def replays_of(result: RareResult, folder: Path | None) -> list[tuple[str, str]]:
     """Commands with what they do: the design points again where they were written, a lower bound where levels ended."""
     command = result.replay(folder, 0) if result.failures else ""
-    found = [("design point 0, and with --replay K point K", command)] if command else []
-    trials = result.brute_force
-    if result.simulation.noise_ends and result.commands is not None and trials is not None:
-        found.append(("a bound ten times lower, by Monte Carlo", result.commands.monte_carlo(round(10.0 * trials))))
+    found = [("design point 0; --replay K flies point K", command)] if command else []
+    if result.monte_carlo:
+        found.append(("a bound ten times lower, by Monte Carlo", result.monte_carlo))
     return found

@@ -34,6 +34,7 @@ def write_sensitivity_page(result: SensitivityResult, path: Path, folder: Path |
         tables=[(metric, index_table(result, metric)) for metric in result.told],
         ranks=rank_table(result),
         wide=wide_metrics(result),
+        wide_from=WIDE,
         replays=[("the first simulation", replay)] if replay else [],
     )
 

@@ -156,8 +156,9 @@ def draw_fresh(axes: Axes, result: WorstResult) -> None:
     ranked = shown_values(result, np.sort(result.fresh.values))
     share = np.arange(1, ranked.size + 1) / ranked.size
     axes.step(ranked, share, where="post", color=GREY, linewidth=1.6, label=f"{ranked.size} fresh realisations")
+    middle = () if result.fresh.quantile == 1.0 else ((result.fresh.at_quantile, BLUE, f"their {result.over.name}"),)
     marks = (
-        (result.fresh.at_quantile, BLUE, f"their {result.over.name}"),
+        *middle,
         (result.fresh.worst, INK, "worst of them"),
         (result.value, VERMILION, f"{result.over.name} in the search"),
     )

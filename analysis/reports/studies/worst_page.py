@@ -97,9 +97,9 @@ def fresh_cells(result: WorstResult) -> FreshCells | None:
     """What fresh noise does to the worst case; None where the noise is not random."""
     if result.fresh is None or result.over is None:
         return None
-    found = result.document()["fresh"]
-    worst, quantile = (with_unit(found[name], result.unit) for name in ("worst", "at_quantile"))
-    return FreshCells(found["realisations"], worst, result.over.name, quantile)
+    fresh = result.document()["fresh"]
+    worst, quantile = (with_unit(fresh[name], result.unit) for name in ("worst", "at_quantile"))
+    return FreshCells(fresh["realisations"], worst, result.over.name, quantile)
 
 
 def replays_of(result: WorstResult, folder: Path | None) -> list[tuple[str, str]]:

@@ -17,6 +17,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.reports.batch.batch_report import write_batch_report
 from perilune.analysis.reports.batch.replays import extremes_to_replay, failures_to_replay, replay_command
 from perilune.analysis.system.faults import parse_fault
+from perilune.analysis.system.in_flight.series import read_series
 from perilune.analysis.system.options import SystemOptions
 from tests.support.pages.checks import assert_self_contained, text_of
 from tests.support.pages.samples import DRAWS, METRICS, batch_result
@@ -98,6 +99,13 @@ def test_every_option_is_in_the_command():
         f"perilune batch ship --campaign test.toml --trials 3 --seed 7 {words} {more} --fault {fault} "
         "--allow-unmatched --replay 2"
     )
+
+
+def test_inputs_over_time_are_in_the_command(tmp_path):
+    plan, file = batch_result({"default": ONE}, METRICS).plan, tmp_path / "inputs.csv"
+    file.write_text("time,push\n0,1\n2,3\n")
+    command = replay_command(replace(plan, series=read_series(file)), Variant("default", {}), 0)
+    assert command.endswith(f"--input {file} --replay 0")
 
 
 @pytest.mark.usefixtures("fmus")

@@ -32,7 +32,10 @@ def add(parser: argparse.ArgumentParser) -> None:
         help="of random noise, the same at every point; default: 5, of a margin 1; 10 K fresh ones at the end",
     )
     parser.add_argument(
-        "--quantile", type=float, metavar="Q", help="over the realisations, which is made largest; default: 0.5"
+        "--quantile",
+        type=float,
+        metavar="Q",
+        help="of the realisations, from best to worst: 0.5 the median, 1 the worst; default: 0.5",
     )
     add_folder(parser, "worst.json, flights.parquet, and worst.parquet for perilune batch or stability --draws")
     add_report(parser)
