@@ -54,8 +54,9 @@ def run(options: argparse.Namespace) -> int:
         reason = f"no success: {replayed.plan.campaign.success.text} is not so"
         print(f"perilune: {options.folder}: trial {replayed.trial}: {reason}", file=sys.stderr)
     for difference in replayed.differences:
-        remedy = "another machine, C library or version of Perilune than the campaign's flies it now"
-        print(f"perilune: {options.folder}: trial {replayed.trial}: {difference}; {remedy}", file=sys.stderr)
+        remedy = "; another machine, C library or version of Perilune than the campaign's flies it now"
+        line = f"{difference}{'' if replayed.is_cut_off else remedy}"
+        print(f"perilune: {options.folder}: trial {replayed.trial}: {line}", file=sys.stderr)
     met = check_requirements(requirements, values)
     return exit_status(files, finished, met, replayed.outcome.success, not replayed.differences)
 
