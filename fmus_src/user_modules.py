@@ -35,12 +35,16 @@ def is_sibling(name: str, folder: Path) -> bool:
     return name not in LIBRARIES and (folder / f"{name}.py").is_file()
 
 
-def with_relative_imports(text: bytes, folder: Path) -> bytes:
-    """The source of a module in which imports of other modules of the folder are relative. Raises SyntaxError."""
+def with_relative_imports(text: bytes, file: Path) -> bytes:
+    """The source of a module in which imports of other modules of its folder are relative.
+
+    Raises SyntaxError, which names the file.
+    """
+    folder = file.parent
     starts = [0]
     for line in text.splitlines(keepends=True):
         starts.append(starts[-1] + len(line))
-    imports = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Import | ast.ImportFrom)]
+    imports = [node for node in ast.walk(ast.parse(text, str(file))) if isinstance(node, ast.Import | ast.ImportFrom)]
     for node in sorted(imports, key=lambda node: (node.lineno, node.col_offset), reverse=True):
         start = starts[node.lineno - 1] + node.col_offset
         if isinstance(node, ast.ImportFrom):
@@ -56,17 +60,17 @@ def with_relative_imports(text: bytes, folder: Path) -> bytes:
 def modules_of(path: Path) -> dict[Path, bytes]:
     """A file and what it imports of its folder, and that again: sources with relative imports. Raises SyntaxError."""
     folder = path.resolve().parent
-    found: dict[Path, bytes] = {}
+    sources: dict[Path, bytes] = {}
     waiting = [path.resolve()]
     while waiting:
         file = waiting.pop()
-        if file in found or not file.is_file():
+        if file in sources or not file.is_file():
             continue
-        found[file] = with_relative_imports(file.read_bytes(), folder)
-        for node in ast.walk(ast.parse(found[file])):
+        sources[file] = with_relative_imports(file.read_bytes(), file)
+        for node in ast.walk(ast.parse(sources[file])):
             if isinstance(node, ast.ImportFrom) and node.level == 1:
                 waiting += [folder / f"{name}.py" for name in imported_names(node)]
-    return found
+    return sources
 
 
 def imported_names(node: ast.ImportFrom) -> list[str]:
@@ -126,4 +130,4 @@ class _Loader(SourceFileLoader):
 
     def get_code(self, fullname: str) -> CodeType:
         path = Path(self.path)
-        return self.source_to_code(with_relative_imports(path.read_bytes(), path.parent), str(path))
+        return self.source_to_code(with_relative_imports(path.read_bytes(), path), str(path))

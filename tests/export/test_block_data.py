@@ -175,6 +175,20 @@ def test_what_cannot_travel_is_refused_in_one_line(here, capsys, case):
     assert sorted(here.rglob("*")) == before
 
 
+def test_a_module_that_is_no_python_is_named(here, capsys):
+    (here / "helper.py").write_text("a = = 1\n")
+    assert main(["export", "my_table.py"]) == 2
+    assert "SyntaxError: invalid syntax (helper.py, line 1)" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["my_table", "my_table.py"])
+def test_a_platform_for_python_alone_is_refused(here, capsys, name):
+    assert main(["export", name, "--platform", local_platform()]) == 2
+    expected = f"perilune: --platform: {local_platform()}: my_table: needs Python and has no native form; leave it out"
+    assert capsys.readouterr().err.strip() == expected
+    assert not (here / "build").exists()
+
+
 def test_only_what_is_declared_is_packed(here):
     (here / "other.npz").write_bytes(b"x")
     (here / "unused.py").write_text("raise ValueError\n")
