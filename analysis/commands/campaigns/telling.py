@@ -96,16 +96,16 @@ class Failures(NamedTuple):
 
 def failed_flights(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failures]:
     """Of each variant that has any; ``parts`` are trials by variant, in order of trial."""
-    found: dict[str, Failures] = {}
+    failures: dict[str, Failures] = {}
     for rows in parts:
         for variant, own in rows.items():
             for columns in own.parts("trial", "message"):
                 failed = np.flatnonzero(columns["message"] != "")
                 if failed.size:
                     first = Failures(0, int(columns["trial"][failed[0]]), str(columns["message"][failed[0]]))
-                    before = found.get(variant, first)
-                    found[variant] = before._replace(flights=before.flights + failed.size)
-    return found
+                    before = failures.get(variant, first)
+                    failures[variant] = before._replace(flights=before.flights + failed.size)
+    return failures
 
 
 def report_failed(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> None:
