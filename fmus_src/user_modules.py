@@ -10,9 +10,11 @@ import ast
 import hashlib
 import importlib
 import importlib.util
+import io
 import keyword
 import re
 import sys
+import tokenize
 from collections.abc import Sequence
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, SourceFileLoader
@@ -41,10 +43,13 @@ def with_relative_imports(text: bytes, file: Path) -> bytes:
     Raises SyntaxError, which names the file.
     """
     folder = file.parent
+    encoding, _ = tokenize.detect_encoding(io.BytesIO(text).readline)
+    source = text.decode(encoding)
+    text = source.encode()  # columns of the syntax tree count bytes of UTF-8
     starts = [0]
     for line in text.splitlines(keepends=True):
         starts.append(starts[-1] + len(line))
-    imports = [node for node in ast.walk(ast.parse(text, str(file))) if isinstance(node, ast.Import | ast.ImportFrom)]
+    imports = [node for node in ast.walk(ast.parse(source, str(file))) if isinstance(node, ast.Import | ast.ImportFrom)]
     for node in sorted(imports, key=lambda node: (node.lineno, node.col_offset), reverse=True):
         start = starts[node.lineno - 1] + node.col_offset
         if isinstance(node, ast.ImportFrom):
@@ -54,7 +59,7 @@ def with_relative_imports(text: bytes, file: Path) -> bytes:
         elif any(is_sibling(alias.name, folder) for alias in node.names):
             end = starts[(node.end_lineno or node.lineno) - 1] + (node.end_col_offset or 0)
             text = text[:start] + "; ".join(_import(alias, folder) for alias in node.names).encode() + text[end:]
-    return text
+    return text.decode().encode(encoding.removesuffix("-sig"))
 
 
 def modules_of(path: Path) -> dict[Path, bytes]:
