@@ -79,7 +79,7 @@ EXAMPLES: dict[str, tuple[tuple[str, str], ...]] = {
         (
             "perilune batch lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
             "--draws long_flights/failures.parquet",
-            "the likeliest long flights again",
+            "the most probable long flights again",
         ),
     ),
     "worst": (

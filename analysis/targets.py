@@ -11,6 +11,7 @@ from pathlib import Path
 from .atomic import PARTIAL
 from .errors import InputError
 
+DEVICES = Path("/dev")  # whose links, /dev/stdout for one, may lead to ordinary files
 LONGEST_NAME = 255  # bytes, on all common file systems
 PAGES = (".html", ".htm")
 RESULTS = (
@@ -32,7 +33,8 @@ def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), n
     if suffixes and path.suffix not in suffixes:
         problem = f"{'neither' if len(suffixes) > 1 else 'not'} {' nor '.join(suffixes)}"
         raise InputError(option, str(path), problem, f"end the name with {' or '.join(suffixes)}")
-    if os.path.exists(path) and not os.path.isfile(path):
+    is_device_link = os.path.islink(path) and path.absolute().parent.resolve() == DEVICES
+    if is_device_link or (os.path.exists(path) and not os.path.isfile(path)):
         raise InputError(option, str(path), "is a device, which a file would replace", "give the name of a file")
     _check_folder(option, path, path.parent, new_folders)
     if os.path.exists(path):

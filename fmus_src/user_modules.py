@@ -10,9 +10,11 @@ import ast
 import hashlib
 import importlib
 import importlib.util
+import io
 import keyword
 import re
 import sys
+import tokenize
 from collections.abc import Sequence
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, SourceFileLoader
@@ -35,12 +37,19 @@ def is_sibling(name: str, folder: Path) -> bool:
     return name not in LIBRARIES and (folder / f"{name}.py").is_file()
 
 
-def with_relative_imports(text: bytes, folder: Path) -> bytes:
-    """The source of a module in which imports of other modules of the folder are relative. Raises SyntaxError."""
+def with_relative_imports(text: bytes, file: Path) -> bytes:
+    """The source of a module in which imports of other modules of its folder are relative.
+
+    Raises SyntaxError, which names the file.
+    """
+    folder = file.parent
+    encoding, _ = tokenize.detect_encoding(io.BytesIO(text).readline)
+    source = text.decode(encoding)
+    text = source.encode()  # columns of the syntax tree count bytes of UTF-8
     starts = [0]
     for line in text.splitlines(keepends=True):
         starts.append(starts[-1] + len(line))
-    imports = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Import | ast.ImportFrom)]
+    imports = [node for node in ast.walk(ast.parse(source, str(file))) if isinstance(node, ast.Import | ast.ImportFrom)]
     for node in sorted(imports, key=lambda node: (node.lineno, node.col_offset), reverse=True):
         start = starts[node.lineno - 1] + node.col_offset
         if isinstance(node, ast.ImportFrom):
@@ -50,23 +59,23 @@ def with_relative_imports(text: bytes, folder: Path) -> bytes:
         elif any(is_sibling(alias.name, folder) for alias in node.names):
             end = starts[(node.end_lineno or node.lineno) - 1] + (node.end_col_offset or 0)
             text = text[:start] + "; ".join(_import(alias, folder) for alias in node.names).encode() + text[end:]
-    return text
+    return text.decode().encode(encoding.removesuffix("-sig"))
 
 
 def modules_of(path: Path) -> dict[Path, bytes]:
     """A file and what it imports of its folder, and that again: sources with relative imports. Raises SyntaxError."""
     folder = path.resolve().parent
-    found: dict[Path, bytes] = {}
+    sources: dict[Path, bytes] = {}
     waiting = [path.resolve()]
     while waiting:
         file = waiting.pop()
-        if file in found or not file.is_file():
+        if file in sources or not file.is_file():
             continue
-        found[file] = with_relative_imports(file.read_bytes(), folder)
-        for node in ast.walk(ast.parse(found[file])):
+        sources[file] = with_relative_imports(file.read_bytes(), file)
+        for node in ast.walk(ast.parse(sources[file])):
             if isinstance(node, ast.ImportFrom) and node.level == 1:
                 waiting += [folder / f"{name}.py" for name in imported_names(node)]
-    return found
+    return sources
 
 
 def imported_names(node: ast.ImportFrom) -> list[str]:
@@ -126,4 +135,4 @@ class _Loader(SourceFileLoader):
 
     def get_code(self, fullname: str) -> CodeType:
         path = Path(self.path)
-        return self.source_to_code(with_relative_imports(path.read_bytes(), path.parent), str(path))
+        return self.source_to_code(with_relative_imports(path.read_bytes(), path), str(path))

@@ -182,6 +182,10 @@ def _export_file(
     """The blocks of a file, or ``only`` one, into the working folder's build/fmus, where ``use`` finds them by name."""
     platforms = _platforms(asked, own=True)
     flavours = [flavour] if flavour else [name for name in FLAVOURS if platforms or name == "python"]
+    blocks = [block for block in own_blocks(file) if only in (None, block.fmu_name)]
+    if asked and all(block.python_only for block in blocks):
+        problem = f"{', '.join(block.fmu_name for block in blocks)}: needs Python and has no native form"
+        raise InputError("--platform", asked[0], problem, "leave it out")
     if output is None:
         for each in flavours:
             check_file("export", own_fmu(file.stem, each), new_folders=3)  # build/fmus/FLAVOUR
@@ -196,7 +200,6 @@ def _export_file(
         built = tuple(name for name in flavours if any(path.parent.name == name for path in written))
         paths = tuple(path.relative_to(Path.cwd()) for path in written)
         return Exported(paths, built, tuple(platforms) if "native" in built else ())
-    blocks = [block for block in own_blocks(file) if only in (None, block.fmu_name)]
     if output.suffix != ".fmu" or len(blocks) > 1:
         problem = "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} are no one FMU"
         raise InputError("--output", str(output), problem, "leave it out: FMUs go to build/fmus")

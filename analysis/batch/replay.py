@@ -11,7 +11,7 @@ from pathlib import Path
 from ..campaign.campaign import Variant
 from ..campaign.plan import BatchPlan
 from ..errors import InputError, suggestion
-from ..flight.results import Result
+from ..flight.results import TIMED_OUT, Result
 from ..system.prepared import PreparedSystem
 from .flying.flyer import Flyer, TrialResult
 from .manifest.manifest import read_manifest
@@ -20,13 +20,16 @@ from .runner import Campaign, open_folder
 from .shards.files import is_flown
 from .shards.rows import ShardRows
 
+CUT_OFF = ("interrupted", TIMED_OUT)
+
 
 @dataclass(frozen=True)
 class ReplayedTrial:
     """One trial of one ``configuration`` of a campaign: its ``flight`` with every signal, what it came to.
 
     ``faults`` flew in it. ``stored`` says whether the folder has the trial, ``differences`` how the flight differs from
-    it: nothing where the machine, its C library and this version of Perilune are those that flew the campaign.
+    it: nothing where the machine, its C library and this version of Perilune are those that flew the campaign, and the
+    flight was not cut off by ``timeout`` or Ctrl-C (``is_cut_off``), after which the rest is not compared.
     """
 
     plan: BatchPlan
@@ -38,6 +41,11 @@ class ReplayedTrial:
     faults: tuple[str, ...]
     stored: bool
     differences: tuple[str, ...]
+
+    @property
+    def is_cut_off(self) -> bool:
+        """Whether the flight ended before its end by a limit of wall-clock time, or by Ctrl-C."""
+        return self.outcome.status in CUT_OFF
 
 
 def stored_replay(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:
@@ -108,6 +116,8 @@ def _stored(campaign: Campaign, variant: Variant, trial: int) -> TrialResult | N
 
 def _differences(stored: TrialResult, flown: TrialResult) -> tuple[str, ...]:
     """How two outcomes of one trial differ, to the last bit, a phrase each."""
+    if flown.status in CUT_OFF:
+        return (f"status {stored.status!r} is stored, {flown.status!r} was flown: the rest is not compared",)
     pairs: dict[str, tuple[object, object]] = {
         "status": (stored.status, flown.status),
         "success": (stored.success, flown.success),

@@ -90,7 +90,7 @@ def closure_of(block_class: type[Block]) -> Closure:
 
 def data_files(block_class: type[Block]) -> dict[Path, type[Block]]:
     """The files that a block declares, each with the class that does; raises `ClosureError` for one that is missing."""
-    found: dict[Path, type[Block]] = {}
+    owners: dict[Path, type[Block]] = {}
     for owner in block_class.__mro__:
         for name in vars(owner).get("data", ()):
             source = Path(inspect.getfile(owner)).resolve()
@@ -98,8 +98,8 @@ def data_files(block_class: type[Block]) -> dict[Path, type[Block]]:
             if not path.is_file():
                 problem = f"data names {name}, and there is no such file next to {source.name}"
                 raise ClosureError(f"{source}: {owner.__name__}: {problem}; write it there, or take the name out")
-            found[path] = owner
-    return found
+            owners[path] = owner
+    return owners
 
 
 def _collect(module: str, files: dict[str, bytes], allowed: frozenset[str]) -> None:

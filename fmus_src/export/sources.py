@@ -1,4 +1,4 @@
-"""Of which file an FMU of one's own was built: kept in sources.json with_it the FMUs, so that a change is noticed.
+"""Of which file an FMU of one's own was built: kept in sources.json beside the FMUs, so that a change is noticed.
 
 Files are named from the folder of sources.json, whatever machine it lies on; FMUs and sources by their SHA-256.
 """
@@ -23,9 +23,9 @@ def record_source(folder: Path, source: Path, fmus: Sequence[Path], others: Iter
         return
     known = _read(folder)
     built_of = {"source": place, "sha256": _digest(source)}
-    with_it = {_relative(other, folder): _digest(other) for other in others}
+    digests = {_relative(other, folder): _digest(other) for other in others}
     for fmu in fmus:
-        known[_relative(fmu, folder)] = {"fmu": _digest(fmu), **built_of, "others": with_it}
+        known[_relative(fmu, folder)] = {"fmu": _digest(fmu), **built_of, "others": digests}
     (folder / NAME).write_text(json.dumps(dict(sorted(known.items())), indent=1) + "\n", encoding="utf-8")
 
 

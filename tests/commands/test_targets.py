@@ -140,6 +140,16 @@ def test_targets_of_every_verb_are_tried_first(tmp_path, monkeypatch, capsys, ve
         assert not Path("/perilune_new").exists()
 
 
+def test_a_link_among_devices_stays(tmp_path, monkeypatch, capsys):
+    """/dev/stdout of a command whose output goes to a file: the link's end is an ordinary file."""
+    (tmp_path / "log").write_text("")
+    (tmp_path / "stdout").symlink_to(tmp_path / "log")
+    monkeypatch.setattr("perilune.analysis.targets.DEVICES", tmp_path.resolve())
+    assert main([*RUN, "--json", str(tmp_path / "stdout")]) == 2
+    assert "is a device, which a file would replace" in capsys.readouterr().err
+    assert (tmp_path / "stdout").is_symlink()
+
+
 def test_a_new_folder_is_made_one_level_down(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main([*RUN, "--report", "new/page.html", "--output", "other/table.csv"]) == 0

@@ -19,6 +19,7 @@ from perilune.fmus_src.catalogue import blocks_in_file
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.runtime import Component
+from perilune.fmus_src.user_modules import import_file
 
 BLOCK = '''"""A table looked up."""
 from functools import cache
@@ -173,6 +174,29 @@ def test_what_cannot_travel_is_refused_in_one_line(here, capsys, case):
     assert error.count("\n") == 1
     assert words in error, error
     assert sorted(here.rglob("*")) == before
+
+
+def test_a_module_that_is_no_python_is_named(here, capsys):
+    (here / "helper.py").write_text("a = = 1\n")
+    assert main(["export", "my_table.py"]) == 2
+    assert "SyntaxError: invalid syntax (helper.py, line 1)" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("head", "encoding"), [("", "utf-8-sig"), ("# coding: latin-1\n", "latin-1")])
+def test_sources_in_other_encodings(tmp_path, head, encoding):
+    (tmp_path / "helper.py").write_text("k = 3.0\n")
+    path = tmp_path / "gain.py"
+    path.write_bytes(f'{head}from helper import k; x = "\u00e4"; import helper\n'.encode(encoding))
+    module = import_file(path)
+    assert (module.k, module.x, module.helper.k) == (3.0, "\u00e4", 3.0)
+
+
+@pytest.mark.parametrize("name", ["my_table", "my_table.py"])
+def test_a_platform_for_python_alone_is_refused(here, capsys, name):
+    assert main(["export", name, "--platform", local_platform()]) == 2
+    expected = f"perilune: --platform: {local_platform()}: my_table: needs Python and has no native form; leave it out"
+    assert capsys.readouterr().err.strip() == expected
+    assert not (here / "build").exists()
 
 
 def test_only_what_is_declared_is_packed(here):

@@ -7,9 +7,9 @@ import sys
 from typing import Any
 
 from ...batch.cluster.connection import cluster
-from ...batch.flying.flyer import Flyer
+from ...batch.flying.flyer import Flyer, TrialResult
 from ...batch.runner import open_campaign, run_batch
-from ...batch.tables import aligned, faults_line
+from ...batch.tables import faults_line
 from ...campaign.checks import check_plan
 from ...campaign.plan import BatchPlan, read_plan
 from ...campaign.sweeps import part_sweeps
@@ -21,7 +21,7 @@ from ..common.in_flight import series, watch
 from ..common.options import check_json, faults, json_number, pairs, system_options, write_json
 from ..common.remarks import say_stale
 from . import sensitivity
-from .telling import asked_requirements, said_how_to_go_on, tell
+from .telling import asked_requirements, outcome_lines, said_how_to_go_on, tell
 
 
 def run(options: argparse.Namespace) -> int:
@@ -115,6 +115,7 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
     files = Results()
     flyer = Flyer(plan)
     document: dict[str, dict[str, Any]] = {}
+    outcomes: dict[str, TrialResult] = {}
     for variant in flyer.variants:
         try:
             result, found = flyer.replay(variant, trial)
@@ -124,6 +125,7 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
         if options.output is not None:
             files.write(options.output / f"{variant}_{trial:06d}.parquet", result.write)
         metrics = {name: json_number(value) for name, value in found.metrics.items()}
+        outcomes[variant] = found
         document[variant] = {"status": found.status, "success": found.success, "metrics": metrics}
         if not found.success:
             reason = found.message or f"{plan.campaign.success.text} is not so"
@@ -131,15 +133,8 @@ def _replay(plan: BatchPlan, options: argparse.Namespace) -> int:
     flown = [str(fault) for fault in plan.faults_of(trial) if fault is not None]
     declared = {"faults": flown} if plan.fault_texts() else {}
     if not write_json({"trial": trial, **declared, "variants": document}, options.json, files):
-        for variant, entry in document.items():
-            print(f"{variant}: trial {trial}: {entry['status']}, {'success' if entry['success'] else 'no success'}")
-            units = {metric.name: "" if metric.unit == "1" else metric.unit for metric in plan.campaign.metrics}
-            cells = [
-                [f"  {name}", "none" if value is None else f"{value:.6g}", units[name]]
-                for name, value in entry["metrics"].items()
-            ]
-            for line in aligned(cells) if cells else ():
-                print(line.rstrip())
+        for variant, outcome in outcomes.items():
+            print("\n".join(outcome_lines(variant, trial, outcome, plan.campaign.metrics)))
         if flown:
             print(faults_line(flown))
     if options.json != "-":

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from ...batch.replay import ReplayedTrial, replay_trial
-from ...batch.tables import aligned, faults_line
+from ...batch.tables import faults_line
 from ...flight.interruptible import StuckError
 from ...reports.own.asked.reading import read_figures
 from ...reports.own.limit_table import limit_document
@@ -19,6 +19,7 @@ from ..common.in_flight import watch
 from ..common.options import check_json, json_number, write_json
 from ..common.requirements import check_requirements, read_requirements
 from ..run import OUTPUT_SUFFIXES, STUCK, last_values, write_page
+from .telling import outcome_lines
 
 METRIC = "metric."
 
@@ -54,8 +55,9 @@ def run(options: argparse.Namespace) -> int:
         reason = f"no success: {replayed.plan.campaign.success.text} is not so"
         print(f"perilune: {options.folder}: trial {replayed.trial}: {reason}", file=sys.stderr)
     for difference in replayed.differences:
-        remedy = "another machine, C library or version of Perilune than the campaign's flies it now"
-        print(f"perilune: {options.folder}: trial {replayed.trial}: {difference}; {remedy}", file=sys.stderr)
+        remedy = "; another machine, C library or version of Perilune than the campaign's flies it now"
+        line = f"{difference}{'' if replayed.is_cut_off else remedy}"
+        print(f"perilune: {options.folder}: trial {replayed.trial}: {line}", file=sys.stderr)
     met = check_requirements(requirements, values)
     return exit_status(files, finished, met, replayed.outcome.success, not replayed.differences)
 
@@ -75,14 +77,8 @@ def replay_facts(replayed: ReplayedTrial) -> dict[str, Any]:
 
 def replay_lines(replayed: ReplayedTrial) -> list[str]:
     """The trial's metrics, its faults, and whether it is what the folder has."""
-    outcome, metrics = replayed.outcome, replayed.plan.campaign.metrics
-    success = "success" if outcome.success else "no success"
-    lines = [f"{replayed.configuration}: trial {replayed.trial}: {outcome.status}, {success}"]
-    cells = [
-        [f"  {metric.name}", f"{outcome.metrics[metric.name]:.6g}", "" if metric.unit == "1" else metric.unit]
-        for metric in metrics
-    ]
-    lines += [line.rstrip() for line in aligned(cells)] if cells else []
+    metrics = replayed.plan.campaign.metrics
+    lines = outcome_lines(replayed.configuration, replayed.trial, replayed.outcome, metrics)
     lines += [faults_line(replayed.faults)] if replayed.faults else []
     if replayed.stored and not replayed.differences:
         lines.append("equal to the stored trial to the last bit")

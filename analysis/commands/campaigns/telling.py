@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -12,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...batch.flying.flyer import TrialResult
 from ...batch.flying.status_texts import worst_statuses
 from ...batch.flying.workers import WorkersDiedError
 from ...batch.manifest.manifest import FILE as MANIFEST
@@ -19,7 +21,9 @@ from ...batch.replay import stored_replay
 from ...batch.results import BatchResult
 from ...batch.rows import TrialColumns, TrialRows
 from ...batch.summary import requirement_values, summarise
+from ...batch.tables import aligned
 from ...batch.verdicts import add_verdicts, unmet_lines
+from ...campaign.campaign import Metric
 from ...campaign.expressions import Expression
 from ...campaign.plan import BatchPlan
 from ...errors import EndedError
@@ -96,16 +100,16 @@ class Failures(NamedTuple):
 
 def failed_flights(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failures]:
     """Of each variant that has any; ``parts`` are trials by variant, in order of trial."""
-    found: dict[str, Failures] = {}
+    failures: dict[str, Failures] = {}
     for rows in parts:
         for variant, own in rows.items():
             for columns in own.parts("trial", "message"):
                 failed = np.flatnonzero(columns["message"] != "")
                 if failed.size:
                     first = Failures(0, int(columns["trial"][failed[0]]), str(columns["message"][failed[0]]))
-                    before = found.get(variant, first)
-                    found[variant] = before._replace(flights=before.flights + failed.size)
-    return found
+                    before = failures.get(variant, first)
+                    failures[variant] = before._replace(flights=before.flights + failed.size)
+    return failures
 
 
 def report_failed(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> None:
@@ -114,6 +118,18 @@ def report_failed(failures: Mapping[str, Failures], plan: BatchPlan, folder: Pat
     for variant, (flights, trial, message) in failures.items():
         replay = "" if folder is None else f"; see it: {stored_replay(folder, variants, variant, trial)}"
         print(f"perilune: {variant}: {flights} flights failed; trial {trial}: {message}{replay}", file=sys.stderr)
+
+
+def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Iterable[Metric]) -> list[str]:
+    """What one trial of a variant came to: its status, whether it is a success, its metrics."""
+    success = "success" if outcome.success else "no success"
+    cells = []
+    for metric in metrics:
+        value = outcome.metrics[metric.name]
+        text = "none" if math.isnan(value) else f"{value:.6g}"
+        cells.append([f"  {metric.name}", text, "" if metric.unit == "1" else metric.unit])
+    lines = [line.rstrip() for line in aligned(cells)] if cells else []
+    return [f"{variant}: trial {trial}: {outcome.status}, {success}", *lines]
 
 
 def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:

@@ -121,6 +121,15 @@ def test_a_trial_that_is_no_longer_the_stored_one_is_named(folder, tmp_path, cap
     assert main(["replay", str(other), "1", "--configuration", "analytic_guidance"]) == 0
 
 
+def test_a_replay_that_is_cut_off_says_nothing_of_the_rest(folder, capsys):
+    options = ["--configuration", "analytic_guidance", "--timeout", "1e-4"]
+    assert main(["replay", str(folder), "3", *options]) == 1
+    captured = capsys.readouterr()
+    assert "equal to the stored trial" not in captured.out
+    (line,) = [line for line in captured.err.splitlines() if "is stored" in line]
+    assert line.endswith("trial 3: status 'finished' is stored, 'timed_out' was flown: the rest is not compared")
+
+
 def test_a_campaign_that_has_not_flown(folder, tmp_path, capsys):
     """Its draws are there, and nothing to compare with."""
     bare = tmp_path / "bare"

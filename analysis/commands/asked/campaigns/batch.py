@@ -49,7 +49,8 @@ def add(parser: argparse.ArgumentParser) -> None:
         "--sensitivity",
         type=int,
         metavar="N",
-        help="Sobol' indices of the metrics instead, by N times the number of draws and 2 flights; N a power of two",
+        help="Sobol' indices of the metrics instead: N times (draws + 2) flights, + 3 where noise is random, too; "
+        "N a power of two",
     )
     add_held(parser)
     add_requirements(parser, "the summary's numbers")
