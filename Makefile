@@ -17,7 +17,7 @@ test: .venv/ready lint build
 	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 # What is proved without flights: the mathematics, the language, expressions, laws, the arrows between rooms.
-QUICK := tests/campaign tests/compare tests/export/judge tests/laws tests/mathlib tests/reports/kit tests/test_architecture.py tests/test_errors.py
+QUICK := tests/campaigns/spec tests/campaigns/compare tests/export/judge tests/design/laws tests/mathlib tests/reports/common tests/test_architecture.py tests/common/test_errors.py
 
 quick: .venv/ready
 	$(BIN)/ruff check .
@@ -29,7 +29,7 @@ long: build
 
 # The same of campaigns alone: rare failures, worst cases beside a hundred thousand random trials, what drives metrics,
 # verdicts, campaigns that end early and go on; a quarter of an hour to an hour on two cores.
-CAMPAIGNS := tests/batch tests/worst tests/rare tests/sensitivity tests/verdicts
+CAMPAIGNS := tests/campaigns tests/studies/worst tests/studies/rare tests/studies/sensitivity tests/campaigns/verdicts
 
 long-campaigns: build
 	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 $(CAMPAIGNS)
@@ -58,8 +58,8 @@ explore: build
 # Gains that follow from the capsule's aerodynamic table, into the module that its regulators read; and how large the
 # gain of the whole model would be, which no regulator reads.
 gains: .venv/ready
-	$(BIN)/python -m perilune.analysis.synthesis.entry_gains
-	@$(BIN)/python -c "import numpy; from perilune.analysis.synthesis.entry_whole_gain import whole_gain; \
+	$(BIN)/python -m perilune.analysis.design.synthesis.entry_gains
+	@$(BIN)/python -c "import numpy; from perilune.analysis.design.synthesis.entry_whole_gain import whole_gain; \
 		print(f'whole model: |F| = {numpy.linalg.norm(whole_gain()):.4g}')"
 
 bench: build

@@ -15,10 +15,10 @@ from typing import Any, NoReturn
 import argcomplete
 
 from .commands.common.exit_status import ExitStatus
-from .errors import EndedError, InputError, warn_in_one_line
+from .common.errors import EndedError, InputError, warn_in_one_line
+from .common.process_end import leave
+from .common.streams import steady_streams
 from .examples import EXAMPLES
-from .process_end import leave
-from .streams import steady_streams
 
 VERBS = {
     "list": "list systems, with parameter sets, campaigns and loops, laws and FMUs",

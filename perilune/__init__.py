@@ -32,13 +32,13 @@ if TYPE_CHECKING:
     from .analysis.api.stability import StabilityReport, stability
     from .analysis.api.timing import benchmark
     from .analysis.api.validate import validate
-    from .analysis.errors import InputError
-    from .analysis.planning.bounds import Landing
-    from .analysis.planning.path import PlanError
-    from .analysis.planning.vehicle import Margins, Transfer, Vehicle
-    from .analysis.stability.bench.bench import StudyError
-    from .analysis.synthesis.outcome import SynthesisResult
-    from .analysis.system.faults import Fault
+    from .analysis.common.errors import InputError
+    from .analysis.design.synthesis.outcome import SynthesisResult
+    from .analysis.design.trajectories.bounds import Landing
+    from .analysis.design.trajectories.path import PlanError
+    from .analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
+    from .analysis.runtime.system.faults import Fault
+    from .analysis.stability.injection.bench import StudyError
     from .fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
     from .fmus_src.interfaces.allocation import Allocation
     from .fmus_src.interfaces.attitude_observer import AttitudeObserver
@@ -154,13 +154,13 @@ _HOMES = {
     "analysis.api.stability": ("StabilityReport", "stability"),
     "analysis.api.timing": ("benchmark",),
     "analysis.api.validate": ("validate",),
-    "analysis.errors": ("InputError",),
-    "analysis.planning.bounds": ("Landing",),
-    "analysis.planning.path": ("PlanError",),
-    "analysis.planning.vehicle": ("Margins", "Transfer", "Vehicle"),
-    "analysis.stability.bench.bench": ("StudyError",),
-    "analysis.synthesis.outcome": ("SynthesisResult",),
-    "analysis.system.faults": ("Fault",),
+    "analysis.common.errors": ("InputError",),
+    "analysis.design.trajectories.bounds": ("Landing",),
+    "analysis.design.trajectories.path": ("PlanError",),
+    "analysis.design.trajectories.vehicle": ("Margins", "Transfer", "Vehicle"),
+    "analysis.stability.injection.bench": ("StudyError",),
+    "analysis.design.synthesis.outcome": ("SynthesisResult",),
+    "analysis.runtime.system.faults": ("Fault",),
 }
 
 if not (Path(__file__).parent / "analysis").is_dir():

@@ -7,16 +7,16 @@ ones.
 
 from __future__ import annotations
 
-from .analysis.modal.observers import observer, reduced_observer
-from .analysis.modal.output.common import CommonFeedback, common_feedback
-from .analysis.modal.output.feedback import output_feedback
-from .analysis.modal.output.levels import output_feedback_levels
-from .analysis.modal.output.parametric import OutputFeedbackSet, output_feedback_set
-from .analysis.modal.place import place, place_levels, place_polynomial, polynomial_of_gain
-from .analysis.modal.polynomial import polynomial_of_solvents
-from .analysis.modal.pulses import PulsedPlant, pulsed_step
-from .analysis.modal.refusal import PlacementError, Reason
-from .analysis.modal.results import Observer, OutputFeedback, Placement, ReducedObserver, StateFeedback
+from .analysis.design.poles.observers import observer, reduced_observer
+from .analysis.design.poles.output.common import CommonFeedback, common_feedback
+from .analysis.design.poles.output.feedback import output_feedback
+from .analysis.design.poles.output.levels import output_feedback_levels
+from .analysis.design.poles.output.parametric import OutputFeedbackSet, output_feedback_set
+from .analysis.design.poles.place import place, place_levels, place_polynomial, polynomial_of_gain
+from .analysis.design.poles.polynomial import polynomial_of_solvents
+from .analysis.design.poles.pulses import PulsedPlant, pulsed_step
+from .analysis.design.poles.refusal import PlacementError, Reason
+from .analysis.design.poles.results import Observer, OutputFeedback, Placement, ReducedObserver, StateFeedback
 
 __all__ = [
     "CommonFeedback",

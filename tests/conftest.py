@@ -16,7 +16,7 @@ import pytest
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.closure import closure_of
 from perilune.fmus_src.export.command import main as build_fmus
-from perilune.fmus_src.places import BUILD, built_fmu
+from perilune.fmus_src.paths import BUILD, built_fmu
 from tests.support.built import native_are_current
 from tests.support.lengths import LONG, either
 from tests.support.locks import made_once, one_process_at_a_time

@@ -15,20 +15,11 @@ from pathlib import Path
 
 import pytest
 
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 
 PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 OURS = {"perilune", "analysis", "fmus_src"}
-EVERYWHERE = {
-    "analysis/errors",
-    "analysis/percent",
-    "analysis/atomic",
-    "analysis/process_end",
-    "analysis/progress",
-    "analysis/streams",
-    "analysis/targets",
-    "fmus_src/places",
-}
+EVERYWHERE = {"analysis/common", "fmus_src/paths"}
 KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
 MOST = 15
 LISTS = {

@@ -10,26 +10,26 @@ from typing import Any, Literal
 
 from matplotlib.figure import Figure as Plot
 
-from ..batch import results, runner
-from ..batch.cluster.connection import cluster
-from ..batch.rows import whole_column
-from ..batch.summary import CONFIDENCE, summary_rows
-from ..batch.tables import requirement_rows, who_cells, who_heads
-from ..campaign.drawing.declared import drawn_names
-from ..campaign.plan import read_plan
-from ..campaign.sweeps import part_sweeps
-from ..errors import InputError, suggestion
-from ..flight.results import require_pandas
-from ..percent import short_percent
-from ..reports.batch.batch_report import write_batch_report
-from ..reports.batch.distributions import sort_metrics
-from ..reports.batch.plots import metric_plot
-from ..sensitivity.ranks import rank_correlations
-from ..ssp.parameter_sets import SetValue
-from ..system.faults import Fault, faults_of
-from ..system.in_flight.series import Given, read_series
-from ..system.in_flight.watch import Watch
-from ..targets import check_folder
+from ..campaigns.draws.declared import drawn_names
+from ..campaigns.fly import results, runner
+from ..campaigns.fly.cluster.connection import cluster
+from ..campaigns.rows import whole_column
+from ..campaigns.spec.plan import read_plan
+from ..campaigns.spec.sweeps import part_sweeps
+from ..campaigns.summary import CONFIDENCE, summary_rows
+from ..campaigns.tables import requirement_rows, who_cells, who_heads
+from ..common.errors import InputError, suggestion
+from ..common.percent import short_percent
+from ..common.targets import check_folder
+from ..reports.campaign.batch_report import write_batch_report
+from ..reports.campaign.distributions import sort_metrics
+from ..reports.campaign.plots import metric_plot
+from ..runtime.flight.results import require_pandas
+from ..runtime.ssp.parameter_sets import SetValue
+from ..runtime.system.faults import Fault, faults_of
+from ..runtime.system.in_flight.series import Given, read_series
+from ..runtime.system.in_flight.watch import Watch
+from ..studies.sensitivity.ranks import rank_correlations
 from .notebook import Grid, metric_grid, notebook_view
 from .options import Compared, FilePath, check_list, compared, system_options
 

@@ -10,15 +10,15 @@ from typing import Any
 
 from matplotlib.figure import Figure as Plot
 
-from ..batch.summary import summary_rows
-from ..batch.tables import who_cells, who_heads
-from ..compare import comparison
-from ..compare.side_by_side import compare as side_by_side
-from ..errors import InputError, suggestion
-from ..flight.results import require_pandas
-from ..percent import short_percent
+from ..campaigns.compare import comparison
+from ..campaigns.compare.side_by_side import compare as side_by_side
+from ..campaigns.summary import summary_rows
+from ..campaigns.tables import who_cells, who_heads
+from ..common.errors import InputError, suggestion
+from ..common.percent import short_percent
 from ..reports.compare.page import write_comparison_page
 from ..reports.compare.plots import metric_plot, varying_metrics
+from ..runtime.flight.results import require_pandas
 from .notebook import Grid, metric_grid, notebook_view
 from .options import FilePath, path_list
 

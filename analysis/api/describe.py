@@ -9,16 +9,16 @@ from typing import Any, Literal
 
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
-from ..describe.fits import blocks_of_slot, slots
-from ..describe.system import describe_system
-from ..describe.variables import variables_of
-from ..errors import InputError, suggestion
-from ..ssp.archive import system_names
-from ..ssp.parameter_sets import SetValue
-from ..system.alone import describe_alone
-from ..system.fmu import load_fmu
-from ..system.options import SystemOptions
-from ..system.prepared import find_fmu, prepare_system
+from ..authoring.describe.fits import blocks_of_slot, slots
+from ..authoring.describe.system import describe_system
+from ..authoring.describe.variables import variables_of
+from ..common.errors import InputError, suggestion
+from ..runtime.ssp.archive import system_names
+from ..runtime.ssp.parameter_sets import SetValue
+from ..runtime.system.alone import describe_alone
+from ..runtime.system.fmu import load_fmu
+from ..runtime.system.options import SystemOptions
+from ..runtime.system.prepared import find_fmu, prepare_system
 from .options import FilePath, system_options
 
 

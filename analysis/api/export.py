@@ -20,12 +20,12 @@ from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with,
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
 from ...fmus_src.export.sources import record_source, remove_outdated
 from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
-from ...fmus_src.places import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu, own_fmus
-from ..atomic import write_atomically
-from ..errors import InputError, suggestion
-from ..ssp.archive import SystemArchive, open_system, system_names
-from ..ssp.documents import parse_xml
-from ..targets import check_file
+from ...fmus_src.paths import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu, own_fmus
+from ..common.atomic import write_atomically
+from ..common.errors import InputError, suggestion
+from ..common.targets import check_file
+from ..runtime.ssp.archive import SystemArchive, open_system, system_names
+from ..runtime.ssp.documents import parse_xml
 from .options import FilePath
 
 Flavour = Literal["native", "python"]

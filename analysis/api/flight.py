@@ -10,23 +10,23 @@ from typing import Any, Literal
 
 from matplotlib.figure import Figure as Plot
 
-from ..flight import results
-from ..flight.instances.log import Log
-from ..flight.interruptible import fly
-from ..flight.simulation import Simulation
-from ..reports.own.asked.declared import Figure
-from ..reports.own.asked.histories import Band
-from ..reports.own.asked.reading import read_figures
-from ..reports.own.asked.stages import Limits
-from ..reports.own.limit_table import limit_document, limit_rows
-from ..reports.run.plots import signal_plot
-from ..reports.run.run_report import key_values, write_run_report
-from ..reports.run.trajectory import trajectory_plot
-from ..ssp.parameter_sets import SetValue
-from ..system.faults import Fault, faults_of
-from ..system.in_flight.series import Given, read_series
-from ..system.in_flight.watch import Watch
-from ..system.prepared import prepare_system
+from ..reports.figures.declaration.declared import Figure
+from ..reports.figures.declaration.histories import Band
+from ..reports.figures.declaration.reading import read_figures
+from ..reports.figures.declaration.stages import Limits
+from ..reports.figures.limit_table import limit_document, limit_rows
+from ..reports.flight.plots import signal_plot
+from ..reports.flight.run_report import key_values, write_run_report
+from ..reports.flight.trajectory import trajectory_plot
+from ..runtime.flight import results
+from ..runtime.flight.instances.log import Log
+from ..runtime.flight.interruptible import fly
+from ..runtime.flight.simulation import Simulation
+from ..runtime.ssp.parameter_sets import SetValue
+from ..runtime.system.faults import Fault, faults_of
+from ..runtime.system.in_flight.series import Given, read_series
+from ..runtime.system.in_flight.watch import Watch
+from ..runtime.system.prepared import prepare_system
 from .notebook import Grid, notebook_view, value_text
 from .options import FilePath, check_list, system_options
 

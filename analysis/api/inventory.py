@@ -11,10 +11,10 @@ from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
-from ...fmus_src.places import LAWS, SEARCHES
-from ..ssp.archive import SystemArchive, open_system, system_names
-from ..ssp.reading import read_description
-from ..stability.ask.reading import read_declaration
+from ...fmus_src.paths import LAWS, SEARCHES
+from ..runtime.ssp.archive import SystemArchive, open_system, system_names
+from ..runtime.ssp.reading import read_description
+from ..stability.request.reading import read_declaration
 
 
 def inventory() -> dict[str, Any]:

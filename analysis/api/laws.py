@@ -7,16 +7,16 @@ from pathlib import Path
 
 from matplotlib.figure import Figure as Plot
 
-from ..atomic import write_atomically
-from ..laws import law as laws
-from ..laws.formula import formula_text
-from ..laws.graph import law_figure
-from ..laws.law import named_law
-from ..laws.parameter_set import parameter_set
-from ..reports.kit.style import house_style
-from ..synthesis.outcome import SynthesisResult
-from ..synthesis.synthesis import run_synthesis
-from ..synthesis.synthesis_file import named_search, read_synthesis
+from ..common.atomic import write_atomically
+from ..design.laws import law as laws
+from ..design.laws.formula import formula_text
+from ..design.laws.graph import law_figure
+from ..design.laws.law import named_law
+from ..design.laws.parameter_set import parameter_set
+from ..design.synthesis.outcome import SynthesisResult
+from ..design.synthesis.synthesis import run_synthesis
+from ..design.synthesis.synthesis_file import named_search, read_synthesis
+from ..reports.common.style import house_style
 from .notebook import Grid, notebook_view
 from .options import FilePath
 

@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 from markupsafe import Markup
 from matplotlib.figure import Figure as Plot
 
-from ..batch.statistics import STATISTICS
-from ..batch.summary import SummaryRow
-from ..batch.tables import who_cells, who_heads
-from ..reports.kit.page import render_page
-from ..reports.kit.picture import svg_bytes
-from ..reports.kit.quantities import in_shown_unit, number, shown_unit
+from ..campaigns.statistics import STATISTICS
+from ..campaigns.summary import SummaryRow
+from ..campaigns.tables import who_cells, who_heads
+from ..reports.common.page import render_page
+from ..reports.common.picture import svg_bytes
+from ..reports.common.quantities import in_shown_unit, number, shown_unit
 
 TEMPLATE = Path(__file__).with_name("notebook.html")
 MOST_ROWS = 12

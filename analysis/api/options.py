@@ -6,9 +6,9 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..errors import InputError
-from ..ssp.parameter_sets import SetValue
-from ..system.options import SystemOptions
+from ..common.errors import InputError
+from ..runtime.ssp.parameter_sets import SetValue
+from ..runtime.system.options import SystemOptions
 
 FilePath = str | os.PathLike[str]
 Compared = Mapping[str, FilePath | Sequence[FilePath]]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..new import block, system
+from ..authoring.new import block, system
 
 
 def new_block(name: str, slot: str | None = None) -> list[Path]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import InputError
-from ..planning.bounds import LANDING, Landing
-from ..planning.hover_study import HoverStudy, hover_study
-from ..planning.landing_study import LandingStudy, landing_study
-from ..planning.vehicle import (
+from ..common.errors import InputError
+from ..design.trajectories.bounds import LANDING, Landing
+from ..design.trajectories.hover_study import HoverStudy, hover_study
+from ..design.trajectories.landing_study import LandingStudy, landing_study
+from ..design.trajectories.vehicle import (
     HOVER_TRANSFER,
     HOVER_VEHICLE,
     LANDING_VEHICLE,

@@ -9,14 +9,14 @@ from typing import Any, Literal
 
 from matplotlib.figure import Figure as Plot
 
-from ..errors import suggestion
-from ..flight.results import require_pandas
+from ..common.errors import suggestion
 from ..reports.stability.orders.words import order_sentences
 from ..reports.stability.page import write_stability_page
 from ..reports.stability.plots import Diagram, loop_plot
 from ..reports.stability.words import gain_margin, phase_margin, size, verdict
-from ..ssp.parameter_sets import SetValue
-from ..stability.ask.request import read_request
+from ..runtime.flight.results import require_pandas
+from ..runtime.ssp.parameter_sets import SetValue
+from ..stability.request.request import read_request
 from ..stability.results import report
 from ..stability.results.data import write_data
 from ..stability.results.document import KEYS, document

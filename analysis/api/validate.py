@@ -9,23 +9,23 @@ from typing import Any, Literal
 
 from fmpy.validation import validate_fmu
 
-from ..campaign.file import SYNTHESIS, read_campaign
-from ..campaign.toml_table import read_toml
-from ..errors import InputError
-from ..flight.instances.reset_test import reset_verdict
-from ..laws.law import read_law
-from ..planning.stored_bound import MissingBound, find_bound
-from ..reports.own.asked.reading import read_figures
-from ..ssp.archive import DEFAULT_VARIANT, open_system
-from ..ssp.parameter_sets import SetValue, read_parameter_file
-from ..stability.ask.channels import channels_of
-from ..stability.ask.declaration import Declaration
-from ..stability.ask.reading import read_declaration
-from ..stability.ask.subject import Subject
-from ..synthesis.synthesis_file import read_synthesis
-from ..system.fmu import Fmu, load_fmu
-from ..system.options import SystemOptions
-from ..system.prepared import prepare_system
+from ..campaigns.spec.file import SYNTHESIS, read_campaign
+from ..campaigns.spec.toml_table import read_toml
+from ..common.errors import InputError
+from ..design.laws.law import read_law
+from ..design.synthesis.synthesis_file import read_synthesis
+from ..design.trajectories.stored_bound import MissingBound, find_bound
+from ..reports.figures.declaration.reading import read_figures
+from ..runtime.flight.instances.reset_check import reset_verdict
+from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
+from ..runtime.ssp.parameter_sets import SetValue, read_parameter_file
+from ..runtime.system.fmu import Fmu, load_fmu
+from ..runtime.system.options import SystemOptions
+from ..runtime.system.prepared import prepare_system
+from ..stability.request.channels import channels_of
+from ..stability.request.declaration import Declaration
+from ..stability.request.reading import read_declaration
+from ..stability.request.subject import Subject
 from .options import FilePath, path_list, system_options
 
 FILES = (".ssv", ".json", ".toml")  # that are no systems

@@ -10,10 +10,10 @@ from typing import Any
 
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.ssp_package import named_fmus, pack_system
-from ...fmus_src.places import SYSTEMS, built_fmu
-from ..errors import InputError, suggestion
-from ..progress import progress_bar
-from ..ssp.archive import system_names
+from ...fmus_src.paths import SYSTEMS, built_fmu
+from ..common.errors import InputError, suggestion
+from ..common.progress import progress_bar
+from ..runtime.ssp.archive import system_names
 from .agreement import strangers
 from .contestants.all import CONTESTANTS, OURS
 from .contestants.contestant import Unavailable, Values

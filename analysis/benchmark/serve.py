@@ -11,8 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError
-from ..process_end import leave
+from ..common.errors import InputError
+from ..common.process_end import leave
 from .contestants.all import CONTESTANTS
 from .contestants.contestant import Fly, Unavailable
 from .contestants.course import Course

@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from ..batch.runner import run_batch
-from ..campaign.plan import read_plan
-from ..system.options import SystemOptions
+from ..campaigns.fly.runner import run_batch
+from ..campaigns.spec.plan import read_plan
+from ..runtime.system.options import SystemOptions
 from .worker import Worker
 
 CAMPAIGN = "paper"

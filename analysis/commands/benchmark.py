@@ -6,7 +6,7 @@ import argparse
 
 from ..benchmark.measure import run_benchmark
 from ..benchmark.table import benchmark_text
-from ..targets import Results
+from ..common.targets import Results
 from .common.options import check_json, tell
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import shlex
 
-from ..compare.side_by_side import compare
+from ..campaigns.compare.side_by_side import compare
+from ..common.targets import PAGES, Results, check_file
 from ..reports.compare.page import write_comparison_page
-from ..targets import PAGES, Results, check_file
 from .common.exit_status import exit_status
 from .common.options import check_json, write_json
 

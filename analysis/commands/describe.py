@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..api.describe import described
-from ..describe.variables import of_causality
-from ..system.order.feedthrough import Origin
+from ..authoring.describe.variables import of_causality
+from ..runtime.system.order.feedthrough import Origin
 from .common.options import check_json, system_options, tell
 from .common.text_table import text_table
 

@@ -8,7 +8,7 @@ import sys
 from ...fmus_src.export.compilers import available_platforms
 from ...fmus_src.export.judge.subset import SubsetError
 from ..api.export import export
-from ..errors import InputError
+from ..common.errors import InputError
 from .common.exit_status import ExitStatus
 from .common.options import check_json, tell
 

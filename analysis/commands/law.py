@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 
-from ..atomic import write_atomically
-from ..errors import InputError
-from ..laws.formula import formula, formula_text
-from ..laws.graph import law_svg
-from ..laws.law import named_law, read_law
-from ..laws.parameter_set import parameter_set
-from ..targets import Results, check_file
+from ..common.atomic import write_atomically
+from ..common.errors import InputError
+from ..common.targets import Results, check_file
+from ..design.laws.formula import formula, formula_text
+from ..design.laws.graph import law_svg
+from ..design.laws.law import named_law, read_law
+from ..design.laws.parameter_set import parameter_set
 from .common.options import check_json, tell
 
 

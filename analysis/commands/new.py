@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from ..new.block import Written, new_block
-from ..new.system import new_system
+from ..authoring.new.block import Written, new_block
+from ..authoring.new.system import new_system
 from .asked.new import BLOCK
 from .common.options import check_json, tell
 

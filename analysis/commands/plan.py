@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from ..planning.path import PlanError
+from ..design.trajectories.path import PlanError
 from .common.exit_status import ExitStatus
 from .plans import hover_transfer, landing_bound
 

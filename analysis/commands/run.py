@@ -8,16 +8,16 @@ from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
-from ..batch.tables import faults_line
-from ..flight.instances.log import Log
-from ..flight.interruptible import StuckError, fly
-from ..flight.results import Result
-from ..flight.simulation import Simulation
-from ..reports.own.asked.declared import Figure
-from ..reports.own.asked.reading import read_figures
-from ..reports.own.limit_table import limit_document
-from ..system.prepared import prepare_system
-from ..targets import PAGES, Results, check_file
+from ..campaigns.tables import faults_line
+from ..common.targets import PAGES, Results, check_file
+from ..reports.figures.declaration.declared import Figure
+from ..reports.figures.declaration.reading import read_figures
+from ..reports.figures.limit_table import limit_document
+from ..runtime.flight.instances.log import Log
+from ..runtime.flight.interruptible import StuckError, fly
+from ..runtime.flight.results import Result
+from ..runtime.flight.simulation import Simulation
+from ..runtime.system.prepared import prepare_system
 from .common.exit_status import ExitStatus, exit_status
 from .common.flight import check_flight, flight_lines
 from .common.in_flight import series, watch
@@ -70,6 +70,6 @@ def last_values(result: Result) -> dict[str, float]:
 
 def write_page(result: Result, system: str, figures: Sequence[Figure], path: Path) -> None:
     """The page of one flight, which ``system`` heads."""
-    from ..reports.run.run_report import write_run_report  # and matplotlib, which takes half a second
+    from ..reports.flight.run_report import write_run_report  # and matplotlib, which takes half a second
 
     write_run_report(result, path, system, figures)

@@ -7,18 +7,18 @@ import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from ..loops.margin_values import MARGINS, UNLIMITED, Quantity
+from ..common.targets import PAGES, Results, check_file, check_folder
 from ..reports.stability.orders.words import order_loops, order_sentences, withheld_line
 from ..reports.stability.page import write_stability_page
-from ..stability.ask.request import read_request
-from ..stability.bench.bench import StudyError
+from ..stability.injection.bench import StudyError
+from ..stability.loops.margin_values import MARGINS, UNLIMITED, Quantity
+from ..stability.request.request import read_request
 from ..stability.results.data import write_data
 from ..stability.results.document import document
 from ..stability.results.loop import JointReport, LoopReport
 from ..stability.results.requirement import Requirement, Verdict
 from ..stability.results.varied import SweepCrossing, SweepReport
 from ..stability.study import study
-from ..targets import PAGES, Results, check_file, check_folder
 from .common.exit_status import ExitStatus, exit_status
 from .common.options import check_json, system_options, write_json
 from .common.remarks import say_stale

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import sys
 
-from ..synthesis.synthesis import run_synthesis
-from ..synthesis.synthesis_file import named_search, read_synthesis
-from ..targets import Results, check_folder
+from ..common.targets import Results, check_folder
+from ..design.synthesis.synthesis import run_synthesis
+from ..design.synthesis.synthesis_file import named_search, read_synthesis
 from .common.exit_status import exit_status
 from .common.options import check_json, tell
 

@@ -7,7 +7,7 @@ import sys
 from typing import Any
 
 from ..api.validate import validated
-from ..targets import Results
+from ..common.targets import Results
 from .common.exit_status import ExitStatus
 from .common.options import check_json, system_options, tell
 

@@ -7,16 +7,16 @@ import time
 from pathlib import Path
 
 from ...fmus_src.export.command import main as build_fmus
-from ...fmus_src.places import BUILD
-from ..batch.results import BatchResult
-from ..batch.runner import run_batch
-from ..campaign.plan import BatchPlan, read_plan
-from ..errors import InputError
-from ..flight.results import Result
-from ..process_end import leave
-from ..reports.batch.batch_report import write_batch_report
-from ..reports.run.run_report import write_run_report
-from ..system.options import SystemOptions
+from ...fmus_src.paths import BUILD
+from ..campaigns.fly.results import BatchResult
+from ..campaigns.fly.runner import run_batch
+from ..campaigns.spec.plan import BatchPlan, read_plan
+from ..common.errors import InputError
+from ..common.process_end import leave
+from ..reports.campaign.batch_report import write_batch_report
+from ..reports.flight.run_report import write_run_report
+from ..runtime.flight.results import Result
+from ..runtime.system.options import SystemOptions
 from .landing import fly_landings
 from .page import write_demo_page
 from .readme_figure import CAMPAIGN, LANDING, SYSTEM, sample_trials

@@ -9,13 +9,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..campaign.campaign import Variant
-from ..campaign.checks import variant_names
-from ..campaign.plan import BatchPlan
-from ..flight.results import Result
-from ..flight.simulation import Simulation
-from ..reports.kit.panels import is_slim
-from ..reports.kit.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure, plain_ticks
+from ..campaigns.spec.campaign import Variant
+from ..campaigns.spec.checks import variant_names
+from ..campaigns.spec.plan import BatchPlan
+from ..reports.common.panels import is_slim
+from ..reports.common.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure, plain_ticks
+from ..runtime.flight.results import Result
+from ..runtime.flight.simulation import Simulation
 
 HEIGHT, SLIM_HEIGHT = 5.3, 7.0  # in
 SAMPLE = "#b9c9d6"

@@ -15,12 +15,12 @@ from matplotlib.figure import Figure
 from scipy.signal import place_poles
 from tqdm import tqdm
 
-from ...fmus_src.places import ROOT
-from ..modal.output.feedback import output_feedback
-from ..modal.place import place
-from ..modal.spectrum import Spectrum
-from ..reports.kit.picture import svg_bytes
-from ..reports.kit.style import house_style
+from ...fmus_src.paths import ROOT
+from ..design.poles.output.feedback import output_feedback
+from ..design.poles.place import place
+from ..design.poles.spectrum import Spectrum
+from ..reports.common.picture import svg_bytes
+from ..reports.common.style import house_style
 from .modal_figures import choices_figure, free_figure, spreads_figure
 
 SYSTEMS = 20

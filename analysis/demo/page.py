@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ..batch.results import BatchResult
-from ..flight.results import Result
-from ..reports.batch.distributions import distribution_panels, legend_of
-from ..reports.batch.failures import failure_panels
-from ..reports.batch.rates import rates_figure
-from ..reports.kit.page import write_page
-from ..reports.kit.panels import both_widths
+from ..campaigns.fly.results import BatchResult
+from ..reports.campaign.distributions import distribution_panels, legend_of
+from ..reports.campaign.failures import failure_panels
+from ..reports.campaign.rates import rates_figure
+from ..reports.common.page import write_page
+from ..reports.common.panels import both_widths
+from ..runtime.flight.results import Result
 from .landing import HEIGHT, SLIM_HEIGHT, draw_landing, vector
 from .readme_figure import LANDING
 

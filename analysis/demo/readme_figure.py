@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...fmus_src.places import ROOT
-from ..campaign.plan import read_plan
-from ..process_end import leave
-from ..reports.kit.picture import svg_bytes
-from ..system.options import SystemOptions
+from ...fmus_src.paths import ROOT
+from ..campaigns.spec.plan import read_plan
+from ..common.process_end import leave
+from ..reports.common.picture import svg_bytes
+from ..runtime.system.options import SystemOptions
 from .landing import fly_landings, landing_figure
 
 SYSTEM, CAMPAIGN = "lunar_terminal_guidance", "paper"

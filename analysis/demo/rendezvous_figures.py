@@ -10,12 +10,12 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from ...fmus_src.places import ROOT
+from ...fmus_src.paths import ROOT
 from ..api.flight import simulate
-from ..flight.results import Result
-from ..process_end import leave
-from ..reports.kit.style import BLUE, FAINT, INK, ORANGE, SKY, VERMILION, house_style, look, new_figure, plain_ticks
-from ..reports.kit.svg import DECIMALS, svg_bytes
+from ..common.process_end import leave
+from ..reports.common.style import BLUE, FAINT, INK, ORANGE, SKY, VERMILION, house_style, look, new_figure, plain_ticks
+from ..reports.common.svg import DECIMALS, svg_bytes
+from ..runtime.flight.results import Result
 from .landing import vector
 
 PHASES = ("accelerate", "turn", "approach", "hold")

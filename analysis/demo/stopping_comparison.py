@@ -13,9 +13,9 @@ import numpy as np
 from scipy.special import betainc, betaln
 from scipy.stats import binom
 
-from ..verdicts.acceptance import FURTHER, flights_needed, permitted_failures, producer_risk
-from ..verdicts.boundary import SPENT, Boundary
-from ..verdicts.stopping import StoppingRule
+from ..campaigns.verdicts.acceptance import FURTHER, flights_needed, permitted_failures, producer_risk
+from ..campaigns.verdicts.boundary import SPENT, Boundary
+from ..campaigns.verdicts.stopping import StoppingRule
 
 SHARE, CONFIDENCE = 0.9987, 0.9
 RISK, RATE = 1.0 - CONFIDENCE, 1.0 - SHARE

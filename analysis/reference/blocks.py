@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...fmus_src.block import Block, Output, Parameter
 from ...fmus_src.catalogue import catalogue
-from ..describe.fits import Demand, blocks_of_slot, connectors_of, slots
+from ..authoring.describe.fits import Demand, blocks_of_slot, connectors_of, slots
 from .markdown import prose, table
 from .usage import Usage, usages
 from .variables import declared, inputs, outputs, parameters, states

@@ -11,8 +11,8 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from ...fmus_src.places import BUILD, PACKAGE, ROOT
-from ..errors import InputError
+from ...fmus_src.paths import BUILD, PACKAGE, ROOT
+from ..common.errors import InputError
 from .links import broken_links
 from .pages import derived_pages, reference_navigation
 

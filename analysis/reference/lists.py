@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import KINDS, catalogue
-from ..describe.fits import blocks_of_slot, slots
+from ..authoring.describe.fits import blocks_of_slot, slots
 from .blocks import slots_of
 from .markdown import escaped, prose, table
 from .variables import inputs, outputs, parameters

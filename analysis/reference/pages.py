@@ -8,7 +8,7 @@ from typing import Any
 
 from ...fmus_src.catalogue import KINDS, catalogue
 from ...fmus_src.export.judge.subset_table import LANGUAGE_PAGE
-from ...fmus_src.places import ROOT
+from ...fmus_src.paths import ROOT
 from .blocks import block_page
 from .interface import interface_pages
 from .kernel import kernel_page

@@ -8,9 +8,9 @@ from functools import cache
 from pathlib import Path
 
 from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
-from ..ssp.archive import open_system, system_names
-from ..ssp.description import Component, System
-from ..ssp.reading import read_description
+from ..runtime.ssp.archive import open_system, system_names
+from ..runtime.ssp.description import Component, System
+from ..runtime.ssp.reading import read_description
 
 
 @dataclass

@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from ..errors import InputError
-from ..system.order.schedule import origin
-from ..system.prepared import PreparedSystem
-from .ask.request import Request
-from .ask.subject import Subject
-from .bench.bench import StudyError
+from ..common.errors import InputError
+from ..runtime.system.order.schedule import origin
+from ..runtime.system.prepared import PreparedSystem
+from .injection.bench import StudyError
+from .request.request import Request
+from .request.subject import Subject
 from .results.loop import JointReport, LoopReport
 from .results.report import Orders, StabilityReport, Unstudied
 from .results.requirement import Requirement

@@ -9,8 +9,8 @@ from threading import Thread
 from loky.backend import get_context
 from loky.backend.queues import SimpleQueue
 
-from ..process_end import leave_when_done
-from ..progress import progress_bar
+from ..common.process_end import leave_when_done
+from ..common.progress import progress_bar
 
 Tell = Callable[[int, int], None]  # so many more steps are to be done, so many more are done
 

@@ -12,24 +12,24 @@ from typing import Any
 from loky import ProcessPoolExecutor
 from loky.backend.queues import SimpleQueue
 
-from ..batch.flying.workers import worker_count
-from ..errors import InputError
-from ..system.prepared import PreparedSystem
-from .ask.channels import Channel
-from .ask.declaration import Point
-from .ask.request import Request
-from .ask.subject import Subject
-from .bench.bench import StudyError
+from ..campaigns.fly.workers.workers import worker_count
+from ..common.errors import InputError
+from ..runtime.system.prepared import PreparedSystem
+from .injection.bench import StudyError
 from .orders import in_both_orders
 from .point.limit_cycles import element_report
 from .point.point_study import PointStudy
 from .progress import Tell, begin, heard, shown, tell_parent
+from .request.channels import Channel
+from .request.declaration import Point
+from .request.request import Request
+from .request.subject import Subject
 from .results.loop import JointReport, LoopReport
 from .results.report import PointReport, StabilityReport, Unstudied
 from .results.varied import Dispersion
-from .vary.dispersion import dispersed
-from .vary.sampling import sampled
-from .vary.sweep import swept
+from .variation.dispersion import dispersed
+from .variation.sampling import sampled
+from .variation.sweep import swept
 
 
 @dataclass

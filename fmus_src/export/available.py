@@ -12,7 +12,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from ..catalogue import catalogue
-from ..places import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, built_fmu, own_fmu, own_fmus
+from ..paths import CACHE, FLAVOURS, IS_CHECKOUT, PACKAGE, built_fmu, own_fmu, own_fmus
 from .pythonfmu_fmu import build_python_fmu
 
 

@@ -14,7 +14,7 @@ from typing import TypeVar
 from tqdm import tqdm
 
 from ..catalogue import catalogue
-from ..places import BUILD, FLAVOURS, SYSTEMS
+from ..paths import BUILD, FLAVOURS, SYSTEMS
 from .compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
 from .native_fmu import build_native_fmu
 from .pythonfmu_fmu import build_python_fmu

@@ -9,7 +9,7 @@ from pathlib import Path
 import fmpy
 
 from ..block import Block
-from ..places import CACHE
+from ..paths import CACHE
 from .archive import content_guid, write_zip
 from .compilers import PLATFORMS, shared_library
 from .model_description import model_description

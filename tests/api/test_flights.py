@@ -149,7 +149,7 @@ def test_faults_are_given_as_texts_too(fmus):
 
 
 def test_tables_without_pandas_say_what_to_install(flight, monkeypatch):
-    monkeypatch.setattr("perilune.analysis.flight.results.find_spec", lambda name: None)
+    monkeypatch.setattr("perilune.analysis.runtime.flight.results.find_spec", lambda name: None)
     with pytest.raises(ImportError, match=r"pip install 'perilune\[notebook\]'"):
         flight.to_pandas()
 

@@ -10,7 +10,7 @@ import pytest
 from lxml import html
 
 import perilune
-from perilune.analysis.batch.summary import success_interval
+from perilune.analysis.campaigns.summary import success_interval
 from tests.api.test_flights import pictures
 
 pytestmark = pytest.mark.usefixtures("fmus")

@@ -16,7 +16,7 @@ import perilune
 from perilune.analysis.cli import VERBS
 from perilune.analysis.commands.asked import describe, export, run, stability, synthesize
 from perilune.analysis.commands.asked.campaigns import batch, rare, replay, shard, worst
-from perilune.analysis.system.options import SystemOptions
+from perilune.analysis.runtime.system.options import SystemOptions
 
 FUNCTIONS = {
     "list": "inventory", "describe": "describe", "validate": "validate", "run": "simulate", "batch": "batch",

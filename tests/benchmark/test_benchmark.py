@@ -12,7 +12,7 @@ from perilune.analysis.benchmark import measure, trials
 from perilune.analysis.benchmark.contestants.all import CONTESTANTS
 from perilune.analysis.benchmark.measure import run_benchmark
 from perilune.analysis.benchmark.table import benchmark_text
-from perilune.analysis.errors import InputError
+from perilune.analysis.common.errors import InputError
 from tests.support.lengths import either
 
 PROMISED_TIMES = {

@@ -12,9 +12,9 @@ import pytest
 from scipy.stats import beta
 
 import perilune
-from perilune.analysis.batch.statistics import STATISTICS
+from perilune.analysis.campaigns.statistics import STATISTICS
 from perilune.analysis.cli import VERBS, main
-from perilune.fmus_src.places import SYSTEMS
+from perilune.fmus_src.paths import SYSTEMS
 from tests.support.pages.checks import assert_self_contained, data_values, text_of
 
 SYSTEM = "lunar_terminal_guidance"

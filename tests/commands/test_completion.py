@@ -12,10 +12,10 @@ import sys
 
 import pytest
 
+from perilune.analysis.authoring.new.block import block_slots
 from perilune.analysis.cli import VERBS
-from perilune.analysis.new.block import block_slots
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.places import LAWS, SYSTEMS
+from perilune.fmus_src.paths import LAWS, SYSTEMS
 
 pytestmark = pytest.mark.usefixtures("fmus")
 HEAVY = ("numba", "matplotlib", "scipy", "pyarrow", "control")

@@ -11,7 +11,7 @@ from lxml import etree
 import perilune
 from perilune.analysis.cli import main
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.places import SYSTEMS
+from perilune.fmus_src.paths import SYSTEMS
 
 pytestmark = pytest.mark.usefixtures("fmus")
 SYSTEM = "lunar_terminal_guidance"

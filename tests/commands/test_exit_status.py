@@ -14,7 +14,7 @@ from dataclasses import replace
 import pytest
 
 from perilune.analysis.cli import FAILURES, VERBS, main
-from perilune.fmus_src.places import ROOT, SYSTEMS
+from perilune.fmus_src.paths import ROOT, SYSTEMS
 from tests.support.loops.exact_systems import late_double_integrator
 
 SYSTEM = "lunar_terminal_guidance"

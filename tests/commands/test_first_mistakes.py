@@ -1,7 +1,7 @@
 """What a new user does wrong at the command line: one line that names place and remedy, status 2, nothing written.
 
 Truth: the folder before and after; the words are those that a reader needs to find the place.
-What is wrong inside of systems and FMUs is in tests/system/refusals.
+What is wrong inside of systems and FMUs is in tests/runtime/system/refusals.
 """
 
 from __future__ import annotations

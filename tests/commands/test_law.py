@@ -11,8 +11,8 @@ from lxml import etree
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.laws.law import named_law
-from perilune.analysis.ssp.parameter_sets import read_parameter_file
+from perilune.analysis.design.laws.law import named_law
+from perilune.analysis.runtime.ssp.parameter_sets import read_parameter_file
 
 pytestmark = pytest.mark.usefixtures("fmus")
 

@@ -9,7 +9,7 @@ import pytest
 
 from perilune.analysis.cli import main
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.places import BUILD, SYSTEMS
+from perilune.fmus_src.paths import BUILD, SYSTEMS
 from tests.support.builders import component, connection, document, pack, parameter_set, retouched, system
 
 pytestmark = pytest.mark.usefixtures("fmus")

@@ -9,10 +9,10 @@ import sys
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.planning import solvers
-from perilune.analysis.planning.stored_bound import PLACE, find_bound
-from perilune.analysis.system.options import SystemOptions
-from perilune.analysis.system.prepared import prepare_system
+from perilune.analysis.design.trajectories import solvers
+from perilune.analysis.design.trajectories.stored_bound import PLACE, find_bound
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.declared_bounds import PIECES, declared_system
 
 

@@ -56,7 +56,7 @@ def test_json_to_a_file_and_talk_to_the_terminal(tmp_path, capsys):
 
 
 def test_packed_and_unpacked_fly_alike(tmp_path):
-    from perilune.fmus_src.places import BUILD
+    from perilune.fmus_src.paths import BUILD
 
     finals = []
     for system in (SYSTEM, BUILD / "ssp" / f"{SYSTEM}.ssp"):

@@ -13,8 +13,8 @@ import time
 import pytest
 
 from perilune.analysis.cli import main
-from perilune.analysis.synthesis.synthesis import run_synthesis
-from perilune.analysis.synthesis.synthesis_file import read_synthesis
+from perilune.analysis.design.synthesis.synthesis import run_synthesis
+from perilune.analysis.design.synthesis.synthesis_file import read_synthesis
 from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 
 pytestmark = pytest.mark.usefixtures("fmus")

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.atomic import whole_file
 from perilune.analysis.cli import VERBS, main, parser_of
+from perilune.analysis.common.atomic import whole_file
 
 pytestmark = pytest.mark.usefixtures("fmus")
 RUN = ["run", "lunar_terminal_guidance"]
@@ -144,7 +144,7 @@ def test_a_link_among_devices_stays(tmp_path, monkeypatch, capsys):
     """/dev/stdout of a command whose output goes to a file: the link's end is an ordinary file."""
     (tmp_path / "log").write_text("")
     (tmp_path / "stdout").symlink_to(tmp_path / "log")
-    monkeypatch.setattr("perilune.analysis.targets.DEVICES", tmp_path.resolve())
+    monkeypatch.setattr("perilune.analysis.common.targets.DEVICES", tmp_path.resolve())
     assert main([*RUN, "--json", str(tmp_path / "stdout")]) == 2
     assert "is a device, which a file would replace" in capsys.readouterr().err
     assert (tmp_path / "stdout").is_symlink()
@@ -188,7 +188,7 @@ def test_one_file_that_cannot_be_written_keeps_no_other(tmp_path, capsys, monkey
     def full(*_, **__):
         raise OSError(errno.ENOSPC, "No space left on device", str(tmp_path / "page.html"))
 
-    monkeypatch.setattr("perilune.analysis.reports.run.run_report.write_run_report", full)
+    monkeypatch.setattr("perilune.analysis.reports.flight.run_report.write_run_report", full)
     table, page = tmp_path / "flight.csv", tmp_path / "page.html"
     assert main([*RUN, "--output", str(table), "--report", str(page)]) == 2
     captured = capsys.readouterr()

@@ -8,7 +8,7 @@ from lxml import etree
 from perilune.analysis.demo.demo import fly
 from perilune.analysis.demo.page import PUBLISHED
 from perilune.analysis.demo.readme_figure import draw_readme_figure
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 from tests.papers.test_fomichev_li import TABLE
 from tests.support.lengths import LONG
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of

@@ -7,7 +7,7 @@ import pytest
 from lxml import etree
 
 from perilune.analysis.demo.rendezvous_figures import draw_rendezvous_figures, fly, gyros_figure
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 
 LABELS = {
     "rendezvous_scene": {"x, m", "y, m", "z, m", "robot", "object"},

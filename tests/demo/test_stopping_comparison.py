@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.demo.stopping_comparison import RATE, course, main, rules
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 from tests.support.lengths import either
 
 

@@ -13,8 +13,8 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.system.options import SystemOptions
-from perilune.analysis.system.stale import stale_fmus
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.stale import stale_fmus
 from perilune.fmus_src.catalogue import blocks_in_file
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu

@@ -14,12 +14,12 @@ import sys
 import numpy as np
 import pytest
 
-from perilune.analysis.flight.instances.instance import instantiate
-from perilune.analysis.system.fmu import load_fmu
+from perilune.analysis.runtime.flight.instances.instance import instantiate
+from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.own_blocks import build_own_blocks
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 from perilune.fmus_src.plants.flat_moon_lander import FlatMoonLander
 from perilune.fmus_src.runtime import Component
 from tests.support.builders import component, document, fly, pack, system

@@ -11,11 +11,11 @@ from typing import Any
 
 import pytest
 
-from perilune.analysis.flight.instances.instance import Instance, instantiate
-from perilune.analysis.system.fmu import load_fmu
+from perilune.analysis.runtime.flight.instances.instance import Instance, instantiate
+from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.block import Block, Input, Parameter
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.places import built_fmu
+from perilune.fmus_src.paths import built_fmu
 from perilune.fmus_src.runtime import Component
 from tests.support.kernels import samples
 from tests.support.kernels.comparison import LONGEST_FLIGHT, bits, draw, elements, only_switches

@@ -10,7 +10,7 @@ import sys
 
 import pytest
 
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 from tests.support.lengths import LONG
 
 SCRIPT = """

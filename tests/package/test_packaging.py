@@ -14,7 +14,7 @@ import tomllib
 
 import pytest
 
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 FILES = """

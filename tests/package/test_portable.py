@@ -9,7 +9,7 @@ import ast
 
 import pytest
 
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 
 MODULES = {"fcntl", "grp", "posix", "pty", "pwd", "resource", "syslog", "termios", "tty"}
 NAMES = {

@@ -18,7 +18,7 @@ from macholib.SymbolTable import SymbolTable
 
 import perilune
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 
 pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("fmus")]
 

@@ -15,7 +15,7 @@ from perilune.analysis.reference.blocks import block_page, fitting, slots_of
 from perilune.analysis.reference.usage import usages
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.places import ROOT, built_fmu
+from perilune.fmus_src.paths import ROOT, built_fmu
 
 # Blocks that count, compare or pass on, without a model of anything that could be left out.
 WITHOUT_MODEL = {

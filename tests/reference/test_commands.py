@@ -18,7 +18,7 @@ import pytest
 
 from perilune.analysis.cli import VERBS, main
 from perilune.analysis.examples import EXAMPLES
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 from tests.support.documented import documented, page_text, saved_files
 from tests.support.lengths import LONG
 from tests.support.pages.system_page import write_system
@@ -28,10 +28,10 @@ SYSTEM_BY_HAND = "docs/write_a_system.md"
 ELSEWHERE = {
     "make ": "the targets of the Makefile; those of README are what CI runs",
     "pip install": "tests/package/test_wheel.py installs the wheel",
-    "dask ": "of other machines; tests/batch/cluster/test_dask.py starts both here",
-    "perilune batch --scheduler": "tests/batch/cluster/test_dask.py flies there",
-    "seq 0 3 | xargs": "tests/batch/cluster/test_recipes.py",
-    "python fly_hyperqueue.py": "tests/batch/cluster/test_recipes.py",
+    "dask ": "of other machines; tests/campaigns/fly/cluster/test_dask.py starts both here",
+    "perilune batch --scheduler": "tests/campaigns/fly/cluster/test_dask.py flies there",
+    "seq 0 3 | xargs": "tests/campaigns/fly/cluster/test_recipes.py",
+    "python fly_hyperqueue.py": "tests/campaigns/fly/cluster/test_recipes.py",
     "sbatch ": "needs a SLURM controller; the page says what was tried",
     "job=$(sbatch ": "likewise",
     "LD_PRELOAD=": "of a host of the reader's own",

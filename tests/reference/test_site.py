@@ -13,7 +13,7 @@ import pytest
 from perilune.analysis.reference.build import build_site
 from perilune.analysis.reference.links import broken_links
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 from tests.support.documented import PAGES
 from tests.support.pages.browser import find_browser, start
 

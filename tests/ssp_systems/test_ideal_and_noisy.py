@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.campaign.drawn import with_streams
-from perilune.analysis.system.prepared import prepare_system
-from perilune.fmus_src.places import ROOT, SYSTEMS
+from perilune.analysis.campaigns.spec.drawn import with_streams
+from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.fmus_src.paths import ROOT, SYSTEMS
 
 pytestmark = pytest.mark.usefixtures("fmus")
 DEFAULTS = {

@@ -13,11 +13,11 @@ from lxml import html
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.reports.own.asked.reading import read_figures
-from perilune.analysis.reports.own.asked.stages import Limits
-from perilune.analysis.system.options import SystemOptions
-from perilune.analysis.system.prepared import prepare_system
-from perilune.fmus_src.places import ROOT
+from perilune.analysis.reports.figures.declaration.reading import read_figures
+from perilune.analysis.reports.figures.declaration.stages import Limits
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.fmus_src.paths import ROOT
 
 pytestmark = pytest.mark.usefixtures("fmus")
 

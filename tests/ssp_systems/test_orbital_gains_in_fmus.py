@@ -8,9 +8,9 @@ import pytest
 from scipy.linalg import expm
 
 from perilune import modal
-from perilune.analysis.flight.instances.instance import instantiate
-from perilune.analysis.system.fmu import load_fmu
-from perilune.fmus_src.places import built_fmu
+from perilune.analysis.runtime.flight.instances.instance import instantiate
+from perilune.analysis.runtime.system.fmu import load_fmu
+from perilune.fmus_src.paths import built_fmu
 from tests.support.loops.exact_orbital import linear_matrix
 
 pytestmark = pytest.mark.usefixtures("fmus")

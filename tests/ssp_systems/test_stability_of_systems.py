@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.stability.ask.request import read_request
-from perilune.analysis.stability.ask.subject import Subject
+from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.stability.point.point_study import PointStudy
-from perilune.analysis.system.options import SystemOptions
+from perilune.analysis.stability.request.request import read_request
+from perilune.analysis.stability.request.subject import Subject
 from tests.support.lengths import either
 from tests.support.loops.exact_lunar import STEP, HoverLoop
 from tests.support.loops.exact_margins import crossings, disk_margin

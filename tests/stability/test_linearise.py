@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.errors import InputError
-from perilune.analysis.stability.ask.channels import channels_of
-from perilune.analysis.stability.ask.declaration import Loop, Point
-from perilune.analysis.stability.bench.bench import Bench, StudyError
-from perilune.analysis.stability.bench.operating_point import OperatingPoint
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from perilune.analysis.stability.injection.bench import Bench, StudyError
+from perilune.analysis.stability.injection.operating_point import OperatingPoint
 from perilune.analysis.stability.linear.linearise import linearise
-from perilune.analysis.system.options import SystemOptions
-from perilune.analysis.system.prepared import prepare_system
+from perilune.analysis.stability.request.channels import channels_of
+from perilune.analysis.stability.request.declaration import Loop, Point
 from tests.support.builders import component, connection, document, pack, system
 from tests.support.loops.exact_periodic import EVERY, HYPERPERIOD, STATES, STEP, description, exact_model, hyperperiod
 from tests.support.loops.exact_systems import difference, ring, with_stability

@@ -9,8 +9,8 @@ from dataclasses import replace
 import pytest
 
 import perilune
-from perilune.analysis import progress as bar
 from perilune.analysis.cli import main
+from perilune.analysis.common import progress as bar
 from tests.support.bars import watched
 from tests.support.loops.studies import LATE, SWEEP, campaign, named
 

@@ -16,13 +16,13 @@ from scipy.io import loadmat
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.loops.margin_values import MARGINS, Quantity
 from perilune.analysis.reports.stability.orders.words import order_sentences, withheld_line
-from perilune.analysis.stability.ask.request import read_request
-from perilune.analysis.stability.bench.bench import StudyError
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.stability.injection.bench import StudyError
+from perilune.analysis.stability.loops.margin_values import MARGINS, Quantity
 from perilune.analysis.stability.orders import in_both_orders
+from perilune.analysis.stability.request.request import read_request
 from perilune.analysis.stability.results.requirement import Verdict
-from perilune.analysis.system.options import SystemOptions
 from tests.support.builders import component, connection, document, inline, pack, system
 from tests.support.foreign.lag import lag_fmu
 from tests.support.loops.exact_systems import difference, with_stability

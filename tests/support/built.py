@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from perilune import fmus_src
-from perilune.fmus_src.places import built_fmu
+from perilune.fmus_src.paths import built_fmu
 
 
 @cache

@@ -2,7 +2,7 @@
 
 import shutil
 
-from perilune.fmus_src.places import SYSTEMS
+from perilune.fmus_src.paths import SYSTEMS
 
 ROLES = {
     "position": "plant.initial_position",

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from perilune.analysis.examples import EXAMPLES
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 
 BLOCK = re.compile(r"^```(sh|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 SAVED = re.compile(r"^Save it as `(\w+\.py)`:\n+```python\n(.*?)^```", re.MULTILINE | re.DOTALL)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy
 
-from perilune.fmus_src.places import ROOT
+from perilune.fmus_src.paths import ROOT
 
 HIDDEN = ("ziglang", "perilune", "__editable__", "_pytest", "pytest", "mypy", "ruff")
 

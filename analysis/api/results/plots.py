@@ -10,15 +10,15 @@ import numpy as np
 import pyarrow.compute
 from matplotlib.figure import Figure as Plot
 
-from ...batch.results import BatchResult
-from ...batch.rows import whole_column
-from ...campaign.campaign import Metric
-from ...campaign.expressions import Expression
-from ...errors import InputError, suggestion
-from ...reports.batch.plots import distribution_plot
-from ...reports.kit.style import look
-from ...results.folder import read_folder
-from ...results.opened import OpenedResults
+from ...campaigns.fly.results import BatchResult
+from ...campaigns.folder.folder import read_folder
+from ...campaigns.folder.opened import OpenedResults
+from ...campaigns.rows import whole_column
+from ...campaigns.spec.campaign import Metric
+from ...campaigns.spec.expressions import Expression
+from ...common.errors import InputError, suggestion
+from ...reports.campaign.plots import distribution_plot
+from ...reports.common.style import look
 from ..options import FilePath
 
 Results = OpenedResults | BatchResult

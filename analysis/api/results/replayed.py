@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from ...batch.replay import replay_trial
-from ...reports.own.asked.reading import read_figures
+from ...campaigns.fly.replay import replay_trial
+from ...reports.figures.declaration.reading import read_figures
 from ..flight import Result
 from ..options import FilePath
 

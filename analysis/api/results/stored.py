@@ -9,9 +9,9 @@ from typing import Any
 
 from matplotlib.figure import Figure as Plot
 
-from ...flight.results import require_pandas
-from ...results.folder import read_folder
-from ...results.opened import OpenedResults
+from ...campaigns.folder.folder import read_folder
+from ...campaigns.folder.opened import OpenedResults
+from ...runtime.flight.results import require_pandas
 from ..notebook import Grid, notebook_view
 from ..options import FilePath
 from .plots import distributions

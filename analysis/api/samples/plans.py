@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from ...campaign.drawing.given import ALL, GivenDraws
-from ...campaign.plan import BatchPlan, read_plan
-from ...reports.batch.replays import replay_command
-from ...samples.commands import Commands
-from ...ssp.parameter_sets import SetValue
-from ...system.faults import Fault, faults_of
-from ...system.in_flight.series import Given, read_series
-from ...system.in_flight.watch import Watch
+from ...campaigns.draws.given import ALL, GivenDraws
+from ...campaigns.spec.plan import BatchPlan, read_plan
+from ...reports.campaign.replays import replay_command
+from ...runtime.ssp.parameter_sets import SetValue
+from ...runtime.system.faults import Fault, faults_of
+from ...runtime.system.in_flight.series import Given, read_series
+from ...runtime.system.in_flight.watch import Watch
+from ...studies.evaluation.commands import Commands
 from ..options import Compared, FilePath, check_list, compared, system_options
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any, TypeVar
 
-from ...batch.tables import assumption_lines
+from ...campaigns.tables import assumption_lines
 from ...reports.studies.conditions import StudyResult, conditions_of
 
 Study = TypeVar("Study")

@@ -10,14 +10,14 @@ from typing import Literal
 
 from matplotlib.figure import Figure as Plot
 
-from ...errors import suggestion
+from ...common.errors import suggestion
+from ...common.targets import check_folder
 from ...reports.studies.plots import sensitivity_plot
 from ...reports.studies.sensitivity_page import driver_table, rank_table, write_sensitivity_page
-from ...sensitivity import outcome, study
-from ...ssp.parameter_sets import SetValue
-from ...system.faults import Fault
-from ...system.in_flight.series import Given
-from ...targets import check_folder
+from ...runtime.ssp.parameter_sets import SetValue
+from ...runtime.system.faults import Fault
+from ...runtime.system.in_flight.series import Given
+from ...studies.sensitivity import outcome, study
 from ..notebook import Grid, notebook_view
 from ..options import Compared, FilePath
 from .plans import commands_of, sample_plan

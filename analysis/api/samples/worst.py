@@ -10,17 +10,17 @@ from typing import Any, Literal
 
 from matplotlib.figure import Figure as Plot
 
-from ...campaign.plan import BatchPlan
+from ...campaigns.spec.plan import BatchPlan
+from ...common.targets import check_folder
 from ...reports.studies.plots import worst_plot
 from ...reports.studies.worst_flight import worst_flight
 from ...reports.studies.worst_page import metric_table, parameter_table, write_worst_page
-from ...ssp.parameter_sets import SetValue
-from ...system.faults import Fault
-from ...system.in_flight.series import Given
-from ...targets import check_folder
-from ...worst import outcome
-from ...worst.asked import check_options, margin_asked
-from ...worst.study import MARGIN, worst_case, worst_margin
+from ...runtime.ssp.parameter_sets import SetValue
+from ...runtime.system.faults import Fault
+from ...runtime.system.in_flight.series import Given
+from ...studies.worst import outcome
+from ...studies.worst.request import check_options, margin_asked
+from ...studies.worst.study import MARGIN, worst_case, worst_margin
 from ..notebook import Grid, notebook_view
 from ..options import Compared, FilePath, system_options
 from .plans import commands_of, sample_plan

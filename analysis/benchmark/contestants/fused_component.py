@@ -10,8 +10,8 @@ from ....fmus_src.block import Block, Output, State
 from ....fmus_src.export.native_fmu import native_guid
 from ....fmus_src.export.write.names import literal, member
 from ....fmus_src.export.write.translate import translate
-from ...ssp.parameter_sets import ParameterValue
-from ...system.fmu import Fmu
+from ...runtime.ssp.parameter_sets import ParameterValue
+from ...runtime.system.fmu import Fmu
 from .contestant import Unavailable
 
 WRAPPER = '#include "fmi2_wrapper.c"\n'

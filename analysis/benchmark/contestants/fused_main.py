@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...system.network import Link
-from ...system.prepared import PreparedSystem
+from ...runtime.system.network import Link
+from ...runtime.system.prepared import PreparedSystem
 from .course import Course
 from .fused_component import Part
 

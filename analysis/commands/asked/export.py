@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from ....fmus_src.export.compilers import PLATFORMS
-from ....fmus_src.places import FLAVOURS
+from ....fmus_src.paths import FLAVOURS
 from ..common.completers import completed, systems_and_fmus
 from ..common.options import add_json
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from ...new.block import block_slots
+from ...authoring.new.block import block_slots
 from ..common.completers import completed
 from ..common.options import add_json
 

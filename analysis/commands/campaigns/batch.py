@@ -6,16 +6,16 @@ import argparse
 import sys
 from typing import Any
 
-from ...batch.cluster.connection import cluster
-from ...batch.flying.flyer import Flyer, TrialResult
-from ...batch.runner import open_campaign, run_batch
-from ...batch.tables import faults_line
-from ...campaign.checks import check_plan
-from ...campaign.plan import BatchPlan, read_plan
-from ...campaign.sweeps import part_sweeps
-from ...errors import InputError
-from ...flight.interruptible import StuckError
-from ...targets import PAGES, Results, check_file, check_folder
+from ...campaigns.fly.cluster.connection import cluster
+from ...campaigns.fly.runner import open_campaign, run_batch
+from ...campaigns.fly.workers.flyer import Flyer, TrialResult
+from ...campaigns.spec.checks import check_plan
+from ...campaigns.spec.plan import BatchPlan, read_plan
+from ...campaigns.spec.sweeps import part_sweeps
+from ...campaigns.tables import faults_line
+from ...common.errors import InputError
+from ...common.targets import PAGES, Results, check_file, check_folder
+from ...runtime.flight.interruptible import StuckError
 from ..common.exit_status import ExitStatus, exit_status
 from ..common.in_flight import series, watch
 from ..common.options import check_json, faults, json_number, pairs, system_options, write_json

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from ...batch.runner import merge, open_folder
-from ...targets import PAGES, Results, check_file
+from ...campaigns.fly.runner import merge, open_folder
+from ...common.targets import PAGES, Results, check_file
 from ..common.options import check_json
 from .telling import asked_requirements, said_how_to_go_on, tell
 

@@ -8,9 +8,9 @@ from functools import partial
 from pathlib import Path
 
 from ...api.samples.plans import commands_of
-from ...rare.outcome import RareResult
-from ...rare.study import LEAST, SAMPLES, rare_failure
-from ...targets import PAGES, Results, check_file, check_folder
+from ...common.targets import PAGES, Results, check_file, check_folder
+from ...studies.rare.outcome import RareResult
+from ...studies.rare.study import LEAST, SAMPLES, rare_failure
 from ..common.options import check_json, tell
 from ..common.remarks import say_stale
 from ..common.requirements import check_requirements, read_requirements

@@ -7,12 +7,12 @@ import sys
 from functools import partial
 from typing import Any
 
-from ...batch.replay import ReplayedTrial, replay_trial
-from ...batch.tables import faults_line
-from ...flight.interruptible import StuckError
-from ...reports.own.asked.reading import read_figures
-from ...reports.own.limit_table import limit_document
-from ...targets import PAGES, Results, check_file
+from ...campaigns.fly.replay import ReplayedTrial, replay_trial
+from ...campaigns.tables import faults_line
+from ...common.targets import PAGES, Results, check_file
+from ...reports.figures.declaration.reading import read_figures
+from ...reports.figures.limit_table import limit_document
+from ...runtime.flight.interruptible import StuckError
 from ..common.exit_status import ExitStatus, exit_status
 from ..common.flight import check_flight, flight_lines
 from ..common.in_flight import watch

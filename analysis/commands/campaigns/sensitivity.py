@@ -9,11 +9,11 @@ from functools import partial
 from pathlib import Path
 
 from ...api.samples.plans import commands_of
-from ...campaign.sweeps import part_sweeps
-from ...errors import InputError
-from ...sensitivity.outcome import SensitivityResult
-from ...sensitivity.study import sensitivity
-from ...targets import PAGES, Results, check_file, check_folder
+from ...campaigns.spec.sweeps import part_sweeps
+from ...common.errors import InputError
+from ...common.targets import PAGES, Results, check_file, check_folder
+from ...studies.sensitivity.outcome import SensitivityResult
+from ...studies.sensitivity.study import sensitivity
 from ..common.options import check_json, system_options, tell
 from ..common.remarks import say_stale
 from ..common.sample_plans import held, read_samples

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from ...batch.cluster.connection import cluster
-from ...batch.runner import fly_campaign, open_folder
-from ...batch.shards.numbering import numbers_of
-from ...targets import Results
+from ...campaigns.fly.cluster.connection import cluster
+from ...campaigns.fly.runner import fly_campaign, open_folder
+from ...campaigns.fly.shards.numbering import numbers_of
+from ...common.targets import Results
 from ..common.exit_status import exit_status
 from .telling import failed_flights, report_failed, said_how_to_go_on
 

@@ -13,23 +13,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...batch.flying.flyer import TrialResult
-from ...batch.flying.status_texts import worst_statuses
-from ...batch.flying.workers import WorkersDiedError
-from ...batch.manifest.manifest import FILE as MANIFEST
-from ...batch.replay import stored_replay
-from ...batch.results import BatchResult
-from ...batch.rows import TrialColumns, TrialRows
-from ...batch.summary import requirement_values, summarise
-from ...batch.tables import aligned
-from ...batch.verdicts import add_verdicts, unmet_lines
-from ...campaign.campaign import Metric
-from ...campaign.expressions import Expression
-from ...campaign.plan import BatchPlan
-from ...errors import EndedError
-from ...flight.results import TIMED_OUT
-from ...system.status_words import with_meaning
-from ...targets import Results
+from ...campaigns.fly.manifest.manifest import FILE as MANIFEST
+from ...campaigns.fly.replay import stored_replay
+from ...campaigns.fly.results import BatchResult
+from ...campaigns.fly.workers.flyer import TrialResult
+from ...campaigns.fly.workers.status_texts import worst_statuses
+from ...campaigns.fly.workers.workers import WorkersDiedError
+from ...campaigns.requirement_verdicts import add_verdicts, unmet_lines
+from ...campaigns.rows import TrialColumns, TrialRows
+from ...campaigns.spec.campaign import Metric
+from ...campaigns.spec.expressions import Expression
+from ...campaigns.spec.plan import BatchPlan
+from ...campaigns.summary import requirement_values, summarise
+from ...campaigns.tables import aligned
+from ...common.errors import EndedError
+from ...common.targets import Results
+from ...runtime.flight.results import TIMED_OUT
+from ...runtime.system.status_words import with_meaning
 from ..common.exit_status import ExitStatus, exit_status
 from ..common.options import write_json
 from ..common.requirements import check_requirements, read_requirements
@@ -53,7 +53,7 @@ def said_how_to_go_on(folder: Path | None) -> Iterator[None]:
 
 
 def _write_page(result: BatchResult, path: Path) -> None:
-    from ...reports.batch.batch_report import write_batch_report  # and matplotlib, which takes half a second
+    from ...reports.campaign.batch_report import write_batch_report  # and matplotlib, which takes half a second
 
     write_batch_report(result, path, result.provenance["system"])
 

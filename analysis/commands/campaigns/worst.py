@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from ...api.samples.plans import commands_of
-from ...campaign.plan import BatchPlan
-from ...targets import PAGES, Results, check_file, check_folder
-from ...worst.asked import check_options, margin_asked
-from ...worst.outcome import WorstResult
-from ...worst.study import MARGIN, worst_case, worst_margin
+from ...campaigns.spec.plan import BatchPlan
+from ...common.targets import PAGES, Results, check_file, check_folder
+from ...studies.worst.outcome import WorstResult
+from ...studies.worst.request import check_options, margin_asked
+from ...studies.worst.study import MARGIN, worst_case, worst_margin
 from ..common.options import check_json, system_options, tell
 from ..common.remarks import say_stale
 from ..common.requirements import check_requirements, read_requirements

@@ -10,11 +10,11 @@ from typing import Any
 from argcomplete.completers import FilesCompleter
 
 from ....fmus_src.export.available import fmu_flavours
-from ....fmus_src.places import LAWS, SEARCHES
-from ...errors import InputError
-from ...ssp.archive import SystemArchive, open_system, system_names
-from ...ssp.description import Component
-from ...ssp.reading import read_description
+from ....fmus_src.paths import LAWS, SEARCHES
+from ...common.errors import InputError
+from ...runtime.ssp.archive import SystemArchive, open_system, system_names
+from ...runtime.ssp.description import Component
+from ...runtime.ssp.reading import read_description
 
 Completer = Callable[..., Iterable[str]]
 

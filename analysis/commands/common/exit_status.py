@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from ...targets import Results
+from ...common.targets import Results
 
 
 class ExitStatus(IntEnum):

@@ -5,13 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from ...flight.results import Flight, Result
-from ...flight.statuses import status_lines
-from ...reports.own.asked.declared import Figure
-from ...reports.own.asked.stages import Limits
-from ...reports.own.asked.values import Undrawn
-from ...reports.own.limit_table import Verdict, evaluate, limit_lines
-from ...system.prepared import PreparedSystem
+from ...reports.figures.declaration.declared import Figure
+from ...reports.figures.declaration.stages import Limits
+from ...reports.figures.declaration.values import Undrawn
+from ...reports.figures.limit_table import Verdict, evaluate, limit_lines
+from ...runtime.flight.results import Flight, Result
+from ...runtime.flight.statuses import status_lines
+from ...runtime.system.prepared import PreparedSystem
 
 REMEDIES = {
     "nonfinite": "see what drives it with --output F.csv",

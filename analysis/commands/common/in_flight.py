@@ -7,8 +7,8 @@ import math
 
 from argcomplete.completers import FilesCompleter
 
-from ...system.in_flight.series import InputSeries, read_series
-from ...system.in_flight.watch import LOG_LEVELS, Watch
+from ...runtime.system.in_flight.series import InputSeries, read_series
+from ...runtime.system.in_flight.watch import LOG_LEVELS, Watch
 from .completers import completed
 
 

@@ -7,9 +7,9 @@ import re
 import sys
 from collections.abc import Iterable
 
-from ....fmus_src.places import SYSTEMS
-from ...system.prepared import PreparedSystem
-from ...system.stale import stale_fmus
+from ....fmus_src.paths import SYSTEMS
+from ...runtime.system.prepared import PreparedSystem
+from ...runtime.system.stale import stale_fmus
 from .options import system_options
 
 MOST = 4  # names in a line

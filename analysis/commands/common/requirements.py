@@ -8,8 +8,8 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from ...campaign.expressions import Expression
-from ...errors import InputError, suggestion
+from ...campaigns.spec.expressions import Expression
+from ...common.errors import InputError, suggestion
 
 
 def add_requirements(parser: argparse.ArgumentParser, numbers: str) -> None:

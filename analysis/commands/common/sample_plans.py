@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ...campaign.plan import BatchPlan, read_plan
-from ...errors import InputError
+from ...campaigns.spec.plan import BatchPlan, read_plan
+from ...common.errors import InputError
 from .in_flight import series, watch
 from .options import faults, pairs, system_options
 

@@ -7,7 +7,7 @@ import math
 import sys
 from collections.abc import Callable, Iterable
 
-from ...planning.vehicle import Vehicle
+from ...design.trajectories.vehicle import Vehicle
 
 UNITS = {
     "mass": "kg",

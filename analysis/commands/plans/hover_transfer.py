@@ -6,12 +6,20 @@ import argparse
 import math
 from dataclasses import replace
 
-from ...errors import InputError
-from ...planning.hover_study import HoverStudy, hover_study
-from ...planning.path import PlannedPath
-from ...planning.vehicle import HOVER_MARGINS, HOVER_VEHICLE, Margins, Transfer, Vehicle, check_hover, check_vehicle
+from ...common.errors import InputError
+from ...common.targets import PAGES, Results, check_file
+from ...design.trajectories.hover_study import HoverStudy, hover_study
+from ...design.trajectories.path import PlannedPath
+from ...design.trajectories.vehicle import (
+    HOVER_MARGINS,
+    HOVER_VEHICLE,
+    Margins,
+    Transfer,
+    Vehicle,
+    check_hover,
+    check_vehicle,
+)
 from ...reports.plan.hover_page import write_hover_page
-from ...targets import PAGES, Results, check_file
 from ..common.exit_status import exit_status
 from ..common.options import check_json, write_json
 from ..common.vehicle import burns_text, enough, given

@@ -6,17 +6,17 @@ import argparse
 import math
 from dataclasses import replace
 
-from ....fmus_src.places import IS_CHECKOUT, PACKAGE
-from ...errors import InputError
-from ...planning.bounds import LANDING
-from ...planning.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
-from ...planning.landing_study import LandingStudy, landing_study
-from ...planning.stored_bound import PLACE, write_bound
-from ...planning.vehicle import LANDING_VEHICLE, check_vehicle
+from ....fmus_src.paths import IS_CHECKOUT, PACKAGE
+from ...common.errors import InputError
+from ...common.targets import PAGES, Results, check_file
+from ...design.trajectories.bounds import LANDING
+from ...design.trajectories.declared_bound import ANNOTATION, Inputs, landing_of, pieces_of, read_inputs
+from ...design.trajectories.landing_study import LandingStudy, landing_study
+from ...design.trajectories.stored_bound import PLACE, write_bound
+from ...design.trajectories.vehicle import LANDING_VEHICLE, check_vehicle
 from ...reports.plan.landing_page import write_landing_page
-from ...system.options import SystemOptions
-from ...system.prepared import PreparedSystem, prepare_system
-from ...targets import PAGES, Results, check_file
+from ...runtime.system.options import SystemOptions
+from ...runtime.system.prepared import PreparedSystem, prepare_system
 from ..asked.plans.landing_bound import PLACES
 from ..common.exit_status import exit_status
 from ..common.options import check_json, system_options, write_json

@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from scipy.stats import chi2, norm
 
-from ...verdicts.quantiles import quantiles
-from ..kit.panels import Panel, far, panel
-from ..kit.quantities import number, shown_factor, shown_unit
-from ..kit.style import FAILED, FAINT, Look, plain_ticks
+from ...campaigns.verdicts.quantiles import quantiles
+from ..common.panels import Panel, far, panel
+from ..common.quantities import number, shown_factor, shown_unit
+from ..common.style import FAILED, FAINT, Look, plain_ticks
 from .recorded import RATIO, Flight, Quantity, doubling
 
 LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
-from ...compare.comparison import Contender
-from ..kit.panels import Panel, far, panel
-from ..kit.round_body import radius_of, track_angles
-from ..kit.style import FAILED, FAINT, GRID, INK, Look, plain_ticks
+from ...campaigns.compare.comparison import Contender
+from ..common.panels import Panel, far, panel
+from ..common.round_body import radius_of, track_angles
+from ..common.style import FAILED, FAINT, GRID, INK, Look, plain_ticks
 from .recorded import Flight, find_vector, kept_names, variable_of
 from .targets import target_of
 

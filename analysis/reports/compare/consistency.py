@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import norm
 
-from ...batch.summary import success_interval
-from ...campaign.campaign import Metric
-from ...compare.comparison import Comparison
+from ...campaigns.compare.comparison import Comparison
+from ...campaigns.spec.campaign import Metric
+from ...campaigns.summary import success_interval
 from .recorded import RATIO
 
 SUFFIXES = ("_over_sigma", RATIO)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
-from ...verdicts.quantiles import quantiles
-from ..kit.panels import Panel, far, panel
-from ..kit.style import FAINT, INK, Look, plain_ticks
+from ...campaigns.verdicts.quantiles import quantiles
+from ..common.panels import Panel, far, panel
+from ..common.style import FAINT, INK, Look, plain_ticks
 from .bundles import TARGET
 from .targets import Ends
 

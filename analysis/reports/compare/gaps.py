@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from ...compare.comparison import Comparison
+from ...campaigns.compare.comparison import Comparison
 from .consistency import is_over_sigma
 from .metrics import MASS
 from .recorded import CONSISTENCY, DIRECTIONS, KNOWN, Flight, variable_of

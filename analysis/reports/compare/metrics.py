@@ -8,12 +8,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from scipy.stats import norm
 
-from ...campaign.campaign import Metric
-from ...campaign.expressions import Expression
-from ...compare.comparison import Comparison
-from ..batch.distributions import draw_distribution
-from ..kit.panels import Panel, panel
-from ..kit.style import FAILED, Look
+from ...campaigns.compare.comparison import Comparison
+from ...campaigns.spec.campaign import Metric
+from ...campaigns.spec.expressions import Expression
+from ..campaign.distributions import draw_distribution
+from ..common.panels import Panel, panel
+from ..common.style import FAILED, Look
 from .consistency import is_over_sigma
 from .recorded import variable_of
 

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..kit.panels import Panel, far, panel
-from ..kit.style import Look, plain_ticks
+from ..common.panels import Panel, far, panel
+from ..common.style import Look, plain_ticks
 from .bands import HEIGHT as LOW
 from .bands import Bands, frame_of
 from .bundles import TARGET

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ...batch.summary import SummaryRow
-from ...compare.comparison import Comparison, name_of
-from ..batch.batch_report import fmu_rows
-from ..batch.rows import HEADINGS, group_rows, variant_rows
-from ..kit.page import write_page
-from ..kit.panels import Panel, swatch
-from ..kit.style import COLOURS, DASHES, MARKERS, Look, look
+from ...campaigns.compare.comparison import Comparison, name_of
+from ...campaigns.summary import SummaryRow
+from ..campaign.batch_report import fmu_rows
+from ..campaign.rows import HEADINGS, group_rows, variant_rows
+from ..common.page import write_page
+from ..common.panels import Panel, swatch
+from ..common.style import COLOURS, DASHES, MARKERS, Look, look
 from .bands import Bands, band_panels, bands_of, expectation
 from .bundles import DRAWN, bundle_of, plan_panels, side_panels
 from .consistency import LIMITS, NORMAL, is_over_sigma, sigma_rows

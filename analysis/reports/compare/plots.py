@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from ...campaign.campaign import Metric
-from ...compare.comparison import Comparison
-from ..batch.plots import distribution_plot
+from ...campaigns.compare.comparison import Comparison
+from ...campaigns.spec.campaign import Metric
+from ..campaign.plots import distribution_plot
 from .metrics import distributed, sort_metrics
 from .page import looks_of
 

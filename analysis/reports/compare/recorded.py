@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...batch.stored import StoredBatch
-from ...compare.comparison import Contender
-from ..kit.signals import INDEXED
+from ...campaigns.compare.comparison import Contender
+from ...campaigns.folder.stored import StoredBatch
+from ..common.signals import INDEXED
 
 Signals = Mapping[str, np.ndarray]
 

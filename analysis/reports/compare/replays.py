@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from markupsafe import Markup
 
-from ...batch.manifest.manifest import FILE as MANIFEST
-from ...batch.replay import stored_replay
-from ...compare.comparison import Comparison
-from ..batch.replays import FAILURES, Replay
+from ...campaigns.compare.comparison import Comparison
+from ...campaigns.fly.manifest.manifest import FILE as MANIFEST
+from ...campaigns.fly.replay import stored_replay
+from ..campaign.replays import FAILURES, Replay
 
 
 def failures_to_replay(comparison: Comparison) -> list[Replay]:

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from ...campaign.campaign import Metric
-from ...compare.comparison import Comparison, name_of
-from ...compare.paired import PairedRates, PairedValues
+from ...campaigns.compare.comparison import Comparison, name_of
+from ...campaigns.compare.paired import PairedRates, PairedValues
+from ...campaigns.spec.campaign import Metric
 
 T = TypeVar("T", PairedRates, PairedValues)
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...compare.comparison import Contender
+from ...campaigns.compare.comparison import Contender
 from .recorded import find_vector, vectors
 
 UNITS = {"position": "m", "velocity": "m/s"}

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ...planning.hover_study import HoverStudy
-from ..kit.page import write_page
-from ..kit.panels import swatch
-from ..kit.style import look
+from ...design.trajectories.hover_study import HoverStudy
+from ..common.page import write_page
+from ..common.panels import swatch
+from ..common.style import look
 from .figures import Point, Series, curve_panel, path_panel, time_panels
 
 NAMES = ("simplified programme", "true optimum", "point-mass bound")

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ...planning.landing_study import LandingStudy
-from ..kit.page import write_page
-from ..kit.style import look
+from ...design.trajectories.landing_study import LandingStudy
+from ..common.page import write_page
+from ..common.style import look
 from .figures import Series, path_widths, time_panels
 
 

@@ -8,15 +8,15 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
-from ...loops.decibels import decibels
-from ...loops.margin_values import MARGINS, UNSTABLE, Quantity
+from ...stability.loops.decibels import decibels
+from ...stability.loops.margin_values import MARGINS, UNSTABLE, Quantity
 from ...stability.results.loop import JointReport, LoopReport
 from ...stability.results.report import StabilityReport
 from ...stability.results.varied import SweepReport
-from ..kit.panels import HALF_WIDTH, PANEL_WIDTH, Panel, panel
-from ..kit.quantities import number
-from ..kit.style import house_style, new_figure
-from ..kit.svg import inline_svg
+from ..common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, panel
+from ..common.quantities import number
+from ..common.style import house_style, new_figure
+from ..common.svg import inline_svg
 from .diagrams.bode import draw_bode
 from .diagrams.frequency import draw_sensitivity, margin_words
 from .diagrams.limits import Limits, limits_of

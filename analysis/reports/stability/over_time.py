@@ -7,10 +7,10 @@ from typing import Any
 
 from markupsafe import Markup
 
-from ...loops.margin_values import Quantity
+from ...stability.loops.margin_values import Quantity
 from ...stability.results.report import StabilityReport
-from ..kit.panels import Panel, panel, swatch
-from ..kit.quantities import number
+from ..common.panels import Panel, panel, swatch
+from ..common.quantities import number
 from .diagrams.over_time import QUANTITIES, Course, course_look, courses, draw_over_time
 from .shared import together
 from .words import numeral

@@ -7,14 +7,14 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from ...loops.margin_values import Quantity
+from ...stability.loops.margin_values import Quantity
 from ...stability.results.loop import LoopReport
 from ...stability.results.report import StabilityReport
 from ...stability.results.requirement import Verdict
 from ...stability.results.varied import SweepCrossing, SweepReport
-from ..kit.page import write_page
-from ..kit.panels import Panel
-from ..kit.quantities import labelled
+from ..common.page import write_page
+from ..common.panels import Panel
+from ..common.quantities import labelled
 from .figures import joint_panel, loop_panels, part_panels, sight_panels, sweep_panel
 from .orders.section import order_section
 from .over_time import over_time

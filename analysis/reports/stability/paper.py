@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..kit.panels import Panel
+from ..common.panels import Panel
 from .shared import Shared
 
 FEW = 3  # loops with figures of their own that are printed in full

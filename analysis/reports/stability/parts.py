@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from markupsafe import Markup
 
-from ...loops.margin_values import MARGINS
+from ...stability.loops.margin_values import MARGINS
 from ...stability.results.loop import LoopReport
 from ...stability.results.nonlinear import Nonlinearity
 from ...stability.results.routes import Mode
 from ...stability.results.varied import LEVELS, Dispersion
-from ..kit.panels import Panel
-from ..kit.quantities import MINUS, NONE, shown_unit
+from ..common.panels import Panel
+from ..common.quantities import MINUS, NONE, shown_unit
 from .tables import Cell, Table
 from .words import (
     NO_CROSSING,

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...stability.results.loop import LoopReport
-from ..kit.style import house_style, new_figure
+from ..common.style import house_style, new_figure
 from .diagrams.bode import draw_bode
 from .diagrams.frequency import draw_sensitivity
 from .diagrams.limits import limits_of

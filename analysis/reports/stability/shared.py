@@ -14,7 +14,7 @@ import numpy as np
 from markupsafe import Markup
 
 from ...stability.results.loop import LoopReport
-from ..kit.panels import Panel
+from ..common.panels import Panel
 
 TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide
 NAMES = re.compile(r'\b(?:id|aria-label)="[^"]*"|(?<=href=")#[^"]*|url\(#[^)]*\)')

@@ -9,11 +9,11 @@ from typing import Any
 
 from markupsafe import Markup
 
-from ...loops.margin_values import UNSTABLE
+from ...stability.loops.margin_values import UNSTABLE
 from ...stability.results.loop import LoopReport
 from ...stability.results.report import PointReport, StabilityReport
 from ...stability.results.requirement import Requirement, Scope, Verdict
-from ..kit.quantities import number, shown_unit
+from ..common.quantities import number, shown_unit
 from .orders.words import order_note
 from .words import (
     NO_CROSSING,

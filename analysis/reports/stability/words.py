@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from ...loops.decibels import decibel_size, decibels, degree_size
-from ...loops.margin_values import UNSTABLE, Margins
+from ...stability.loops.decibels import decibel_size, decibels, degree_size
+from ...stability.loops.margin_values import UNSTABLE, Margins
 from ...stability.results.loop import LoopReport
 from ...stability.results.requirement import Requirement, Verdict
-from ..kit.page import exact
-from ..kit.quantities import MINUS, NONE, number, shown_unit
+from ..common.page import exact
+from ..common.quantities import MINUS, NONE, number, shown_unit
 
 NO_CROSSING = "none (no crossing)"
 UNSTABLE_WORD = "unstable"

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import Any
 
-from ...rare.outcome import RareResult
-from ...samples.noise import Noise
-from ...sensitivity.outcome import SensitivityResult
-from ...worst.outcome import WorstResult
-from ..batch.batch_report import draw_rows, fmu_rows
+from ...studies.evaluation.noise import Noise
+from ...studies.rare.outcome import RareResult
+from ...studies.sensitivity.outcome import SensitivityResult
+from ...studies.worst.outcome import WorstResult
+from ..campaign.batch_report import draw_rows, fmu_rows
 
 DEFAULT = "default"  # the name of a campaign's only variant
 StudyResult = RareResult | WorstResult | SensitivityResult

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from ...rare.outcome import RareResult
-from ...sensitivity.outcome import SensitivityResult
-from ...worst.outcome import WorstResult
-from ..kit.style import WIDTH, house_style, new_figure
+from ...studies.rare.outcome import RareResult
+from ...studies.sensitivity.outcome import SensitivityResult
+from ...studies.worst.outcome import WorstResult
+from ..common.style import WIDTH, house_style, new_figure
 from .rare_figures import draw_design_points, draw_exceedance, draw_limit_state, influence
 from .sensitivity_figures import LANE, MOST, bars_of, draw_indices
 from .worst_figures import draw_search, draw_trials

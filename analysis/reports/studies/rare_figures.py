@@ -10,13 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from ...batch.summary import success_interval
-from ...rare.outcome import RareResult
-from ...rare.uncertainty import CONFIDENCE
-from ...verdicts.quantiles import quantiles
-from ..kit.panels import Panel, Widths, both_widths, is_slim, panel
-from ..kit.quantities import labelled, log_tick, number, shown_factor
-from ..kit.style import BLUE, FAINT, INK, VERMILION, plain_ticks
+from ...campaigns.summary import success_interval
+from ...campaigns.verdicts.quantiles import quantiles
+from ...studies.rare.outcome import RareResult
+from ...studies.rare.uncertainty import CONFIDENCE
+from ..common.panels import Panel, Widths, both_widths, is_slim, panel
+from ..common.quantities import labelled, log_tick, number, shown_factor
+from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...rare.outcome import RareResult
-from ..kit.page import write_page
-from ..kit.quantities import labelled
+from ...studies.rare.outcome import RareResult
+from ..common.page import write_page
+from ..common.quantities import labelled
 from .conditions import conditions_of
 from .rare_figures import (
     PERCENT,

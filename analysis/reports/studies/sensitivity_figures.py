@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 from matplotlib.axes import Axes
 
-from ...sensitivity.outcome import SensitivityResult
-from ..kit.panels import HALF_WIDTH, Panel, panel
-from ..kit.style import BLUE, INK, SKY, plain_ticks
+from ...studies.sensitivity.outcome import SensitivityResult
+from ..common.panels import HALF_WIDTH, Panel, panel
+from ..common.style import BLUE, INK, SKY, plain_ticks
 
 MOST = 12  # parameters of a panel, those with the largest total index
 LANE = 0.34  # in

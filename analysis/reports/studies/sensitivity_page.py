@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...sensitivity.outcome import SensitivityResult
-from ...sensitivity.sobol import CONFIDENCE
-from ..kit.page import write_page
+from ...studies.sensitivity.outcome import SensitivityResult
+from ...studies.sensitivity.sobol import CONFIDENCE
+from ..common.page import write_page
 from .conditions import conditions_of
 from .sensitivity_figures import MOST, bars_of, index_panels
 from .tables import Table, fraction, fractions

@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 from markupsafe import Markup
 
-from ..kit.page import exact
-from ..kit.quantities import MINUS
+from ..common.page import exact
+from ..common.quantities import MINUS
 
 PLACES = 3  # decimals of a fraction
 

@@ -8,12 +8,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...verdicts.quantiles import quantiles
-from ...worst.margin import MOST
-from ...worst.outcome import WorstResult
-from ..kit.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel
-from ..kit.quantities import labelled, number, shown_factor
-from ..kit.style import BLUE, FAINT, INK, VERMILION, plain_ticks
+from ...campaigns.verdicts.quantiles import quantiles
+from ...studies.worst.margin import MOST
+from ...studies.worst.outcome import WorstResult
+from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel
+from ..common.quantities import labelled, number, shown_factor
+from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 
 GREY = "#9a9a9a"
 HEIGHT = 3.0  # in

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...batch.flying.flyer import Flyer
-from ...campaign.campaign import Record
-from ...campaign.drawing.declared import drawn_names
-from ...campaign.drawing.given import GivenDraws, part_streams, stream_component
-from ...campaign.plan import BatchPlan
-from ...flight.results import Result
-from ...worst.outcome import WorstResult
-from ..own.asked.declared import Figure
-from ..own.asked.reading import read_figures
+from ...campaigns.draws.declared import drawn_names
+from ...campaigns.draws.given import GivenDraws, part_streams, stream_component
+from ...campaigns.fly.workers.flyer import Flyer
+from ...campaigns.spec.campaign import Record
+from ...campaigns.spec.plan import BatchPlan
+from ...runtime.flight.results import Result
+from ...studies.worst.outcome import WorstResult
+from ..figures.declaration.declared import Figure
+from ..figures.declaration.reading import read_figures
 
 
 def worst_flight(result: WorstResult, plan: BatchPlan) -> tuple[Result, list[Figure]]:

@@ -8,16 +8,16 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
-from ...flight.results import Result
-from ...worst.outcome import WorstResult
-from ..kit.page import write_page
-from ..kit.panels import Panel
-from ..kit.quantities import labelled, shown_unit
-from ..own.asked.declared import Figure
-from ..own.own_figures import joint_findings, own_sections
-from ..own.section import Section
-from ..run.time_histories import Histories, time_histories
-from ..run.trajectory import trajectory_panels, trajectory_reading
+from ...runtime.flight.results import Result
+from ...studies.worst.outcome import WorstResult
+from ..common.page import write_page
+from ..common.panels import Panel
+from ..common.quantities import labelled, shown_unit
+from ..figures.declaration.declared import Figure
+from ..figures.own_figures import joint_findings, own_sections
+from ..figures.section import Section
+from ..flight.time_histories import Histories, time_histories
+from ..flight.trajectory import trajectory_panels, trajectory_reading
 from .conditions import conditions_of
 from .tables import Table, cell, fraction
 from .worst_figures import box_figure, box_lanes, fresh_panel, objective_of, search_figure, trials_panel

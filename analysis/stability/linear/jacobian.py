@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ..bench.bench import StudyError
-from ..bench.operating_point import OperatingPoint
+from ..injection.bench import StudyError
+from ..injection.operating_point import OperatingPoint
 from .lifted import Port
 
 STEPS = tuple(10.0**-power for power in range(3, 15))  # of a cell's scale or a signal's size

@@ -18,7 +18,7 @@ from functools import cached_property
 import numpy as np
 import scipy.linalg
 
-from ..ask.channels import Channel
+from ..request.channels import Channel
 
 RANK = 1e-6  # of the largest singular value: below, a direction counts as forgotten within a period
 SHARE = 1e-7

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 import scipy.linalg
 
-from ..bench.operating_point import OperatingPoint
+from ..injection.operating_point import OperatingPoint
 from .jacobian import STEPS, Jacobian, plateau
 from .lifted import LiftedModel, StateVariable, reached
 from .whole import Block, circles, multipliers

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...loops.curves import Response, dense, remembered
-from ...loops.margin_values import Margins, Quantity
-from ...loops.margins import classical, robust
-from ...loops.readings import Classical, Curve, Robust
-from ..ask.declaration import Limits
+from ..loops.curves import Response, dense, remembered
+from ..loops.margin_values import Margins, Quantity
+from ..loops.margins import classical, robust
+from ..loops.readings import Classical, Curve, Robust
+from ..request.declaration import Limits
 from ..results.requirement import Requirement, Scope, grows
 
 LOWEST = 1e-6  # of the Nyquist frequency: below, a linear model's integrators are not resolved

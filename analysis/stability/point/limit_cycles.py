@@ -6,17 +6,17 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ...errors import InputError
-from ...flight.results import COMPLETE
-from ...flight.simulation import Simulation
-from ...loops.curves import Response
-from ...loops.describing_function import ELEMENTS, amplitude_range, complete_parameters, describing_function
-from ...loops.harmonic_balance import predict
-from ...loops.oscillation import find_oscillation
-from ...system.prepared import PreparedSystem
-from ..ask.channels import Channel
-from ..ask.declaration import Element
-from ..bench.bench import StudyError
+from ...common.errors import InputError
+from ...runtime.flight.results import COMPLETE
+from ...runtime.flight.simulation import Simulation
+from ...runtime.system.prepared import PreparedSystem
+from ..injection.bench import StudyError
+from ..loops.curves import Response
+from ..loops.describing_function import ELEMENTS, amplitude_range, complete_parameters, describing_function
+from ..loops.harmonic_balance import predict
+from ..loops.oscillation import find_oscillation
+from ..request.channels import Channel
+from ..request.declaration import Element
 from ..results.nonlinear import LimitCycle, Nonlinearity
 
 POINTS = 400

@@ -8,14 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
-from ...loops.curves import Response, interpolated, quotient
-from ...loops.decibels import decibels
-from ..ask.channels import Channel
-from ..ask.declaration import Limits
-from ..bench.bench import Bench, StudyError
-from ..bench.injection import Injector, NotMeasurableError, measured
+from ..injection.bench import Bench, StudyError
+from ..injection.injection import Injector, NotMeasurableError, measured
 from ..linear.modes import structure
 from ..linear.open_loop import open_loop
+from ..loops.curves import Response, interpolated, quotient
+from ..loops.decibels import decibels
+from ..request.channels import Channel
+from ..request.declaration import Limits
 from ..results.loop import LoopReport
 from ..results.nonlinear import AmplitudePoint
 from ..results.routes import RouteB

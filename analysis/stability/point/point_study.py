@@ -6,18 +6,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...errors import InputError
-from ...loops.decibels import decibel_size, degree_size
-from ...loops.disk import joint_disk_margin
-from ...loops.margin_values import UNSTABLE, Quantity
-from ..ask.channels import Channel, channels_of
-from ..ask.declaration import Limits, Loop, Point
-from ..ask.subject import Subject
-from ..bench.bench import Bench, StudyError
-from ..bench.operating_point import OperatingPoint
+from ...common.errors import InputError
+from ..injection.bench import Bench, StudyError
+from ..injection.operating_point import OperatingPoint
 from ..linear.jacobian import STEPS
 from ..linear.linearise import Linearisation, linearise
 from ..linear.open_loop import open_loop
+from ..loops.decibels import decibel_size, degree_size
+from ..loops.disk import joint_disk_margin
+from ..loops.margin_values import UNSTABLE, Quantity
+from ..request.channels import Channel, channels_of
+from ..request.declaration import Limits, Loop, Point
+from ..request.subject import Subject
 from ..results.loop import JointReport
 from ..results.report import PointReport
 from ..results.requirement import Requirement, Scope

@@ -8,12 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
-from ...loops.curves import Response, quotient
-from ...loops.decibels import decibels, factor_of
 from ..linear.lifted import UNIT_CIRCLE, LiftedModel, Port
 from ..linear.linearise import Linearisation
 from ..linear.modes import modes, unseen_mode
 from ..linear.whole import Block
+from ..loops.curves import Response, quotient
+from ..loops.decibels import decibels, factor_of
 from ..results.routes import Agreement, Mode, RouteA, RouteB
 from .assessment import lowest_frequency
 

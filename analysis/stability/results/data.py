@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...atomic import write_atomically
+from ...common.atomic import write_atomically
 from .document import document
 from .loop import JointReport, LoopReport
 from .mat_file import mat_bytes, struct_array

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ...loops.decibels import decibels, degree_size
-from ...loops.margin_values import UNLIMITED, UNSTABLE, Margins, Quantity
+from ..loops.decibels import decibels, degree_size
+from ..loops.margin_values import UNLIMITED, UNSTABLE, Margins, Quantity
 from .loop import JointReport, LoopReport
 from .nonlinear import Nonlinearity
 from .report import PointReport, StabilityReport

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...loops.margin_values import Margins
-from ...loops.readings import Classical, Curve, Robust
+from ..loops.margin_values import Margins
+from ..loops.readings import Classical, Curve, Robust
 from .nonlinear import AmplitudePoint, Nonlinearity
 from .requirement import Requirement, Verdict, combined
 from .routes import Agreement, Mode, RouteA, RouteB, Structure

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from ...loops.margin_values import UNSTABLE, Quantity
+from ..loops.margin_values import UNSTABLE, Quantity
 
 
 class Scope(StrEnum):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...loops.readings import Curve
+from ..loops.readings import Curve
 
 
 @dataclass(frozen=True)

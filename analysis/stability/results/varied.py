@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...loops.margin_values import Margins, Quantity, order_statistic
+from ..loops.margin_values import Margins, Quantity, order_statistic
 from .requirement import Requirement
 
 LEVELS = {"least": 0.0, "5 %": 0.05, "50 %": 0.5}  # of dispersed margins

@@ -9,8 +9,8 @@ import math
 import numpy as np
 import pytest
 
-from perilune.analysis.flight.instances.instance import instantiate
-from perilune.analysis.system.fmu import load_fmu
+from perilune.analysis.runtime.flight.instances.instance import instantiate
+from perilune.analysis.runtime.system.fmu import load_fmu
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
 from perilune.fmus_src.navigation.kalman import KalmanNavigation
 from perilune.fmus_src.navigation.kalman_filterpy import KalmanNavigationFilterpy

@@ -13,9 +13,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.path import Path
 
-from perilune.analysis.batch.stored import read_batch
-from perilune.analysis.compare.comparison import Contender
-from perilune.analysis.compare.side_by_side import compare
+from perilune.analysis.campaigns.compare.comparison import Contender
+from perilune.analysis.campaigns.compare.side_by_side import compare
+from perilune.analysis.campaigns.folder.stored import read_batch
+from perilune.analysis.reports.common.style import Look
 from perilune.analysis.reports.compare.bands import LEVELS, band_panels, bands_of
 from perilune.analysis.reports.compare.bundles import bundle_of
 from perilune.analysis.reports.compare.dispersions import dispersion, ellipse
@@ -30,7 +31,6 @@ from perilune.analysis.reports.compare.recorded import (
     vectors,
 )
 from perilune.analysis.reports.compare.targets import Ends, ends_of, target_of
-from perilune.analysis.reports.kit.style import Look
 from tests.support.pages.comparison_samples import DIRECTION, POSITION, SIGNALS, TARGET, VELOCITY, write_sample
 
 

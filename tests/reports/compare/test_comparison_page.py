@@ -13,7 +13,7 @@ import pyarrow.parquet
 import pytest
 import scipy.stats
 
-from perilune.analysis.compare.side_by_side import compare
+from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.reports.compare.page import looks_of, write_comparison_page
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.comparison_samples import CAMPAIGN, DIGEST, POSITION, TARGET, VELOCITY, write_sample
@@ -393,7 +393,7 @@ def test_metrics_that_are_not_finite(tmp_path):
         trials.metrics["tilt"][1::5] = np.inf
         trials.success[::5] = False
     again = type(result)(result.plan, result.trials, {}, result.provenance)
-    from perilune.analysis.batch.summary import summarise
+    from perilune.analysis.campaigns.summary import summarise
 
     again.summary = summarise(again.trials, again.plan.campaign.metrics)
     again.write(tmp_path / "out")
@@ -410,7 +410,7 @@ def test_traces_of_failures_only_are_called_biased(tmp_path):
         for trial in [trial for trial in trials.traces if trials.success[trial]]:
             del trials.traces[trial]
     result.write(tmp_path / "other")
-    from perilune.analysis.batch.shards.files import write_draws
+    from perilune.analysis.campaigns.fly.shards.files import write_draws
 
     write_draws(result.plan, tmp_path / "other", 50)
     page = write([tmp_path / "other"], tmp_path / "page.html")

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from perilune.analysis.planning.bounds import Landing
-from perilune.analysis.planning.hover_study import hover_study
-from perilune.analysis.planning.landing_study import landing_study
-from perilune.analysis.planning.vehicle import Margins, Transfer, Vehicle
+from perilune.analysis.design.trajectories.bounds import Landing
+from perilune.analysis.design.trajectories.hover_study import hover_study
+from perilune.analysis.design.trajectories.landing_study import landing_study
+from perilune.analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
 from perilune.analysis.reports.plan.hover_page import write_hover_page
 from perilune.analysis.reports.plan.landing_page import write_landing_page
 from tests.support.lengths import either

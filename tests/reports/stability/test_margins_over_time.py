@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from perilune.analysis.loops.margin_values import Quantity
-from perilune.analysis.loops.readings import Crossing
-from perilune.analysis.reports.kit.style import VERMILION
+from perilune.analysis.reports.common.style import VERMILION
 from perilune.analysis.reports.stability.diagrams.over_time import courses, draw_over_time
 from perilune.analysis.reports.stability.page import write_stability_page
+from perilune.analysis.stability.loops.margin_values import Quantity
+from perilune.analysis.stability.loops.readings import Crossing
 from tests.support.loops.exact_margins import crossings
 from tests.support.loops.exact_systems import late_double_integrator
 from tests.support.pages.checks import assert_self_contained, parse, text_of

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from lxml import html
 
-from perilune.analysis.loops.encirclements import encirclements
-from perilune.analysis.reports.kit.quantities import NONE
+from perilune.analysis.reports.common.quantities import NONE
 from perilune.analysis.reports.stability.parts import classical, modes
 from perilune.analysis.reports.stability.words import left_out
+from perilune.analysis.stability.loops.encirclements import encirclements
 from perilune.analysis.stability.results.routes import Mode
 
 

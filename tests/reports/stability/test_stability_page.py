@@ -15,10 +15,8 @@ from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
 from perilune.analysis.cli import main
-from perilune.analysis.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
-from perilune.analysis.loops.readings import Classical, Curve
-from perilune.analysis.reports.kit.quantities import NONE
-from perilune.analysis.reports.kit.style import FAINT, VERMILION
+from perilune.analysis.reports.common.quantities import NONE
+from perilune.analysis.reports.common.style import FAINT, VERMILION
 from perilune.analysis.reports.stability.diagrams.bode import draw_bode
 from perilune.analysis.reports.stability.diagrams.frequency import beside, draw_sensitivity, phase_of
 from perilune.analysis.reports.stability.diagrams.limits import limits_of
@@ -29,6 +27,8 @@ from perilune.analysis.reports.stability.diagrams.sets import draw_histogram, dr
 from perilune.analysis.reports.stability.page import write_stability_page
 from perilune.analysis.reports.stability.parts import modes
 from perilune.analysis.reports.stability.words import complex_number, in_decibels, numeral
+from perilune.analysis.stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from perilune.analysis.stability.loops.readings import Classical, Curve
 from perilune.analysis.stability.results.report import StabilityReport
 from perilune.analysis.stability.results.requirement import Requirement, Scope
 from perilune.analysis.stability.results.routes import Mode

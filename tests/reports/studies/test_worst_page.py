@@ -18,9 +18,9 @@ from perilune.analysis.reports.studies.worst_figures import (
     point_values,
 )
 from perilune.analysis.reports.studies.worst_flight import worst_flight
-from perilune.analysis.samples.flown import Flown
-from perilune.analysis.samples.noise import Noise
-from perilune.analysis.worst.realisations import Fresh, Realisations
+from perilune.analysis.studies.evaluation.flown import Flown
+from perilune.analysis.studies.evaluation.noise import Noise
+from perilune.analysis.studies.worst.realisations import Fresh, Realisations
 from tests.support.pages.checks import assert_self_contained, data_values, text_of
 
 # a.gain to 3 times 1.2; b and c along the axes (1, 1) and (1, -1) of their covariance, variances 1.28 and 0.72.

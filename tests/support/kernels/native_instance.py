@@ -15,7 +15,7 @@ from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export.compilers import PLATFORMS, local_platform, shared_library
 from perilune.fmus_src.export.native_fmu import native_sources
-from perilune.fmus_src.places import BUILD, built_fmu
+from perilune.fmus_src.paths import BUILD, built_fmu
 from tests.support.built import native_are_current
 
 CACHE = BUILD / "cache"

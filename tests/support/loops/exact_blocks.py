@@ -7,7 +7,7 @@ from pathlib import Path
 import fmpy
 
 from perilune.fmus_src.export.own_blocks import build_own_blocks
-from perilune.fmus_src.places import FLAVOURS
+from perilune.fmus_src.paths import FLAVOURS
 
 BLOCKS = '''
 import math

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from perilune.analysis.stability.ask.channels import Channel
 from perilune.analysis.stability.linear.lifted import LiftedModel, Port
+from perilune.analysis.stability.request.channels import Channel
 from tests.support.builders import component, connection, document, inline, system
 
 STEP, COUPLING = 0.2, 0.4

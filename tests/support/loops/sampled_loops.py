@@ -8,7 +8,7 @@ import control
 import numpy as np
 from hypothesis import strategies
 
-from perilune.analysis.loops.curves import Response
+from perilune.analysis.stability.loops.curves import Response
 
 
 def response_of(system: control.StateSpace) -> Response:

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
-from perilune.analysis.batch.results import BatchResult, make_result
-from perilune.analysis.batch.shards.files import write_draws
-from perilune.analysis.batch.trials import Trials
-from perilune.analysis.campaign.file import parse_campaign
-from perilune.analysis.campaign.plan import BatchPlan
-from perilune.analysis.campaign.toml_table import Table
-from perilune.analysis.system.options import SystemOptions
+from perilune.analysis.campaigns.fly.results import BatchResult, make_result
+from perilune.analysis.campaigns.fly.shards.files import write_draws
+from perilune.analysis.campaigns.spec.file import parse_campaign
+from perilune.analysis.campaigns.spec.plan import BatchPlan
+from perilune.analysis.campaigns.spec.toml_table import Table
+from perilune.analysis.campaigns.trials import Trials
+from perilune.analysis.runtime.system.options import SystemOptions
 
 DIGEST = "0123456789abcdef" * 4
 POSITION = [f"ship.position[{i}]" for i in (1, 2, 3)]
@@ -60,7 +60,7 @@ SAMPLING = "every = 2\nsignals = {signals}\ntrials = {traced}"
 
 
 def facts(campaign, variants, targets=True):
-    """What `perilune.analysis.batch.facts` would say of the hand-made batch."""
+    """What `perilune.analysis.campaigns.fly.metadata` would say of the hand-made batch."""
     names = dict.fromkeys([*campaign.record.final, *campaign.record.signals])
     target = {f"pilot.target_{kind}[{i + 1}]": float(value) for kind, at in
               (("position", TARGET), ("velocity", np.zeros(3))) for i, value in enumerate(at)}  # fmt: skip

@@ -5,10 +5,10 @@ Rows are half a second apart, 401 of them. Phase 1 to 20 s, 2 to 150 s, 4 to 180
 
 import numpy as np
 
-from perilune.analysis.reports.own.asked.histories import Curve, Path, Point
-from perilune.analysis.reports.own.asked.stages import BoundValues, Budget, Item, Limit, Limits, Phase, Phases
-from perilune.analysis.reports.own.asked.values import Rows
-from perilune.analysis.ssp.units import Unit
+from perilune.analysis.reports.figures.declaration.histories import Curve, Path, Point
+from perilune.analysis.reports.figures.declaration.stages import BoundValues, Budget, Item, Limit, Limits, Phase, Phases
+from perilune.analysis.reports.figures.declaration.values import Rows
+from perilune.analysis.runtime.ssp.units import Unit
 from tests.support.pages.own_samples import DEG, DEGREE, TIME, flown, scalar
 
 METRE = Unit("m", (0, 1, 0, 0, 0, 0, 0, 0))

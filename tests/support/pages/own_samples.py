@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from perilune.analysis.reports.own.asked.histories import Band, Error, Pulses
-from perilune.analysis.reports.own.asked.values import Signal
-from perilune.analysis.ssp.units import Unit
+from perilune.analysis.reports.figures.declaration.histories import Band, Error, Pulses
+from perilune.analysis.reports.figures.declaration.values import Signal
+from perilune.analysis.runtime.ssp.units import Unit
 from tests.support.pages.samples import run_result
 
 DEGREE = math.pi / 180.0

@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from perilune.analysis.batch.results import BatchResult, make_result
-from perilune.analysis.batch.trials import Trials
-from perilune.analysis.campaign.file import parse_campaign
-from perilune.analysis.campaign.plan import BatchPlan
-from perilune.analysis.campaign.toml_table import Table
-from perilune.analysis.flight.results import Result
-from perilune.analysis.system.options import SystemOptions
+from perilune.analysis.campaigns.fly.results import BatchResult, make_result
+from perilune.analysis.campaigns.spec.file import parse_campaign
+from perilune.analysis.campaigns.spec.plan import BatchPlan
+from perilune.analysis.campaigns.spec.toml_table import Table
+from perilune.analysis.campaigns.trials import Trials
+from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.system.options import SystemOptions
 
 DIGEST = "0123456789abcdef" * 4
 HEAD = 'system = "ship"\ntrials = {trials}\nseed = 7\n'

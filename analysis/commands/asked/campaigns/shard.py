@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ....batch.flying.engines import ENGINES
+from ....campaigns.fly.workers.engines import ENGINES
 
 
 def add(parser: argparse.ArgumentParser) -> None:

@@ -6,9 +6,9 @@ import argparse
 import math
 from pathlib import Path
 
-from ....planning.vehicle import HOVER_MARGINS as MARGINS
-from ....planning.vehicle import HOVER_TRANSFER as TRANSFER
-from ....planning.vehicle import HOVER_VEHICLE as VEHICLE
+from ....design.trajectories.vehicle import HOVER_MARGINS as MARGINS
+from ....design.trajectories.vehicle import HOVER_TRANSFER as TRANSFER
+from ....design.trajectories.vehicle import HOVER_VEHICLE as VEHICLE
 from ...common.options import add_json
 from ...common.vehicle import add_vehicle, number, whole
 

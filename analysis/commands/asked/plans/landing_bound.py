@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ....planning.bounds import LANDING
-from ....planning.vehicle import LANDING_VEHICLE
+from ....design.trajectories.bounds import LANDING
+from ....design.trajectories.vehicle import LANDING_VEHICLE
 from ...common.options import add_json, add_system
 from ...common.vehicle import add_vehicle, number, whole
 

@@ -8,11 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from ....loops.decibels import decibels
-from ....loops.readings import Classical
+from ....stability.loops.decibels import decibels
+from ....stability.loops.readings import Classical
 from ....stability.results.loop import LoopReport
-from ...kit.quantities import number, tick
-from ...kit.style import BLUE, FAINT, INK, VERMILION
+from ...common.quantities import number, tick
+from ...common.style import BLUE, FAINT, INK, VERMILION
 from .frequency import (
     DECISIVE,
     GAIN_MARK,

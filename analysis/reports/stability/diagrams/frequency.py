@@ -15,11 +15,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from ....loops.decibels import decibel_size, decibels, degree_size
-from ....loops.readings import Classical, Curve
+from ....stability.loops.decibels import decibel_size, decibels, degree_size
+from ....stability.loops.readings import Classical, Curve
 from ....stability.results.loop import LoopReport
-from ...kit.quantities import log_tick, number, tick
-from ...kit.style import BLUE, FAINT, GREEN, INK, VERMILION, log_ticks_x
+from ...common.quantities import log_tick, number, tick
+from ...common.style import BLUE, FAINT, GREEN, INK, VERMILION, log_ticks_x
 
 MEASURED: Any = {
     "linestyle": "", "marker": "o", "markersize": 3.0, "markerfacecolor": "none", "markeredgecolor": INK,

@@ -10,22 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
-from ....loops.decibels import decibel_size, decibels
-from ....loops.readings import Crossing
+from ....stability.loops.decibels import decibel_size, decibels
+from ....stability.loops.readings import Crossing
 from ....stability.results.loop import LoopReport
-from ...kit.quantities import number, tick
-from ...kit.style import BLUE, VERMILION
-from .frequency import (
-    DECISIVE,
-    GAIN_MARK,
-    MARGIN,
-    MEASURED,
-    OTHER,
-    PHASE_MARK,
-    in_db,
-    margin_crossings,
-    measured_too,
-)
+from ...common.quantities import number, tick
+from ...common.style import BLUE, VERMILION
+from .frequency import DECISIVE, GAIN_MARK, MARGIN, MEASURED, OTHER, PHASE_MARK, in_db, margin_crossings, measured_too
 from .limits import BEHIND, FORBIDDEN, LIMIT, limits_of
 from .nyquist import ANGLES, CRITICAL
 

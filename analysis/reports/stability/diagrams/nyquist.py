@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 
 from ....stability.results.loop import LoopReport
 from ....stability.results.nonlinear import Nonlinearity
-from ...kit.quantities import MINUS
-from ...kit.style import BLUE, GREEN, INK, PURPLE, plain_ticks
+from ...common.quantities import MINUS
+from ...common.style import BLUE, GREEN, INK, PURPLE, plain_ticks
 from .frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, margin_crossings, measured_too
 from .limits import LIMIT, limits_of
 

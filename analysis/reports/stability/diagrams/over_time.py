@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from ....loops.decibels import decibels
-from ....loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from ....stability.loops.decibels import decibels
+from ....stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
 from ....stability.results.loop import LoopReport
 from ....stability.results.report import StabilityReport
-from ...kit.quantities import number
-from ...kit.style import COLOURS, INK, VERMILION, Look, look, plain_ticks
+from ...common.quantities import number
+from ...common.style import COLOURS, INK, VERMILION, Look, look, plain_ticks
 from .limits import FORBIDDEN
 
 QUANTITIES = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS)

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ....stability.results.loop import LoopReport
-from ...kit.style import BLUE, FAINT, INK, VERMILION, plain_ticks
+from ...common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 from .frequency import faint_line
 
 DAMPINGS = (0.2, 0.5, 0.8)

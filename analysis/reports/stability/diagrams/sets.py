@@ -10,14 +10,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from ....loops.decibels import decibels, factor_of
-from ....loops.margin_values import UNLIMITED, UNSTABLE, Quantity
-from ....loops.margins import disk_of_gain, disk_of_phase
+from ....stability.loops.decibels import decibels, factor_of
+from ....stability.loops.margin_values import UNLIMITED, UNSTABLE, Quantity
+from ....stability.loops.margins import disk_of_gain, disk_of_phase
 from ....stability.results.loop import JointReport, LoopReport
 from ....stability.results.nonlinear import Nonlinearity
 from ....stability.results.varied import SweepReport
-from ...kit.quantities import labelled, shown_factor, tick
-from ...kit.style import BLUE, FAILED, GREEN, INK, VERMILION, log_ticks_x, plain_ticks
+from ...common.quantities import labelled, shown_factor, tick
+from ...common.style import BLUE, FAILED, GREEN, INK, VERMILION, log_ticks_x, plain_ticks
 from .frequency import PHASE_MARK, frequency_axis, in_db
 from .limits import LIMIT, Limits
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ....loops.margin_values import Quantity
+from ....stability.loops.margin_values import Quantity
 from ....stability.results.report import StabilityReport
 from ..tables import Table, link
 from ..words import NO_CROSSING, gain_margin, numeral, phase_margin, size, state, verdict

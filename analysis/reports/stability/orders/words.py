@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ....loops.margin_values import UNLIMITED, UNSTABLE
+from ....stability.loops.margin_values import UNLIMITED, UNSTABLE
 from ....stability.results.loop import JointReport, LoopReport
 from ....stability.results.report import StabilityReport
 from ....stability.results.requirement import Requirement, Verdict

@@ -1,0 +1,1 @@
+"""Writing components and systems: templates, descriptions."""

@@ -1,0 +1,55 @@
+"""Which FMUs fit where another one stands: those that have all its connectors, and the parameters given to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cache
+
+from fmpy import read_model_description
+
+from ....fmus_src.block import Block
+from ....fmus_src.catalogue import catalogue
+from ....fmus_src.export.available import fmu_flavours
+
+Demand = tuple[str, str, str]  # variable, causality, type
+
+
+def connectors_of(block: type[Block]) -> set[Demand]:
+    """All variables that a connector can stand for."""
+    return {
+        (name, variable.causality, variable.type_name)
+        for variable in block.variables.values()
+        for name in variable.element_names()
+    }
+
+
+@cache
+def _all_connectors() -> Mapping[str, set[Demand]]:
+    found = {name: connectors_of(block) for name, block in catalogue().items()}
+    for name, flavours in fmu_flavours().items():
+        path = next((path for path in flavours.values() if path is not None), None)
+        if name not in found and path is not None:
+            variables = read_model_description(str(path), validate=False).modelVariables
+            found[name] = {(variable.name, variable.causality, variable.type) for variable in variables}
+    return found
+
+
+def fitting(demanded: Iterable[Demand]) -> list[str]:
+    """The FMUs of this repository, and those of the working folder, that have all demanded connectors, by name."""
+    wanted = set(demanded)
+    return [name for name, has in _all_connectors().items() if wanted <= has]
+
+
+def slots() -> dict[str, type[Block]]:
+    """The interfaces that make blocks swappable, by name in snake case; thin bases between them and a block too."""
+    found: dict[str, type[Block]] = {}
+    for block in catalogue().values():
+        for base in block.__mro__[1:]:
+            if issubclass(base, Block) and base is not Block and base.is_interface:
+                found.setdefault(base.fmu_name, base)
+    return found
+
+
+def blocks_of_slot(slot: type[Block]) -> list[type[Block]]:
+    """The repository's blocks of an interface."""
+    return [block for block in catalogue().values() if issubclass(block, slot)]

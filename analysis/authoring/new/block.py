@@ -1,0 +1,64 @@
+"""A block of a user's own to start from, in a file of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ....fmus_src.catalogue import catalogue
+from ....fmus_src.export.ssp_package import DESCRIPTION
+from ...common.atomic import write_atomically
+from ...common.errors import InputError, suggestion
+from ...runtime.ssp.archive import open_system, system_names
+from ...runtime.ssp.description import Component
+from ...runtime.ssp.reading import read_description
+from ..describe.fits import slots
+from .names import check_free, check_name, class_name
+from .rendering import rendered, template_names
+
+SLOTS = "slots"
+
+
+@dataclass(frozen=True)
+class Written:
+    """Files that were written, and the commands that come next."""
+
+    paths: list[Path]
+    commands: list[str]
+
+
+def block_slots() -> list[str]:
+    """The slots that there is a block for to start from."""
+    return [Path(name).stem for name in template_names(SLOTS)]
+
+
+def new_block(name: str, slot: str | None) -> Written:
+    """Write ``name``.py in the working folder. Raises InputError."""
+    if slot is not None and slot not in block_slots():
+        problem = "there is no block to start from for it" if slot in slots() else "no such slot"
+        raise InputError("--slot", slot, problem, suggestion(slot, block_slots()))
+    check_name(name, (name,))
+    path = Path(f"{name}.py")
+    check_free(path)
+    template = "block.py" if slot is None else f"{SLOTS}/{slot}.py"
+    text = rendered(template, name=name, class_name=class_name(name))
+    system, component = ("SYSTEM", "control") if slot is None else where_it_flies(slot)
+    first = ["perilune new system SYSTEM", "perilune export SYSTEM/blocks.py"] if slot is None else []
+    write_atomically(path, text.encode())
+    return Written([path], [f"perilune export {path}", *first, f"perilune run {system} --use {component}={name}"])
+
+
+def where_it_flies(slot: str) -> tuple[str, str]:
+    """The system of fewest components that has a slot, and the component it is."""
+    blocks, interface = catalogue(), slots()[slot]
+    found = []
+    for name in system_names():
+        elements = read_description(open_system(name)).system.elements
+        for element in elements.values():
+            block = blocks.get(Path(element.source).stem) if isinstance(element, Component) else None
+            if block is not None and issubclass(block, interface):
+                found.append((len(elements), name, element.name))
+    if not found:
+        raise InputError("--slot", slot, f"no system's {DESCRIPTION} has it", suggestion(slot, block_slots()))
+    _, system, component = min(found)
+    return system, component

@@ -1,0 +1,54 @@
+"""What a block or a system of a user's own may be called."""
+
+from __future__ import annotations
+
+import keyword
+import re
+import sys
+from pathlib import Path
+
+from ....fmus_src.block import snake_case
+from ....fmus_src.catalogue import catalogue
+from ....fmus_src.paths import FLAVOURS, own_fmu
+from ...common.errors import InputError
+from ...runtime.ssp.archive import system_names
+
+
+def class_name(name: str) -> str:
+    """The class whose FMU has this name: ``linear_guidance`` -> ``LinearGuidance``."""
+    return "".join(part.capitalize() for part in name.split("_"))
+
+
+def check_name(name: str, fmus: tuple[str, ...]) -> None:
+    """Refuse a name that files, classes and FMUs cannot share, or that is taken. Raises InputError.
+
+    ``fmus`` are those that its blocks make.
+    """
+    if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z][a-z0-9]*)*", name) or keyword.iskeyword(name):
+        problem = "not a name that a file, a class and an FMU can share"
+        remedy = "small letters, digits and single underscores, a letter first and behind each of them"
+        raise InputError("new", name, problem, f"{remedy}, as {_mended(name)}")
+    if name == "perilune" or name in sys.stdlib_module_names:
+        raise InputError("new", name, f"Python's own {name} would be hidden by it", f"take another, as my_{name}")
+    if name in system_names():
+        raise InputError("new", name, "is a system of this repository", f"take another, as my_{name}")
+    for fmu in fmus:
+        if fmu in catalogue():
+            raise InputError("new", name, f"{fmu} is an FMU of this repository", f"take another, as my_{name}")
+        built = [path for path in (own_fmu(fmu, flavour) for flavour in FLAVOURS) if path.exists()]
+        if built:
+            there = built[0].relative_to(Path.cwd())
+            raise InputError("new", name, f"there is {there} already", "take another name, or remove it")
+
+
+def _mended(name: str) -> str:
+    """A good name that is near."""
+    words = re.sub(r"[^a-z0-9]+", "_", snake_case(name)).strip("_")
+    words = re.sub(r"_(?=\d)", "", words).lstrip("0123456789_")
+    return f"my_{words}" if not words or keyword.iskeyword(words) else words
+
+
+def check_free(path: Path) -> None:
+    """Refuse to write over a file or a folder. Raises InputError."""
+    if path.exists() or path.is_symlink():
+        raise InputError("new", str(path), "exists already and is not written over", "take another name, or move it")

@@ -1,1 +1,0 @@
-"""Campaigns: many trials of a system, with drawn parameters, and what came of them."""

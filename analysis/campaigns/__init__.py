@@ -1,0 +1,1 @@
+"""Campaigns: specification, draws, execution, trials, verdicts, comparison."""

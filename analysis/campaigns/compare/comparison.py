@@ -1,0 +1,233 @@
+"""Variants of one or several stored batches side by side: rates, metrics, and pairs on the same trials."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ...common.percent import percent
+from ..folder.stored import StoredBatch
+from ..rows import TrialColumns
+from ..spec.campaign import Metric
+from ..spec.groups import Group
+from ..summary import CONFIDENCE, success_interval, summarise, summary_rows
+from ..tables import aligned, faults_line, metric_lines, who_cells, who_heads
+from ..trials import Trials
+from .paired import PairedRates, PairedValues, paired_rates, paired_values
+
+SUCCESS = "success"
+NO_FAULTS = "without faults"
+
+
+@dataclass(frozen=True)
+class Contender:
+    """One variant of one batch; ``batch`` and ``variant`` number them, for looks that tell which is which."""
+
+    label: str
+    stored: StoredBatch
+    name: str
+    batch: int
+    variant: int
+
+    @property
+    def trials(self) -> Trials:
+        return self.stored.variants[self.name]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Contenders by label and batches by their folders' names, all flown on the same draws.
+
+    ``reference`` is the variant that others are put against; ``notes`` say where the batches differ
+    other than by what was to be compared.
+    """
+
+    contenders: dict[str, Contender]
+    batches: dict[str, StoredBatch]
+    reference: str
+    notes: tuple[str, ...] = ()
+
+    @property
+    def first(self) -> StoredBatch:
+        """The batch of the first folder."""
+        return next(iter(self.batches.values()))
+
+    @cached_property
+    def _grouping(self) -> StoredBatch | None:
+        """The first batch whose campaign groups trials: all have its draws."""
+        return next((batch for batch in self.batches.values() if batch.group is not None), None)
+
+    @property
+    def group(self) -> str | None:
+        """The drawn or derived value that trials are grouped by, if they are."""
+        return None if self._grouping is None else self._grouping.group
+
+    @property
+    def groups(self) -> list[Group]:
+        """The groups of trials."""
+        return [] if self._grouping is None else self._grouping.groups
+
+    @cached_property
+    def metrics(self) -> list[Metric]:
+        """The metrics of all batches in order of appearance, those that are rates left out."""
+        return [metric for metric in self._all_metrics if metric.name not in self._truths]
+
+    @cached_property
+    def rates(self) -> list[Metric | None]:
+        """What is a yes or a no in every trial: success (None), then metrics that are true or false."""
+        return [None, *(metric for metric in self._all_metrics if metric.name in self._truths)]
+
+    @cached_property
+    def _all_metrics(self) -> list[Metric]:
+        found: dict[str, Metric] = {}
+        for batch in self.batches.values():
+            for metric in batch.metrics:
+                found.setdefault(metric.name, metric)
+        return list(found.values())
+
+    @cached_property
+    def _truths(self) -> set[str]:
+        """Metrics that are true or false by their expression, or that take both 0 and 1 and nothing else."""
+        found = set()
+        for metric in self._all_metrics:
+            facts = [batch.document["metrics"].get(metric.name) for batch in self.batches.values()]
+            values = np.concatenate([self.values(label, metric.name) for label in self.contenders])
+            values = values[np.isfinite(values)]
+            declared = all(fact.get("truth") for fact in facts if fact is not None)
+            if np.all((values == 0.0) | (values == 1.0)) and (
+                declared or (metric.unit == "1" and np.unique(values).size == 2)
+            ):
+                found.add(metric.name)
+        return found
+
+    def values(self, label: str, metric: str) -> np.ndarray:
+        """A metric in every trial of a contender; nan where its batch does not have that metric."""
+        trials = self.contenders[label].trials
+        return np.asarray(trials.metrics.get(metric, np.full(len(trials.trial), np.nan)), dtype=float)
+
+    def outcomes(self, label: str, rate: Metric | None) -> np.ndarray:
+        """Whether each trial of a contender is a yes; one whose metric is not finite is a no."""
+        if rate is None:
+            return self.contenders[label].trials.success
+        values = self.values(label, rate.name)
+        return np.isfinite(values) & (values != 0.0)
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """Per contender what a batch's summary has, and ``rates``: count, rate and interval by name; groups too."""
+        grouping = self._grouping
+        by = {} if grouping is None or grouping.group is None else {grouping.group: grouping.draws[grouping.group]}
+        columns = {
+            label: TrialColumns(
+                contender.trials.statuses,
+                contender.trials.success,
+                {metric.name: self.values(label, metric.name) for metric in self.metrics},
+                draws=by,
+            )
+            for label, contender in self.contenders.items()
+        }
+        found = summarise(columns, self.metrics, self.groups, self.group or "")
+        members = {group.label: np.flatnonzero(group.has(values)) for group in self.groups for values in by.values()}
+        for label, group, entry in summary_rows(found):
+            trials = slice(None) if group is None else members[group]
+            entry["rates"] = {name_of(rate): self._rate(label, rate, trials) for rate in self.rates}
+        return found
+
+    def _rate(self, label: str, rate: Metric | None, trials: slice | np.ndarray) -> dict[str, Any]:
+        yes = self.outcomes(label, rate)[trials]
+        count = int(yes.sum())
+        interval = list(success_interval(count, yes.size, CONFIDENCE))
+        return {"count": count, "trials": yes.size, "rate": count / yes.size, "interval": interval}
+
+    @cached_property
+    def pairs(self) -> list[tuple[str, str]]:
+        """Labels (A, B) that differ in one thing only: two variants of a batch, or a variant in two batches.
+
+        B is what comes first: the reference, else the one above in the order of contenders.
+        """
+        found = []
+        for first, second in itertools.combinations(self.contenders.values(), 2):
+            if first.batch == second.batch and second.name == self.reference:
+                found.append((first.label, second.label))
+            elif first.batch == second.batch or first.name == second.name:
+                found.append((second.label, first.label))
+        return found
+
+    def against_reference(self, pair: tuple[str, str]) -> bool:
+        """Whether B of a pair is what others are put against: the reference variant, or the first batch."""
+        first, second = (self.contenders[label] for label in pair)
+        return second.name == self.reference if first.batch == second.batch else second.batch == 0
+
+    def paired_rates(self, pair: tuple[str, str], rate: Metric | None) -> PairedRates:
+        """A rate of two contenders on the same trials."""
+        return paired_rates(self.outcomes(pair[0], rate), self.outcomes(pair[1], rate))
+
+    def paired_values(self, pair: tuple[str, str], metric: str, successful: bool) -> PairedValues:
+        """A metric of two contenders on the same trials: those in which both succeed, or all."""
+        a, b = (self.values(label, metric) for label in pair)
+        if successful:
+            both = self.outcomes(pair[0], None) & self.outcomes(pair[1], None)
+            a, b = a[both], b[both]
+        return paired_values(a, b)
+
+    @property
+    def has_faults(self) -> bool:
+        """Whether any of the batches flew with faults."""
+        return any(batch.faults for batch in self.batches.values())
+
+    def document(self) -> dict[str, Any]:
+        """The comparison as JSON: provenance of every batch, per contender its numbers, per pair theirs."""
+        group = {} if self.group is None else {"group": self.group}
+        return group | {
+            "batches": {str(batch.folder): batch.provenance for batch in self.batches.values()},
+            "notes": list(self.notes),
+            "variants": self.summary,
+            "pairs": [
+                {
+                    "a": pair[0],
+                    "b": pair[1],
+                    "rates": {name_of(rate): asdict(self.paired_rates(pair, rate)) for rate in self.rates},
+                    "metrics": {m.name: asdict(self.paired_values(pair, m.name, True)) for m in self.metrics},
+                    "metrics_all": {m.name: asdict(self.paired_values(pair, m.name, False)) for m in self.metrics},
+                }
+                for pair in self.pairs
+            ],
+        }
+
+    def text(self) -> str:
+        """The comparison for a terminal: rates with intervals, then metrics of the successful trials."""
+        names = [name_of(rate) for rate in self.rates]
+        rows = summary_rows(self.summary)
+        cells = [[*who_heads(self.group), "trials", *map(_head, names)]]
+        for row in rows:
+            rates = [_percent(row.entry["rates"][name]) for name in names]
+            cells.append([*who_cells(row, self.group), str(row.entry["trials"]), *rates])
+        found = metric_lines(rows, [metric.name for metric in self.metrics], self.group)
+        return "\n".join([*aligned(cells), *(["", *found] if found else []), *self._fault_lines(), *self.notes])
+
+    def _fault_lines(self) -> list[str]:
+        """With which faults every batch flew; nothing where none did."""
+        lines = {name: faults_line(batch.faults) if batch.faults else NO_FAULTS for name, batch in self.batches.items()}
+        if not self.has_faults:
+            return []
+        return list(lines.values()) if len(lines) == 1 else [f"{name}: {line}" for name, line in lines.items()]
+
+
+def _head(name: str) -> str:
+    """What heads a rate: of success, or of a metric, which a batch's own summary has over its successful trials."""
+    return f"{name} %{'' if name == SUCCESS else ' of all'} ({100 * CONFIDENCE:g} %)"
+
+
+def _percent(rate: Mapping[str, Any]) -> str:
+    low, high = rate["interval"]
+    return f"{percent(rate['rate'])} ({percent(low)} to {percent(high)})"
+
+
+def name_of(rate: Metric | None) -> str:
+    """The name of a rate."""
+    return SUCCESS if rate is None else rate.name

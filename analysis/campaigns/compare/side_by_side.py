@@ -1,0 +1,108 @@
+"""Stored batches read and put side by side: only those that flew the same draws can be compared."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ...common.errors import InputError, suggestion
+from ..folder.stored import StoredBatch, read_batch
+from .comparison import Comparison, Contender
+
+DIFFERENCES = {
+    "system": "fly different systems",
+    "success": "call different things a success",
+    "seed": "have different seeds, so their components' random errors differ",
+    "step": "have different steps",
+    "algorithm": "exchange values by different algorithms",
+}
+DEFINITION = ("expression", "reduction", "condition", "delay")  # of a metric
+
+
+def compare(folders: Sequence[Path], reference: str | None = None) -> Comparison:
+    """Read the batches of some folders and put their variants side by side.
+
+    ``reference`` names a variant; the first one by default. Raises InputError for what is no batch,
+    and for batches that did not fly the same draws.
+    """
+    resolved = [folder.resolve() for folder in folders]
+    for folder, path in zip(folders, resolved, strict=True):
+        if resolved.count(path) > 1:
+            raise InputError(folder, "", "given twice", "give each folder once")
+    batches = [read_batch(folder) for folder in folders]
+    for batch in batches[1:]:
+        _check_draws(batches[0], batch)
+        _check_units(batches[0], batch)
+    variants = list(dict.fromkeys(variant for batch in batches for variant in batch.variants))
+    if reference is not None and reference not in variants:
+        raise InputError("--reference", reference, "no such variant", suggestion(reference, variants))
+    named = dict(zip(_distinct_names(resolved), batches, strict=True))
+    contenders = {}
+    for index, (name, batch) in enumerate(named.items()):
+        for variant in batch.variants:
+            label = _label(name, variant, several=len(batches) > 1, single=len(variants) == 1)
+            contenders[label] = Contender(label, batch, variant, index, variants.index(variant))
+    return Comparison(contenders, named, reference or variants[0], tuple(_notes(named)))
+
+
+def _label(folder: str, variant: str, *, several: bool, single: bool) -> str:
+    """What a contender is called: by what tells it from the others, variant, folder, or both."""
+    if not several:
+        return variant
+    return folder if single else f"{folder}: {variant}"
+
+
+def _check_draws(first: StoredBatch, other: StoredBatch) -> None:
+    """Refuse batches of which a trial is not the same trial: other numbers of trials, other draws."""
+    count, found = (len(next(iter(batch.variants.values())).trial) for batch in (first, other))
+    problem = ""
+    if count != found:
+        problem = f"{found} trials, {count} in {first.folder}"
+    elif set(first.draws) != set(other.draws):
+        name = min(set(first.draws) ^ set(other.draws))
+        problem = f"{name} is drawn in one of it and {first.folder} only"
+    else:
+        for name, values in first.draws.items():
+            if not np.array_equal(values, other.draws[name]):
+                problem = f"{name} is not drawn as in {first.folder}"
+                break
+    if problem:
+        raise InputError(other.folder, "draws", problem, "compare batches of one campaign, number of trials and seed")
+
+
+def _check_units(first: StoredBatch, other: StoredBatch) -> None:
+    units = {metric.name: metric.unit for metric in first.metrics}
+    for metric in other.metrics:
+        if units.get(metric.name, metric.unit) != metric.unit:
+            problem = f"in {metric.unit}, {units[metric.name]} in {first.folder}"
+            raise InputError(other.folder, f"metric {metric.name}", problem, "compare metrics of one unit")
+
+
+def _notes(batches: Mapping[str, StoredBatch]) -> Iterator[str]:
+    name, first = next(iter(batches.items()))
+    for other_name, other in batches.items():
+        pair = f"{name} and {other_name}"
+        for key, words in DIFFERENCES.items():
+            if first.document[key] != other.document[key]:
+                yield f"{pair} {words}: {first.document[key]} and {other.document[key]}"
+        if None not in (first.group, other.group) and first.group != other.group:
+            yield f"{pair} group trials by different values: {first.group} and {other.group}"
+        own = {metric.name: metric for metric in first.metrics}
+        for metric in other.metrics:
+            known = own.get(metric.name, metric)
+            if any(getattr(known, key) != getattr(metric, key) for key in DEFINITION):
+                yield f"{pair} define the metric {metric.name} differently"
+        if other.strangers:
+            yield f"{other_name} holds {other.strangers} traces of another batch, which are left out"
+
+
+def _distinct_names(paths: Sequence[Path]) -> list[str]:
+    """The shortest ends of some different paths that tell them apart."""
+    for length in range(1, max(len(path.parts) for path in paths) + 1):
+        names = ["/".join(path.parts[-length:]) for path in paths]
+        if len(set(names)) == len(names):
+            break
+    return [os.fsencode(name).decode("utf-8", "replace") for name in names]

@@ -1,0 +1,129 @@
+"""Draws that are given and not drawn: a trial for each row."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+from ...common.errors import InputError, suggestion
+from .declared import Declared, drawn_names
+
+STREAMS = "streams_of"  # the column that says whose random streams a row flies with; streams_of.NAME of one component
+ALL = ""  # the component that stands for all that have no streams of their own
+TRIAL = "trial"
+
+Streams = Mapping[str, np.ndarray]
+
+
+@dataclass(frozen=True, eq=False)
+class GivenDraws:
+    """Draws for all trials: ``columns`` maps every name that a campaign draws to an array (trials,) of doubles.
+
+    ``streams`` are by component the numbers of the trials (trials,) whose random streams it flies with; `ALL` stands
+    for the components that are not named. A component without either flies with the streams of the trial itself.
+    ``file`` and ``sha256`` say where they come from. There is a column or a stream.
+    """
+
+    columns: Mapping[str, np.ndarray]
+    streams: Streams = field(default_factory=dict)
+    file: str = ""
+    sha256: str = ""
+
+    @property
+    def trials(self) -> int:
+        return len(next(iter((*self.columns.values(), *self.streams.values()))))
+
+    @property
+    def table(self) -> dict[str, np.ndarray]:
+        """Its columns, with those of the streams where trials do not have their own."""
+        return dict(self.columns) | {stream_column(name): values.astype(float) for name, values in self.streams.items()}
+
+    def stream_of(self, trial: int, component: str) -> int:
+        """The trial whose random stream a component flies with."""
+        streams = self.streams.get(component, self.streams.get(ALL))
+        return trial if streams is None else int(streams[trial])
+
+    def of_part(self, trials: range) -> GivenDraws:
+        """Those of trials in a row, which are counted from 0 then."""
+        rows = slice(trials.start, trials.stop)
+        streams = dict(self.streams)
+        if trials.start and ALL not in streams:
+            streams[ALL] = np.arange(self.trials)
+        return replace(
+            self,
+            columns={name: values[rows] for name, values in self.columns.items()},
+            streams={name: values[rows] for name, values in streams.items()},
+        )
+
+
+def stream_column(component: str) -> str:
+    """The column that says whose random stream a component flies with."""
+    return STREAMS if component == ALL else f"{STREAMS}.{component}"
+
+
+def stream_component(column: str) -> str | None:
+    """The component of a column of `stream_column`; None for another column."""
+    if column == STREAMS:
+        return ALL
+    return column.removeprefix(f"{STREAMS}.") if column.startswith(f"{STREAMS}.") else None
+
+
+def part_streams(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Columns of a file parted into draws, and streams by component as whole numbers."""
+    components = {name: stream_component(name) for name in columns}
+    draws = {name: values for name, values in columns.items() if components[name] is None}
+    streams = {
+        component: columns[name].astype(np.int64) for name, component in components.items() if component is not None
+    }
+    return draws, streams
+
+
+def read_given(path: Path, campaign: Declared) -> GivenDraws:
+    """The draws of a campaign in a Parquet file, a row per trial, as draws.parquet of a batch. Raises InputError.
+
+    Columns ``streams_of.COMPONENT`` say with which trial's random stream a component flies in a row, ``streams_of``
+    those of the others; without it that is the row's number. Derived values are not read: they are derived anew.
+    """
+    try:
+        data = path.read_bytes()
+        table = pyarrow.parquet.read_table(pyarrow.BufferReader(data))
+    except OSError as error:  # Arrow's own errors of damaged files are such, too
+        raise InputError(path, "", error.strerror or str(error), "give a Parquet file of draws") from error
+    except pyarrow.ArrowInvalid as error:
+        raise InputError(path, "", f"not Parquet: {error}", "give a Parquet file of draws") from error
+    drawn = drawn_names(campaign)
+    for name in drawn:
+        if name not in table.column_names:
+            raise InputError(path, name, "is drawn, and no column has it", "add the column")
+    stream_columns = [name for name in table.column_names if stream_component(name) is not None]
+    for name in table.column_names:
+        if name not in (TRIAL, *stream_columns, *drawn, *campaign.derived):
+            known = [*drawn, *campaign.derived, STREAMS]
+            raise InputError(path, name, f"{campaign.file} draws and derives no such value", suggestion(name, known))
+    if not table.num_rows:
+        raise InputError(path, "", "no row", "give one row or more")
+    if not drawn and not stream_columns:
+        raise InputError(path, "", f"{campaign.file} draws nothing", "leave the file out")
+    columns = {name: _numbers(path, table, name) for name in (*drawn, *stream_columns)}
+    for name in stream_columns:
+        if np.any((columns[name] < 0.0) | (columns[name] != np.round(columns[name]))):
+            raise InputError(path, name, "not all are numbers of trials", "give whole numbers, 0 or more")
+    return GivenDraws(*part_streams(columns), str(path), hashlib.sha256(data).hexdigest())
+
+
+def _numbers(path: Path, table: pyarrow.Table, name: str) -> np.ndarray:
+    """A column as finite doubles."""
+    try:
+        values = np.ascontiguousarray(table[name].to_numpy(), dtype=np.float64)
+    except (TypeError, ValueError, pyarrow.ArrowInvalid) as error:
+        raise InputError(path, name, "not a column of numbers", "give a number in every row") from error
+    wrong = np.flatnonzero(~np.isfinite(values))
+    if wrong.size:
+        raise InputError(path, name, f"{values[wrong[0]]} in row {wrong[0]}", "give a finite number in every row")
+    return values

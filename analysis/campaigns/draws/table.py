@@ -1,0 +1,115 @@
+"""The table of draws: a row per trial, made from the root seed in order of trial.
+
+Each draw has a random stream of its own, keyed by the seed and the name it fills, of which trial k uses
+the k-th portion: a trial's values depend neither on how many trials there are nor on what else
+is drawn. Grids, Latin hypercubes and Sobol sequences are designs of the whole table instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ...common.errors import InputError
+from .declared import Columns, Declared, Draw, drawn_names
+from .designs import DESIGNS, check_grid, grid_columns, latin_hypercube_columns, sobol_columns
+from .given import stream_component
+from .independent import generator, independent_columns, stream_of
+
+MOST = 10**6  # trials of a table
+
+
+class Draws(Protocol):
+    """All drawn and derived values of a campaign, wherever they lie."""
+
+    def of_first(self, trials: int) -> Draws:
+        """Those of the first ``trials`` trials."""
+        ...
+
+    def of_part(self, trials: range) -> DrawTable:
+        """Those of trials in a row, which are counted from 0 then."""
+        ...
+
+
+@dataclass(frozen=True)
+class DrawTable:
+    """All drawn and derived values: ``columns`` maps each name to an array of doubles, one per trial."""
+
+    trials: int
+    columns: Mapping[str, np.ndarray]
+
+    def of_first(self, trials: int) -> DrawTable:
+        """Those of the first ``trials`` trials."""
+        return self.of_part(range(trials))
+
+    def of_part(self, trials: range) -> DrawTable:
+        """Those of trials in a row, which are counted from 0 then."""
+        rows = slice(trials.start, trials.stop)
+        return DrawTable(len(trials), {name: column[rows] for name, column in self.columns.items()})
+
+    def row(self, trial: int) -> dict[str, float]:
+        """Every value of one trial."""
+        return {name: column.item(trial) for name, column in self.columns.items()}
+
+    def parameters(self, trial: int) -> dict[str, float]:
+        """The values of one trial that are component parameters: those with a dot in their name, of draws."""
+        return {
+            name: column.item(trial)
+            for name, column in self.columns.items()
+            if "." in name and stream_component(name) is None
+        }
+
+
+def parted(trials: int, size: int) -> Iterator[range]:
+    """All trials, ``size`` of them at a time."""
+    return (range(first, min(first + size, trials)) for first in range(0, trials, size))
+
+
+def draw_parts(campaign: Declared, size: int) -> Iterator[DrawTable]:
+    """The table of draws and derived values of a campaign, ``size`` trials at a time, columns in the file's order.
+
+    Neither the size nor the order in which draws are declared changes values. Only designs are held whole. Raises
+    InputError where the number of trials does not suit a design, or a table, or a derived value is not finite.
+    """
+    trials, seed, file = campaign.trials, campaign.seed, campaign.file
+    if trials > MOST:
+        problem = f"{trials} trials, of {MOST} at most that are drawn as one table"
+        raise InputError(file, "trials", problem, 'give fewer, or write draw_scheme = "counter", and other draws fly')
+    ordered = sorted(campaign.draws, key=lambda draw: draw.names)
+    designs: dict[str, list[Draw]] = {kind: [draw for draw in ordered if draw.distribution == kind] for kind in DESIGNS}
+    check_grid(designs["grid"], trials, file)
+    whole = latin_hypercube_columns(designs["latin_hypercube"], trials, seed)
+    whole |= sobol_columns(designs["sobol"], trials, seed, file)
+    sources = [(draw, generator(seed, stream_of(draw))) for draw in ordered if draw.distribution not in DESIGNS]
+    for part in parted(trials, size):
+        found: Columns = {name: column[part.start : part.stop] for name, column in whole.items()}
+        found |= grid_columns(designs["grid"], part)
+        for draw, source in sources:
+            found |= independent_columns(draw, len(part), source)
+        yield table_of(campaign, found, part)
+
+
+def draw_table(campaign: Declared) -> DrawTable:
+    """All of `draw_parts` in one. Raises InputError."""
+    return next(draw_parts(campaign, campaign.trials))
+
+
+def table_of(campaign: Declared, drawn: Mapping[str, np.ndarray], trials: range | None = None) -> DrawTable:
+    """The table with these draws, an array (trials,) by name, and what the campaign derives of them.
+
+    ``trials`` are the numbers of their trials, by default all of the campaign. Raises InputError where a derived
+    value is not finite.
+    """
+    numbers = range(campaign.trials) if trials is None else trials
+    names = drawn_names(campaign)
+    columns: Columns = {name: drawn[name] for name in (*names, *(other for other in drawn if other not in names))}
+    for name, formula in campaign.derived.items():
+        columns[name] = np.array(np.broadcast_to(formula.evaluate(columns), (len(numbers),)))
+        wrong = np.flatnonzero(~np.isfinite(columns[name]))
+        if wrong.size:
+            problem = f"{formula.text!r} is {columns[name][wrong[0]]} in trial {numbers[wrong[0]]}"
+            raise InputError(*formula.where, problem, "keep the expression finite over the range of the draws")
+    return DrawTable(len(numbers), columns)

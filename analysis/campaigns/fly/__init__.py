@@ -1,0 +1,1 @@
+"""Execution of a campaign: runner, workers, shards, manifest, cluster."""

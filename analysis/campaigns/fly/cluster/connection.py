@@ -1,0 +1,88 @@
+"""The connection to a cluster: made and looked at before anything is written, left in the end."""
+
+from __future__ import annotations
+
+import importlib
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from ....common.errors import InputError
+from .flights import Cluster
+from .identity import identity, refuse_others
+
+OPTION = "--scheduler"
+ANSWER = 10.0  # s that a scheduler has to answer
+FIRST_WORKER = 30.0  # s that a first worker has to come
+LOGS = ("distributed", "distributed.client")  # which have levels of their own
+LARGEST = "1 TB"  # of what is sent, before dask says that it is large: it is sent once
+
+
+@contextmanager
+def cluster(address: str | None, *, workers: int | None = None, engine: str | None = None) -> Iterator[Cluster | None]:
+    """What flies on the workers of a dask scheduler at ``address`` (tcp://host:8786); None where none is asked for.
+
+    ``workers`` and ``engine`` are of this machine, and refused beside it. Raises InputError: where distributed is not
+    installed, nobody answers, no worker is there, or one of them has another perilune.
+    """
+    if address is None:
+        yield None
+        return
+    for option, value in (("--workers", workers), ("--engine", engine)):
+        if value is not None:
+            problem = "the cluster's own workers fly, in as many threads as they have"
+            raise InputError(option, str(value), problem, f"leave it or {OPTION} out")
+    distributed = _distributed()
+    with _quiet(), _client(distributed, address) as client:
+        _look_at_workers(client, address)
+        yield Cluster(client, address)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Without the lines of distributed: what is wrong is said in one, by us."""
+    logs = [logging.getLogger(name) for name in LOGS]
+    levels = [log.level for log in logs]
+    for log in logs:
+        log.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        for log, level in zip(logs, levels, strict=True):
+            log.setLevel(level)
+
+
+def _distributed() -> Any:
+    try:
+        return importlib.import_module("distributed")
+    except ImportError as error:
+        problem = "flights elsewhere need the package distributed, which is not installed"
+        raise InputError(OPTION, "", problem, "pip install 'perilune[cluster]'") from error
+
+
+@contextmanager
+def _client(distributed: Any, address: str) -> Iterator[Any]:
+    dask = importlib.import_module("dask")
+    with dask.config.set({"distributed.admin.large-graph-warning-threshold": LARGEST}):
+        try:
+            client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
+        except (OSError, ValueError, TypeError) as error:
+            problem = "no dask scheduler answers there"
+            raise InputError(
+                OPTION, address, problem, "start one: dask scheduler; and give its tcp://HOST:PORT"
+            ) from error
+        with client:
+            yield client
+
+
+def _look_at_workers(client: Any, address: str) -> None:
+    """Refuse a cluster without workers, or one in which one of them flies something else. Raises InputError."""
+    try:
+        client.wait_for_workers(1, timeout=FIRST_WORKER)
+    except TimeoutError as error:
+        problem = f"no worker has come within {FIRST_WORKER:g} s"
+        raise InputError(OPTION, address, problem, f"start some: dask worker {address}") from error
+    ours = identity()
+    for worker, theirs in sorted(client.run(identity, on_error="return").items()):
+        refuse_others(ours, theirs, worker)

@@ -1,0 +1,105 @@
+"""What a campaign flies, as one JSON file: everything that its numbers depend on, contents by hash."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from ....common.atomic import write_atomically
+from ....common.errors import InputError
+
+FILE = "manifest.json"
+CONTENTS = "files"  # the folder beside it
+MOST_DIFFERENCES = 3  # named in one line
+WRITE = "give a folder that perilune batch --output wrote"
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """A campaign to be flown in shards; every value can be written as JSON.
+
+    ``system`` has name, label, description, sha256 and ``files``, contents by archive name; ``elsewhere`` are contents
+    that lay outside of it, by what asks for them. ``campaign`` has label, content and what the command line compares,
+    and sweeps if it does.
+    ``options`` are the system options, ``faults`` the user's, ``series`` the inputs over time (label, sha256, content),
+    ``draws`` likewise those that are given instead of drawn, ``timeout`` is in s. ``fmus`` are hashes by variant and
+    component, ``resets`` the verdicts of reset tests by hash. ``until_decided`` says that it ends with the shard at
+    whose end its requirements are decided. ``shard_size`` is in trials, each of which every variant flies.
+    """
+
+    perilune: str
+    system: Mapping[str, Any]
+    elsewhere: Mapping[str, str]
+    campaign: Mapping[str, Any]
+    options: Mapping[str, Any]
+    faults: list[str]
+    series: Mapping[str, str] | None
+    draws: Mapping[str, str] | None
+    timeout: float | None
+    fmus: Mapping[str, Mapping[str, str]]
+    resets: Mapping[str, Mapping[str, Any]]
+    until_decided: bool
+    seed: int
+    trials: int
+    shard_size: int
+
+    def document(self) -> dict[str, Any]:
+        """As JSON has it."""
+        found: dict[str, Any] = json.loads(json.dumps(asdict(self)))
+        return found
+
+    @property
+    def key(self) -> str:
+        """What tells a campaign from others, however many trials it has."""
+        text = json.dumps({**self.document(), "trials": None}, sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    def names(self) -> list[str]:
+        """The contents that it names, each once."""
+        tables = [table["content"] for table in (self.campaign, self.series, self.draws) if table is not None]
+        return sorted({*self.system["files"].values(), *self.elsewhere.values(), *tables})
+
+    def write(self, folder: Path) -> None:
+        """Write it to ``folder``/manifest.json."""
+        write_atomically(folder / FILE, f"{json.dumps(self.document(), indent=1)}\n".encode())
+
+
+def read_manifest(folder: Path) -> Manifest:
+    """The manifest in a folder. Raises InputError."""
+    path = folder / FILE
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(path, "", error.strerror or str(error), WRITE) from error
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise InputError(path, "", f"not JSON: {error}", WRITE) from error
+    names = {field.name for field in fields(Manifest)}
+    if not isinstance(document, dict) or set(document) != names:
+        raise InputError(path, "", "not as this version of perilune writes it", "resume with the version that wrote it")
+    return Manifest(**document)
+
+
+def differences(held: Manifest, asked: Manifest) -> str:
+    """What two manifests differ in, as one phrase; empty where they differ in nothing but the number of trials."""
+    one, other = ({**manifest.document(), "trials": None} for manifest in (held, asked))
+    found = [f"{name} was {_short(left)}, is {_short(right)}" for name, left, right in _pairs("", one, other)]
+    more = f"; and {len(found) - MOST_DIFFERENCES} more" if len(found) > MOST_DIFFERENCES else ""
+    return "; ".join(found[:MOST_DIFFERENCES]) + more
+
+
+def _pairs(name: str, left: Any, right: Any) -> Iterator[tuple[str, Any, Any]]:
+    """The values in which two documents differ, by dotted name."""
+    if isinstance(left, dict) and isinstance(right, dict):
+        for key in {**left, **right}:
+            yield from _pairs(f"{name}.{key}" if name else key, left.get(key), right.get(key))
+    elif left != right:
+        yield name, left, right
+
+
+def _short(value: Any) -> str:
+    text = "nothing" if value is None else value if isinstance(value, str) else json.dumps(value)
+    return text if len(text) <= 40 else f"{text[:16]}..."

@@ -1,0 +1,91 @@
+"""From a campaign's folder back to a plan, whose every file is the one that the manifest names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet
+
+from ....runtime.flight.instances.reset_check import ResetVerdict, known
+from ....runtime.ssp.archive import SystemArchive
+from ....runtime.system.faults import parse_fault
+from ....runtime.system.in_flight.series import InputSeries
+from ....runtime.system.in_flight.watch import Watch
+from ....runtime.system.options import SystemOptions
+from ...draws.given import GivenDraws, part_streams
+from ...spec.plan import BatchPlan, campaign_of
+from ...spec.sweeps import with_sweeps
+from ..shards.draws import stored_draws
+from .contents import stored
+from .manifest import CONTENTS, Manifest
+
+
+def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: Path | None = None) -> BatchPlan:
+    """The plan of a campaign's folder, with the draws that are stored there. Raises InputError.
+
+    ``log`` is the level of the FMUs' messages, which changes no result; ``draws`` is the folder of the table of draws
+    where that is another.
+    """
+    contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
+    content = stored(contents, manifest.campaign["content"])
+    read = replace(
+        campaign_of(content.read_bytes(), manifest.campaign["label"]),
+        trials=manifest.trials,
+        seed=manifest.seed,
+        compare={slot: tuple(names) for slot, names in manifest.campaign["compare"].items()},
+    )
+    campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
+    options: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in manifest.options.items()
+    }
+    plan = BatchPlan(
+        manifest.system["label"],
+        campaign,
+        SystemOptions(**options, folder=str(contents)),
+        content.stem,
+        faults=tuple(parse_fault(text) for text in manifest.faults),
+        series=None if manifest.series is None else _series(contents, manifest.series),
+        watch=Watch(manifest.timeout, log),
+        compared_by=manifest.campaign["compared_by"],
+        campaign_data=content.read_bytes(),
+        until_decided=manifest.until_decided,
+        archive=_archive(contents, manifest),
+    )
+    if manifest.draws is not None:
+        plan = plan.of_samples(_given(contents, manifest.draws)).of_first(manifest.trials)
+    elif not plan.is_counted:
+        held = stored_draws((draws or folder).absolute(), manifest.trials, plan.campaign.drawn_names())
+        plan.__dict__["draws"] = held  # in cached_property's place: drawn anew they could differ
+    for digest, verdict in manifest.resets.items():
+        known(digest, ResetVerdict(**verdict))
+    return plan
+
+
+def _archive(contents: Path, manifest: Manifest) -> SystemArchive:
+    system: Mapping[str, Any] = manifest.system
+    files = {name: stored(contents, content) for name, content in system["files"].items()}
+    archive = SystemArchive(
+        name=system["name"],
+        label=system["label"],
+        path=contents if system["fmu"] is None else files[system["fmu"]],
+        files=files,
+        description=system["description"],
+        elsewhere={asked: stored(contents, content) for asked, content in manifest.elsewhere.items()},
+    )
+    archive.__dict__["digest"] = system["sha256"]  # as it was computed, without what was read besides its list of files
+    return archive
+
+
+def _series(contents: Path, series: Mapping[str, str]) -> InputSeries:
+    table = pyarrow.parquet.read_table(stored(contents, series["content"]))
+    columns = {name: table[name].to_numpy() for name in table.column_names}
+    return InputSeries(series["label"], series["sha256"], columns.pop("time"), columns)
+
+
+def _given(contents: Path, given: Mapping[str, str]) -> GivenDraws:
+    table = pyarrow.parquet.read_table(stored(contents, given["content"]))
+    columns = {name: table[name].to_numpy() for name in table.column_names}
+    return GivenDraws(*part_streams(columns), given["label"], given["sha256"])

@@ -1,0 +1,101 @@
+"""What a batch leaves: a table of trials, a summary, files."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import pyarrow
+
+from ...common.atomic import write_atomically
+from ..plotted_sample import Shown, shown
+from ..requirement_verdicts import add_verdicts
+from ..spec.plan import BatchPlan
+from ..summary import summarise
+from ..tables import assumption_lines, faults_line, summary_text
+from ..trials import Trials
+from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
+from .shards.numbering import Numbering, shard_size
+from .store import FlownRows
+
+
+@dataclass
+class BatchResult:
+    """All trials of all variants, ``rows`` in order of trial, which may lie in a folder and not in memory.
+
+    ``folder`` is the campaign's, as its user names it, None where it has none.
+    """
+
+    plan: BatchPlan
+    rows: Mapping[str, FlownRows]
+    summary: dict[str, Any]
+    provenance: dict[str, Any]
+    folder: Path | None = None
+
+    @cached_property
+    def trials(self) -> dict[str, Trials]:
+        """All of them in memory, traces too."""
+        return {variant: rows.whole() for variant, rows in self.rows.items()}
+
+    @cached_property
+    def shown(self) -> dict[str, Shown]:
+        """What figures show of each variant."""
+        campaign = self.plan.campaign
+        metrics = [metric.name for metric in campaign.metrics]
+        return {variant: shown(rows, campaign.drawn_names(), metrics) for variant, rows in self.rows.items()}
+
+    def table(self) -> pyarrow.Table:
+        """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics."""
+        table = trial_table(self.plan, self.trials)
+        return table.replace_schema_metadata({"perilune": json.dumps(self.provenance)})
+
+    def document(self) -> dict[str, Any]:
+        """The machine-readable result: provenance and the summary of each variant."""
+        return {**self.provenance, "variants": self.summary}
+
+    def text(self) -> str:
+        """The summary for a terminal."""
+        faults = self.plan.fault_texts()
+        lines = [summary_text(self.summary, self.plan.campaign.group), *([faults_line(faults)] if faults else [])]
+        return "\n".join([*lines, *assumption_lines(self.provenance)])
+
+    def write(self, folder: Path) -> None:
+        """Write trials/, draws.parquet, summary.json, and traces/ where the campaign keeps them.
+
+        Every file carries the batch's digest: a folder can hold traces of an earlier batch too.
+        """
+        batch = batch_digest(self.provenance)
+        numbering = Numbering(self.plan.campaign.trials, shard_size(self.plan.campaign.trials))
+        write_draws(self.plan, folder, numbering.size)
+        clear(folder)
+        for shard in range(numbering.count):
+            part = {variant: trials.part(numbering.of(shard)) for variant, trials in self.trials.items()}
+            write_shard(folder, batch, shard, self.plan, part)
+        self.write_summary(folder)
+
+    def write_summary(self, folder: Path) -> None:
+        """Write summary.json, which makes the folder whole: the shards lie there already."""
+        text = json.dumps(self.document(), indent=1, allow_nan=False)
+        write_atomically(folder / SUMMARY, f"{text}\n".encode())
+
+
+def batch_digest(provenance: dict[str, Any]) -> str:
+    """The SHA-256 that tells a batch from others: of its provenance as JSON with sorted keys.
+
+    It is the same for any number of trials, since a batch can be gone on with.
+    """
+    return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
+
+
+def make_result(
+    plan: BatchPlan, rows: Mapping[str, FlownRows], provenance: dict[str, Any], folder: Path | None = None
+) -> BatchResult:
+    """The result with its summary; ``rows`` by variant, each in order of trial."""
+    summary = summarise(rows, plan.campaign.metrics, plan.groups, plan.campaign.group or "")
+    add_verdicts(summary, plan.campaign.requirements, rows, plan.until_decided)
+    return BatchResult(plan, rows, summary, provenance, folder)

@@ -1,0 +1,65 @@
+"""The table of draws in a campaign's folder, of which parts are read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+from ....common.errors import InputError
+from ...draws.table import DrawTable
+from .arrow import numpy_of
+from .files import DRAWS
+
+AGAIN = "copy the campaign's folder again, with all of its files"
+
+
+@dataclass(frozen=True)
+class StoredDraws:
+    """The draws of the first ``trials`` trials, by ``names``, in the file at ``path``."""
+
+    path: Path
+    trials: int
+    names: tuple[str, ...]
+
+    def of_first(self, trials: int) -> StoredDraws:
+        """Those of the first ``trials`` trials."""
+        return replace(self, trials=trials)
+
+    def of_part(self, trials: range) -> DrawTable:
+        """Those of trials in a row, which are counted from 0 then. Raises InputError where the file is damaged."""
+        with _opened(self.path) as file:
+            ends = np.cumsum([file.metadata.row_group(group).num_rows for group in range(file.num_row_groups)])
+            groups = range(
+                int(np.searchsorted(ends, trials.start, side="right")), int(np.searchsorted(ends, trials.stop)) + 1
+            )
+            table = file.read_row_groups(list(groups), list(self.names))
+        first = trials.start - (int(ends[groups.start - 1]) if groups.start else 0)
+        rows = slice(first, first + len(trials))
+        return DrawTable(len(trials), {name: numpy_of(table[name])[rows] for name in self.names})
+
+
+def stored_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
+    """The draws of a folder's first trials. Raises InputError where it does not hold them all."""
+    path = folder / DRAWS
+    with _opened(path) as file:
+        there, rows = file.schema_arrow.names, file.metadata.num_rows
+    missing = [name for name in names if name not in there]
+    if missing or rows < trials:
+        problem = f"lacks column {missing[0]}" if missing else f"has {rows} rows for {trials}"
+        raise InputError(path, "", problem, AGAIN)
+    return StoredDraws(path, trials, tuple(names))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[pyarrow.parquet.ParquetFile]:
+    try:
+        with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
+            yield file
+    except (OSError, pyarrow.ArrowException) as error:
+        raise InputError(path, "", "cannot be read as parquet", AGAIN) from error

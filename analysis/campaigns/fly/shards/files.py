@@ -1,0 +1,158 @@
+"""The file of a shard, which is there only when all of its trials are, with their traces."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+
+from ....common.atomic import whole_file
+from ....common.errors import InputError
+from ...spec.plan import BatchPlan
+from ...trials import Trials
+from .arrow import table_of, texts_of
+
+FOLDER = "trials"
+DRAWS = "draws.parquet"
+SUMMARY = "summary.json"
+
+
+def shard_path(folder: Path, shard: int) -> Path:
+    """Where a shard's trials lie."""
+    return folder / FOLDER / f"{shard:06d}.parquet"
+
+
+def trace_path(folder: Path, variant: str, trial: int) -> Path:
+    """Where a trial's trace lies; a variant named by the path of an FMU has that path's slashes replaced."""
+    return folder / "traces" / variant.replace("/", "_") / f"{trial:06d}.parquet"
+
+
+def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: Mapping[str, Trials]) -> None:
+    """Write the traces of a shard, then its table, which is there only when all is.
+
+    ``batch`` is the digest that tells the campaign from others, ``trials`` are those of the shard by variant.
+    """
+    for variant, found in trials.items():
+        for trial, traces in found.traces.items():
+            about = {"batch": batch, "variant": variant, "trial": trial}
+            write_parquet(_described(table_of(traces), about), trace_path(folder, variant, trial))
+    numbers = next(iter(trials.values())).trial
+    about = {"batch": batch, "shard": shard, "trials": [int(numbers[0]), int(numbers[-1]) + 1]}
+    table = _described(trial_table(plan, trials), about)
+    write_parquet(table, shard_path(folder, shard), len(numbers))  # each variant a row group
+
+
+def clear(folder: Path) -> None:
+    """Remove the shards of an earlier batch; traces say which one they are of."""
+    if (folder / FOLDER).is_dir():
+        shutil.rmtree(folder / FOLDER)
+
+
+def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
+    """Write the table of draws to ``folder``/draws.parquet, a row per trial, ``size`` of them a row group.
+
+    Draws that are made for each trial by itself have no table; files of trials hold them.
+    """
+    if plan.is_counted:
+        (folder / DRAWS).unlink(missing_ok=True)
+        return
+    with whole_file(folder / DRAWS) as partial:
+        writer, first = None, 0
+        try:
+            for part in plan.draw_parts(size):
+                numbers = np.arange(first, first + part.trials)
+                table = table_of({"trial": numbers, **part.columns})
+                writer = writer or pyarrow.parquet.ParquetWriter(partial, table.schema, write_page_checksum=True)
+                writer.write_table(table)
+                first += part.trials
+        finally:
+            if writer is not None:
+                writer.close()
+
+
+def is_flown(folder: Path, batch: str, shard: int, trials: range) -> bool:
+    """Whether the shard lies in the folder, of this campaign and with these trials."""
+    return described(shard_path(folder, shard)) == {
+        "batch": batch,
+        "shard": shard,
+        "trials": [trials.start, trials.stop],
+    }
+
+
+def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
+    """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics.
+
+    Every variant has the same trials, which are in a row.
+    """
+    found = list(trials.values())
+    numbers = found[0].trial
+    drawn = plan.drawn(range(int(numbers[0]), int(numbers[-1]) + 1))
+    columns: dict[str, Any] = {
+        "variant": texts_of(name for name, part in trials.items() for _ in part.trial),
+        "trial": _joined(found, lambda part: part.trial),
+        "status": texts_of(status for part in found for status in part.statuses),
+        "success": _joined(found, lambda part: part.success),
+        "message": texts_of(part.messages.get(int(trial), "") for part in found for trial in part.trial),
+        "end_time": _joined(found, lambda part: part.end_time),
+    }
+    for name, values in drawn.table.columns.items():
+        columns[f"draw.{name}"] = np.tile(values, len(found))
+    for fault in drawn.faults:
+        columns |= {name: np.tile(values, len(found)) for name, values in fault.columns().items()}
+    for name in found[0].final:
+        columns[f"final.{name}"] = _joined(found, lambda part, name=name: part.final[name])
+    for name in found[0].metrics:
+        columns[f"metric.{name}"] = _joined(found, lambda part, name=name: part.metrics[name])
+    return table_of(columns)
+
+
+def _joined(parts: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.ndarray:
+    return np.concatenate([column(part) for part in parts])
+
+
+def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> None:
+    """A table with a checksum on every page, so that a damaged file is found out when it is read.
+
+    ``rows`` are those of a row group; None for one of all.
+    """
+    with whole_file(path) as partial:
+        pyarrow.parquet.write_table(table, partial, row_group_size=rows, write_page_checksum=True)
+
+
+def _described(table: pyarrow.Table, about: Mapping[str, Any]) -> pyarrow.Table:
+    return table.replace_schema_metadata({"perilune": json.dumps(about)})
+
+
+def described(path: Path) -> Any:
+    """What a file that `write_shard` wrote says of itself; None where it says nothing, or is not there.
+
+    Raises InputError for one that is damaged.
+    """
+    if not path.is_file():
+        return None
+    try:
+        with pyarrow.parquet.ParquetFile(path) as file:
+            return about_of(file.schema_arrow)
+    except (OSError, pyarrow.ArrowException) as error:
+        raise unreadable(path, error) from error
+
+
+def unreadable(path: Path, error: Exception) -> InputError:
+    """What is said of a file that is damaged."""
+    reason = str(error).split(": ")[-1] or type(error).__name__
+    problem = f"cannot be read as parquet ({' '.join(reason.split())})"
+    return InputError(path, "", problem, "remove it: the batch's command with --resume flies what is missing")
+
+
+def about_of(schema: pyarrow.Schema) -> Any:
+    """What a table says of itself; None where it says nothing."""
+    try:
+        return json.loads((schema.metadata or {}).get(b"perilune", b"null"))
+    except ValueError:
+        return None

@@ -1,0 +1,47 @@
+"""Flies shards: the trials of each parted among workers, and put together again."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Generator, Iterator, Sequence
+
+from ...trials import Trials
+from ..workers.flyer import Flyer
+from ..workers.workers import FlyerPool
+from .numbering import Numbering
+from .parts import Parts
+
+MOST_IN_THREAD, MOST_IN_PROCESS = 50, 10  # trials of a task: enough to send, few enough to share out or lose
+
+
+def fly_shards(
+    numbering: Numbering, shards: Sequence[int], pool: FlyerPool, size: int
+) -> Generator[tuple[int, dict[str, Trials]]]:
+    """Fly shards of the pool's plan, in tasks of ``size`` trials.
+
+    Each one's trials come by variant, as soon as all are there, in any order of shards.
+    """
+    variants = [variant.name for variant in pool.plan.campaign.variants()]
+    owners: dict[int, tuple[int, str]] = {}  # of tasks that are handed out: shard and variant
+
+    def tasks() -> Iterator[tuple[str, range]]:
+        places = itertools.count()
+        for shard in shards:
+            trials = numbering.of(shard)
+            pieces = [trials[first : first + size] for first in range(0, len(trials), size)]
+            for piece in pieces:
+                for variant in variants:
+                    owners[next(places)] = shard, variant
+                    yield variant, piece
+
+    parts = Parts(numbering, variants)
+    for place, found in pool.work(Flyer.fly, tasks()):
+        shard, variant = owners.pop(place)
+        whole = parts.add(shard, variant, found)
+        if whole is not None:
+            yield shard, whole
+
+
+def task_size(trials: int, workers: int, threads: bool) -> int:
+    """How many trials a worker flies at a time."""
+    return max(1, min(MOST_IN_THREAD if threads else MOST_IN_PROCESS, trials // (4 * workers)))

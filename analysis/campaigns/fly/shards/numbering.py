@@ -1,0 +1,50 @@
+"""Which trials make a shard, and how shards are named on a command line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from ....common.errors import InputError
+
+LEAST, MOST, PARTS = 25, 5000, 40  # trials of a shard, and into how many a campaign is parted between these
+
+
+@dataclass(frozen=True)
+class Numbering:
+    """The shards of a campaign: ``trials`` in shards of ``size``, the last one with what is left."""
+
+    trials: int
+    size: int
+
+    @property
+    def count(self) -> int:
+        return -(-self.trials // self.size)
+
+    def of(self, shard: int) -> range:
+        """The trials of a shard."""
+        return range(shard * self.size, min((shard + 1) * self.size, self.trials))
+
+
+def shard_size(trials: int) -> int:
+    """The trials of a shard, from the campaign alone: neither machine nor workers change what a shard holds."""
+    return min(max(-(-trials // PARTS), LEAST), MOST)
+
+
+def spans(shards: Sequence[int]) -> str:
+    """Rising numbers of shards as `perilune shard` takes them: 0-3 7."""
+    starts = [shard for place, shard in enumerate(shards) if place == 0 or shards[place - 1] != shard - 1]
+    ends = [shard for place, shard in enumerate(shards) if place == len(shards) - 1 or shards[place + 1] != shard + 1]
+    pairs = zip(starts, ends, strict=True)
+    return " ".join(str(first) if first == last else f"{first}-{last}" for first, last in pairs)
+
+
+def numbers_of(texts: Iterable[str]) -> list[int]:
+    """The shards that numbers and spans (A-B) name, rising, each once. Raises InputError."""
+    found: set[int] = set()
+    for text in texts:
+        first, dash, last = text.partition("-")
+        if not first.isdecimal() or (dash and not last.isdecimal()) or int(last or first) < int(first):
+            raise InputError("shard", text, "neither a number nor a span of them", "give 3, or 0-7")
+        found |= set(range(int(first), int(last or first) + 1))
+    return sorted(found)

@@ -1,0 +1,159 @@
+"""The trials of a campaign's folder, read when they are asked for and no more of them than that."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import pyarrow
+import pyarrow.compute
+import pyarrow.dataset
+import pyarrow.parquet
+from pyarrow.fs import LocalFileSystem
+
+from ...common.errors import suggestion
+from ..fly.shards.reading import read_table
+from ..statistics import quantile
+from .columns import Column, columns_of
+from .folder import ResultFolder
+from .traces import trace_dataset
+
+UNKNOWN = re.compile(r"FieldRef\.Name\((.+?)\)")  # what Arrow says of a column that there is not
+
+
+class OpenedResults:
+    """The trials of a campaign's folder, which ``source`` is as it was when it was opened."""
+
+    def __init__(self, source: ResultFolder) -> None:
+        self.source = source
+
+    @property
+    def provenance(self) -> dict[str, Any]:
+        """What the numbers depend on, as in summary.json: system, campaign, seed, hashes."""
+        return self.source.provenance
+
+    @property
+    def variants(self) -> list[str]:
+        """The campaign's variants by name."""
+        return self.source.variants
+
+    @property
+    def trials(self) -> int:
+        """How many trials the campaign has of each variant."""
+        return int(self.provenance["trials"])
+
+    @property
+    def flown(self) -> int:
+        """How many of them are there; all, unless the campaign is still flying."""
+        return self.source.flown
+
+    @cached_property
+    def dataset(self) -> pyarrow.dataset.Dataset:
+        """The shards as one pyarrow.dataset, with units in the metadata of its columns; checksums are verified."""
+        scan = pyarrow.dataset.ParquetFragmentScanOptions(page_checksum_verification=True)
+        return pyarrow.dataset.dataset(
+            [str(shard.path) for shard in self.source.shards],
+            schema=self._schema,
+            format=pyarrow.dataset.ParquetFileFormat(default_fragment_scan_options=scan),
+            filesystem=LocalFileSystem(),  # else a path with a colon is taken for an address
+        )
+
+    @cached_property
+    def columns(self) -> dict[str, Column]:
+        """Unit and meaning of every column, in their order."""
+        return columns_of(pyarrow.parquet.read_schema(self.source.shards[0].path).names, self.provenance)
+
+    @cached_property
+    def _schema(self) -> pyarrow.Schema:
+        fields = pyarrow.parquet.read_schema(self.source.shards[0].path).remove_metadata()
+        units = {name: column.unit for name, column in self.columns.items()}
+        return pyarrow.schema(
+            [field.with_metadata({"unit": units[field.name]}) if units[field.name] else field for field in fields]
+        )
+
+    def arrow(
+        self, columns: Sequence[str] | None = None, where: pyarrow.compute.Expression | None = None
+    ) -> pyarrow.Table:
+        """A row per variant and trial, or those for which ``where`` is true; all ``columns``, or some.
+
+        ``where`` is an expression over any columns: ``pyarrow.compute.field("metric.miss") > 10``. Raises KeyError for
+        a column that there is not, InputError for a damaged shard.
+        """
+        self._check(columns)
+        with self._told():
+            return self.dataset.to_table(columns=None if columns is None else list(columns), filter=where)
+
+    def batches(
+        self, columns: Sequence[str] | None = None, where: pyarrow.compute.Expression | None = None
+    ) -> Iterator[pyarrow.RecordBatch]:
+        """What `arrow` gives, in parts and in order; memory does not grow with the campaign. Raises as `arrow` does."""
+        self._check(columns)
+        names = self._schema.names if columns is None else list(columns)
+        with self._told():
+            # each shard to its end: to_batches of the whole reads ahead, and Arrow 26 may crash where it is left early
+            for shard in self.dataset.get_fragments():
+                found = shard.to_table(self._schema, names, filter=where, use_threads=False, cache_metadata=False)
+                yield from found.to_batches()
+
+    def quantile(
+        self,
+        metric: str,
+        share: float,
+        variant: str | None = None,
+        *,
+        where: pyarrow.compute.Expression | None = None,
+    ) -> float:
+        """The least value of a metric that a ``share`` of the trials does not exceed: exact, in bounded memory.
+
+        As the quantiles of summary.json: of all trials whose metric is not nan, infinite ones included; of those for
+        which ``where`` is true, as in `arrow`. nan where there is none. ``variant`` may be left out where the campaign
+        has only one. Raises KeyError for a metric or variant that it does not have, ValueError for what is no share.
+        """
+        name = f"metric.{metric}"
+        if metric not in self.provenance["metrics"]:
+            raise KeyError(f"no metric {metric}; {suggestion(metric, self.provenance['metrics'])}")
+        mine = pyarrow.compute.field("variant") == self._variant(variant)
+        chosen = mine if where is None else mine & where
+
+        def values() -> Iterator[np.ndarray]:
+            for batch in self.batches([name], chosen):
+                yield batch.column(0).to_numpy(zero_copy_only=False).astype(np.float64)
+
+        return quantile(values, share)
+
+    def traces(self, variant: str | None = None, names: Sequence[str] | None = None) -> Any:
+        """What a variant's flights recorded over time, an xarray.Dataset over (trial, time), nan after their ends.
+
+        Of ``names``, or all signals; their units are in ``attrs``. Raises KeyError for a signal or a variant that there
+        is not, and where the campaign keeps no traces; ImportError without xarray.
+        """
+        return trace_dataset(self.source, self._variant(variant), names)
+
+    def _variant(self, variant: str | None) -> str:
+        if variant is None and len(self.variants) > 1:
+            raise KeyError(f"which variant of {', '.join(self.variants)}? name one")
+        if variant is not None and variant not in self.variants:
+            raise KeyError(f"no variant {variant}; {suggestion(variant, self.variants)}")
+        return variant or self.variants[0]
+
+    def _check(self, columns: Sequence[str] | None) -> None:
+        for name in columns or ():
+            if name not in self.columns:
+                raise KeyError(f"no column {name}; {suggestion(name, self.columns)}")
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Arrow's errors as ours: a column that ``where`` names and there is not, a shard that is damaged."""
+        try:
+            yield
+        except (OSError, pyarrow.ArrowException) as error:
+            unknown = UNKNOWN.search(str(error))
+            if unknown is not None:
+                self._check([unknown[1]])
+            for shard in self.source.shards:
+                read_table(shard.path)  # which names the damaged one
+            raise

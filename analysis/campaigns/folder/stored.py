@@ -1,0 +1,242 @@
+"""A batch read back from the folder that `perilune batch --output` wrote, every file checked against the others."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow
+import pyarrow.compute
+
+from ...common.errors import InputError
+from ...runtime.system.names import parted
+from ..fly.manifest.manifest import FILE as MANIFEST
+from ..fly.manifest.manifest import WRITE
+from ..fly.results import batch_digest
+from ..fly.shards.files import DRAWS, FOLDER, SUMMARY, about_of, described, shard_path, trace_path
+from ..fly.shards.reading import AGAIN, numbers, read_table, trials_in, trials_of
+from ..spec.campaign import Metric
+from ..spec.expressions import Expression
+from ..spec.groups import Group, groups_of
+from ..trials import Trials, joined
+
+FACTS = (
+    "system", "system_sha256", "campaign", "campaign_sha256", "parameter_sets", "set", "variant", "trials", "seed",
+    "step", "algorithm", "fmus", "perilune", "description", "success", "metrics", "record", "signals", "targets",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class StoredBatch:
+    """A batch on disk.
+
+    ``document`` is summary.json. ``draws`` are columns over trials, ``variants`` the trials by
+    variant (in order of trial, without traces), ``traced`` the trials of each that have a trace of
+    this batch, and ``strangers`` the number of traces of other batches in the folder.
+    """
+
+    folder: Path
+    document: dict[str, Any]
+    metrics: tuple[Metric, ...]
+    draws: dict[str, np.ndarray]
+    variants: dict[str, Trials]
+    traced: dict[str, list[int]]
+    strangers: int
+
+    @property
+    def provenance(self) -> dict[str, Any]:
+        """What the batch's numbers depend on: summary.json without the summary."""
+        return {key: value for key, value in self.document.items() if key != "variants"}
+
+    @property
+    def group(self) -> str | None:
+        """The drawn or derived value that the campaign groups trials by, if it does."""
+        return self.document.get("group")
+
+    @property
+    def faults(self) -> list[str]:
+        """The faults that flew, the campaign's and the user's."""
+        return self.document.get("faults", [])
+
+    @cached_property
+    def groups(self) -> list[Group]:
+        """The groups of trials; none where the campaign does not ask for them. Raises InputError."""
+        where = (str(self.folder / "summary.json"), "group")
+        if self.group is None:
+            return []
+        if self.group not in self.draws:
+            raise InputError(*where, f"{self.group} is not a column of draws.parquet", AGAIN)
+        return groups_of([self.draws[self.group]], where)
+
+    def parted(self, name: str) -> tuple[str, str]:
+        """Component and variable of a signal or parameter of any variant."""
+        return parted(name, (component for fmus in self.document["fmus"].values() for component in fmus))
+
+    def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
+        """The kept signals of one flight, ``time`` (s) among them; of ``names`` those that there are, or all."""
+        path = trace_path(self.folder, variant, trial)
+        table = read_table(path, names if names is None else [*names, "time"])
+        if "time" not in table.column_names:
+            raise InputError(path, "time", "no such column", AGAIN)
+        return {name: numbers(table, name, path) for name in table.column_names}
+
+
+def read_batch(folder: Path) -> StoredBatch:
+    """The batch in a folder. Raises InputError for what is missing, damaged, or of two batches."""
+    for name in (SUMMARY, FOLDER):
+        _check_there(folder, name)
+    document = read_summary(folder / SUMMARY)
+    provenance = {key: value for key, value in document.items() if key != "variants"}
+    batch = batch_digest(provenance)
+    shards = _read_shards(folder, batch, document["trials"])
+    metrics = _metrics(document, folder / SUMMARY)
+    columns = _draws(folder, shards, document.get("draw_scheme") == "counter")
+    variants = _variants(shards, document["trials"], metrics, columns)
+    _check_summary(document, variants, folder / SUMMARY)
+    traced, strangers = _traced(folder, list(variants), batch)
+    columns.pop("trial")
+    return StoredBatch(folder, document, metrics, columns, variants, traced, strangers)
+
+
+def _draws(folder: Path, shards: Mapping[Path, pyarrow.Table], is_counted: bool) -> dict[str, np.ndarray]:
+    """The draws of all trials: of their table or, where they were drawn without one, of the shards' first variant."""
+    if not is_counted:
+        _check_there(folder, DRAWS)
+        drawn = read_table(folder / DRAWS)
+        return {name: numbers(drawn, name, folder / DRAWS) for name in drawn.column_names}
+    columns: dict[str, list[np.ndarray]] = {}
+    for path, table in shards.items():
+        first = pyarrow.compute.equal(table["variant"], table["variant"][0])
+        rows = table.filter(first)
+        for name in rows.column_names:
+            if name == "trial" or name.startswith("draw."):
+                columns.setdefault(name.removeprefix("draw."), []).append(numbers(rows, name, path))
+    return {name: np.concatenate(parts) for name, parts in columns.items()}
+
+
+def _check_there(folder: Path, name: str) -> None:
+    if not (folder / name).exists():
+        raise InputError(folder, name, "not found", _how_to_end(folder))
+
+
+def _how_to_end(folder: Path) -> str:
+    return "go on with it: perilune batch ... --resume" if (folder / MANIFEST).is_file() else WRITE
+
+
+def _read_shards(folder: Path, batch: str, trials: int) -> dict[Path, pyarrow.Table]:
+    """All shards in order of number, which together hold every trial once."""
+    tables: dict[Path, pyarrow.Table] = {}
+    end = 0
+    for shard in itertools.count():
+        if end == trials:
+            break
+        path = shard_path(folder, shard)
+        if not path.is_file():
+            raise InputError(path, "", f"not found: trials from {end} on are missing", AGAIN)
+        table = read_table(path)
+        there = trials_in(path, about_of(table.schema), batch, SUMMARY)
+        if there.start != end:
+            raise InputError(path, "", f"begins with trial {there.start}, not {end}", AGAIN)
+        tables[path] = table
+        end = there.stop
+    return tables
+
+
+def read_summary(path: Path) -> dict[str, Any]:
+    """The content of summary.json. Raises InputError for what is none, or of an older version."""
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except (UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
+        raise InputError(path, "", f"not JSON: {error}", AGAIN) from error
+    variants = document.get("variants") if isinstance(document, dict) else None
+    if not isinstance(variants, dict) or not variants:
+        raise InputError(path, "variants", "missing", WRITE)
+    for key in FACTS:
+        if key not in document:
+            raise InputError(path, key, "missing, as in results of an older version", "fly the batch again")
+    return document
+
+
+def _metrics(document: Mapping[str, Any], path: Path) -> tuple[Metric, ...]:
+    try:
+        return tuple(
+            Metric(
+                name=name,
+                expression=Expression(fact["expression"], (str(path), f"metrics.{name}.expression")),
+                reduction=fact["reduction"],
+                unit=fact["unit"],
+                description=fact["description"],
+                condition=_condition(fact, (str(path), f"metrics.{name}.condition")),
+                delay=fact.get("delay", 0.0),
+            )
+            for name, fact in document["metrics"].items()
+        )
+    except (AttributeError, KeyError, TypeError) as error:
+        raise InputError(path, "metrics", "not as perilune batch writes them", AGAIN) from error
+
+
+def _condition(fact: Mapping[str, Any], where: tuple[str, str]) -> Expression | None:
+    return Expression(fact["condition"], where) if "condition" in fact else None
+
+
+def _variants(
+    shards: Mapping[Path, pyarrow.Table], total: int, metrics: tuple[Metric, ...], draws: Mapping[str, np.ndarray]
+) -> dict[str, Trials]:
+    """The trials by variant, ``total`` of each, with the draws that draws.parquet has of them."""
+    parts: dict[str, list[Trials]] = {}
+    rows_drawn = {len(column) for column in draws.values()}
+    for path, table in shards.items():
+        for name in draws:
+            if _column(name) not in table.column_names:
+                raise InputError(path, _column(name), "no such column", AGAIN)
+        labels = np.array(table["variant"].to_pylist(), dtype=str)
+        columns = {name: numbers(table, _column(name), path) for name in draws}
+        for variant, trials in trials_of(table, [metric.name for metric in metrics], path).items():
+            rows = labels == variant
+            drawn = "trial" in draws and rows_drawn == {total}
+            same = drawn and all(
+                np.array_equal(columns[name][rows], column[trials.trial]) for name, column in draws.items()
+            )
+            if not same:
+                raise InputError(path, variant, "its draws are not those of draws.parquet", AGAIN)
+            parts.setdefault(variant, []).append(trials)
+    if len({sum(len(part.trial) for part in found) for found in parts.values()}) != 1:
+        raise InputError(next(iter(shards)).parent, "variant", "not every variant has every trial", AGAIN)
+    return {variant: joined(found) for variant, found in parts.items()}
+
+
+def _column(draw: str) -> str:
+    """The column of the shards that repeats one of draws.parquet."""
+    return "trial" if draw == "trial" else f"draw.{draw}"
+
+
+def _check_summary(document: Mapping[str, Any], variants: Mapping[str, Trials], path: Path) -> None:
+    """Refuse a summary that does not count what the table holds."""
+    if list(document["variants"]) != list(variants):
+        raise InputError(path, "variants", "not those of trials/", AGAIN)
+    for name, trials in variants.items():
+        stated = document["variants"][name]
+        rate = stated.get("success_rate") if isinstance(stated, dict) else None
+        if rate != int(trials.success.sum()) / len(trials.success):
+            raise InputError(path, f"variants.{name}", "its success rate is not that of trials/", AGAIN)
+
+
+def _traced(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, list[int]], int]:
+    """Trials of each variant with a trace of this batch, and how many traces are of others."""
+    traced: dict[str, list[int]] = {}
+    strangers = 0
+    for variant in variants:
+        traced[variant] = []
+        for path in sorted(trace_path(folder, variant, 0).parent.glob("*.parquet")):
+            trial = int(path.stem) if path.stem.isdecimal() else -1
+            if described(path) == {"batch": batch, "variant": variant, "trial": trial}:
+                traced[variant].append(trial)
+            else:
+                strangers += 1
+    return traced, strangers

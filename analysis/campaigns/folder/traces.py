@@ -1,0 +1,72 @@
+"""What flights of a variant have recorded over time, as one xarray.Dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...common.errors import InputError, suggestion
+from ..fly.shards.files import described, trace_path
+from ..fly.shards.reading import AGAIN, numbers, read_table
+from .folder import ResultFolder
+
+TIME = "time"
+
+
+def trace_dataset(results: ResultFolder, variant: str, names: Sequence[str] | None = None) -> Any:
+    """The traces of one variant: a variable (trial, time) for each signal, with its unit.
+
+    Flights that ended earlier, or have no row at a time at which others have one, are nan there. Traces of other
+    campaigns in the folder are left out. Raises ImportError without xarray, KeyError for a signal that no trace has and
+    where there is none, InputError for a damaged one.
+    """
+    if find_spec("xarray") is None:
+        raise ImportError("traces needs xarray, which is not here; pip install 'perilune[notebook]'")
+    from xarray import Dataset
+
+    paths = _paths(results, variant)
+    if not paths:
+        raise KeyError(f"no trace of {variant} in {results.folder}; a campaign keeps them by [record]")
+    times = [_columns(path, [TIME])[TIME] for path in paths.values()]
+    grid = np.unique(np.concatenate(times))
+    known = [name for name in read_table(next(iter(paths.values()))).column_names if name != TIME]
+    for name in names or ():
+        if name not in known:
+            raise KeyError(f"no signal {name}; {suggestion(name, known)}")
+    found = {name: np.full((len(paths), grid.size), np.nan) for name in (known if names is None else names)}
+    for row, (path, time) in enumerate(zip(paths.values(), times, strict=True)):
+        places = np.searchsorted(grid, time)
+        for name, values in _columns(path, list(found)).items():
+            found[name][row, places] = values
+    units = {name: results.provenance["signals"].get(name, {}).get("unit") for name in found}
+    return Dataset(
+        {
+            name: (("trial", TIME), values, {"units": units[name]} if units[name] else {})
+            for name, values in found.items()
+        },
+        coords={"trial": list(paths), TIME: (TIME, grid, {"units": "s"})},
+        attrs={key: results.provenance[key] for key in ("system", "campaign")} | {"variant": variant},
+    )
+
+
+def _paths(results: ResultFolder, variant: str) -> dict[int, Path]:
+    """The traces of the variant's flown trials, by trial."""
+    found = {}
+    for path in sorted(trace_path(results.folder, variant, 0).parent.glob("*.parquet")):
+        trial = int(path.stem) if path.stem.isdecimal() else -1
+        ours = {"batch": results.batch, "variant": variant, "trial": trial}
+        if any(trial in shard.trials for shard in results.shards) and described(path) == ours:
+            found[trial] = path
+    return found
+
+
+def _columns(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
+    table = read_table(path, names)
+    for name in names:
+        if name not in table.column_names:
+            raise InputError(path, name, "no such column", AGAIN)
+    return {name: numbers(table, name, path).astype(np.float64) for name in names}

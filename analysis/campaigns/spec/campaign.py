@@ -1,0 +1,147 @@
+"""A campaign: what is flown, drawn, measured, recorded and called a success. See docs/campaigns.md."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ...common.errors import InputError
+from ...runtime.system.assignments import SINGLE
+from ...runtime.system.options import Layer
+from ..draws.declared import Draw, drawn_names
+from .expressions import Expression
+from .faults import CampaignFault
+from .requirements import Requirement
+
+REDUCTIONS = ("final", "min", "max", "mean", "rms", "last_outside", "settled", "first")
+TRACES = ("none", "failures", "all")
+
+Setting = float | int | bool | str | Sequence[float | int]
+
+
+@dataclass(frozen=True)
+class Metric:
+    """One number per trial: an expression over the record, reduced over the rows of a window.
+
+    ``band`` (low, high) belongs to the reduction last_outside, ``condition`` and ``delay`` (s) to first;
+    ``window`` (t0, t1) is in s, both ends included, None for the whole flight. ``unit`` labels the value.
+    """
+
+    name: str
+    expression: Expression
+    reduction: str
+    band: tuple[float, float] | None = None
+    window: tuple[float, float] | None = None
+    unit: str = "1"
+    description: str = ""
+    condition: Expression | None = None
+    delay: float = 0.0
+
+    @property
+    def names(self) -> frozenset[str]:
+        """What its expressions refer to."""
+        return self.expression.names | (self.condition.names if self.condition is not None else frozenset())
+
+
+@dataclass(frozen=True)
+class Record:
+    """What is kept of a trial beside its metrics: final values, every n-th row of signals, full traces.
+
+    ``trials`` keeps the sampled signals of that many trials, the first ones, only.
+    """
+
+    final: tuple[str, ...] = ()
+    every: int | None = None
+    signals: tuple[str, ...] = ()
+    traces: str = "none"
+    trials: int | None = None
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """A figure that the page of a batch is to have: the metric ``y`` of every trial over ``x``.
+
+    ``circle`` is the radius around the origin that is drawn, in the unit of both; None for none.
+    """
+
+    name: str
+    x: str
+    y: str
+    circle: float | None = None
+    title: str = ""
+
+
+SCHEMES = ("table", "counter")  # one table of all trials, or every trial by itself: other values
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One way to build the system: which FMU flies in each compared slot."""
+
+    name: str
+    use: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """A campaign as declared. Raises InputError where trials or seed make no sense, also after `replace`.
+
+    ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are
+    expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
+    [compare], ``group`` is the drawn or derived value by which [group] sums trials up, ``faults`` are [fault],
+    ``scatters`` [scatter], ``requirements`` [requirement], ``draw_scheme`` is one of `SCHEMES`. ``file`` is what errors
+    name. ``sweeps`` are the draws that the command line has added, as texts by name (sweeps.py).
+    """
+
+    file: str
+    system: str
+    trials: int
+    seed: int
+    success: Expression
+    metrics: tuple[Metric, ...] = ()
+    draws: tuple[Draw, ...] = ()
+    derived: Mapping[str, Expression] = field(default_factory=dict)
+    settings: Mapping[str, Setting] = field(default_factory=dict)
+    compare: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    parameters: tuple[str, ...] = ()
+    record: Record = Record()
+    description: str = ""
+    group: str | None = None
+    faults: tuple[CampaignFault, ...] = ()
+    scatters: tuple[Scatter, ...] = ()
+    requirements: tuple[Requirement, ...] = ()
+    draw_scheme: str = "table"
+    sweeps: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.trials < 1:
+            raise InputError(self.file, "trials", f"{self.trials} trial(s)", "give 1 or more")
+        for slot, fmus in self.compare.items():
+            if not fmus or len(set(fmus)) != len(fmus) or "" in fmus:
+                raise InputError(
+                    self.file, f"compare {slot}", f"{', '.join(fmus)}: empty or repeated", "name each FMU once"
+                )
+        if self.seed < 0:
+            raise InputError(self.file, "seed", f"{self.seed} is negative", "give a seed >= 0")
+
+    @property
+    def layer(self) -> Layer:
+        """What the campaign asks of the system, whatever it draws."""
+        places = dict.fromkeys(self.settings, (self.file, 0))
+        return Layer(parameters=self.parameters, set=self.settings, places=places)
+
+    def drawn_names(self) -> list[str]:
+        """Names of all drawn and derived values."""
+        return drawn_names(self) + list(self.derived)
+
+    def place_of(self, drawn: str) -> str:
+        """Where a drawn value is asked for, as errors name it: the file, or the option that sweeps it."""
+        return SINGLE if drawn in self.sweeps else self.file
+
+    def variants(self) -> list[Variant]:
+        """Every combination of the compared FMUs, named by them; one named ``default`` without [compare]."""
+        if not self.compare:
+            return [Variant("default", {})]
+        combinations = itertools.product(*self.compare.values())
+        return [Variant("__".join(fmus), dict(zip(self.compare, fmus, strict=True))) for fmus in combinations]

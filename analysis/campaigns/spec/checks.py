@@ -1,0 +1,178 @@
+"""Whether a plan can fly: every variant prepared, every draw looked at, every name found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...common.errors import InputError, suggestion
+from ...runtime.system.faults import check_fault
+from ...runtime.system.prepared import PreparedSystem
+from ..draws.given import ALL, stream_column
+from .drawn import with_streams
+from .faults import check_drawn
+from .metrics import names_needed
+from .plan import BatchPlan
+
+
+def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
+    """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
+    first = next(plan.draw_parts())  # what all trials draw is looked at part by part, once the rest is right
+    plan.drawn_from(first, range(first.trials))
+    _ = plan.groups
+    _refuse_conflicts(plan)
+    systems = prepare_variants(plan)
+    for prepared in systems.values():
+        for fault in plan.faults:
+            check_fault(prepared.network, fault)
+    check_draws(plan, systems.values())
+    return systems
+
+
+def prepare_variants(plan: BatchPlan) -> dict[str, PreparedSystem]:
+    """Every variant prepared, by variant. Raises InputError."""
+    return {variant.name: plan.prepare(variant) for variant in plan.campaign.variants()}
+
+
+def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
+    """Refuse draws and drawn faults that a prepared system cannot have. Raises InputError."""
+    systems = list(systems)
+    _check_streams(plan, systems)
+    drawn = set(plan.campaign.drawn_names())
+    varied = [(prepared, _variables(plan, prepared, drawn)) for prepared in systems]
+    first = 0
+    for part in plan.draw_parts():
+        trials = plan.drawn_from(part, range(first, first + part.trials))
+        for prepared, variables in varied:
+            for name, variable in variables.items():
+                _check_values(plan, name, variable, part.columns[name], first)
+            for fault in trials.faults:
+                check_drawn(fault, prepared.network)
+        first += part.trials
+
+
+def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
+    """Refuse given random streams of what has none."""
+    if plan.given is None:
+        return
+    known = sorted({name for prepared in systems for name in with_streams(prepared)})
+    for name in plan.given.streams:
+        if name != ALL and name not in known:
+            where = (plan.given.file or plan.campaign.file, stream_column(name))
+            remedy = suggestion(name, known) if known else "leave the column out"
+            raise InputError(*where, "no component that draws random numbers has this name", remedy)
+
+
+def _variables(plan: BatchPlan, prepared: PreparedSystem, drawn: set[str]) -> dict[str, Any]:
+    """The variables that draws set, by name; what is varied and is no parameter is refused."""
+    found = {name: _varied(plan, prepared, name) for name in variant_names(plan, prepared).varied}
+    return {name: variable for name, variable in found.items() if name in drawn}
+
+
+def _refuse_conflicts(plan: BatchPlan) -> None:
+    """Refuse options that the campaign would overrule: FMUs of a compared slot, values that are drawn."""
+    for slot in plan.campaign.compare:
+        if slot in plan.options.use:
+            raise InputError("--use", slot, "the campaign compares FMUs in this slot", f"give --compare {slot}=A,B")
+    for name in plan.options.set:
+        drawn = any(column == name or column.startswith(f"{name}[") for column in plan.campaign.drawn_names())
+        if drawn or name.endswith((".seed", ".stream")):
+            raise InputError("--set", name, "the campaign draws it in every trial", "change the campaign, or --seed")
+
+
+def _varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> Any:
+    """The variable that is varied under a name; refused where it is no parameter, or cannot be drawn."""
+    place = plan.campaign.place_of(name)
+    known: list[str] = []
+    for component, fmu in prepared.network.fmus.items():
+        known += [
+            f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in ("parameter", "input")
+        ]
+    if name not in known:
+        raise InputError(place, name, "no such parameter in the system", suggestion(name, known))
+    if name in prepared.network.driven:
+        problem = f"is driven by column {prepared.network.driven[name]} of the inputs over time"
+        raise InputError(place, name, problem, "leave out the column or the draw")
+    component = max((part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len)
+    variable = prepared.network.fmus[component].variables[name.removeprefix(f"{component}.")]
+    if variable.type == "String" and name in plan.campaign.drawn_names():
+        raise InputError(place, name, "a String cannot be drawn", "draw numbers only")
+    return variable
+
+
+def _check_values(plan: BatchPlan, name: str, variable: Any, values: np.ndarray, first: int) -> None:
+    """Refuse values that a parameter cannot have, of trials from ``first`` on."""
+    place = plan.campaign.place_of(name)
+    if variable.type != "Real" and np.any(values != np.round(values)):
+        remedy = "sweep whole numbers" if name in plan.campaign.sweeps else "use a choice"
+        raise InputError(place, name, f"drawn values are not whole, it is {variable.type}", remedy)
+    low, high = (
+        limit if bound is None else float(bound) for bound, limit in ((variable.min, -np.inf), (variable.max, np.inf))
+    )
+    outside = np.flatnonzero((values < low) | (values > high))
+    if outside.size:
+        problem = f"{values[outside[0]]:g} in trial {first + outside[0]} is outside {low:g} to {high:g}"
+        raise InputError(place, name, problem, "draw values that the parameter can have")
+
+
+@dataclass(frozen=True)
+class VariantNames:
+    """What one variant varies, records and holds constant, by name."""
+
+    varied: list[str]
+    signals: list[str]
+    statuses: list[str]
+    constants: dict[str, float]
+
+
+def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
+    """Names that a variant's simulation needs. Raises InputError for one that does not exist."""
+    campaign = plan.campaign
+    needed = names_needed(campaign.metrics, campaign.drawn_names())
+    recorded = {*campaign.record.final, *campaign.record.signals}
+    needed |= recorded
+    signals: list[str] = []
+    constants: dict[str, float] = {}
+    for name in sorted(needed):
+        if _is_signal(prepared, name) or _is_output(prepared, name):
+            signals.append(name)
+        elif name in recorded:
+            known = [other for other in prepared.network.nodes if _is_signal(prepared, other)]
+            raise InputError(campaign.file, f"record: {name}", "not a signal of the system", suggestion(name, known))
+        else:
+            constants[name] = _constant(plan, prepared, name)
+    statuses = [f"{name}.status" for name in prepared.network.fmus if _is_output(prepared, f"{name}.status")]
+    return VariantNames(sorted({*plan.parameter_names(prepared), *plan.overlaid}), signals, statuses, constants)
+
+
+def _is_signal(prepared: PreparedSystem, name: str) -> bool:
+    """Whether a connector's value comes from a connection or is a system's input."""
+    if name in prepared.network.driven:
+        return True
+    node = prepared.network.nodes.get(name)
+    if node is None or node.kind in ("parameter", "calculatedParameter"):
+        return False
+    return name in prepared.network.driver or name in prepared.settings.nodes
+
+
+def _is_output(prepared: PreparedSystem, name: str) -> bool:
+    return any(
+        name.startswith(f"{component}.")
+        and getattr(fmu.variables.get(name[len(component) + 1 :]), "causality", "") == "output"
+        for component, fmu in prepared.network.fmus.items()
+    )
+
+
+def _constant(plan: BatchPlan, prepared: PreparedSystem, name: str) -> float:
+    """The value of a parameter that metrics refer to."""
+    for component, fmu in prepared.network.fmus.items():
+        variable = fmu.variables.get(name.removeprefix(f"{component}."))
+        if name.startswith(f"{component}.") and variable is not None and variable.start is not None:
+            value = prepared.settings.variables.get((component, variable.name), variable.start)
+            return float({"true": 1, "false": 0}.get(str(value).lower(), value))
+    known = [f"{component}.{key}" for component, fmu in prepared.network.fmus.items() for key in fmu.variables]
+    problem = "neither a signal nor a parameter of the system"
+    raise InputError(plan.campaign.file, name, problem, suggestion(name, known))

@@ -1,0 +1,270 @@
+"""Arithmetic expressions over named values, compiled once and safe to take from a file.
+
+The text is parsed as Python, every node is checked against a list of what is allowed and
+translated into a function of the names it uses. Nothing else is reachable from it: no
+attributes of objects, no builtins. All numbers are doubles with IEEE arithmetic (1/0 is inf,
+sqrt(-1) is nan), elementwise on arrays; true is 1, false is 0, and anything but 0 is true.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import math
+import textwrap
+from collections.abc import Callable, Mapping
+from typing import Any, NoReturn
+
+import numpy as np
+
+from ...common.errors import InputError, suggestion
+
+Where = tuple[str, str]  # file and element, as in InputError
+
+CONSTANTS = {"pi": math.pi, "e": math.e}
+
+
+def _over(function: Callable) -> Callable:
+    """A function of two values as one of two or more."""
+    return lambda *values: functools.reduce(function, values)
+
+
+# name: (function, fewest arguments, most arguments or None for any number)
+FUNCTIONS: dict[str, tuple[Callable, int, int | None]] = {
+    "sin": (np.sin, 1, 1),
+    "cos": (np.cos, 1, 1),
+    "tan": (np.tan, 1, 1),
+    "asin": (np.arcsin, 1, 1),
+    "acos": (np.arccos, 1, 1),
+    "atan": (np.arctan, 1, 1),
+    "atan2": (np.arctan2, 2, 2),
+    "sqrt": (np.sqrt, 1, 1),
+    "exp": (np.exp, 1, 1),
+    "log": (np.log, 1, 1),
+    "log10": (np.log10, 1, 1),
+    "abs": (np.abs, 1, 1),
+    "min": (_over(np.minimum), 2, None),
+    "max": (_over(np.maximum), 2, None),
+    "floor": (np.floor, 1, 1),
+    "ceil": (np.ceil, 1, 1),
+    "radians": (np.radians, 1, 1),
+    "degrees": (np.degrees, 1, 1),
+    "hypot": (np.hypot, 2, 2),
+    "sign": (np.sign, 1, 1),
+    "where": (np.where, 3, 3),
+    "norm": (_over(np.hypot), 2, None),
+}
+RESERVED = frozenset(CONSTANTS) | frozenset(FUNCTIONS)
+
+ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow)
+COMPARISONS: dict[type[ast.cmpop], Callable] = {
+    ast.Lt: np.less,
+    ast.LtE: np.less_equal,
+    ast.Gt: np.greater,
+    ast.GtE: np.greater_equal,
+    ast.Eq: np.equal,
+    ast.NotEq: np.not_equal,
+}
+
+
+def _truth(value: Any) -> Any:
+    """Booleans as doubles: numpy would add two of them to True instead of 2, and refuses to subtract them."""
+    return np.multiply(value, 1.0)
+
+
+def _chain(operators: list[Callable]) -> Callable:
+    """The function a < b <= c ... of its operands, for the given comparisons in their order."""
+
+    if len(operators) == 1:
+        return lambda one, other: _truth(operators[0](one, other))
+
+    def compare(*operands: Any) -> Any:
+        links = zip(operators, operands, operands[1:], strict=False)
+        return _truth(functools.reduce(np.logical_and, [operator(a, b) for operator, a, b in links]))
+
+    return compare
+
+
+LOGIC: dict[str, Callable] = {
+    "And": lambda *values: _truth(functools.reduce(np.logical_and, values)),
+    "Or": lambda *values: _truth(functools.reduce(np.logical_or, values)),
+    "Not": lambda value: _truth(np.logical_not(value)),
+}
+ALLOWED = "numbers, names, + - * / // % **, comparisons, and, or, not, and functions such as sqrt(x)"
+
+
+def path_name(node: ast.expr) -> str | None:
+    """The variable that a node names (``x``, ``a.b``, ``a.b[1]``, ``a[1,2].c``, ``a["2.5"].b``), or None."""
+    match node:
+        case ast.Name(id=name):
+            return name
+        case ast.Attribute(value=owner, attr=name):
+            prefix = path_name(owner)
+            return None if prefix is None else f"{prefix}.{name}"
+        case ast.Subscript(value=ast.Name() | ast.Attribute() as owner, slice=index):
+            prefix = path_name(owner)
+            if prefix is not None and isinstance(index, ast.Constant) and isinstance(index.value, str):
+                return f'{prefix}["{index.value}"]'
+            entries = index.elts if isinstance(index, ast.Tuple) else [index]
+            numbers = [entry.value for entry in entries if isinstance(entry, ast.Constant)]
+            if prefix is None or not entries or [type(n) for n in numbers] != [int] * len(entries):
+                return None
+            return f"{prefix}[{','.join(map(str, numbers))}]"
+    return None
+
+
+def is_name(text: str) -> bool:
+    """Whether ``text`` is a variable's name as expressions write it, without spaces and quotes."""
+    try:
+        node = ast.parse(text, mode="eval").body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return False
+    return path_name(node) == text and '"' not in text
+
+
+class _Translator:
+    """Turns a checked syntax tree into one over slots: v0, v1, ... for variables, others for numbers."""
+
+    def __init__(self, text: str, where: Where) -> None:
+        self.text = text
+        self.where = where
+        self.slots: dict[str, str] = {}
+        self.namespace: dict[str, Any] = {"__builtins__": {}, **LOGIC}
+
+    def refuse(self, problem: str, remedy: str = f"use {ALLOWED}") -> NoReturn:
+        raise InputError(*self.where, f"{problem} in {textwrap.shorten(self.text, 100)!r}", remedy)
+
+    def number(self, value: float) -> ast.expr:
+        """A number as a numpy double, so that no Python integer or complex arithmetic takes place."""
+        slot = f"n{len(self.namespace)}"
+        self.namespace[slot] = np.float64(value)
+        return ast.Name(slot, ast.Load())
+
+    def call(self, function: str, *arguments: ast.expr) -> ast.expr:
+        return ast.Call(ast.Name(function, ast.Load()), list(arguments), [])
+
+    def variable(self, node: ast.expr) -> ast.expr:
+        name = path_name(node)
+        if name is None:
+            self.refuse(f"{ast.unparse(node)!r} is not a name", "write names like plant.position[1], counting from 1")
+        if name in CONSTANTS:
+            return self.number(CONSTANTS[name])
+        if name in FUNCTIONS:
+            self.refuse(f"the function {name!r} lacks its arguments", f"write {name}(...)")
+        return ast.Name(self.slots.setdefault(name, f"v{len(self.slots)}"), ast.Load())
+
+    def function(self, node: ast.Call) -> ast.expr:
+        name = path_name(node.func)
+        if name not in FUNCTIONS:
+            self.refuse(f"{ast.unparse(node.func)!r} is not a function", suggestion(str(name), FUNCTIONS))
+        function, fewest, most = FUNCTIONS[name]
+        if node.keywords or any(isinstance(argument, ast.Starred) for argument in node.args):
+            self.refuse(f"{ast.unparse(node)!r} has more than plain arguments", f"write {name}(a, ...)")
+        if len(node.args) < fewest or (most is not None and len(node.args) > most):
+            wanted = f"{fewest}" if most == fewest else f"{fewest} or more"
+            self.refuse(f"{name} is given {len(node.args)} argument(s)", f"give it {wanted} instead")
+        self.namespace[f"f_{name}"] = function
+        return self.call(f"f_{name}", *[self.translate(argument) for argument in node.args])
+
+    def comparison(self, node: ast.Compare) -> ast.expr:
+        for operator in node.ops:
+            if type(operator) not in COMPARISONS:
+                self.refuse(f"{ast.unparse(node)!r} is not a comparison of numbers", "use < <= > >= == !=")
+        slot = f"c{len(self.namespace)}"
+        self.namespace[slot] = _chain([COMPARISONS[type(operator)] for operator in node.ops])
+        return self.call(slot, *[self.translate(operand) for operand in (node.left, *node.comparators)])
+
+    def translate(self, node: ast.expr) -> ast.expr:
+        match node:
+            case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
+                if not abs(value) < 1e308:
+                    self.refuse(f"the number {ast.unparse(node)} is out of range", "use doubles below 1e308")
+                return self.number(value)
+            case ast.Name() | ast.Attribute() | ast.Subscript():
+                return self.variable(node)
+            case ast.BinOp(left=left, op=operator, right=right) if isinstance(operator, ARITHMETIC):
+                return ast.BinOp(self.translate(left), operator, self.translate(right))
+            case ast.UnaryOp(op=ast.UAdd() | ast.USub() as sign, operand=operand):
+                return ast.UnaryOp(sign, self.translate(operand))
+            case ast.UnaryOp(op=ast.Not(), operand=operand):
+                return self.call("Not", self.translate(operand))
+            case ast.BoolOp(op=operator, values=values):
+                return self.call(type(operator).__name__, *map(self.translate, values))
+            case ast.Compare():
+                return self.comparison(node)
+            case ast.Call():
+                return self.function(node)
+            case ast.IfExp():
+                self.refuse("'... if ... else ...' is not allowed", "write where(condition, a, b)")
+            case ast.BinOp(op=ast.BitAnd() | ast.BitOr()):
+                self.refuse("'&' and '|' are not allowed", "write 'and', 'or'")
+        self.refuse(f"{ast.unparse(node)!r} is not allowed")
+
+
+class Expression:
+    """An arithmetic expression over named values.
+
+    ``text`` may span lines; ``where`` (file, element) is what errors point to. ``names`` are the
+    variables it needs: identifiers or dotted paths, with an index where there is one, as in
+    ``plant.position[1]``, or a text in quotes, as in ``default.groups["2.5"].trials``. Raises InputError
+    for a text that is not such an expression.
+    """
+
+    def __init__(self, text: str, where: Where = ("expression", "")) -> None:
+        self.text = " ".join(text.split())
+        self.where = where
+        translator = _Translator(self.text, where)
+        if "#" in self.text:
+            translator.refuse("a comment", "drop it, or put it outside the text")
+        if "\0" in self.text:  # of which Python's parser says different things from version to version
+            translator.refuse("a null character at the place of a plain one", "write plain characters")
+        try:
+            body = translator.translate(ast.parse(self.text, mode="eval").body)
+            arguments = [ast.arg(slot) for slot in translator.slots.values()]
+            function = ast.Lambda(ast.arguments([], arguments, None, [], [], None, []), body)
+            code = compile(ast.fix_missing_locations(ast.Expression(function)), "<expression>", "eval")
+        except SyntaxError as error:
+            translator.refuse(f"{error.msg} at character {error.offset or 1}")
+        except (ValueError, RecursionError, MemoryError) as error:
+            if isinstance(error, InputError):
+                raise
+            translator.refuse(f"{type(error).__name__}", "write a shorter expression of plain characters")
+        self._function: Callable = eval(code, translator.namespace)
+        self._order = list(translator.slots)
+        self.names = frozenset(self._order)
+
+    @property
+    def is_truth(self) -> bool:
+        """Whether the value is a truth, 0 or 1: a comparison, or logic."""
+        body = ast.parse(self.text, mode="eval").body
+        return isinstance(body, ast.Compare | ast.BoolOp) or (
+            isinstance(body, ast.UnaryOp) and isinstance(body.op, ast.Not)
+        )
+
+    def evaluate(self, values: Mapping[str, Any]) -> float | np.ndarray:
+        """The value: a float, or an array of doubles where a value it uses is an array.
+
+        ``values`` maps at least ``names`` to floats, integers, booleans or arrays of one shape.
+        Raises InputError for a name that is missing. Division by zero and the like give inf or nan.
+        """
+        arguments = []
+        for name in self._order:
+            if name not in values:
+                raise InputError(*self.where, f"{name!r} in {self.text!r} is unknown", suggestion(name, values))
+            # contiguous, since numpy may compute strided arrays by other code with other last bits
+            arguments.append(np.asarray(values[name], dtype=np.float64, order="C"))
+        with np.errstate(all="ignore"):
+            result = np.asarray(self._function(*arguments))
+        return result if result.ndim else float(result)
+
+    def __reduce__(self) -> tuple:
+        return Expression, (self.text, self.where)  # code is not picklable; the text is
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Expression) and other.text == self.text
+
+    def __hash__(self) -> int:
+        return hash(self.text)
+
+    def __repr__(self) -> str:
+        return f"Expression({self.text!r})"

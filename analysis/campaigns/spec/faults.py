@@ -1,0 +1,156 @@
+"""Faults of a campaign: each a connector, and expressions over draws for its value, its times and whether it flies."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...common.errors import InputError
+from ...runtime.system.faults import KINDS, Fault, check_value, connector_type
+from ...runtime.system.network import Network
+from .expressions import Expression
+from .toml_table import REQUIRED, Table, choice_of, expression, text
+
+KEYS = ("connector", "kind", "value", "start", "end", "when")
+
+
+@dataclass(frozen=True)
+class CampaignFault:
+    """A fault as [fault.NAME] declares it: a `perilune.Fault` in every trial, or in those in which ``when`` is true.
+
+    ``value`` (in the connector's unit; None for freeze), ``start`` and ``end`` (s; None for no end) are expressions
+    over drawn and derived values; a Boolean connector's value may be a bool. ``file`` is what errors name.
+    """
+
+    name: str
+    file: str
+    connector: str
+    kind: str
+    value: Expression | bool | None
+    start: Expression
+    end: Expression | None = None
+    when: Expression | None = None
+
+    @property
+    def formulas(self) -> list[Expression]:
+        """Its expressions."""
+        return [part for part in (self.value, self.start, self.end, self.when) if isinstance(part, Expression)]
+
+    def where(self, key: str) -> tuple[str, str]:
+        """File and element of one of its keys, for errors."""
+        return self.file, f"fault.{self.name}.{key}"
+
+    def __str__(self) -> str:
+        value = "" if self.value is None else f":{_written(self.value)}"
+        end = "" if self.end is None else f"..{_written(self.end)}"
+        when = "" if self.when is None else f" when {_written(self.when)}"
+        return f"{self.name}: {self.connector}={self.kind}{value}@{_written(self.start)}{end}{when}"
+
+
+def _written(part: Expression | bool) -> str:
+    return str(part).lower() if isinstance(part, bool) else part.text
+
+
+def read_fault(name: str, table: Table) -> CampaignFault:
+    """The fault declared in the table [fault.NAME]. Raises InputError."""
+    table.only(KEYS)
+    kind = table.get("kind", choice_of(*KINDS))
+    if kind == "freeze" and "value" in table.content:
+        raise table.error("value", "a freeze has no value", "drop it: what was there is held")
+    return CampaignFault(
+        name=name,
+        file=table.file,
+        connector=table.get("connector", text),
+        kind=kind,
+        value=table.get("value", _value, None if kind == "freeze" else REQUIRED),
+        start=table.get("start", _formula),
+        end=table.get("end", _formula, None),
+        when=table.get("when", expression, None),
+    )
+
+
+def _value(table: Table, key: str, value: Any) -> Expression | bool:
+    return value if isinstance(value, bool) else _formula(table, key, value)
+
+
+def _formula(table: Table, key: str, value: Any) -> Expression:
+    """A finite number, or a text that is an expression."""
+    if isinstance(value, str):
+        return expression(table, key, value)
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        raise table.error(key, f"{value!r} is not a finite number", 'write a number, or an expression as "t_fail + 10"')
+    return expression(table, key, repr(value))
+
+
+@dataclass(frozen=True)
+class DrawnFault:
+    """A campaign's fault in trials in a row: arrays with an entry for each.
+
+    ``flies`` says in which trials there is a fault; ``value`` (in the connector's unit), ``start`` and ``end`` (s) are
+    nan in the others, ``end`` is inf where it has none. A Boolean's value is a bool array. A freeze has no ``value``.
+    """
+
+    declared: CampaignFault
+    flies: np.ndarray
+    value: np.ndarray | None
+    start: np.ndarray
+    end: np.ndarray
+
+    def in_trial(self, trial: int) -> Fault | None:
+        """The fault in one of them, counted from 0, if it flies."""
+        if not self.flies[trial]:
+            return None
+        value = 0.0 if self.value is None else self.value[trial].item()
+        name, kind = self.declared.connector, self.declared.kind
+        return Fault(name, kind, value, float(self.start[trial]), float(self.end[trial]))
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """What the table of trials holds of it, by name."""
+        name = f"fault.{self.declared.name}"
+        value = {} if self.value is None else {f"{name}.value": np.where(self.flies, self.value, math.nan)}
+        return {name: self.flies, **value, f"{name}.start": self.start, f"{name}.end": self.end}
+
+
+def drawn_fault(declared: CampaignFault, draws: Mapping[str, np.ndarray], numbers: range) -> DrawnFault:
+    """A fault worked out for trials in a row, of these ``numbers``, from their ``draws``.
+
+    Raises InputError where an expression is not finite or a window is empty in a trial in which the fault flies.
+    """
+    trials = len(numbers)
+    everywhere = np.ones(trials, dtype=bool)
+
+    def values(key: str, formula: Expression, flies: np.ndarray) -> np.ndarray:
+        column = np.broadcast_to(formula.evaluate(draws), (trials,))
+        wrong = np.flatnonzero(flies & ~np.isfinite(column))
+        if wrong.size:
+            problem = f"{formula.text!r} is {column[wrong[0]]} in trial {numbers[wrong[0]]}"
+            raise InputError(*declared.where(key), problem, "every value must be finite")
+        return np.where(flies, column, math.nan)
+
+    when = declared.when
+    flies = everywhere if when is None else values("when", when, everywhere) != 0.0
+    value = declared.value
+    start = values("start", declared.start, flies)
+    end = np.where(flies, math.inf, math.nan) if declared.end is None else values("end", declared.end, flies)
+    empty = np.flatnonzero(flies & ~(start < end))
+    if empty.size:
+        problem = (
+            f"{end[empty[0]]:.10g} s is not after the start, {start[empty[0]]:.10g} s, in trial {numbers[empty[0]]}"
+        )
+        raise InputError(*declared.where("end"), problem, "give an end after the start")
+    column = values("value", value, flies) if isinstance(value, Expression) else None
+    if isinstance(value, bool):
+        column = np.full(trials, value)
+    return DrawnFault(declared, flies, column, start, end)
+
+
+def check_drawn(fault: DrawnFault, network: Network) -> None:
+    """Refuse a fault that the system cannot have. Raises InputError."""
+    declared = fault.declared
+    type_name = connector_type(network, declared.connector, declared.where("connector"))
+    for value in () if fault.value is None else np.unique(fault.value[fault.flies]).tolist():
+        check_value(type_name, declared.kind, value, declared.where("value"))

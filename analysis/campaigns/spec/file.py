@@ -1,0 +1,230 @@
+"""Reads a campaign from its TOML file; whatever is not understood is refused by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from ...common.errors import InputError, suggestion
+from ..draws.declared import Draw
+from ..draws.given import stream_component
+from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting
+from .distributions import read_draw
+from .expressions import RESERVED, Expression, is_name
+from .faults import CampaignFault, read_fault
+from .requirements import read_requirements
+from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, read_toml, sequence, text
+
+SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
+# of records, of the results' table and of files of draws
+COLUMNS = frozenset({"time", "trial", "variant", "status", "success"})
+REDUCTION_OF = {"band": "last_outside", "condition": "first", "delay": "first"}  # keys that go with one reduction only
+SCATTER = ("x", "y", "circle", "title")
+
+
+def _check_name(table: Table, name: str, taken: Iterable[str]) -> None:
+    """Refuse a drawn, derived or metric name that is malformed, reserved or already ``taken``."""
+    if not is_name(name):
+        remedy = 'use letters, digits and _; for a parameter "component.variable" or "component.variable[1]"'
+        raise table.error(name, f"{name!r} is not a name that expressions can use", remedy)
+    if name in RESERVED or name in COLUMNS or stream_component(name) is not None:
+        raise table.error(name, f"{name!r} has a meaning of its own", "choose another name")
+    if name in taken:
+        raise table.error(name, f"{name!r} is declared twice", "give each value one declaration and one name")
+
+
+def _draws(table: Table) -> tuple[Draw, ...]:
+    draws: list[Draw] = []
+    taken: list[str] = []
+    for name, content in table.flat(of_tables=True):
+        if not isinstance(content, dict):
+            raise table.error(name, "not a table", f'write [draw."{name}"] with distribution = ... below it')
+        draw = read_draw(name, Table(content, table.file, table.place(name)))
+        for filled in draw.names:
+            _check_name(table, filled, taken)
+            taken.append(filled)
+        draws.append(draw)
+    return tuple(draws)
+
+
+def _derived(table: Table, draws: tuple[Draw, ...]) -> dict[str, Expression]:
+    known = [name for draw in draws for name in draw.names]
+    derived: dict[str, Expression] = {}
+    for name, value in table.flat():
+        _check_name(table, name, known)
+        derived[name] = expression(table, name, value)
+        _check_names_in(derived[name], known, "a draw or an earlier derived value")
+        known.append(name)
+    return derived
+
+
+def _check_names_in(formula: Expression, known: Iterable[str], kind: str) -> None:
+    for unknown in sorted(formula.names - set(known)):
+        raise InputError(*formula.where, f"{unknown!r} is not {kind}", suggestion(unknown, known))
+
+
+def _pair(table: Table, key: str, value: Any) -> tuple[float, float]:
+    found = sequence(bound)(table, key, value)
+    if len(found) != 2 or not found[0] < found[1]:
+        raise table.error(key, f"{value!r} is not an interval", "write [low, high] with low < high")
+    return found[0], found[1]
+
+
+def _metric(name: str, table: Table) -> Metric:
+    table.only(["expression", "reduction", *REDUCTION_OF, "window", "unit", "description"])
+    reduction = table.get("reduction", choice_of(*REDUCTIONS))
+    for key, owner in REDUCTION_OF.items():
+        if reduction != owner and key in table.content:
+            raise table.error(key, f"not used by the reduction {reduction!r}", f"drop it, or use {owner}")
+    return Metric(
+        name=name,
+        expression=table.get("expression", expression),
+        reduction=reduction,
+        band=table.get("band", _pair, REQUIRED if reduction == "last_outside" else None),
+        window=table.get("window", _pair, None),
+        unit=table.get("unit", text, "1"),
+        description=table.get("description", text, ""),
+        condition=table.get("condition", expression, REQUIRED if reduction == "first" else None),
+        delay=table.get("delay", _seconds_later, 0.0),
+    )
+
+
+def _seconds_later(table: Table, key: str, value: Any) -> float:
+    found = number(table, key, value)
+    if found < 0.0:
+        raise table.error(key, f"{value!r} is before the condition", "give seconds, 0 or more")
+    return found
+
+
+def _metrics(table: Table, drawn: list[str]) -> tuple[Metric, ...]:
+    for name in table.content:
+        _check_name(table, name, drawn)
+        if not name.isidentifier():
+            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
+    return tuple(_metric(name, table.table(name)) for name in table.content)
+
+
+def _record(table: Table) -> Record:
+    table.only(["final", "every", "signals", "trials", "traces"])
+    every = table.get("every", integer, None)
+    if every is not None and every < 1:
+        raise table.error("every", f"{every} row(s)", "give 1 or more: every n-th row is kept")
+    none: tuple[str, ...] = ()
+    signals = table.get("signals", names, none)
+    if (every is None) != (not signals):
+        missing = "signals" if every is not None else "every"
+        raise table.error(missing, "missing", "give every = n together with signals = [...], or neither")
+    trials = table.get("trials", integer, None)
+    if trials is not None and trials < 1:
+        raise table.error("trials", f"{trials} trial(s)", "give 1 or more: the first n trials are sampled")
+    if trials is not None and every is None:
+        raise table.error("trials", "nothing is sampled", "give every = n and signals = [...] too, or drop trials")
+    traces = table.get("traces", choice_of(*TRACES), "none")
+    return Record(table.get("final", names, none), every, signals, traces, trials)
+
+
+def _settings(table: Table, drawn: list[str]) -> dict[str, Setting]:
+    settings: dict[str, Setting] = {}
+    for name, value in table.flat():
+        numbers = isinstance(value, list) and value and all(isinstance(item, float | int) for item in value)
+        if not numbers and not isinstance(value, float | int | bool | str):
+            remedy = "give a number, true, false or a text; of a vector a list of numbers"
+            raise table.error(name, f"{value!r} is no value", remedy)
+        if "." not in name:
+            raise table.error(name, "names no component", "write component.variable = value")
+        if name in drawn:
+            raise table.error(name, "also drawn or derived", "keep one of the two")
+        settings[name] = value
+    return settings
+
+
+def _compare(table: Table) -> dict[str, tuple[str, ...]]:
+    return {slot: names(table, slot, value) for slot, value in table.flat()}
+
+
+def _faults(table: Table, drawn: list[str]) -> tuple[CampaignFault, ...]:
+    for name in table.content:
+        if not name.isidentifier():
+            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
+    faults = tuple(read_fault(name, table.table(name)) for name in table.content)
+    for fault in faults:
+        for formula in fault.formulas:
+            _check_names_in(formula, drawn, "a draw or a derived value")
+    return faults
+
+
+def _group(table: Table, drawn: list[str]) -> str:
+    table.only(["by"])
+    name = table.get("by", text)
+    if name not in drawn:
+        raise table.error("by", f"{name!r} is not a draw or a derived value", suggestion(name, drawn))
+    return name
+
+
+def _success(table: Table, metrics: tuple[Metric, ...]) -> Expression:
+    table.only(["expression"])
+    success = table.get("expression", expression)
+    _check_names_in(success, [metric.name for metric in metrics], "a metric")
+    return success
+
+
+def _scatters(table: Table, metrics: tuple[Metric, ...]) -> tuple[Scatter, ...]:
+    for name in table.content:
+        if not name.isidentifier():
+            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
+    return tuple(_scatter(name, table.table(name), metrics) for name in table.content)
+
+
+def _scatter(name: str, table: Table, metrics: tuple[Metric, ...]) -> Scatter:
+    table.only(SCATTER)
+    units = {metric.name: metric.unit for metric in metrics}
+    x, y = table.get("x", text), table.get("y", text)
+    for key, metric in (("x", x), ("y", y)):
+        if metric not in units:
+            raise table.error(key, f"{metric!r} is not a metric", suggestion(metric, units))
+    circle = table.get("circle", number, None)
+    if circle is not None and circle <= 0.0:
+        raise table.error("circle", f"{circle:g} is not a radius", "give a positive number")
+    if circle is not None and units[x] != units[y]:
+        raise table.error("circle", f"{x} is in {units[x]}, {y} in {units[y]}", "drop it, or give both one unit")
+    return Scatter(name, x, y, circle, table.get("title", text, ""))
+
+
+def parse_campaign(table: Table) -> Campaign:
+    """The campaign in a table that was read from a file or made in memory. Raises InputError."""
+    if SYNTHESIS in table.content:
+        remedy = "search with perilune synthesize, then fly the law with a campaign without this table"
+        raise table.error(SYNTHESIS, "a search, not a batch", remedy)
+    keys = ["system", "description", "trials", "seed", "parameters", "draw_scheme"]
+    tables = ["set", "compare", "draw", "derive", "fault", "group", "metric", "record", "success", "requirement"]
+    table.only([*keys, *tables, "scatter"])
+    draws = _draws(table.table("draw"))
+    derived = _derived(table.table("derive"), draws)
+    drawn = [name for draw in draws for name in draw.names] + list(derived)
+    metrics = _metrics(table.table("metric"), drawn)
+    return Campaign(
+        file=table.file,
+        system=table.get("system", text),
+        trials=table.get("trials", integer),
+        seed=table.get("seed", integer),
+        draw_scheme=table.get("draw_scheme", choice_of(*SCHEMES), SCHEMES[0]),
+        success=_success(table.table("success"), metrics),
+        metrics=metrics,
+        draws=draws,
+        derived=derived,
+        settings=_settings(table.table("set"), drawn),
+        compare=_compare(table.table("compare")),
+        parameters=table.get("parameters", names, ()),
+        record=_record(table.table("record")),
+        description=" ".join(table.get("description", text, "").split()),
+        group=_group(table.table("group"), drawn) if "group" in table.content else None,
+        faults=_faults(table.table("fault"), drawn),
+        scatters=_scatters(table.table("scatter"), metrics),
+        requirements=read_requirements(table.table("requirement"), [metric.name for metric in metrics], draws),
+    )
+
+
+def read_campaign(path: Path) -> Campaign:
+    """The campaign in a TOML file. Raises InputError."""
+    return parse_campaign(read_toml(path))

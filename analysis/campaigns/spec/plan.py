@@ -1,0 +1,209 @@
+"""A campaign made concrete: system, options, draws and variants, checked before anything flies."""
+
+from __future__ import annotations
+
+import hashlib
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from ...common.errors import InputError
+from ...runtime.ssp.archive import SystemArchive, open_system
+from ...runtime.system.faults import Fault
+from ...runtime.system.in_flight.series import InputSeries
+from ...runtime.system.in_flight.watch import UNWATCHED, Watch
+from ...runtime.system.options import Layer, SystemOptions
+from ...runtime.system.prepared import PreparedSystem, prepare_system
+from ..draws.counted import CountedDraws
+from ..draws.given import GivenDraws, read_given
+from ..draws.streams import StreamNumbers
+from ..draws.table import Draws, DrawTable, draw_parts, draw_table, parted, table_of
+from .campaign import Campaign, Variant
+from .drawn import DrawnTrials, with_streams
+from .faults import drawn_fault
+from .file import parse_campaign
+from .groups import Group, groups_of
+from .sweeps import with_sweeps
+from .toml_table import Table
+
+PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
+
+
+@dataclass(frozen=True)
+class BatchPlan:
+    """What a batch flies; small enough to be sent to every worker.
+
+    ``options`` are the user's system options, which come after the campaign's own and win; draws
+    win over parameter sets. ``campaign_sha256`` is that of the campaign's file. ``overlaid`` names
+    parameters that whoever flies the plan gives anew with every flight. ``faults`` are the user's, which fly in
+    every trial after the campaign's own, ``series`` the inputs over time that all trials have; ``watch`` is how each
+    is watched. ``given`` are draws that fly in place of drawn ones.
+    """
+
+    system: str
+    campaign: Campaign
+    options: SystemOptions
+    campaign_sha256: str = ""
+    overlaid: tuple[str, ...] = ()
+    faults: tuple[Fault, ...] = ()
+    series: InputSeries | None = None
+    watch: Watch = UNWATCHED
+    given: GivenDraws | None = None
+    compared_by: str = ""  # what errors name for the compared FMUs: --compare, or the campaign's file
+    campaign_data: bytes = b""  # the campaign's file
+    until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
+    archive: SystemArchive | None = None  # flown instead of what `system` names, for which it stands
+
+    @cached_property
+    def draws(self) -> Draws:
+        """What is drawn for all trials. Raises InputError."""
+        if self.given is not None:
+            return table_of(self.campaign, self.given.table)
+        return CountedDraws(self.campaign) if self.is_counted else draw_table(self.campaign)
+
+    @property
+    def is_counted(self) -> bool:
+        """Whether draws are made for each trial by itself, without a table."""
+        return self.given is None and self.campaign.draw_scheme == "counter"
+
+    def draw_parts(self, size: int = PART) -> Iterator[DrawTable]:
+        """What is drawn for all trials, ``size`` of them at a time, none of it held. Raises InputError."""
+        if self.given is None and not self.is_counted and "draws" not in self.__dict__:
+            yield from draw_parts(self.campaign, size)
+            return
+        for part in parted(self.campaign.trials, size):
+            yield self.draws.of_part(part)
+
+    def drawn(self, trials: range) -> DrawnTrials:
+        """All that is drawn for trials in a row. Raises InputError."""
+        return self.drawn_from(self.draws.of_part(trials), trials)
+
+    def drawn_from(self, table: DrawTable, trials: range) -> DrawnTrials:
+        """The same from their table of draws. Raises InputError."""
+        faults = [drawn_fault(fault, table.columns, trials) for fault in self.campaign.faults]
+        return DrawnTrials(self, trials, table, faults)
+
+    def of_first(self, trials: int) -> BatchPlan:
+        """A plan of the first ``trials`` trials, with the draws that they have in this one."""
+        return self.of_part(range(trials))
+
+    def of_part(self, trials: range) -> BatchPlan:
+        """A plan of trials in a row, with the draws that they have in this one; from 1 on, those must be given."""
+        given = None if self.given is None else self.given.of_part(trials)
+        part = replace(self, campaign=replace(self.campaign, trials=len(trials)), given=given)
+        if not self.is_counted:
+            # in cached_property's place: drawn anew they may differ
+            part.__dict__["draws"] = self.draws.of_part(trials) if trials.start else self.draws.of_first(trials.stop)
+        return part
+
+    def of_samples(self, given: GivenDraws) -> BatchPlan:
+        """A plan that flies given draws, a trial for each: values derived of them, faults and metrics follow."""
+        return replace(self, campaign=replace(self.campaign, trials=given.trials), given=given)
+
+    @cached_property
+    def groups(self) -> list[Group]:
+        """The groups of trials that results are summed up by; none without [group]. Raises InputError."""
+        if self.campaign.group is None:
+            return []
+        parts = (part.columns[self.campaign.group] for part in self.draw_parts())
+        return groups_of(parts, (self.campaign.file, "group.by"))
+
+    def declared_faults(self) -> list[Fault]:
+        """All faults, the campaign's first, with their connectors and kinds; value and times are a trial's."""
+        return [*(Fault(fault.connector, fault.kind) for fault in self.campaign.faults), *self.faults]
+
+    def faults_of(self, trial: int) -> list[Fault | None]:
+        """The faults of one trial, in the order of `declared_faults`; None for one that does not fly in it."""
+        return self.drawn(range(trial, trial + 1)).faults_of(trial)
+
+    def fault_texts(self) -> list[str]:
+        """All faults as results name them."""
+        return [str(fault) for fault in (*self.campaign.faults, *self.faults)]
+
+    def prepare(self, variant: Variant) -> PreparedSystem:
+        """The system as one variant flies it. Raises InputError."""
+        options = self.options.among(campaign=self.campaign.layer, study=Layer(use=variant.use))
+        try:
+            return prepare_system(self.archive or self.system, options, series=self.series)
+        except InputError as error:
+            compared = {*variant.use, *variant.use.values(), *(f"{slot}={fmu}" for slot, fmu in variant.use.items())}
+            if error.file == "--use" and error.element in compared:
+                raise InputError(self.compared_by or "compare", error.element, error.problem, error.remedy) from error
+            raise
+
+    def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
+        """The parameters of one trial: draws, and seed and stream of every component that has them."""
+        return self.drawn(range(trial, trial + 1)).parameters(prepared, trial)
+
+    def parameter_names(self, prepared: PreparedSystem) -> set[str]:
+        """The names of `parameters`, which are those of every trial."""
+        drawn = {name for name in self.campaign.drawn_names() if "." in name}
+        return drawn | {f"{name}.{number}" for name in with_streams(prepared) for number in StreamNumbers._fields}
+
+
+def campaign_of(data: bytes, label: str) -> Campaign:
+    """The campaign that a file declares, which ``label`` names in messages. Raises InputError."""
+    try:
+        table = Table(tomllib.loads(data.decode("utf-8")), label)
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
+    return parse_campaign(table)
+
+
+def read_plan(
+    system: str | Path,
+    campaign: str,
+    options: SystemOptions,
+    *,
+    trials: int | None = None,
+    seed: int | None = None,
+    compare: Mapping[str, Sequence[str]] | None = None,
+    faults: Sequence[Fault] = (),
+    series: InputSeries | None = None,
+    watch: Watch | None = None,
+    until_decided: bool = False,
+    draws: Path | None = None,
+    sweeps: Mapping[str, str] | None = None,
+) -> BatchPlan:
+    """Read a campaign by name or path, with the command line's changes. Raises InputError.
+
+    ``compare`` replaces the campaign's own comparison, ``faults`` come after its own, ``series`` are inputs over time,
+    ``draws`` is a file of draws to fly in place of drawn ones, ``sweeps`` are parameters with their low:high:step.
+    """
+    archive = open_system(system)
+    data, label = archive.campaign(campaign)
+    read = campaign_of(data, label)
+    if read.system.removesuffix(".ssp").removesuffix(".fmu") != archive.name:
+        raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
+    changes: dict = {}
+    if trials is not None:
+        if trials < 1:
+            raise InputError("--trials", str(trials), "not a positive number", "give 1 or more")
+        changes["trials"] = trials
+    if seed is not None:
+        changes["seed"] = seed
+    if compare is not None:
+        changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
+    if draws is not None and trials is not None:
+        raise InputError("--trials", str(trials), "the file of --draws says how many", "leave one of the two out")
+    if draws is not None and sweeps:
+        raise InputError("--set", "=".join(next(iter(sweeps.items()))), "a sweep beside --draws", "leave one out")
+    changed = with_sweeps(replace(read, **changes), sweeps or {})
+    if until_decided and not changed.requirements:
+        remedy = "declare what is to be decided: [requirement.NAME]"
+        raise InputError(label, "--until-decided", "the campaign has no requirement", remedy)
+    plan = BatchPlan(
+        str(system),
+        changed,
+        options,
+        hashlib.sha256(data).hexdigest(),
+        faults=tuple(faults),
+        series=series,
+        watch=watch or UNWATCHED,
+        compared_by=f"{label}: compare" if compare is None else "--compare",
+        campaign_data=data,
+        until_decided=until_decided,
+    )
+    return plan if draws is None else plan.of_samples(read_given(draws, changed))

@@ -1,0 +1,96 @@
+"""Requirements of a campaign: what a share of all flights has to keep, to be shown with a confidence."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from ...common.errors import suggestion
+from ..draws.declared import Draw
+from .expressions import Expression
+from .toml_table import REQUIRED, Table, choice_of, expression, number, text
+
+KEYS = ("expression", "share", "confidence", "metric", "bound", "description")
+SIDES = ("upper", "lower")
+SUCCESS = "success"  # whether the trial is a success, for expressions of requirements
+TOGETHER = {  # designs of the whole table of draws, and what to draw by instead
+    "grid": "choice",
+    "latin_hypercube": "uniform",
+    "sobol": "uniform",
+}
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """That ``share`` of all flights keep ``expression``, with ``confidence``: what [requirement.NAME] declares.
+
+    ``expression`` is over the metrics of a trial, and `SUCCESS`. ``metric`` is one whose tolerance bound is wanted,
+    the ``bound`` ("upper", "lower") that the share keeps with the confidence; None for none.
+    """
+
+    name: str
+    expression: Expression
+    share: float
+    confidence: float
+    metric: str | None = None
+    bound: str = "upper"
+    description: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.expression.text} in {100 * self.share:.10g} % of flights at {100 * self.confidence:.10g} %"
+
+
+def read_requirements(table: Table, metrics: Collection[str], draws: Iterable[Draw]) -> tuple[Requirement, ...]:
+    """The requirements declared in the table [requirement]; ``metrics`` are the campaign's by name. Raises InputError.
+
+    Verdicts are on independent trials, so draws that are designed for all trials together are refused.
+    """
+    for draw in draws:
+        if table.content and draw.distribution in TOGETHER:
+            problem = f"{draw.name} is drawn by {draw.distribution}, and verdicts need independent trials"
+            remedy = f"draw it by {TOGETHER[draw.distribution]}, or drop the requirements"
+            raise table.error("", problem, remedy)
+    for name in table.content:
+        if not name.isidentifier():
+            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
+    return tuple(_requirement(name, table.table(name), metrics) for name in table.content)
+
+
+def _requirement(name: str, table: Table, metrics: Collection[str]) -> Requirement:
+    table.only(KEYS)
+    asked = table.get("expression", expression)
+    known = [*metrics, SUCCESS]
+    for unknown in sorted(asked.names - set(known)):
+        raise table.error("expression", f"{unknown!r} is not a metric", suggestion(unknown, known))
+    if not asked.names:
+        raise table.error("expression", "uses no metric, so that no flight bears on it", suggestion("", known))
+    metric = table.get("metric", text, REQUIRED if "bound" in table.content else None)
+    if metric is not None and metric not in metrics:
+        raise table.error("metric", f"{metric!r} is not a metric", suggestion(metric, metrics))
+    return Requirement(
+        name=name,
+        expression=asked,
+        share=table.get("share", _share),
+        confidence=table.get("confidence", _confidence),
+        metric=metric,
+        bound=table.get("bound", choice_of(*SIDES), "upper" if metric is None else REQUIRED),
+        description=table.get("description", text, ""),
+    )
+
+
+def _share(table: Table, key: str, value: Any) -> float:
+    """A number between 0 and 1, or a text in per cent: "99.87 %"."""
+    percent = isinstance(value, str) and value.strip().endswith("%")
+    found = number(table, key, value.strip()[:-1] if percent else value) / (100.0 if percent else 1.0)
+    if not 0.0 < found < 1.0:
+        problem = f"{value!r} is not between 0 and 1"
+        raise table.error(key, problem, 'write a share of 1, or per cent in quotes: 0.9987 or "99.87 %"')
+    return found
+
+
+def _confidence(table: Table, key: str, value: Any) -> float:
+    found = _share(table, key, value)
+    if found < 0.5:
+        raise table.error(key, f"{value!r}: below a half, met and not met could both be shown", 'write 0.9, or "90 %"')
+    return found

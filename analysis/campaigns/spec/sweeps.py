@@ -1,0 +1,100 @@
+"""Sweeps: what `--set` of a batch gives as low:high:step becomes a grid draw of the campaign."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from ...common.errors import InputError
+from ...runtime.system.assignments import SINGLE
+from ...runtime.system.options import SystemOptions
+from ..draws.declared import Draw
+from .campaign import Campaign
+from .groups import MOST as MOST_GROUPS
+
+MOST = 10_000  # points of a sweep
+ROUNDING = 1e-9  # of a step, within which the last value is the high end
+
+
+def part_sweeps(options: SystemOptions) -> tuple[SystemOptions, dict[str, str]]:
+    """System options without their sweeps, and these as texts by parameter.
+
+    A sweep is a text of three numbers with colons between. Others are left to what sets single values, which knows
+    whether a parameter takes such a text.
+    """
+    sweeps = {name: value.strip() for name, value in options.set.items() if isinstance(value, str) and _ends(value)}
+    single = {name: value for name, value in options.set.items() if name not in sweeps}
+    return replace(options, set=single), sweeps
+
+
+def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
+    """A campaign that draws swept parameters on a grid, with its own grids every combination of them.
+
+    ``sweeps`` are texts low:high:step by parameter, in its own unit; the values are low + k step, high included. They
+    take the place of the campaign's [set]; one sweep alone is what results are grouped by where the campaign groups by
+    nothing else. Raises InputError for a sweep that is none, or does not go with the campaign.
+    """
+    if not sweeps:
+        return campaign
+    drawn = campaign.drawn_names()
+    draws = [Draw(name, "grid", (name,), {"values": _values(name, text)}) for name, text in sweeps.items()]
+    for name, text in sweeps.items():
+        if "." not in name:
+            raise InputError(SINGLE, f"{name}={text}", "a sweep of what is no component's", "give component.variable")
+        if name in drawn:
+            problem = "the campaign draws it in every trial"
+            raise InputError(SINGLE, f"{name}={text}", problem, "leave it out, or change the campaign")
+        if campaign.requirements:
+            problem = "a sweep, and the campaign has requirements, whose verdicts need independent trials"
+            raise InputError(SINGLE, f"{name}={text}", problem, "sweep a campaign without them")
+    swept = replace(
+        campaign,
+        draws=(*campaign.draws, *draws),
+        settings={name: value for name, value in campaign.settings.items() if name not in sweeps},
+        sweeps=dict(sweeps),
+    )
+    _check_trials(swept)
+    (first, *others) = draws
+    if others or campaign.group is not None or len(first.arguments["values"]) > MOST_GROUPS:
+        return swept
+    return replace(swept, group=first.name)
+
+
+def _ends(text: str) -> list[float]:
+    """The three numbers of a sweep; none where the text is no sweep."""
+    try:
+        found = [float(part) for part in text.split(":")]
+    except ValueError:
+        return []
+    return found if len(found) == 3 else []
+
+
+def _values(name: str, text: str) -> tuple[float, ...]:
+    place = f"{name}={text}"
+    numbers = _ends(text)
+    if not numbers or not all(map(math.isfinite, numbers)):
+        raise InputError(SINGLE, place, "not a sweep", "write low:high:step with three numbers")
+    low, high, step = numbers
+    if not step > 0.0:
+        raise InputError(SINGLE, place, f"the step {step:g} is not positive", "write low:high:step, as in 1:5:0.5")
+    if not high > low:
+        problem = f"high = {high:g} is not above low = {low:g}"
+        raise InputError(SINGLE, place, problem, "write low:high:step with low < high, or one value")
+    steps = (high - low) / step + ROUNDING
+    if not steps < MOST:
+        raise InputError(SINGLE, place, f"more than {MOST} points", "give a longer step")
+    if steps < 1.0:
+        raise InputError(SINGLE, place, f"the step {step:g} leaves low = {low:g} only", "give a shorter step")
+    return tuple(low + k * step for k in range(math.floor(steps) + 1))
+
+
+def _check_trials(campaign: Campaign) -> None:
+    """Refuse trials that are not as many for each point of the grid, which has the campaign's own grids in it too."""
+    points = math.prod(len(draw.arguments["values"]) for draw in campaign.draws if draw.distribution == "grid")
+    if campaign.trials % points:
+        swept = ", ".join(f"{name}={text}" for name, text in campaign.sweeps.items())
+        below = campaign.trials // points * points
+        some = f"{below} or {below + points}" if below else f"{points}"
+        problem = f"{campaign.trials} trials do not fill a grid of {points} points"
+        raise InputError(SINGLE, swept, problem, f"give a multiple of {points}: --trials {some}")

@@ -1,0 +1,155 @@
+"""Checked reading of a TOML file: every value has its kind, every key is known, or an InputError says which."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+from ...common.errors import InputError
+from .expressions import Expression
+
+T = TypeVar("T")
+REQUIRED: Any = object()
+
+
+def read_toml(path: Path) -> Table:
+    """The whole of a TOML file. Raises InputError when it cannot be read or is not TOML."""
+    try:
+        return Table(tomllib.loads(path.read_text(encoding="utf-8")), str(path))
+    except OSError as error:
+        raise InputError(path, "", error.strerror or str(error), "give a readable file") from error
+    except UnicodeDecodeError as error:
+        raise InputError(path, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(path, "", f"not TOML: {error}", "correct the file at that place") from error
+
+
+class Table:
+    """One table of a TOML file; ``element`` is its place in the file, as in ``metric.position_error``."""
+
+    def __init__(self, content: Mapping[str, Any], file: str, element: str = "") -> None:
+        self.content = content
+        self.file = file
+        self.element = element
+
+    def place(self, key: str) -> str:
+        return f"{self.element}.{key}" if self.element else key
+
+    def error(self, key: str, problem: str, remedy: str) -> InputError:
+        return InputError(self.file, self.place(key) if key else self.element, problem, remedy)
+
+    def only(self, allowed: Iterable[str]) -> None:
+        """Refuse keys that are not ``allowed``."""
+        names = list(allowed)
+        for key in self.content:
+            if key not in names:
+                raise self.error(key, "unknown key", f"allowed here: {', '.join(names)}")
+
+    def get(self, key: str, kind: Callable[[Table, str, Any], T], default: T = REQUIRED) -> T:
+        """The value of ``key`` read by ``kind`` (`text`, `number`, ...), or ``default`` where it is absent."""
+        if key in self.content:
+            return kind(self, key, self.content[key])
+        if default is REQUIRED:
+            raise self.error(key, "missing", f"add {key} = ... to the {self.element or 'top of the file'}")
+        return default
+
+    def table(self, key: str) -> Table:
+        """The subtable ``key``; an empty one where it is absent."""
+        value = self.content.get(key, {})
+        if not isinstance(value, dict):
+            raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
+        return Table(value, self.file, self.place(key))
+
+    def flat(self, of_tables: bool = False) -> Iterator[tuple[str, Any]]:
+        """Name and value of the entries; nested tables become dotted names: a.b = 1 is the same as "a.b" = 1.
+
+        With ``of_tables`` the entries are tables themselves, and only tables of tables are unfolded.
+        """
+
+        def walk(prefix: str, content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+            for key, value in content.items():
+                inner = value.values() if isinstance(value, dict) else ()
+                if inner and (not of_tables or all(isinstance(entry, dict) for entry in inner)):
+                    yield from walk(f"{prefix}{key}.", value)
+                else:
+                    yield prefix + key, value
+
+        found: set[str] = set()
+        for name, value in walk("", self.content):
+            if name in found:
+                raise self.error(name, "there twice, written with and without quotes", "keep one of the two")
+            found.add(name)
+            yield name, value
+
+
+def text(table: Table, key: str, value: Any) -> str:
+    """A string that is not empty."""
+    if not isinstance(value, str) or not value.strip():
+        raise table.error(key, f"{value!r} is not a text", 'write it in quotes: "..."')
+    return value.strip()
+
+
+def integer(table: Table, key: str, value: Any) -> int:
+    """A whole number."""
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise table.error(key, f"{value!r} is not a whole number", "write an integer")
+    return value
+
+
+def bound(table: Table, key: str, value: Any) -> float:
+    """A number, infinite ones included, or a text that is a constant expression, such as "-pi/4"."""
+    if isinstance(value, str):
+        formula = Expression(value, (table.file, table.place(key)))
+        if formula.names:
+            raise table.error(key, f"{value!r} is not constant", "use numbers, pi and e only, or [derive]")
+        value = formula.evaluate({})
+    if isinstance(value, bool) or not isinstance(value, int | float) or math.isnan(value):
+        raise table.error(key, f"{value!r} is not a number", 'write a number, or a constant expression as "pi/4"')
+    return float(value)
+
+
+def number(table: Table, key: str, value: Any) -> float:
+    """A finite number, or a text that is a constant expression."""
+    found = bound(table, key, value)
+    if not math.isfinite(found):
+        raise table.error(key, f"{value!r} is not finite", "write a finite number")
+    return found
+
+
+def sequence(kind: Callable[[Table, str, Any], T]) -> Callable[[Table, str, Any], tuple[T, ...]]:
+    """An array of at least one value, each of one kind."""
+
+    def read(table: Table, key: str, value: Any) -> tuple[T, ...]:
+        if not isinstance(value, list) or not value:
+            raise table.error(key, f"{value!r} is not a list of values", "write [a, b, ...] with one or more values")
+        return tuple(kind(table, f"{key}[{index + 1}]", entry) for index, entry in enumerate(value))
+
+    return read
+
+
+def names(table: Table, key: str, value: Any) -> tuple[str, ...]:
+    """An array of at least one text, none of them twice."""
+    found = sequence(text)(table, key, value)
+    for name in found:
+        if found.count(name) > 1:
+            raise table.error(key, f"{name!r} is there twice", "name it once")
+    return found
+
+
+def expression(table: Table, key: str, value: Any) -> Expression:
+    """A text that is an expression (`analysis.batch.expressions`)."""
+    return Expression(text(table, key, value), (table.file, table.place(key)))
+
+
+def choice_of(*allowed: str) -> Callable[[Table, str, Any], str]:
+    """One of the texts ``allowed``."""
+
+    def read(table: Table, key: str, value: Any) -> str:
+        if value not in allowed:
+            raise table.error(key, f"{value!r} is not known", f"use one of {', '.join(allowed)}")
+        return value
+
+    return read

@@ -1,0 +1,1 @@
+"""What all rooms use: errors, atomic files, progress, percentages, output streams."""

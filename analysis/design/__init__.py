@@ -1,0 +1,1 @@
+"""Design: pole placement, trajectories, control laws and their synthesis."""

@@ -1,0 +1,73 @@
+"""A network operator as expressions: for every output a tree over the sources, with shared parts once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from ....fmus_src.mathlib.network_operator import LARGEST, LOG_LARGEST, SIZE, binary, neutral, unary
+from .law import Law
+
+SOURCE_NAMES = ("pi + theta", "q1", "(hf - h)/h0", "q2", "theta", "q3")  # nodes 1 to 6
+OUTPUT_NUMBERS = (15, 16)  # counted from 1, as printed
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """A node that an output depends on: ``number`` from 1, its binary ``operation``, what it gathers.
+
+    ``source`` is what the node starts from, None for the neutral element of its operation; ``terms`` are
+    the unary operations and the nodes at the other ends of its edges, in the order of gathering.
+    """
+
+    number: int
+    operation: int
+    source: str | None
+    terms: tuple[tuple[int, Node], ...]
+
+
+def expression_tree(matrix: Sequence[Sequence[int]]) -> tuple[Node, ...]:
+    """The nodes of the outputs, u1 and u2."""
+    nodes: dict[int, Node] = {}
+    for column in range(SIZE):
+        terms = [(matrix[row][column], nodes[row + 1]) for row in range(column) if matrix[row][column]]
+        source = SOURCE_NAMES[column] if column < len(SOURCE_NAMES) else None
+        nodes[column + 1] = Node(column + 1, matrix[column][column], source, tuple(terms))
+    return tuple(nodes[output] for output in OUTPUT_NUMBERS)
+
+
+def nodes_of(outputs: Sequence[Node]) -> list[Node]:
+    """Every node that the outputs depend on, themselves included, in order of number."""
+    found: dict[int, Node] = {}
+
+    def walk(node: Node) -> Iterator[Node]:
+        yield node
+        for _, other in node.terms:
+            if other.number not in found:
+                yield from walk(other)
+
+    for output in outputs:
+        for node in walk(output):
+            found[node.number] = node
+    return [found[number] for number in sorted(found)]
+
+
+def evaluate_tree(law: Law, theta: float, altitude_error: float) -> tuple[float, ...]:
+    """What the law's outputs come to, unclipped: thrust angle (rad) and thrust above nominal (kgf).
+
+    ``theta`` is the path angle (rad), ``altitude_error`` is (hf - h)/h0.
+    """
+    q1, q2, q3 = law.q
+    sources: Mapping[str, float] = dict(
+        zip(SOURCE_NAMES, (math.pi + theta, q1, altitude_error, q2, theta, q3), strict=True)
+    )
+    exp_saturation = LOG_LARGEST if law.exp_saturation == "legacy" else LARGEST
+    outputs = expression_tree(law.matrix)
+    values: dict[int, float] = {}
+    for node in nodes_of(outputs):
+        value = neutral(node.operation) if node.source is None else sources[node.source]
+        for operation, other in node.terms:
+            value = binary(node.operation, value, unary(operation, values[other.number], exp_saturation))
+        values[node.number] = value
+    return tuple(values[output.number] for output in outputs)

@@ -1,0 +1,174 @@
+"""Laws as files: a network operator's matrix and parameters as JSON, read, checked, written."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NoReturn
+
+from ....fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
+from ....fmus_src.paths import LAWS
+from ...common.atomic import write_atomically
+from ...common.errors import InputError, suggestion
+
+FORMAT, VERSION = "perilune-network-operator", 1
+KEYS = ("format", "version", "name", "description", "matrix", "q", "exp_saturation")
+EXP_SATURATIONS = ("true", "legacy")  # by their number in the blocks' parameter exp_saturation
+PARAMETERS = 3
+
+Matrix = tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True)
+class Law:
+    """A control law as a network operator.
+
+    ``matrix`` has SIZE rows, the operations as in `fmus_src.mathlib.network_operator`; ``q`` are the
+    law's parameters; ``exp_saturation`` says what exp is where it would be more than 1e8: ``true``
+    1e8, ``legacy`` ln 1e8.
+    """
+
+    name: str
+    matrix: Matrix
+    q: tuple[float, ...]
+    exp_saturation: str
+    description: str = ""
+
+    def document(self) -> dict[str, Any]:
+        """The content of the law's file."""
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "name": self.name,
+            "description": self.description,
+            "matrix": [list(row) for row in self.matrix],
+            "q": list(self.q),
+            "exp_saturation": self.exp_saturation,
+        }
+
+    def write(self, path: Path) -> None:
+        """Write the law's file, a line to each row of the matrix."""
+        rows = ",\n".join(f"  [{', '.join(f'{entry:2d}' for entry in row)}]" for row in self.matrix)
+        lines = {key: json.dumps(value, ensure_ascii=False) for key, value in self.document().items()}
+        lines["matrix"] = f"[\n{rows}\n ]"
+        text = ",\n".join(f' "{key}": {value}' for key, value in lines.items())
+        write_atomically(path, f"{{\n{text}\n}}\n".encode())
+
+
+def named_law(name: str, folder: Path | None = None) -> Path:
+    """The file of a law: NAME for laws/NAME.json of this repository, else a path, relative to ``folder``."""
+    if (LAWS / f"{name}.json").is_file() and Path(name).name == name:
+        return LAWS / f"{name}.json"
+    path = (folder or Path()) / name
+    if not path.is_file():
+        known = [entry.stem for entry in LAWS.glob("*.json")]
+        raise InputError(str(path), "law", "no such law or file", f"{suggestion(name, known)}, or give a path")
+    return path
+
+
+def read_law(path: Path) -> Law:
+    """The law in a file. Raises InputError, for a wrong matrix with the cell: matrix[row,column], from 1."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise InputError(path, "", error.strerror or str(error), "give a readable file") from error
+    except UnicodeDecodeError as error:
+        raise InputError(path, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
+    try:
+        document = json.loads(text, object_pairs_hook=_pairs, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
+        raise InputError(path, "", f"not JSON: {error}", "correct the file at that place") from error
+    return law_of(document, str(path))
+
+
+def law_of(document: Any, file: str) -> Law:
+    """The law in the content of a JSON file called ``file`` in errors. Raises InputError."""
+
+    def refuse(element: str, problem: str, remedy: str) -> NoReturn:
+        raise InputError(file, element, problem, remedy)
+
+    if not isinstance(document, dict):
+        refuse("", "not a law", f"write an object with the keys {', '.join(KEYS)}")
+    for key in document:
+        if key not in KEYS:
+            refuse(key, "unknown key", f"allowed here: {', '.join(KEYS)}")
+    for key in KEYS:
+        if key not in document:
+            refuse(key, "missing", "add it")
+    if document["format"] != FORMAT:
+        refuse("format", f"{document['format']!r} is not a law", f'give "{FORMAT}"')
+    if document["version"] is True or document["version"] != VERSION:
+        refuse("version", f"{document['version']!r} is unknown", f"this Perilune reads version {VERSION}")
+    for key in ("name", "description"):
+        if not isinstance(document[key], str) or not document[key].isprintable():
+            refuse(
+                key, f"{document[key]!r} is not a text on one line", "write it in quotes, without control characters"
+            )
+    if not document["name"].strip():
+        refuse("name", "empty", "give the law a name")
+    if document["exp_saturation"] not in EXP_SATURATIONS:
+        refuse("exp_saturation", f"{document['exp_saturation']!r} is unknown", 'write "true" or "legacy"')
+    return Law(
+        name=document["name"],
+        matrix=_matrix(document["matrix"], file),
+        q=_parameters(document["q"], file),
+        exp_saturation=document["exp_saturation"],
+        description=document["description"],
+    )
+
+
+def _matrix(rows: Any, file: str) -> Matrix:
+    if not isinstance(rows, list) or len(rows) != SIZE:
+        found = f"{len(rows)} row(s)" if isinstance(rows, list) else f"{rows!r}"
+        raise InputError(file, "matrix", f"{found} where {SIZE} are needed", f"give {SIZE} rows of {SIZE} integers")
+    for row, entries in enumerate(rows, 1):
+        if not isinstance(entries, list) or len(entries) != SIZE:
+            found = f"{len(entries)} entries" if isinstance(entries, list) else f"{entries!r}"
+            problem = f"row {row} has {found} where {SIZE} are needed"
+            raise InputError(file, "matrix", problem, f"give {SIZE} rows of {SIZE} integers")
+        for column, entry in enumerate(entries, 1):
+            wrong = _wrong(row, column, entry)
+            if wrong is not None:
+                raise InputError(file, f"matrix[{row},{column}]", *wrong)
+    return tuple(tuple(entries) for entries in rows)
+
+
+def _wrong(row: int, column: int, entry: Any) -> tuple[str, str] | None:
+    """What is wrong with a cell, and what to do; rows and columns from 1."""
+    if isinstance(entry, bool) or not isinstance(entry, int):
+        return f"{entry!r} is not a whole number", "write an integer"
+    if row > column:
+        return (f"{entry} below the diagonal", "write 0: the matrix is upper triangular") if entry else None
+    if row == column:
+        known = ", ".join(map(str, BINARY_OPERATIONS))
+        return None if entry in BINARY_OPERATIONS else (f"{entry} is no binary operation", f"use one of {known}")
+    if entry == 0 or entry in UNARY_OPERATIONS:
+        return None
+    known = ", ".join(map(str, UNARY_OPERATIONS))
+    return f"{entry} is no unary operation", f"use 0 for no edge, or one of {known}"
+
+
+def _parameters(values: Any, file: str) -> tuple[float, ...]:
+    if not isinstance(values, list) or len(values) != PARAMETERS:
+        raise InputError(file, "q", f"{values!r} is not a list of {PARAMETERS} numbers", f"give {PARAMETERS} numbers")
+    for place, value in enumerate(values, 1):
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if not number or not abs(value) <= 1e308 or not math.isfinite(value):
+            raise InputError(file, f"q[{place}]", f"{value!r} is not a finite number", "give a finite number")
+    return tuple(float(value) for value in values)
+
+
+def _pairs(pairs: Sequence[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise ValueError(f"{key} is there twice")
+        found[key] = value
+    return found
+
+
+def _refuse_constant(text: str) -> NoReturn:
+    raise ValueError(f"{text} is no number")

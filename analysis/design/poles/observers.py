@@ -1,0 +1,97 @@
+"""Observers as duals of state feedback: of full order, and of the order of what is not measured.
+
+Luenberger, "Observers for multivariable systems", IEEE Transactions on Automatic Control 11 (1966). With W = C^perp
+(orthonormal columns, C W = 0) x = C^+ y + W z, and zeta = z_h - Lr y rids the reduced one of y'.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.linalg import null_space
+
+from ...common.errors import InputError
+from .controllability import TOLERANCE
+from .place import place
+from .plant import input_matrix, output_matrix, state_matrix
+from .refusal import PlacementError, Reason
+from .results import Observer, ReducedObserver, StateFeedback
+
+
+def observer(
+    a: ArrayLike,
+    c: ArrayLike,
+    poles: ArrayLike,
+    **options: Any,
+) -> Observer:
+    """The gain L (n, p) of x_h' = A x_h + B u + L (y - C x_h) that gives A - L C the n ``poles``.
+
+    ``a`` is A (n, n), ``c`` C (p, n); ``options`` are those of `place` (method, choice, tolerance, starts, seed), of
+    which this is the dual: L' = K of (A', C').
+    Raises InputError; PlacementError where the pair is not observable or the method does not apply.
+    """
+    state = state_matrix(a)
+    outputs = output_matrix(c, len(state))
+    dual = _dual(state, outputs, poles, options)
+    return Observer(dual.method, dual.gain.T, dual.wanted, state - dual.gain.T @ outputs, dual.condition_u, dual.levels)
+
+
+def reduced_observer(
+    a: ArrayLike,
+    c: ArrayLike,
+    poles: ArrayLike,
+    *,
+    b: ArrayLike | None = None,
+    **options: Any,
+) -> ReducedObserver:
+    """The observer of order n - p for outputs without noise, with its n - p ``poles``.
+
+    ``b`` is B (n, m), where there are inputs. The rest is as in `observer`. The result's zeta' = M zeta + from_y y +
+    from_u u, x_h = of_zeta zeta + of_y y; x_h has C x_h = y at every instant.
+    Raises InputError; PlacementError where C has not full row rank, or the pair is not observable.
+    """
+    state = state_matrix(a)
+    outputs = output_matrix(c, len(state))
+    driven = input_matrix(b, len(state)) if b is not None else np.zeros((len(state), 0))
+    sizes = np.linalg.svd(outputs, compute_uv=False)
+    if len(outputs) > len(state) or sizes[-1] <= TOLERANCE * sizes[0]:
+        ratio = float(sizes[-1] / sizes[0]) if sizes[0] else 0.0
+        raise PlacementError(
+            "reduced observer",
+            Reason.RANK,
+            f"C, {len(outputs)} by {len(state)}, has not full row rank: its singular values go down to {ratio:.2g}",
+            ratio,
+            "leave out what other outputs say already",
+        )
+    if len(outputs) == len(state):
+        raise InputError("modal", "C", "it measures every state", "take x = C^-1 y")
+    hidden, inverse = null_space(outputs), np.linalg.pinv(outputs)
+    own, seen = hidden.T @ state, outputs @ state
+    dual = _dual(own @ hidden, seen @ hidden, poles, options)
+    gain = dual.gain.T
+    matrix = own @ hidden - gain @ seen @ hidden
+    return ReducedObserver(
+        dual.method,
+        gain,
+        dual.wanted,
+        matrix,
+        dual.condition_u,
+        dual.levels,
+        from_y=matrix @ gain + (own - gain @ seen) @ inverse,
+        from_u=(hidden.T - gain @ outputs) @ driven,
+        of_zeta=hidden,
+        of_y=inverse + hidden @ gain,
+    )
+
+
+def _dual(a: np.ndarray, c: np.ndarray, poles: ArrayLike, options: dict[str, Any]) -> StateFeedback:
+    try:
+        return place(a.T, c.T, poles, **options)
+    except PlacementError as error:
+        if error.reason is not Reason.NOT_CONTROLLABLE:
+            raise
+        raise PlacementError(
+            "observer", Reason.NOT_OBSERVABLE, f"of (A', C') {error.problem}", error.number, "measure these states, too"
+        ) from None

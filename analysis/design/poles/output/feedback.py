@@ -1,0 +1,144 @@
+"""Output feedback u = F y: direct or dual, and which poles go where."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from enum import StrEnum
+from itertools import islice
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ....common.errors import InputError, suggestion
+from ..plant import input_matrix, output_matrix, state_matrix
+from ..refusal import PlacementError, Reason
+from ..results import OutputFeedback
+from ..spectrum import Spectrum
+from .smallest import smallest
+from .square import square
+from .zeroth_level import ZerothLevel, direct
+
+
+class Route(StrEnum):
+    """Which plant is decomposed."""
+
+    DIRECT = "direct"  # (A, B, C): the upper level takes n - m poles
+    DUAL = "dual"  # (A', C', B'), F transposed: n - p poles
+
+
+class Spread(StrEnum):
+    """Which of the ways to spread the poles over the levels is taken."""
+
+    FIRST = "first"  # that applies
+    LEAST_NORM = "least_norm"  # the smallest of all
+    SMALLEST = "smallest"  # of what is found from there among all F that have the poles
+
+
+def output_feedback(
+    a: ArrayLike,
+    b: ArrayLike,
+    c: ArrayLike,
+    poles: ArrayLike,
+    *,
+    method: str | None = None,
+    choice: str = Spread.FIRST,
+    upper: ArrayLike | None = None,
+    starts: int = 20,
+    seed: int = 0,
+) -> OutputFeedback:
+    """The gain F (m, p) of **u = F y** that gives A + B F C the poles, for m + p >= n.
+
+    ``a`` is A (n, n), ``b`` B (n, m), ``c`` C (p, n), of full ranks; ``poles`` as in `place`. ``method`` is direct or
+    dual, both without one; ``upper`` names the poles of the upper level (n - m of them, dual n - p). Else ``choice`` is
+    first, the first spread that applies; least_norm: every real spread is tried and the smallest |F| returned; or
+    smallest, a search from there in the set of all F with these poles, which is m p - n numbers wide. For m + p > n
+    generic plants have a solution; for m + p = n one is searched for from ``starts`` starts.
+    Raises InputError; PlacementError where no spread that may be tried applies, with the reason of the last.
+    """
+    state = state_matrix(a)
+    plant = state, input_matrix(b, len(state)), output_matrix(c, len(state))
+    spectrum = Spectrum.of(poles, len(state))
+    if method not in (None, *Route):
+        raise InputError("modal", f"method {method!r}", "there is none of that name", suggestion(str(method), Route))
+    if choice not in [*Spread]:
+        raise InputError("modal", f"choice {choice!r}", "there is none of that name", suggestion(choice, Spread))
+    if upper is not None and method is None:
+        raise InputError("modal", "upper", "how many there are depends on the method", "give method direct or dual")
+    if starts < 1:
+        raise InputError("modal", "starts", f"there are {starts}", "give 1 or more")
+    _check_class(*plant)
+    refusals: list[PlacementError] = []
+    found = _placements(*plant, spectrum, method, upper, starts, seed, refusals)
+    tried = [*islice(found, 1)] if choice == Spread.FIRST else [*found]
+    if not tried:
+        raise refusals[-1] if refusals else _no_spread(spectrum)
+    return smallest(tried, *plant) if choice == Spread.SMALLEST else min(tried, key=lambda one: one.norm)
+
+
+def _placements(
+    a: np.ndarray,
+    b: np.ndarray,
+    c: np.ndarray,
+    spectrum: Spectrum,
+    method: str | None,
+    upper: ArrayLike | None,
+    starts: int,
+    seed: int,
+    refusals: list[PlacementError],
+) -> Iterator[OutputFeedback]:
+    """One after the other, direct before dual; what does not apply goes to ``refusals``."""
+    for route, plant in ((Route.DIRECT, (a, b, c)), (Route.DUAL, (a.T, c.T, b.T))):
+        if method not in (None, route):
+            continue
+        level = ZerothLevel(*plant)
+        for high, low in _spreads(spectrum, len(level.down), upper):
+            try:
+                found = square(level, high, low, starts, seed) if level.meets else direct(level, high, low)
+            except PlacementError as error:
+                refusals.append(error)
+                continue
+            yield found if route is Route.DIRECT else _transposed(found)
+
+
+def _transposed(found: OutputFeedback) -> OutputFeedback:
+    return replace(found, method=Route.DUAL, gain=found.gain.T, closed_loop=found.closed_loop.T)
+
+
+def _spreads(spectrum: Spectrum, size: int, upper: ArrayLike | None) -> Iterator[tuple[Spectrum, Spectrum]]:
+    if upper is None:
+        yield from spectrum.splits(size)
+        return
+    high = Spectrum.of(upper, size, "upper")
+    yield high, spectrum.without(high)
+
+
+def _check_class(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> None:
+    states, inputs, outputs = len(a), b.shape[1], len(c)
+    sizes = f"n, m, p = {states}, {inputs}, {outputs}"
+    if inputs + outputs < states:
+        raise PlacementError(
+            "output feedback",
+            Reason.CLASS,
+            f"{sizes}: m + p = {inputs + outputs} is less than n",
+            inputs + outputs,
+            "measure more, or take an observer",
+        )
+    if inputs * outputs < states:
+        raise PlacementError(
+            "output feedback",
+            Reason.CLASS,
+            f"{sizes}: F has m p = {inputs * outputs} elements for n poles",
+            inputs * outputs,
+            "measure more, or take an observer",
+        )
+
+
+def _no_spread(spectrum: Spectrum) -> PlacementError:
+    return PlacementError(
+        "output feedback",
+        Reason.SPREAD,
+        f"{len(spectrum.pairs)} conjugate pairs and {len(spectrum.real)} real poles do not split over the levels",
+        len(spectrum.pairs),
+        "take the other method, or two real poles for a pair",
+    )

@@ -1,0 +1,173 @@
+"""State feedback u = -K x: the methods by name, the one that applies, and the sets that they choose from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...common.errors import InputError, suggestion
+from .ackermann import ackermann, ackermann_of, coefficients_of
+from .bass_gura import bass_gura
+from .controllability import TOLERANCE
+from .freedom import least_condition, least_norm
+from .indices import indices
+from .multilevel import decompose, multilevel, place_on_levels
+from .plant import input_matrix, real_matrix, state_matrix
+from .refusal import PlacementError, Reason
+from .results import StateFeedback
+from .spectrum import Spectrum
+
+_ONE_CLASS: dict[str, Callable[[np.ndarray, np.ndarray, Spectrum], StateFeedback]] = {
+    "ackermann": ackermann,
+    "bass_gura": bass_gura,
+}
+_EVERY_PAIR: dict[str, Callable[[np.ndarray, np.ndarray, Spectrum, float], StateFeedback]] = {
+    "indices": indices,
+    "multilevel": multilevel,
+}
+METHODS = (*_ONE_CLASS, *_EVERY_PAIR)
+STARTS = 8
+_ORTHONORMAL = 1e-9
+
+
+class Choice(StrEnum):
+    """What is done with the freedom that several inputs leave."""
+
+    DIAGONAL = "diagonal"  # nothing: diagonal matrices, blocks for pairs
+    LEAST_CONDITION = "least_condition"  # of the eigenvectors
+    LEAST_NORM = "least_norm"  # of the gain
+
+
+def place(
+    a: ArrayLike,
+    b: ArrayLike,
+    poles: ArrayLike,
+    *,
+    method: str | None = None,
+    choice: str = Choice.DIAGONAL,
+    tolerance: float | None = None,
+    starts: int = STARTS,
+    seed: int = 0,
+) -> StateFeedback:
+    """The gain K (m, n) of **u = -K x** that gives A - B K the poles, as scipy's and python-control's functions do.
+
+    ``a`` is A (n, n), ``b`` B (n, m) of x' = A x + B u, or of a sampled plant; ``poles`` are n real or complex numbers
+    (1/s, or multipliers), conjugates both given, repeated ones repeated. ``method`` is ackermann, bass_gura, indices or
+    multilevel; without one it is multilevel where its levels have room for the pairs, else indices, and the result's
+    ``method`` says which. ``choice`` is diagonal, least_condition (of the eigenvectors: poles that move least) or
+    least_norm (of K), found by ``starts`` searches from ``seed`` and placed by multilevel. What is new in indices and
+    multilevel counts above ``tolerance`` of the matrices that it comes from, 1e-9: their units matter here.
+    Raises InputError; PlacementError where a method does not apply.
+    """
+    state = state_matrix(a)
+    inputs = input_matrix(b, len(state))
+    spectrum = Spectrum.of(poles, len(state))
+    if method is not None and method not in METHODS:
+        raise InputError("modal", f"method {method!r}", "there is none of that name", suggestion(method, METHODS))
+    if choice not in [*Choice]:
+        raise InputError("modal", f"choice {choice!r}", "there is none of that name", suggestion(choice, Choice))
+    if choice != Choice.DIAGONAL:
+        if method not in (None, "multilevel"):
+            raise InputError("modal", f"choice {choice!r}", f"method {method} has none", "take method multilevel")
+        if starts < 1:
+            raise InputError("modal", "starts", f"there are {starts}", "give 1 or more")
+        search = least_condition if choice == Choice.LEAST_CONDITION else least_norm
+        return search(state, inputs, spectrum, starts, seed, _above(tolerance))
+    if method in _ONE_CLASS:
+        if tolerance is not None:
+            raise InputError("modal", "tolerance", f"method {method} has none", "take method indices or multilevel")
+        return _ONE_CLASS[method](state, inputs, spectrum)
+    found = _EVERY_PAIR[method] if method else placed
+    return found(state, inputs, spectrum, _above(tolerance))
+
+
+def placed(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
+    """By the method that applies. Raises PlacementError for a pair that is not controllable."""
+    try:
+        return multilevel(a, b, spectrum, tolerance)
+    except PlacementError as error:
+        if error.reason is not Reason.SPREAD:
+            raise
+        return indices(a, b, spectrum, tolerance)
+
+
+def place_levels(
+    a: ArrayLike,
+    b: ArrayLike,
+    matrices: Sequence[ArrayLike],
+    *,
+    bases: Sequence[ArrayLike] | None = None,
+    tolerance: float | None = None,
+) -> StateFeedback:
+    """The gain K of u = -K x from the matrix Phi_i that each level of the multilevel decomposition should have.
+
+    ``matrices`` are real, (r_i, r_i), level 0 (what the inputs drive) first. ``bases`` (n, r_i) are orthonormal columns
+    that span the levels; then the closed loop is z' = Phi_i z in these coordinates of the level, driven from the level
+    below only, as with angles and rates: bases [I[:, 3:], I[:, :3]] of x = (angles, rates). Without them they are those
+    of singular value decompositions, and K is unique only for multiples of I. ``tolerance`` is as in `place`.
+    Raises InputError and PlacementError.
+    """
+    state = state_matrix(a)
+    inputs = input_matrix(b, len(state))
+    if bases is None:
+        levels = decompose(state, inputs, _above(tolerance))
+    else:
+        given = [real_matrix(f"bases[{i}]", basis) for i, basis in enumerate(bases)]
+        turn = _whole(given, len(state))
+        levels = decompose(
+            turn.T @ state @ turn, turn.T @ inputs, _above(tolerance), [basis.shape[1] for basis in given]
+        )
+    if len(matrices) != len(levels):
+        ranks = ", ".join(str(level.rank) for level in levels)
+        raise InputError(
+            "modal", "matrices", f"there are {len(matrices)}", f"give one for each level, of sizes {ranks}"
+        )
+    sizes = [(level.rank, level.rank) for level in levels]
+    wanted = [
+        real_matrix(f"matrices[{i}]", phi, size) for i, (phi, size) in enumerate(zip(matrices, sizes, strict=True))
+    ]
+    found = place_on_levels(levels, wanted, np.concatenate([np.linalg.eigvals(phi) for phi in wanted]))
+    if bases is None:
+        return found
+    gain = found.gain @ turn.T
+    return replace(found, gain=gain, closed_loop=state - inputs @ gain)
+
+
+def place_polynomial(a: ArrayLike, b: ArrayLike, coefficients: Sequence[ArrayLike] | np.ndarray) -> StateFeedback:
+    """The gain K of u = -K x with det(s I - A + B K) = det(I s^p + N_(p-1) s^(p-1) + .. + N_0), n = p m.
+
+    ``coefficients`` are the N (p, m, m), N_0 first: generalised Ackermann formula. Raises InputError, PlacementError.
+    """
+    state = state_matrix(a)
+    inputs = input_matrix(b, len(state))
+    size = inputs.shape[1]
+    shape = (len(state) // size, size, size)
+    return ackermann_of(state, inputs, real_matrix("coefficients", coefficients, shape))
+
+
+def polynomial_of_gain(a: ArrayLike, b: ArrayLike, gain: ArrayLike) -> np.ndarray:
+    """The N (p, m, m) with which `place_polynomial` gives this K (m, n). Raises InputError and PlacementError."""
+    state = state_matrix(a)
+    inputs = input_matrix(b, len(state))
+    return coefficients_of(state, inputs, real_matrix("K", gain, inputs.T.shape))
+
+
+def _above(tolerance: float | None) -> float:
+    if tolerance is None:
+        return TOLERANCE
+    if not 0.0 < tolerance < 1.0:
+        raise InputError("modal", "tolerance", f"it is {tolerance:g}", "give a number between 0 and 1")
+    return tolerance
+
+
+def _whole(bases: Sequence[np.ndarray], states: int) -> np.ndarray:
+    """The bases side by side, an orthonormal basis of the state."""
+    if all(len(basis) == states for basis in bases) and sum(basis.shape[1] for basis in bases) == states:
+        whole = np.hstack(bases)
+        if np.max(np.abs(whole.T @ whole - np.eye(states))) <= _ORTHONORMAL:
+            return whole
+    raise InputError("modal", "bases", "together they are no orthonormal basis of the state", "make them one")

@@ -1,0 +1,162 @@
+"""Wanted spectra: poles closed under conjugation, their real matrices, and how they are spread over levels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.linalg import block_diag
+from scipy.optimize import linear_sum_assignment
+
+from ...common.errors import InputError
+
+_CONJUGATE = 1e-8  # relative; how well a pole and its conjugate agree as they are given
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """The real poles, and of each conjugate pair the one with the positive imaginary part, both ascending."""
+
+    real: tuple[float, ...] = ()
+    pairs: tuple[complex, ...] = ()
+
+    @classmethod
+    def of(cls, poles: ArrayLike, size: int, name: str = "poles") -> Spectrum:
+        """``size`` poles as they are given. Raises InputError for another number, or a pole without its conjugate."""
+        found = np.asarray(poles)
+        if found.dtype.kind not in "biufc" or found.ndim != 1 or not np.all(np.isfinite(found)):
+            raise InputError("modal", name, "they are no list of finite numbers", "give real or complex numbers")
+        if len(found) != size:
+            raise InputError("modal", name, f"there are {len(found)}", f"give {size}, repeated ones repeated")
+        conjugates = [complex(pole).conjugate() for pole in found if pole.imag < 0.0]
+        pairs = []
+        for pole in [complex(pole) for pole in found if pole.imag > 0.0]:
+            partner = _taken(conjugates, pole)
+            if partner is None:
+                raise _alone(name, pole)
+            pairs.append(0.5 * (pole + partner))
+        if conjugates:
+            raise _alone(name, conjugates[0].conjugate())
+        return cls.sorted([float(pole.real) for pole in found if pole.imag == 0.0], pairs)
+
+    @classmethod
+    def sorted(cls, real: Sequence[float], pairs: Sequence[complex]) -> Spectrum:
+        return cls(tuple(sorted(real)), tuple(sorted(pairs, key=lambda pole: (pole.real, pole.imag))))
+
+    @property
+    def size(self) -> int:
+        return len(self.real) + 2 * len(self.pairs)
+
+    @property
+    def poles(self) -> np.ndarray:
+        """All of them (n,), a pair side by side."""
+        both = [pole for pair in self.pairs for pole in (pair, pair.conjugate())]
+        return np.array([*self.real, *both], dtype=complex)
+
+    @property
+    def matrix(self) -> np.ndarray:
+        """A real matrix that has them: its diagonal, and [a b; -b a] for a pair a +- i b."""
+        blocks = [np.array([[pair.real, pair.imag], [-pair.imag, pair.real]]) for pair in self.pairs]
+        return block_diag(np.diag(self.real), *blocks) if self.real else block_diag(*blocks)
+
+    @property
+    def polynomial(self) -> np.ndarray:
+        """Coefficients of the monic polynomial with these roots, ascending; the last is 1."""
+        return np.real(np.poly(self.poles))[::-1] if self.size else np.ones(1)
+
+    def splits(self, size: int) -> Iterator[tuple[Spectrum, Spectrum]]:
+        """Every part of ``size`` poles that is closed under conjugation, with the rest."""
+        seen = set()
+        for count in range(min(size // 2, len(self.pairs)) + 1):
+            for pairs in combinations(range(len(self.pairs)), count):
+                for real in combinations(range(len(self.real)), size - 2 * count):
+                    part = Spectrum(tuple(self.real[i] for i in real), tuple(self.pairs[i] for i in pairs))
+                    if part not in seen:
+                        seen.add(part)
+                        yield (
+                            part,
+                            Spectrum(
+                                tuple(pole for i, pole in enumerate(self.real) if i not in real),
+                                tuple(pole for i, pole in enumerate(self.pairs) if i not in pairs),
+                            ),
+                        )
+
+    def without(self, part: Spectrum) -> Spectrum:
+        """What remains when ``part`` is taken away. Raises InputError for a pole that is not there."""
+        real, pairs = list(self.real), list(self.pairs)
+        for pole in (*part.real, *part.pairs):
+            if _taken(real if isinstance(pole, float) else pairs, pole) is None:
+                raise InputError("modal", "upper", f"{pole:g} is none of the poles", "name some of them")
+        return Spectrum(tuple(real), tuple(pairs))
+
+    def dealt(self, sizes: Sequence[int]) -> list[Spectrum] | None:
+        """Parts of the ``sizes``, neighbours in different ones where it can be; None where the pairs do not fit.
+
+        Pairs go first. The parts take turns, those with most room first.
+        """
+        room, real, pairs = list(sizes), _lists(sizes), _lists(sizes)
+        if not self._fits(room):
+            return None
+        for pair in self.pairs:
+            place = max(range(len(room)), key=lambda i: (room[i] // 2, -len(pairs[i]), -i))
+            pairs[place].append(pair)
+            room[place] -= 2
+        for pole in self.real:
+            place = max(range(len(room)), key=lambda i: (room[i], -i))
+            real[place].append(pole)
+            room[place] -= 1
+        return [Spectrum.sorted(*part) for part in zip(real, pairs, strict=True)]
+
+    def ranked(self, sizes: Sequence[int]) -> list[Spectrum] | None:
+        """Parts of the ``sizes``, the fastest poles in the first and so on as far as pairs let; None where they do not.
+
+        A pole goes to the first part that has room for it and leaves room for the pairs to come.
+        """
+        room, real, pairs = list(sizes), _lists(sizes), _lists(sizes)
+        if not self._fits(room):
+            return None
+        left = len(self.pairs)
+        for pole in sorted([*self.real, *self.pairs], key=abs, reverse=True):
+            size = 1 if isinstance(pole, float) else 2
+            left -= size == 2
+            for place in range(len(room)):
+                after = [free - size * (i == place) for i, free in enumerate(room)]
+                if after[place] >= 0 and sum(free // 2 for free in after) >= left:
+                    (real if size == 1 else pairs)[place].append(pole)
+                    room = after
+                    break
+        return [Spectrum.sorted(*part) for part in zip(real, pairs, strict=True)]
+
+    def _fits(self, sizes: Sequence[int]) -> bool:
+        return len(self.pairs) <= sum(size // 2 for size in sizes)
+
+
+def _taken(poles: list, pole: complex) -> complex | None:
+    """The nearest of the poles, taken out of the list; None when none is the same within rounding."""
+    nearest = min(poles, key=lambda other: abs(other - pole), default=None)
+    if nearest is None or abs(nearest - pole) > _CONJUGATE * abs(pole):
+        return None
+    poles.remove(nearest)
+    return nearest
+
+
+def _lists(sizes: Sequence[int]) -> list[list]:
+    return [[] for _ in sizes]
+
+
+def matched(wanted: np.ndarray, found: np.ndarray) -> np.ndarray:
+    """For each pole found the wanted one, one to one, so that the sum of the distances is least."""
+    rows, columns = linear_sum_assignment(np.abs(found[:, None] - wanted[None, :]))
+    return wanted[columns[np.argsort(rows)]]
+
+
+def distance(wanted: np.ndarray, found: np.ndarray) -> float:
+    """The largest distance between poles that are matched."""
+    return float(np.max(np.abs(matched(wanted, found) - found), initial=0.0))
+
+
+def _alone(name: str, pole: complex) -> InputError:
+    return InputError("modal", name, f"{pole:g} has no conjugate", f"give {pole.conjugate():g}, too")

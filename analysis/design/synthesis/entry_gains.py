@@ -1,0 +1,102 @@
+"""The gains of the entry capsule's output feedback, from its aerodynamic table: `make gains` rewrites them.
+
+Bank, sideslip and two rates at trim, at frozen pressure q: bank' = c0 wx - s0 wy, sideslip' = s0 wx + c0 wy,
+J (wx', wy')' = q m sideslip + (ux, uy), measured bank, wx, wy. The poles -0.35, -0.6, -0.7 +- 0.8i are spread over the
+levels in four ways. Source: Lapin, thesis, chapters 2 and 3.2; numbers ours: docs/systems/entry_attitude.md.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from ....fmus_src.mathlib.entry_motion import body_axes
+from ....fmus_src.mathlib.vectors import cross, vector
+from ....fmus_src.paths import ROOT
+from ....fmus_src.plants.entry_capsule import EntryCapsule
+from ...common.atomic import write_atomically
+from ..poles.output.levels import output_feedback_levels
+
+TRIM = math.radians(-20.0)
+MACH = 25.9  # at 75 km, where one gain has to do for all
+DESIGN_PRESSURE = 1147.0  # Pa, there
+SCHEDULE = (600.0, 1200.0, 2400.0)  # Pa
+REAL, PAIR = (-0.35, -0.6), (-0.7, 0.8)
+TURNING = np.array([[PAIR[0], -PAIR[1]], [PAIR[1], PAIR[0]]])
+OUTPUT = Path("fmus_src/mathlib/entry_gains.py")
+
+
+def sideslip_moments() -> tuple[float, float]:
+    """Moments about x and y (N m) of the air over pressure (Pa) and sideslip (rad), at trim, by central differences.
+
+    Rounded as the model of the docs is, to four and three decimals.
+    """
+    capsule = EntryCapsule()
+    capsule.initialize()
+    h, moments = 1e-4, []
+    for sideslip in (h, -h):
+        v = capsule.in_body(*body_axes(vector(0.0, sideslip, TRIM)), vector(1.0, 0.0, 0.0))
+        # two units of density make the pressure one
+        moments.append(cross(capsule.pressure_arm, capsule.air_force(v, 2.0, 1.0 / MACH)))
+    x, y, _ = (moments[0] - moments[1]) / (2.0 * h)
+    return round(x, 4), round(y, 3)
+
+
+def plant(pressure: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A, B, C of (bank, sideslip, wx, wy), torques (ux, uy) and outputs (bank, wx, wy) at a pressure (Pa)."""
+    inertia = np.reshape(EntryCapsule().inertia, (3, 3))[:2, :2]
+    a = np.zeros((4, 4))
+    a[0, 2:], a[1, 2:] = [math.cos(TRIM), -math.sin(TRIM)], [math.sin(TRIM), math.cos(TRIM)]
+    a[2:, 1] = np.linalg.solve(inertia, pressure * np.array(sideslip_moments()))
+    return a, np.vstack([np.zeros((2, 2)), np.linalg.inv(inertia)]), np.delete(np.eye(4), 1, axis=0)
+
+
+def direct(pressure: float, upper: np.ndarray, lower: list[complex]) -> np.ndarray:
+    """F with ``upper`` on (bank, sideslip)."""
+    return output_feedback_levels(*plant(pressure), upper, lower, basis=np.eye(4)[:, :2]).gain
+
+
+def dual(pressure: float, upper: float, lower: list[complex]) -> np.ndarray:
+    """F by the dual plant, one real pole on its upper level."""
+    a, b, c = plant(pressure)
+    return output_feedback_levels(a.T, c.T, b.T, [[upper]], lower).gain.T
+
+
+def sideslip_block(pressure: float) -> np.ndarray:
+    """[x -y; y x] of the roots x +- iy of p^2 + min(1.4 w, 1) p + w^2, w that of the sideslip's own swing."""
+    a, _, _ = plant(pressure)
+    square = -float(np.array([math.sin(TRIM), math.cos(TRIM)]) @ a[2:, 1])
+    damping = 0.5 * min(1.4 * math.sqrt(square), 1.0)
+    swing = math.sqrt(square - damping * damping)
+    return np.array([[-damping, -swing], [swing, -damping]])
+
+
+def entry_gains() -> dict[str, np.ndarray]:
+    """Gains F (SI, rows of torques x, y over bank, wx, wy) by name; the scheduled ones below each other."""
+    pair = [complex(*PAIR), complex(PAIR[0], -PAIR[1])]
+    slow, fast = REAL
+    return {
+        "DIRECT_1": direct(DESIGN_PRESSURE, TURNING, [slow, fast]),
+        "DIRECT_0": direct(DESIGN_PRESSURE, np.diag(REAL), pair),
+        "DUAL_A": dual(DESIGN_PRESSURE, fast, [slow, *pair]),
+        "DUAL_B": dual(DESIGN_PRESSURE, slow, [fast, *pair]),
+        "SCHEDULED": np.vstack([direct(q, sideslip_block(q), [slow, fast]) for q in SCHEDULE]),
+    }
+
+
+def gains_text() -> str:
+    """The module that blocks read their gains from."""
+    lines = [
+        '"""Gains of the capsule\'s output feedback by `make gains`: rows of torques x, y over bank, wx, wy, SI."""',
+        "",
+        f"SCHEDULE = [{', '.join(str(q) for q in SCHEDULE)}]  # Pa",
+    ]
+    for name, gain in entry_gains().items():
+        lines += [f"{name} = [", *[f"    {round(value, 4)!r}," for value in gain.ravel().tolist()], "]"]
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    write_atomically(ROOT / OUTPUT, gains_text().encode())

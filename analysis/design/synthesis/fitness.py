@@ -1,0 +1,102 @@
+"""What a law is worth: its flights in the co-simulated system, every trial of a campaign."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ...campaigns.fly.workers.flyer import Flyer, TrialResult
+from ...campaigns.fly.workers.workers import FlyerPool
+from ...campaigns.spec.expressions import Expression
+from ...campaigns.spec.plan import BatchPlan
+from ...common.errors import InputError
+from ...runtime.ssp.parameter_sets import ParameterValue
+from ..laws.law import Law
+from ..laws.parameter_set import law_parameters
+from .candidate import Bar, Evaluation, Task
+
+VARIANT = "default"
+
+
+class FlightEvaluator:
+    """Evaluates laws by flying them, as many at a time as there are workers; see `evaluator.Evaluator`.
+
+    ``plan`` overlays the parameters of ``component`` that make a law; ``basic`` gives what the search does
+    not vary; ``objectives`` are expressions over metrics. ``evaluated`` is called after each law.
+    Use it as a context manager: it holds the workers.
+    """
+
+    def __init__(
+        self,
+        plan: BatchPlan,
+        component: str,
+        basic: Law,
+        objectives: Sequence[Expression],
+        *,
+        workers: int,
+        native: bool,
+        evaluated: Callable[[], object] = lambda: None,
+    ) -> None:
+        self.trials = plan.campaign.trials
+        self.objectives = len(objectives)
+        self._expressions = tuple(objectives)
+        self._component = component
+        self._basic = basic
+        self._evaluated = evaluated
+        self._pool = FlyerPool(plan, workers, native)
+
+    def evaluate(self, tasks: Sequence[Task], bar: Bar | None) -> list[Evaluation]:
+        """Evaluations in the order of the tasks. Raises InputError for an objective below 0."""
+        found: dict[int, Evaluation] = {}
+        work = [(self._overlay(task), self._expressions, task.known, bar) for task in tasks]
+        for place, evaluation in self._pool.work(fly_law, work):
+            found[place] = evaluation
+            self._evaluated()
+        return [found[place] for place in range(len(tasks))]
+
+    def _overlay(self, task: Task) -> dict[str, ParameterValue]:
+        law = Law(self._basic.name, task.law.matrix, task.law.q, self._basic.exp_saturation)
+        return dict(law_parameters(law, self._component))
+
+    def __enter__(self) -> FlightEvaluator:
+        self._pool.__enter__()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._pool.__exit__(*error)
+
+
+def fly_law(
+    flyer: Flyer,
+    overlay: dict[str, ParameterValue],
+    expressions: Sequence[Expression],
+    known: Evaluation,
+    bar: Bar | None,
+) -> Evaluation:
+    """Fly a law's trials after the known ones, in order, to the last or until the bar rejects the sums."""
+    sums, successes, flown = known
+    trials = flyer.plan.campaign.trials
+    given: dict[str, ParameterValue] | None = overlay
+    while flown < trials:
+        result = flyer.fly_one(VARIANT, flown, given)
+        given = None  # the law stays
+        values = [objective_value(expression, result, flown) for expression in expressions]
+        sums = tuple(total + value for total, value in zip(sums, values, strict=True))
+        successes += result.success
+        flown += 1
+        if flown < trials and bar is not None and bar.rejects(sums):
+            break
+    return Evaluation(sums, successes, flown)
+
+
+def objective_value(expression: Expression, result: TrialResult, trial: int) -> float:
+    """An objective in one trial; infinite where it is no number, as after a flight that failed."""
+    value = float(np.asarray(expression.evaluate(result.metrics)))
+    if math.isnan(value):
+        return math.inf
+    if value < 0.0:
+        problem = f"{value:g} in trial {trial}"
+        raise InputError(*expression.where, problem, "write an expression that is never below 0, such as abs(...)")
+    return value

@@ -1,0 +1,144 @@
+"""What a synthesis leaves: the Pareto set, the chosen law as file, parameter set and drawing, a log."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...common.atomic import write_atomically
+from ..laws.formula import formula, formula_text
+from ..laws.graph import law_svg
+from ..laws.law import Law
+from ..laws.parameter_set import parameter_set
+from .candidate import Candidate
+from .genetic import Search
+from .synthesis_file import Synthesis
+
+FORMAT, VERSION = "perilune-pareto-set", 2
+
+
+@dataclass
+class SynthesisResult:
+    """A search as far as it came; ``ended`` says why: success, generations or evaluations."""
+
+    synthesis: Synthesis
+    search: Search
+    provenance: Mapping[str, Any]
+    ended: str
+
+    @property
+    def law(self) -> Law:
+        """The law of the chosen candidate."""
+        return self._law(self.search.chosen())
+
+    def _law(self, candidate: Candidate) -> Law:
+        found = self.search.law(candidate)
+        evaluation = candidate.evaluation
+        file = Path(self.synthesis.campaign.file).name
+        description = (
+            f"Found by {file}, seed {self.provenance['seed']}, from {self.synthesis.basic.name}: "
+            f"{self._words(candidate)}; "
+            f"{evaluation.successes} of {evaluation.flown} trials are successes."
+        )
+        name = f"{Path(file).stem}_{candidate.key[:8]}"
+        return Law(name, found.matrix, found.q, self.synthesis.basic.exp_saturation, description)
+
+    @property
+    def succeeded(self) -> bool:
+        """Whether the chosen law has every trial a success."""
+        return self.search.chosen().evaluation.successes == self.search.evaluator.trials
+
+    def failure(self) -> str:
+        """A line for a search that found no law, with what to do."""
+        evaluation = self.search.chosen().evaluation
+        return (
+            f"{self.synthesis.campaign.file}: no law found: the chosen one succeeds in {evaluation.successes} of "
+            f"{self.search.evaluator.trials} trials; give more generations, another --seed or another basic solution"
+        )
+
+    def _objectives(self, candidate: Candidate) -> dict[str, dict[str, float]]:
+        """Of each objective the sum over the flights, which the search makes small, and the mean of one flight."""
+        _, _, flown = evaluation = candidate.evaluation
+        sums = zip(self.synthesis.objectives, evaluation.objectives, strict=True)
+        return {name: {"sum": value, "mean": value / flown} for name, value in sums}
+
+    def _words(self, candidate: Candidate) -> str:
+        flown = candidate.evaluation.flown
+        return ", ".join(
+            f"{name} {value['mean']:.6g} per flight ({value['sum']:.6g} over {flown})"
+            for name, value in self._objectives(candidate).items()
+        )
+
+    def _member(self, candidate: Candidate) -> dict[str, Any]:
+        objectives = {
+            name: {kind: _plain(number) for kind, number in value.items()}
+            for name, value in self._objectives(candidate).items()
+        }
+        return {
+            "objectives": objectives,
+            "flights": candidate.evaluation.flown,
+            "successes": candidate.evaluation.successes,
+            "law": self._law(candidate).document(),
+        }
+
+    def document(self) -> dict[str, Any]:
+        """The result: provenance, counts, the chosen law with its formula, and the Pareto set."""
+        state = self.search.state
+        front = sorted(state.front, key=lambda candidate: candidate.evaluation.objectives)
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            **self.provenance,
+            "ended": self.ended,
+            "generations": state.generation,
+            "evaluations": state.evaluations,
+            "flights": state.flights,
+            "chosen": self._member(self.search.chosen()) | {"formula": formula(self.law)},
+            "members": [self._member(candidate) for candidate in front],
+        }
+
+    def write(self, folder: str | os.PathLike[str]) -> None:
+        """Write pareto.json, law.json, law.ssv, law.svg and log.csv."""
+        folder = Path(folder)
+        text = json.dumps(self.document(), indent=1, allow_nan=False) + "\n"
+        write_atomically(folder / "pareto.json", text.encode())
+        self.law.write(folder / "law.json")
+        write_atomically(folder / "law.ssv", parameter_set(self.law, self.synthesis.component))
+        write_atomically(folder / "law.svg", law_svg(self.law))
+        write_log(folder / "log.csv", self.synthesis, self.search)
+
+    def text(self) -> str:
+        """The result for a terminal."""
+        state, chosen = self.search.state, self.search.chosen()
+        return "\n".join(
+            [
+                f"laws flown: {state.evaluations}, in {state.flights} flights, {state.generation} generations; "
+                f"ended by {self.ended}; {len(state.front)} in the Pareto set",
+                f"chosen: {chosen.evaluation.successes} of {chosen.evaluation.flown} trials are successes; "
+                + self._words(chosen),
+                "",
+                formula_text(self.law),
+            ]
+        )
+
+
+def write_log(path: Path, synthesis: Synthesis, search: Search) -> None:
+    """Write the history, a line per generation, with the least sum of every objective so far."""
+    names = {f"least_{place}": f"least_sum_of_{name}" for place, name in enumerate(synthesis.objectives, 1)}
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    history = search.state.history
+    writer.writerow([names.get(key, key) for key in history[0]])
+    writer.writerows(line.values() for line in history)
+    write_atomically(path, buffer.getvalue().encode())
+
+
+def _plain(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,158 @@
+"""Runs a synthesis: evaluator, search, checkpoints, results."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...campaigns.fly.shards.files import write_draws
+from ...campaigns.fly.workers.flyer import Flyer
+from ...campaigns.fly.workers.workers import worker_count
+from ...campaigns.spec.checks import check_plan
+from ...campaigns.spec.plan import BatchPlan
+from ...common.errors import InputError, suggestion
+from ...common.progress import progress_bar
+from ...runtime.system.prepared import PreparedSystem
+from ..laws.parameter_set import law_parameters
+from .checkpoint import read_checkpoint, write_checkpoint
+from .fitness import VARIANT, FlightEvaluator
+from .genetic import Search, SearchState
+from .outcome import SynthesisResult, write_log
+from .synthesis_file import Synthesis
+
+CHECKPOINT = "checkpoint.json"
+
+
+def run_synthesis(
+    synthesis: Synthesis,
+    *,
+    seed: int | None = None,
+    workers: int | None = None,
+    output: Path | None = None,
+    resume: bool = False,
+    evaluations: int | None = None,
+) -> SynthesisResult:
+    """Search for laws. Raises InputError before anything flies.
+
+    ``seed`` replaces the campaign's; ``workers`` is the number of laws that fly at the same time (default:
+    one per processor) and does not change the result. With ``output`` a checkpoint is written there after
+    every generation, from which ``resume`` goes on, and the results at the end. The search ends
+    with the generation in which ``evaluations`` laws have flown.
+    """
+    output = None if output is None else output.absolute()  # FMUs may change the working folder
+    count = worker_count(workers)
+    if evaluations is not None and evaluations < 1:
+        raise InputError("--evaluations", str(evaluations), "not a positive number", "give 1 or more")
+    checkpoint = _checkpoint(output, resume)
+    plan = synthesis.plan(seed)
+    prepared = _checked(synthesis, plan)
+    facts = provenance(synthesis, plan, prepared)
+    stored = {name: fact for name, fact in facts.items() if name != "campaign"}  # the file may have moved
+    state = _first_state(synthesis, plan)
+    if resume and checkpoint is not None:
+        state = read_checkpoint(checkpoint, stored)
+    elif output is not None:
+        write_draws(plan, output, plan.campaign.trials)
+    objectives = tuple(synthesis.objectives.values())
+    with (
+        progress_bar(initial=state.evaluations, unit="law") as progress,
+        FlightEvaluator(
+            plan,
+            synthesis.component,
+            synthesis.basic,
+            objectives,
+            workers=count,
+            native=prepared.flies_in_threads,
+            evaluated=progress.update,
+        ) as evaluator,
+    ):
+        search = Search(synthesis.settings, evaluator, state)
+        while not state.population or not (search.is_over or _is_spent(state, evaluations)):
+            search.advance()
+            if checkpoint is not None:
+                write_checkpoint(checkpoint, state, stored)
+                write_log(checkpoint.with_name("log.csv"), synthesis, search)
+            found = f"{state.history[-1]['successes']} of {evaluator.trials} trials are successes"
+            progress.set_postfix_str(f"generation {state.generation}, {found}")
+    result = SynthesisResult(synthesis, search, facts, _reason(search))
+    if output is not None:
+        result.write(output)
+    return result
+
+
+def _checkpoint(output: Path | None, resume: bool) -> Path | None:
+    """The checkpoint's file; refuses to lose one, or to resume without."""
+    if output is None:
+        if resume:
+            raise InputError("--resume", "", "no folder to resume from", "give --output DIR")
+        return None
+    path = output / CHECKPOINT
+    if path.exists() and not resume:
+        raise InputError(path, "", "there is a search here already", "give --resume to go on, or another --output")
+    return path
+
+
+def _checked(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
+    """The system, with a component that a law can be given to."""
+    without_law = BatchPlan(plan.system, plan.campaign, plan.options, plan.campaign_sha256)
+    prepared = check_plan(without_law)[VARIANT]
+    fmus, component = prepared.network.fmus, synthesis.component
+    where = (plan.campaign.file, "network_operator.component")
+    if component not in fmus:
+        raise InputError(*where, f"no component {component} in the system", suggestion(component, fmus))
+    for name in plan.overlaid:
+        if name.removeprefix(f"{component}.") not in fmus[component].variables:
+            problem = f"{component} is flown by {fmus[component].name}, which has no parameter {name}"
+            raise InputError(*where, problem, 'name the FMU of a network operator with fmu = "..."')
+    prepared = check_plan(plan)[VARIANT]
+    _rehearse(synthesis, plan)
+    return prepared
+
+
+def _rehearse(synthesis: Synthesis, plan: BatchPlan) -> None:
+    """Fly the basic solution once: a system that cannot fly it would fail with every other law as well."""
+    flyer = Flyer(plan)
+    try:
+        result = flyer.fly_one(VARIANT, 0, law_parameters(synthesis.basic, synthesis.component))
+    finally:
+        flyer.close()
+    if result.message:
+        problem = f"the basic solution's first flight failed: {result.message}"
+        raise InputError(plan.campaign.file, "trial 0", problem, "correct step, parameters or system")
+
+
+def _first_state(synthesis: Synthesis, plan: BatchPlan) -> SearchState:
+    code = synthesis.settings.coding.encode(synthesis.basic.q)
+    random = np.random.Generator(np.random.PCG64(plan.campaign.seed))
+    return SearchState(random=random, bases=[synthesis.basic.matrix], code=code)
+
+
+def _is_spent(state: SearchState, evaluations: int | None) -> bool:
+    return evaluations is not None and state.evaluations >= evaluations
+
+
+def _reason(search: Search) -> str:
+    if search.state.succeeded:
+        return "success"
+    return "generations" if search.is_over else "evaluations"
+
+
+def provenance(synthesis: Synthesis, plan: BatchPlan, prepared: PreparedSystem) -> dict[str, Any]:
+    """What the result depends on."""
+    return {
+        "system": prepared.archive.name,
+        "system_sha256": prepared.archive.digest,
+        "campaign": plan.campaign.file,
+        "campaign_sha256": plan.campaign_sha256,
+        "seed": plan.campaign.seed,
+        "component": synthesis.component,
+        "basic_solution": synthesis.basic.document(),
+        "start_time": prepared.start,
+        "step": prepared.step,
+        "steps": prepared.steps,
+        "fmus": {name: fmu.digest for name, fmu in prepared.network.fmus.items()},
+        "perilune": version("perilune"),
+    }

@@ -1,0 +1,173 @@
+"""Reads what a synthesis is from its TOML file: a campaign, and the table [network_operator] of the search."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+from ....fmus_src.paths import SEARCHES
+from ...campaigns.spec.campaign import Campaign
+from ...campaigns.spec.expressions import Expression
+from ...campaigns.spec.file import SYNTHESIS, parse_campaign
+from ...campaigns.spec.plan import BatchPlan
+from ...campaigns.spec.toml_table import Table, expression, integer, number, read_toml, text
+from ...common.errors import InputError
+from ...runtime.system.options import SystemOptions
+from ..laws.law import Law, named_law, read_law
+from ..laws.parameter_set import law_parameters
+from .search_settings import SearchSettings
+from .variations import OUTPUTS, SIZE, SOURCES, edges_in, edges_out
+
+OWN_KEYS = ("component", "fmu", "law", "step", "stop_time", "objectives")
+REFUSED = {  # tables of a campaign, and why they do not go with a search
+    "compare": "one law flies at a time",
+    "record": "nothing is kept of the flights",
+    "group": "a law is judged by all trials",
+    "requirement": "objectives judge a law",
+}
+LIMITS: Mapping[str, tuple[float, float]] = {
+    "population": (2, 5000),
+    "generations": (1, 100_000),
+    "crossovers": (1, 100_000),
+    "variations": (1, 1000),
+    "elites": (0, 5000),
+    "mutation": (0.0, 1.0),
+    "crossover": (0.0, 1.0),
+    "renewal": (1, 100_000),
+    "integer_bits": (0, 24),
+    "fraction_bits": (0, 24),
+}
+
+
+@dataclass(frozen=True)
+class Synthesis:
+    """A synthesis as declared.
+
+    ``component`` is flown by ``fmu`` where one is named; ``basic`` is the law that the search begins with;
+    ``objectives`` are expressions over metrics by name, to be made small. ``step`` and ``stop_time`` (s)
+    replace the system's. ``sha256`` is that of the file.
+    """
+
+    campaign: Campaign
+    component: str
+    fmu: str | None
+    basic: Law
+    settings: SearchSettings
+    objectives: Mapping[str, Expression]
+    step: float | None
+    stop_time: float | None
+    sha256: str
+
+    def plan(self, seed: int | None = None) -> BatchPlan:
+        """What is flown for every candidate; ``seed`` replaces the campaign's."""
+        campaign = self.campaign if seed is None else replace(self.campaign, seed=seed)
+        options = SystemOptions(
+            use={} if self.fmu is None else {self.component: self.fmu}, step=self.step, stop_time=self.stop_time
+        )
+        overlaid = tuple(law_parameters(self.basic, self.component))
+        return BatchPlan(campaign.system, campaign, options, self.sha256, overlaid)
+
+
+def named_search(name: str) -> Path:
+    """The file of a search: NAME for laws/searches/NAME.toml of this repository, else a path."""
+    own = SEARCHES / f"{name}.toml"
+    return own if own.is_file() and Path(name).name == name else Path(name)
+
+
+def read_synthesis(path: Path) -> Synthesis:
+    """The synthesis in a TOML file. Raises InputError."""
+    whole = read_toml(path)
+    if SYNTHESIS not in whole.content:
+        raise whole.error(SYNTHESIS, "missing", f"add [{SYNTHESIS}] with component, law and objectives")
+    for key, reason in REFUSED.items():
+        if key in whole.content:
+            raise whole.error(key, f"not for a synthesis: {reason}", "drop it; perilune batch flies what was found")
+    rest = {key: value for key, value in whole.content.items() if key != SYNTHESIS}
+    campaign = parse_campaign(Table(rest, whole.file))
+    table = whole.table(SYNTHESIS)
+    settings_keys = [field.name for field in fields(SearchSettings)]
+    table.only([*OWN_KEYS, *settings_keys])
+    settings = _settings(table)
+    component = table.get("component", text)
+    law_path = named_law(table.get("law", text), path.parent)
+    basic = read_law(law_path)
+    _check_basic(basic, settings, law_path)
+    for name in (*campaign.drawn_names(), *campaign.settings):
+        if name in law_parameters(basic, component):
+            raise InputError(campaign.file, name, "a part of the law that is searched for", "do not draw or set it")
+    return Synthesis(
+        campaign=campaign,
+        component=component,
+        fmu=table.get("fmu", text, None),
+        basic=basic,
+        settings=settings,
+        objectives=_objectives(table.table("objectives"), campaign),
+        step=table.get("step", _positive, None),
+        stop_time=table.get("stop_time", _positive, None),
+        sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
+    )
+
+
+def _settings(table: Table) -> SearchSettings:
+    values: dict[str, Any] = {}
+    for field in fields(SearchSettings):
+        if field.name in table.content:
+            kind: Callable[[Table, str, Any], Any] = {"int": integer, "float": number, "bool": _truth}[str(field.type)]
+            values[field.name] = table.get(field.name, kind)
+    settings = SearchSettings(**values)
+    for name, (low, high) in LIMITS.items():
+        if not low <= getattr(settings, name) <= high:
+            raise table.error(name, f"{values[name]!r} is out of range", f"give {low:g} to {high:g}")
+    if settings.elites >= settings.population:
+        problem = f"{settings.elites} of a population of {settings.population}"
+        raise table.error("elites", problem, "leave room for one new candidate or more")
+    if settings.coding.bits == 0:
+        raise table.error("fraction_bits", "no bits at all for the parameters", "give integer_bits or fraction_bits")
+    return settings
+
+
+def _objectives(table: Table, campaign: Campaign) -> dict[str, Expression]:
+    metrics = {metric.name for metric in campaign.metrics}
+    found: dict[str, Expression] = {}
+    for name in table.content:
+        if not name.isidentifier():
+            raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
+        found[name] = table.get(name, expression)
+        for unknown in sorted(found[name].names - metrics):
+            raise table.error(name, f"{unknown!r} is not a metric", "use the names of [metric....]")
+    if not found:
+        raise table.error("", "no objective", 'add one or more: name = "expression over metrics"')
+    return found
+
+
+def _check_basic(law: Law, settings: SearchSettings, path: Path) -> None:
+    """Refuse a basic solution that the search could not vary or code."""
+    for node in range(SOURCES, SIZE):
+        if not edges_in(law.matrix, node) and (node in OUTPUTS or edges_out(law.matrix, node)):
+            problem = f"nothing leads to node {node + 1}"
+            raise InputError(path, "matrix", problem, "give it an edge, or none that leads on from it")
+    coding = settings.coding
+    try:
+        coding.encode(law.q)
+    except ValueError as error:
+        place = error.args[0]
+        problem = f"{law.q[place]:g} is outside 0 to 2^{coding.integer}"
+        raise InputError(
+            path, f"q[{place + 1}]", problem, "give more integer_bits, or another basic solution"
+        ) from error
+
+
+def _truth(table: Table, key: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise table.error(key, f"{value!r} is neither true nor false", "write true or false")
+    return value
+
+
+def _positive(table: Table, key: str, value: Any) -> float:
+    found = number(table, key, value)
+    if found <= 0.0:
+        raise table.error(key, f"{found:g} s", "give more than 0 s")
+    return found

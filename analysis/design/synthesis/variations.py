@@ -1,0 +1,86 @@
+"""Small variations of a network operator's matrix: what a candidate differs by from the basic solution.
+
+Every sequence of variations turns an allowed matrix into an allowed one: upper triangular, every node that
+is no source and has an edge out has an edge in as well, and the outputs keep theirs. A variation that
+does not apply changes nothing; after another one, or on another basis, it may.
+
+Source: Diveev 2010; Diveev and Sofronova 2012 (small variations of the basic solution).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ....fmus_src.mathlib.network_operator import SIZE, SOURCES
+from ..laws.law import Matrix
+
+OUTPUTS = (14, 15)  # nodes counted from 0, as everywhere but on the screen
+NOTHING, CHANGE_UNARY, CHANGE_BINARY, ADD_EDGE, REMOVE_EDGE = range(5)
+PLACES = [(row, column) for column in range(SOURCES, SIZE) for row in range(column)]  # where edges may be
+UNARY_CHOICE = (*range(1, 20), 23)  # operations that a synthesis uses
+BINARY_CHOICE = (0, 1)
+
+
+class Variation(NamedTuple):
+    """One change at row and column, counted from 0; ``operation`` is unary, or binary on the diagonal."""
+
+    kind: int
+    row: int
+    column: int
+    operation: int
+
+
+NO_VARIATION = Variation(NOTHING, 0, 0, 0)
+
+
+def random_variation(random: np.random.Generator, matrix: Matrix) -> Variation:
+    """Each kind equally likely, at a random place where the matrix has, or lacks, what it takes, any operation."""
+    kind = int(random.integers(CHANGE_UNARY, REMOVE_EDGE + 1))
+    if kind == CHANGE_BINARY:
+        node = int(random.integers(SOURCES, SIZE))
+        return Variation(kind, node, node, BINARY_CHOICE[random.integers(len(BINARY_CHOICE))])
+    fits = [place for place in PLACES if (matrix[place[0]][place[1]] == 0) == (kind == ADD_EDGE)]
+    row, column = fits[random.integers(len(fits))] if fits else PLACES[random.integers(len(PLACES))]
+    return Variation(kind, row, column, UNARY_CHOICE[random.integers(len(UNARY_CHOICE))])
+
+
+def edges_in(matrix: Sequence[Sequence[int]], node: int) -> int:
+    return sum(matrix[row][node] != 0 for row in range(node))
+
+
+def edges_out(matrix: Sequence[Sequence[int]], node: int) -> int:
+    return sum(entry != 0 for entry in matrix[node][node + 1 :])
+
+
+def varied(matrix: Matrix, variations: Iterable[Variation]) -> Matrix:
+    """The matrix after variations, one after another."""
+    found = [list(row) for row in matrix]
+    for kind, row, column, operation in variations:
+        there = found[row][column] != 0
+        if kind == CHANGE_BINARY or (kind == CHANGE_UNARY and there):
+            found[row][column] = operation
+        elif kind == ADD_EDGE and not there:
+            if row < SOURCES or edges_in(found, row):  # else it would carry a constant
+                found[row][column] = operation
+        elif kind == REMOVE_EDGE and there and edges_in(found, column) > 1 and edges_out(found, row) > 1:
+            found[row][column] = 0
+    return tuple(tuple(row) for row in found)
+
+
+def pruned(matrix: Matrix) -> Matrix:
+    """The same law without what no output depends on: what a node gathers that leads nowhere."""
+    needed = [node in OUTPUTS for node in range(SIZE)]
+    for node in reversed(range(SIZE)):
+        needed[node] |= any(
+            entry and wanted for entry, wanted in zip(matrix[node][node + 1 :], needed[node + 1 :], strict=True)
+        )
+    blank = (0,) * SIZE
+    return tuple(
+        tuple(entry if wanted else 0 for entry, wanted in zip(matrix[row], needed, strict=True))
+        if needed[row]
+        else blank
+        for row in range(SIZE)
+    )

@@ -1,0 +1,153 @@
+"""What a system says its landing's bound is made of: the `org.perilune.bound` annotation of its SSD, and its values."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from lxml import etree
+
+from ...common.errors import InputError
+from ...runtime.ssp.annotations import AnnotationReader
+from ...runtime.system.names import parted
+from ...runtime.system.prepared import PreparedSystem, prepare_system
+from .bounds import Landing, landing_problem, transfer_problem
+from .point_mass import PointMassProblem
+from .vehicle import Transfer, Vehicle
+
+ANNOTATION = "org.perilune.bound"
+VECTORS = ("position", "velocity")
+SCALARS = (
+    "mass",
+    "dry_mass",
+    "specific_impulse",
+    "maximum_thrust",
+    "moon_radius",
+    "gravitational_parameter",
+    "target_altitude",
+)  # the attributes: each a parameter, or a number
+STOP = ("altitude",)  # of a piece: from the same start to rest over the site, higher
+HOVER = ("mass", "minimum_thrust", "start_altitude", "end_altitude")  # of one from hover to hover
+ASIDE = "aside"  # the vector from site to site
+NUMBER = re.compile(r"-?\d+(\.\d+)?([eE][+-]?\d+)?")
+START = "start"  # the parameter set that braking starts from
+ACROSS = 1e-3  # m/s; more, and the flight leaves the plane that the bound is made in
+
+Inputs = Mapping[str, float | tuple[float, ...]]
+
+
+def read_inputs(prepared: PreparedSystem) -> Inputs | None:
+    """The values, SI, that the bound of a system's landing is made of; None where its SSD declares no bound.
+
+    They are those of the prepared system with the parameter set that braking starts from on top. Raises InputError.
+    """
+    annotation = prepared.network.description.annotations.get(ANNOTATION)
+    return None if annotation is None else _Reader(prepared).inputs(annotation)
+
+
+class _Reader(AnnotationReader):
+    def __init__(self, prepared: PreparedSystem) -> None:
+        super().__init__(prepared.network.file)
+        self.prepared = prepared
+
+    def inputs(self, annotation: etree._Element) -> Inputs:
+        element = self.content(annotation, "Bound")
+        pieces = self.parts(element, ("Stop", "Hover"))
+        names = self.attributes(element, (*VECTORS, *SCALARS), (START,))
+        prepared = self.prepared
+        if START in names:
+            loaded = {fmu.label: fmu for fmu in prepared.network.fmus.values()}
+            options = prepared.options
+            options = replace(options, parameters=(*options.parameters, names[START]))
+            prepared = prepare_system(prepared.archive.path, options, loaded)
+        found: dict[str, float | tuple[float, ...]] = {}
+        for role in VECTORS:
+            found[role] = tuple(self.value(element, prepared, f"{names[role]}[{index}]") for index in (1, 2, 3))
+        found |= {role: self.value(element, prepared, names[role]) for role in SCALARS}
+        for piece in (*pieces["Stop"], *pieces["Hover"]):
+            is_hover = piece in pieces["Hover"]
+            roles = self.attributes(piece, ("name", *((*HOVER, ASIDE) if is_hover else STOP)))
+            name = roles["name"]
+            if not name.isidentifier() or any(key.startswith(f"{name}.") for key in found):
+                raise self.refuse(piece, f"name {name!r} is taken or no word", "give each piece a word of its own")
+            for role in HOVER if is_hover else STOP:
+                found[f"{name}.{role}"] = self.value(piece, prepared, roles[role])
+            if is_hover:
+                moved = (self.value(piece, prepared, f"{roles[ASIDE]}[{index}]") for index in (1, 2))
+                found[f"{name}.{ASIDE}"] = tuple(moved)
+        return found
+
+    def value(self, element: etree._Element, prepared: PreparedSystem, name: str) -> float:
+        """A parameter as it is set, or as its FMU starts; a number is itself."""
+        if NUMBER.fullmatch(name):
+            return float(name)
+        component, variable = parted(name, prepared.network.fmus)
+        if not component or variable not in prepared.network.fmus[component].variables:
+            raise self.refuse(element, f"{name}: no such parameter", "name one as COMPONENT.VARIABLE")
+        start = prepared.network.fmus[component].variables[variable].start
+        value = prepared.settings.variables.get((component, variable), start)
+        try:
+            return float(value)
+        except (TypeError, ValueError):
+            raise self.refuse(element, f"{name} is {value}, not a number", "name a Real parameter") from None
+
+
+def landing_of(inputs: Inputs, file: str) -> tuple[Vehicle, Landing]:
+    """The bound's vehicle and landing, in the plane of start and site; ``file`` is what refusals name.
+
+    The bound is that of an engine that can be off: its least thrust is 0.
+    """
+    values: dict[str, Any] = dict(inputs)
+    arm = np.add(values["position"], (0.0, 0.0, values["moon_radius"]))
+    away, distance = math.hypot(arm[0], arm[1]), float(np.linalg.norm(arm))
+    if not away > 0.0:
+        raise InputError(file, "bound", "braking starts straight above the site", "start where it comes from")
+    up, aside = arm / distance, np.array([-arm[1], arm[0], 0.0]) / away
+    velocity = np.array(values["velocity"])
+    towards = float(velocity @ np.cross(up, aside))
+    if not (abs(velocity @ aside) <= ACROSS and towards > 0.0):
+        problem = "the velocity at the start of braking is not towards the site"
+        raise InputError(file, "bound", problem, "give one in the plane of start and site")
+    vehicle = Vehicle(
+        mass=values["mass"],
+        dry_mass=values["dry_mass"],
+        specific_impulse=values["specific_impulse"],
+        maximum_thrust=values["maximum_thrust"],
+        minimum_thrust=0.0,
+        angular_acceleration=math.inf,
+    )
+    landing = Landing(
+        range=values["moon_radius"] * math.atan2(away, arm[2]),
+        altitude=distance - values["moon_radius"],
+        speed=float(np.linalg.norm(velocity)),
+        climb=math.atan2(float(velocity @ up), towards),
+        target_altitude=values["target_altitude"],
+        radius=values["moon_radius"],
+        gravitational_parameter=values["gravitational_parameter"],
+    )
+    return vehicle, landing
+
+
+def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, float]]:
+    """The pieces that a landing is cut into, by name: what is bounded, and the mass (kg) that its propellant is of."""
+    values: dict[str, Any] = dict(inputs)
+    vehicle, landing = landing_of(inputs, file)
+    found = {}
+    for name in dict.fromkeys(key.partition(".")[0] for key in values if "." in key):
+        if f"{name}.altitude" in values:
+            stop = replace(landing, target_altitude=values[f"{name}.altitude"])
+            found[name] = landing_problem(vehicle, stop), vehicle.mass
+            continue
+        mass, least, start, end = (values[f"{name}.{role}"] for role in HOVER)
+        if not (start > end and mass > 0.0):
+            raise InputError(file, name, f"from {start:g} m down to {end:g} m with {mass:g} kg", "mend the annotation")
+        radii = np.array([start, end]) + landing.radius
+        gravity = float(np.mean(landing.gravitational_parameter / radii**2))
+        lander = replace(vehicle, mass=mass, minimum_thrust=least)
+        transfer = Transfer(math.hypot(*values[f"{name}.{ASIDE}"]), start - end, gravity)
+        found[name] = transfer_problem(lander, transfer), mass
+    return found

@@ -1,0 +1,109 @@
+"""The bound of braking and landing in one, and the direct method that checks it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from ...common.progress import progress_bar
+from .bounds import Landing, landing_problem
+from .declared_bound import Inputs
+from .direct_method import direct_propellant
+from .hover_study import BOUND_INTERVALS, vehicle_document
+from .least_time import least_propellant
+from .path import PlannedPath
+from .point_mass import PointMassProblem
+from .stored_bound import StoredBound, digest
+from .vehicle import Vehicle
+
+
+@dataclass(frozen=True)
+class Direct:
+    """What the direct method finds: propellant over the mass at the start, and duration (s)."""
+
+    propellant_fraction: float
+    duration: float
+
+
+@dataclass(frozen=True)
+class LandingStudy:
+    """``looseness`` (m/s2) is how far the convex form's thrust is from a real one; ``direct`` None: not asked for.
+
+    ``pieces``: propellant (kg) of the parts that a system cuts its landing into, each bounded by itself.
+    """
+
+    vehicle: Vehicle
+    landing: Landing
+    bound: PlannedPath
+    looseness: float
+    direct: Direct | None
+    pieces: Mapping[str, float]
+
+    @property
+    def propellant(self) -> float:
+        """The bound, kg."""
+        return self.bound.propellant_fraction * self.vehicle.mass
+
+    def stored(self, inputs: Inputs) -> StoredBound:
+        """What is kept of it for a system, with the inputs that it was made of."""
+        burns = tuple(self.bound.burns())
+        return StoredBound(
+            propellant=self.propellant,
+            duration=self.bound.duration,
+            intervals=self.bound.throttle.size,
+            burns=burns,
+            pieces=self.pieces,
+            sha256=digest(inputs),
+            inputs=inputs,
+        )
+
+    def document(self) -> dict[str, Any]:
+        """All of it for other programs; SI, but angular acceleration."""
+        direct = self.direct
+        return {
+            "vehicle": vehicle_document(self.vehicle),
+            "landing": asdict(self.landing),
+            "bound": {
+                "duration_s": self.bound.duration,
+                "propellant_fraction": self.bound.propellant_fraction,
+                "propellant_kg": self.propellant,
+                "intervals": self.bound.throttle.size,
+                "full_thrust_s": [list(burn) for burn in self.bound.burns()],
+                "looseness_m_s2": self.looseness,
+            },
+            "pieces_kg": dict(self.pieces),
+            "direct_method": None
+            if direct is None
+            else {
+                "duration_s": direct.duration,
+                "propellant_fraction": direct.propellant_fraction,
+                "propellant_kg": direct.propellant_fraction * self.vehicle.mass,
+            },
+        }
+
+
+def landing_study(
+    vehicle: Vehicle,
+    landing: Landing,
+    *,
+    direct: bool = False,
+    intervals: int | None = None,
+    pieces: Mapping[str, tuple[PointMassProblem, float]] | None = None,
+) -> LandingStudy:
+    """The bound, and with ``direct`` its check; ``pieces`` as `pieces_of` has them.
+
+    Raises `PlanError`, and InputError for a missing solver.
+    """
+    problem = landing_problem(vehicle, landing)
+    count = intervals or BOUND_INTERVALS
+    with progress_bar(total=1 + direct + len(pieces or {}), unit="part") as progress:
+        path = least_propellant(problem, count)
+        progress.update()
+        check = Direct(*direct_propellant(problem, count)) if direct else None
+        progress.update(direct)
+        cut = {}
+        for name, (part, mass) in (pieces or {}).items():
+            cut[name] = least_propellant(part, count).propellant_fraction * mass
+            progress.update()
+    return LandingStudy(vehicle, landing, path.planned(problem), path.looseness, check, cut)

@@ -1,0 +1,145 @@
+"""The simplified programme of a hover transfer for people: found by the kernels that fly, its path and its sweeps."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ....fmus_src.mathlib import hover_motion, hover_programme, hover_shape, hover_solution
+from .path import PlannedPath
+from .vehicle import Transfer, Vehicle
+
+KINDS = {
+    hover_solution.VERTICAL: "vertical",
+    hover_solution.WITHOUT_FIRST_BURN: "without first burn",
+    hover_solution.WITH_FIRST_BURN: "with first burn",
+}
+STEP = 0.25  # s, of a path
+DURATIONS = (0.84, 1.22, 27)  # of the best: from, to, how many
+DISTANCES = (1.6, 25)  # of the one that is asked for: to, how many
+
+
+@dataclass(frozen=True)
+class Programme:
+    """A programme with its vehicle, as the plan may use it; times in s: t2, t5, w, tp, t7."""
+
+    vehicle: Vehicle
+    transfer: Transfer
+    kind: str
+    times: tuple[float, ...]
+
+    @property
+    def duration(self) -> float:
+        """t7, s."""
+        return self.times[hover_shape.END]
+
+    @property
+    def propellant_fraction(self) -> float:
+        """Propellant over the mass at the start."""
+        return hover_solution.propellant_fraction(list(self.times), _kernel_vehicle(self.vehicle, self.transfer))
+
+    @property
+    def threshold(self) -> float | None:
+        """The paper's k: the first burn is where thrust is turned beyond k of its largest turn; None for vertical."""
+        first = 0.5 * self.times[hover_shape.TURN]
+        return 1.0 - self.times[hover_shape.WIDTH] ** 2 / (2.0 * first**2) if first > 0.0 else None
+
+    @property
+    def burns(self) -> list[tuple[float, float]]:
+        """Begin and end of full thrust, s."""
+        shape = self.shape()
+        found = [(shape[7], shape[8]), (shape[9], shape[6])]
+        return [(begin, end) for begin, end in found if end > begin]
+
+    @property
+    def extremes(self) -> tuple[float, float]:
+        """Least and largest pitch (rad), the angle of thrust from the horizontal towards the target."""
+        shape, swing = self.shape(), self.vehicle.angular_acceleration
+        return 0.5 * math.pi - swing * shape[0] ** 2, 0.5 * math.pi + swing * shape[11] ** 2
+
+    @property
+    def turn_rate(self) -> float:
+        """Largest rate of pitch, rad/s."""
+        return self.vehicle.angular_acceleration * self.shape()[10]
+
+    def shape(self) -> list[float]:
+        """Its shape as the kernels have it, see `hover_shape`."""
+        shape = [0.0] * hover_shape.SHAPE
+        hover_shape.shape(list(self.times), self.vehicle.angular_acceleration, shape)
+        return shape
+
+    def states(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """At times (s): rows of x, x', y, y' (m, m/s), and rows of pitch, its rate (rad, rad/s) and propellant."""
+        shape, vehicle = self.shape(), _kernel_vehicle(self.vehicle, self.transfer)
+        motion, state = np.zeros((time.size, 4)), [0.0] * 4
+        rest = np.zeros((time.size, 3))
+        for index, value in enumerate(map(float, time)):
+            hover_motion.motion(shape, vehicle, value, state)
+            motion[index] = state
+            turn, rate = hover_shape.pitch(shape, self.vehicle.angular_acceleration, value)
+            rest[index] = 0.5 * math.pi + turn, rate, hover_motion.propellant(shape, vehicle, value)
+        return motion, rest
+
+    def thrust(self, time: np.ndarray) -> np.ndarray:
+        """Thrust at times (s), N."""
+        shape = self.shape()
+        full = np.array([hover_shape.full_thrust(shape, float(value)) for value in time])
+        return np.where(full, self.vehicle.maximum_thrust, self.vehicle.minimum_thrust)
+
+    def path(self, engine: float) -> PlannedPath:
+        """How it goes; ``engine`` is the thrust (N) that counts as full throttle. Every switch is one of its times."""
+        even = np.linspace(0.0, self.duration, max(2, math.ceil(self.duration / STEP)) + 1)
+        switches = [time for burn in self.burns for time in burn]
+        time = np.unique(np.clip([*even, *switches], 0.0, self.duration))
+        middle = (time[1:] + time[:-1]) / 2.0
+        motion, rest = self.states(time)
+        return PlannedPath(
+            time=time,
+            position=motion[:, [0, 2]],
+            velocity=motion[:, [1, 3]],
+            propellant=rest[:, 2],
+            throttle=self.thrust(middle) / engine,
+            pitch=self.states(middle)[1][:, 0],
+        )
+
+
+def find_programme(vehicle: Vehicle, transfer: Transfer, duration: float | None = None) -> Programme | None:
+    """The programme on least propellant, or the one of a given ``duration`` (s); None where there is none."""
+    times, kernel = [0.0] * hover_shape.UNKNOWNS, _kernel_vehicle(vehicle, transfer)
+    if duration is None:
+        kind = hover_programme.programme(transfer.distance, -transfer.descent, kernel, times)
+    else:
+        place = transfer.distance, -transfer.descent
+        kind = hover_programme.programme_of_duration(*place, duration, kernel, times)
+    return None if kind == hover_solution.NONE else Programme(vehicle, transfer, KINDS[kind], tuple(times))
+
+
+def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
+    """Durations (s) about the best programme's and the propellant fraction of each, nan where there is none."""
+    low, high, count = DURATIONS
+    durations = np.unique([*(best.duration * np.linspace(low, high, count)), best.duration])
+    found = [find_programme(best.vehicle, best.transfer, float(value)) for value in durations]
+    return durations, _fractions(found)
+
+
+def over_distance(best: Programme) -> tuple[np.ndarray, np.ndarray]:
+    """Distances (m) from straight down to beyond the programme's, and the least propellant fraction of each."""
+    farthest, count = DISTANCES
+    wide = farthest * max(best.transfer.distance, 0.2 * best.transfer.descent)
+    distances = np.unique([*np.linspace(0.0, wide, count), best.transfer.distance])
+    transfers = [replace(best.transfer, distance=float(value)) for value in distances]
+    return distances, _fractions([find_programme(best.vehicle, transfer) for transfer in transfers])
+
+
+def _fractions(found: list[Programme | None]) -> np.ndarray:
+    return np.array([np.nan if programme is None else programme.propellant_fraction for programme in found])
+
+
+def _kernel_vehicle(vehicle: Vehicle, transfer: Transfer) -> list[float]:
+    found = [0.0] * hover_motion.VEHICLE
+    found[hover_motion.FULL], found[hover_motion.LEAST] = vehicle.full, vehicle.least
+    found[hover_motion.EXHAUST], found[hover_motion.GRAVITY] = vehicle.exhaust_speed, transfer.gravity
+    found[hover_motion.SWING] = vehicle.angular_acceleration
+    return found

@@ -1,0 +1,117 @@
+"""The bound of a system's landing, computed once and kept in its folder with the hash of what it was made of.
+
+Free of solvers: a page can show it, or say that it is missing, where none is installed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from ...common.atomic import write_atomically
+from ...common.errors import InputError
+from ...runtime.system.prepared import PreparedSystem
+from .declared_bound import Inputs, read_inputs
+
+PLACE = "extra/bound.json"  # in the folder, and so in the .ssp
+FIELDS = ("propellant", "duration", "intervals", "burns", "pieces", "sha256", "inputs")
+
+
+@dataclass(frozen=True)
+class StoredBound:
+    """``propellant`` (kg) and ``duration`` (s) of braking and landing in one, ``burns`` at full thrust (begin and end,
+    s), on so many ``intervals``; propellant (kg) of the ``pieces`` that the SSD cuts it into, by name; ``inputs``, SI,
+    and their hash.
+    """
+
+    propellant: float
+    duration: float
+    intervals: int
+    burns: tuple[tuple[float, float], ...]
+    pieces: Mapping[str, float]
+    sha256: str
+    inputs: Inputs
+
+
+@dataclass(frozen=True)
+class MissingBound:
+    """Why there is none to show, and what to do."""
+
+    reason: str
+
+
+def digest(inputs: Inputs) -> str:
+    """SHA-256 of the inputs by name, every number to its last bit."""
+    return hashlib.sha256(json.dumps(_plain(inputs), sort_keys=True).encode()).hexdigest()
+
+
+def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
+    """The bound that a prepared system's folder holds for its values; None where its SSD declares none.
+
+    Raises InputError for a file that is no bound.
+    """
+    inputs = read_inputs(prepared)
+    if inputs is None:
+        return None
+    remedy = f"perilune plan landing-bound {prepared.archive.name} --store"
+    if PLACE not in prepared.archive.files:
+        return MissingBound(f"no {PLACE} in the system; {remedy} writes it")
+    bound = read_bound(prepared.archive.read(PLACE, PLACE), f"{prepared.archive.label}/{PLACE}")
+    if bound.sha256 != digest(inputs):
+        names = dict.fromkeys([*inputs, *bound.inputs])
+        other = [name for name in names if bound.inputs.get(name) != inputs.get(name)]
+        return MissingBound(f"{PLACE} was made for another {', '.join(other)}; {remedy} makes it anew")
+    return bound
+
+
+def read_bound(content: bytes, file: str) -> StoredBound:
+    """A stored bound; raises InputError for a file that is none, or whose inputs are not those of its hash."""
+    remedy = "store it again with perilune plan landing-bound"
+    try:
+        document = json.loads(content)
+    except ValueError as error:
+        raise InputError(file, "", f"not JSON: {error}", remedy) from error
+    if not isinstance(document, dict) or sorted(document) != sorted(FIELDS):
+        raise InputError(file, "", f"its keys are not {', '.join(FIELDS)}", remedy)
+    try:
+        bound = StoredBound(
+            propellant=_positive(document["propellant"]),
+            duration=_positive(document["duration"]),
+            intervals=int(document["intervals"]),
+            burns=tuple((float(begin), float(end)) for begin, end in document["burns"]),
+            pieces={str(name): _positive(value) for name, value in document["pieces"].items()},
+            sha256=str(document["sha256"]),
+            inputs={
+                str(name): tuple(map(float, value)) if isinstance(value, list) else float(value)
+                for name, value in document["inputs"].items()
+            },
+        )
+    except (TypeError, ValueError, AttributeError) as error:
+        raise InputError(file, "", f"not a bound: {error}", remedy) from error
+    if bound.sha256 != digest(bound.inputs):
+        raise InputError(file, "sha256", "not the hash of its inputs", remedy)
+    return bound
+
+
+def write_bound(bound: StoredBound, folder: Path) -> Path:
+    """Write it to its place in a system's folder; returns the path."""
+    path = folder / PLACE
+    document = asdict(bound) | {"inputs": _plain(bound.inputs)}
+    write_atomically(path, (json.dumps(document, indent=1, allow_nan=False) + "\n").encode())
+    return path
+
+
+def _plain(inputs: Inputs) -> dict[str, Any]:
+    return {name: list(value) if isinstance(value, tuple) else value for name, value in inputs.items()}
+
+
+def _positive(value: Any) -> float:
+    number = float(value)
+    if not (math.isfinite(number) and number > 0.0):
+        raise ValueError(f"{value} is not a positive number")
+    return number

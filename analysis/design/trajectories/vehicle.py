@@ -1,0 +1,99 @@
+"""The lander that a plan is made for, and the control margins that a plan leaves it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from ....fmus_src.mathlib.gravity import STANDARD_GRAVITY
+from ...common.errors import InputError
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """``mass`` at the start and ``dry_mass`` (kg), ``specific_impulse`` (s), thrust limits (N) and the largest
+    ``angular_acceleration`` (rad/s2).
+    """
+
+    mass: float
+    dry_mass: float
+    specific_impulse: float
+    maximum_thrust: float
+    minimum_thrust: float
+    angular_acceleration: float
+
+    @property
+    def exhaust_speed(self) -> float:
+        """In m/s."""
+        return self.specific_impulse * STANDARD_GRAVITY
+
+    @property
+    def full(self) -> float:
+        """Largest thrust over the mass at the start, m/s2."""
+        return self.maximum_thrust / self.mass
+
+    @property
+    def least(self) -> float:
+        """Least thrust over the mass at the start, m/s2."""
+        return self.minimum_thrust / self.mass
+
+
+@dataclass(frozen=True)
+class Margins:
+    """What a plan uses of a vehicle: least and largest throttle as shares of its maximum thrust, and the angular
+    acceleration (rad/s2); the rest is left to feedback.
+    """
+
+    maximum_throttle: float
+    minimum_throttle: float
+    angular_acceleration: float
+
+    def of(self, vehicle: Vehicle) -> Vehicle:
+        """The vehicle as the plan may use it."""
+        return replace(
+            vehicle,
+            maximum_thrust=self.maximum_throttle * vehicle.maximum_thrust,
+            minimum_thrust=self.minimum_throttle * vehicle.maximum_thrust,
+            angular_acceleration=self.angular_acceleration,
+        )
+
+
+@dataclass(frozen=True)
+class Transfer:
+    """From hover to hover: ``distance`` along and ``descent`` down (m) in uniform ``gravity`` (m/s2)."""
+
+    distance: float
+    descent: float
+    gravity: float
+
+
+# The published cases: Huang (2017), and the lander of the whole landing.
+HOVER_VEHICLE = Vehicle(600.0, 0.0, 300.0, 4707.192, 4707.192 / 15.0, math.radians(1.0))
+HOVER_MARGINS = Margins(0.90, 0.10, math.radians(0.70))
+HOVER_TRANSFER = Transfer(1600.0, 2300.0, 1.622)
+LANDING_VEHICLE = Vehicle(940.13, 440.0, 319.0, 5099.0, 0.0, math.inf)
+
+
+def check_vehicle(vehicle: Vehicle) -> Vehicle:
+    """Refuse what is no vehicle."""
+    if not vehicle.minimum_thrust < vehicle.maximum_thrust:
+        problem = f"not below the largest thrust, {vehicle.maximum_thrust:g} N"
+        raise InputError("--minimum-thrust", f"{vehicle.minimum_thrust:g}", problem, "give less")
+    if not vehicle.dry_mass < vehicle.mass:
+        problem = f"not below the mass, {vehicle.mass:g} kg"
+        raise InputError("--dry-mass", f"{vehicle.dry_mass:g}", problem, "give less")
+    return vehicle
+
+
+def check_hover(planned: Vehicle, transfer: Transfer) -> None:
+    """Refuse a vehicle that cannot hover, or cannot sink, as the plan uses it."""
+    check_vehicle(planned)
+    full, least = f"{planned.maximum_thrust:g} N", f"{planned.minimum_thrust:g} N"
+    if not planned.full > transfer.gravity:
+        problem = f"{planned.full:.4g} m/s2 do not carry the mass against {transfer.gravity:g} m/s2"
+        raise InputError("--maximum-thrust", full, problem, "give more thrust, or less mass")
+    if not planned.least > 0.0:
+        raise InputError("--minimum-thrust", least, "the programme's engine never stops", "give the least that it has")
+    if not planned.least < transfer.gravity:
+        problem = f"{planned.least:.4g} m/s2 carry the mass, against {transfer.gravity:g} m/s2: it does not sink"
+        raise InputError("--minimum-thrust", least, problem, "give less thrust, or more mass")

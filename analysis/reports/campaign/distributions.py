@@ -1,0 +1,100 @@
+"""How the metrics of a batch are distributed over its trials, variant beside variant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+
+from ...campaigns.fly.results import BatchResult
+from ...campaigns.spec.campaign import Metric
+from ...campaigns.verdicts.quantiles import quantiles
+from ..common.panels import Panel, panel, swatch
+from ..common.quantities import labelled, shown_factor
+from ..common.style import Look, log_ticks_x, look, plain_ticks
+
+DECADES = 2.0  # a metric that spans more gets a logarithmic axis
+TAIL = 0.01  # on it, this share of the smallest values may lie left of the axis
+
+
+def metric_values(result: BatchResult, metric: str) -> dict[str, np.ndarray]:
+    """A metric by variant, one value per trial that figures show, nan and inf included."""
+    return {name: found.first.metrics[metric] for name, found in result.shown.items()}
+
+
+def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
+    """Metrics worth a panel; those with one value in every trial, and it; those that are nowhere finite."""
+    drawn, still, empty = [], [], []
+    for metric in result.plan.campaign.metrics:
+        found = [entry["metrics_all"][metric.name] for entry in result.summary.values()]
+        trials = sum(entry["trials"] for entry in result.summary.values())
+        ends = {entry[end] for entry in found for end in ("min", "max") if entry["count"]}
+        if not ends:
+            empty.append(metric)
+        elif len(ends) == 1 and sum(entry["count"] for entry in found) == trials > 1:
+            still.append((metric, ends.pop()))
+        else:
+            drawn.append(metric)
+    return drawn, still, empty
+
+
+def distribution_panels(result: BatchResult, metrics: Sequence[Metric]) -> list[Panel]:
+    """Empirical distributions over all trials: the share of trials with at most that value."""
+    looks = [look(index) for index in range(len(result.rows))]
+
+    def drawing(metric: Metric) -> Callable[[Axes], None]:
+        def draw(axes: Axes) -> None:
+            draw_distribution(axes, metric, metric_values(result, metric.name), looks)
+            axes.set_title("share of trials, %", loc="left", fontsize=8.5)
+
+        return draw
+
+    return [
+        panel(metric.name, f"distribution-{index}", f"Distributions of {metric.name}", drawing(metric))
+        for index, metric in enumerate(metrics)
+    ]
+
+
+def legend_of(result: BatchResult) -> list[tuple[Markup, str]]:
+    """Variants with the looks that they are drawn with."""
+    return [(swatch(look(index)), variant) for index, variant in enumerate(result.rows)]
+
+
+def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray], looks: Sequence[Look]) -> None:
+    """One panel: the empirical distribution of a metric in each of some series, which have a look each."""
+    shown = {name: found * shown_factor(metric.unit) for name, found in values.items()}
+    everything = np.concatenate(list(shown.values()))
+    everything = everything[np.isfinite(everything)]
+    low, high, logarithmic = _limits(everything)
+    for found, (colour, dashes, marker) in zip(shown.values(), looks, strict=True):
+        finite = np.clip(np.sort(found[np.isfinite(found)]), low, None)
+        share = 100.0 * np.arange(1, finite.size + 1) / found.size
+        x = np.concatenate([[low], finite, [high]])
+        y = np.concatenate([[0.0], share, share[-1:] if share.size else [0.0]])
+        axes.step(x, y, where="post", color=colour, linestyle=dashes, linewidth=1.6)
+        if finite.size == 1:
+            axes.plot(finite, share, color=colour, marker=marker, markersize=5)
+    if logarithmic:
+        log_ticks_x(axes)
+    else:
+        plain_ticks(axes, x=5)
+        if np.all(everything == np.round(everything)) and np.ptp(everything) < 8.0:
+            axes.set_xticks(np.arange(everything.min(), everything.max() + 1.0))
+    axes.set_xlim(low, high)
+    axes.set_ylim(-3.0, 103.0)
+    axes.set_yticks([0, 25, 50, 75, 100])
+    axes.set_xlabel(labelled(metric.name, metric.unit))
+
+
+def _limits(values: np.ndarray) -> tuple[float, float, bool]:
+    """Low and high end of an axis, and whether it is logarithmic."""
+    least, most = float(values.min()), float(values.max())
+    positive = values[values > 0.0]
+    if least >= 0.0 and positive.size:
+        start = float(quantiles(positive, [TAIL])[0])
+        if np.log10(most / start) > DECADES:
+            return start / 1.5, most * 1.5, True
+    margin = 0.05 * (most - least) or 0.05 * abs(most) or 1.0
+    return least - margin, most + margin, False

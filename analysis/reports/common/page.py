@@ -1,0 +1,58 @@
+"""Pages from templates: jinja2, one style sheet, nothing fetched from outside."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from ...common.atomic import write_atomically
+from ...common.percent import percent
+from .quantities import in_shown_unit, number, shown_unit
+
+FOLDER = Path(__file__).parent
+
+
+def exact(value: Any, unit: str | None = None, digits: int = 4) -> Markup:
+    """A number for reading in its shown unit, with the exact SI value in the markup for programs."""
+    shown = number(in_shown_unit(value, unit), digits)
+    if value is None or isinstance(value, str):
+        return Markup("<span>{}</span>").format(shown)
+    raw = str(value).lower() if isinstance(value, bool) else repr(value)
+    return Markup('<data value="{}">{}</data>').format(raw, shown)
+
+
+def breakable(name: str) -> Markup:
+    """A variant's name, which may go on in a new line where the next FMU of it begins."""
+    return Markup("__<wbr>").join(name.split("__"))
+
+
+def render_page(template: Path, **content: Any) -> str:
+    """A page from a template, which may use those of this folder and of its own.
+
+    A name that the template needs and does not get is an error.
+    """
+    environment = Environment(
+        loader=FileSystemLoader([template.parent, FOLDER]),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters |= {
+        "exact": exact,
+        "unit": shown_unit,
+        "number": number,
+        "breakable": breakable,
+        "percent": percent,
+    }
+    style = Markup((FOLDER / "page.css").read_text(encoding="utf-8"))
+    return environment.get_template(template.name).render(style=style, **content)
+
+
+def write_page(path: Path, template: Path, **content: Any) -> None:
+    """Write a page, and the folder it lies in."""
+    write_atomically(path, render_page(template, **content).encode())

@@ -1,0 +1,101 @@
+"""The signals of a run sorted into vectors and components, for any system: from names, units and types alone."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...runtime.flight.results import Result
+from ...runtime.system.names import parted
+
+STATES = (
+    "position", "relative_position", "altitude", "height", "central_angle", "longitude", "latitude", "velocity",
+    "speed", "path_angle", "course", "mass", "attitude", "quaternion", "angles", "attack", "sideslip", "bank", "tilt",
+    "angular_velocity", "angular_rate", "gimbal_angles",
+)  # fmt: skip
+COMMANDS = (
+    "thrust", "throttle", "thrust_angle", "thrust_direction", "thrust_acceleration", "force_command", "torque_command",
+    "jet_thrust", "gimbal_rates", "pulse_lengths",
+)  # fmt: skip
+INDEXED = re.compile(r"(.+)\[(\d+(?:,\d+)*)\]")
+
+
+@dataclass(frozen=True)
+class SignalGroup:
+    """A scalar, or the elements of a vector that share name, unit and type.
+
+    ``component`` is empty for a connector of the system itself. ``indices`` are as written,
+    ``1`` or ``2,3``; empty for a scalar.
+    """
+
+    component: str
+    variable: str
+    unit: str | None
+    type: str
+    names: tuple[str, ...]
+    indices: tuple[str, ...]
+
+    @property
+    def label(self) -> str:
+        return f"{self.component}.{self.variable}" if self.component else self.variable
+
+    @property
+    def is_real(self) -> bool:
+        return self.type == "Real"
+
+    def values(self, result: Result) -> np.ndarray:
+        """The values, elements by rows of time, in SI."""
+        return np.stack([result[name] for name in self.names])
+
+
+def signal_groups(result: Result) -> list[SignalGroup]:
+    """All signals in their order, elements of vectors brought together."""
+    components = result.provenance["fmus"]
+    found: dict[tuple[str, str, str | None, str, bool], list[tuple[str, str]]] = {}
+    for name in result.signals:
+        component, variable = parted(name, components)
+        indexed = INDEXED.fullmatch(variable)
+        base, index = indexed.groups() if indexed else (variable, "")
+        key = (component, base, result.units[name], result.types[name], bool(indexed))
+        found.setdefault(key, []).append((name, index))
+    groups = []
+    for (component, variable, unit, kind, _), elements in found.items():
+        names = tuple(name for name, _ in elements)
+        indices = tuple(index for _, index in elements if index)
+        groups.append(SignalGroup(component, variable, unit, kind, names, indices))
+    return groups
+
+
+def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup, SignalGroup]:
+    """Each group and the first one that has the same unit and the same values, often itself.
+
+    A connected input repeats the output that drives it; drawing it twice tells nothing.
+    """
+    first: dict[tuple, SignalGroup] = {}
+    return {
+        group: first.setdefault((group.unit, group.type, group.values(result).tobytes()), group) for group in groups
+    }
+
+
+def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[SignalGroup]:
+    """States and commands, by the names of variables alone: of each the first component's signal that changes."""
+    first: dict[str, SignalGroup] = {}
+    for group in groups:
+        if group.component and group.is_real and group.variable in STATES + COMMANDS:
+            values = group.values(result)
+            if np.any(values != values[:, :1]):
+                first.setdefault(group.variable, group)
+    return list(first.values())
+
+
+def position_groups(result: Result) -> list[SignalGroup]:
+    """Distinct signals COMPONENT.position[1..3] in m: the paths that a trajectory figure shows."""
+    groups = [
+        group
+        for group in signal_groups(result)
+        if group.variable == "position" and group.indices == ("1", "2", "3") and group.unit == "m"
+    ]
+    return list(dict.fromkeys(distinct(groups, result).values()))

@@ -1,0 +1,141 @@
+"""Figures of signals over time, or one over another, as elements of the annotation."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lxml import etree
+
+from ....runtime.ssp.units import BASE_UNITS, Unit
+from .histories import Band, Curve, Error, Path, Point, Pulses
+from .signal_reader import ROWS, SignalReader
+from .values import Arc, Signal
+
+SECOND, METRE = (Unit(unit, tuple(int(name == unit) for name in BASE_UNITS)) for unit in ("s", "m"))
+INSIDE = "within the band"
+BAND = ("low", "high", "unit", "about", "less", "shade", "shade_below", "against", "name", "labels", "title")
+CURVE = ("low", "high", "unit", "together", "labels", "title", *ROWS)
+
+
+def read_band(reader: SignalReader, element: etree._Element) -> Band:
+    found = reader.attributes(element, ("signal",), BAND)
+    low, high = reader.limits(element, "low", "high")
+    if low is None and high is None:
+        raise reader.refuse(element, "neither low nor high", "give one of them, or both")
+    unit = reader.unit(element, found["unit"], found["signal"]) if "unit" in found else None
+    signal = reader.signal(element, "signal", unit=unit)
+    about = tuple(signal.factor * value for value in reader.numbers(element, "about"))
+    signal = reader.about(element, signal)
+    if ("shade" in found) != ("shade_below" in found):
+        raise reader.refuse(element, "shade and shade_below belong together", "give both, or neither")
+    return Band(
+        title=reader.title(element, signal.label),
+        notes=tuple(reader.notes),
+        signal=signal,
+        low=low,
+        high=high,
+        name=found.get("name") or INSIDE,
+        about=about,
+        labels=reader.labels(element, signal),
+        less=reader.signal(element, "less", like=signal) if "less" in found else None,
+        shade=reader.scalar(element, "shade") if "shade" in found else None,
+        shade_below=reader.number(element, "shade_below") or 0.0,
+        against=tuple(reader.named(element, "against", name) for name in found.get("against", "").split()),
+    )
+
+
+def read_pulses(reader: SignalReader, element: etree._Element) -> Pulses:
+    reader.attributes(element, ("lengths",), ("count", "remainder", "total", "labels", "title"))
+    lengths = reader.signal(element, "lengths", unit=SECOND)
+    return Pulses(
+        count=reader.scalar(element, "count", ("Integer",)) if "count" in element.attrib else None,
+        remainder=reader.optional(element, "remainder", lambda name: reader.signal(element, name, like=lengths)),
+        total=reader.optional(element, "total", lambda name: reader.scalar(element, name)),
+        lengths=lengths,
+        labels=reader.labels(element, lengths),
+        title=reader.title(element, lengths.label),
+        notes=tuple(reader.notes),
+    )
+
+
+def read_error(reader: SignalReader, element: etree._Element) -> Error:
+    reader.attributes(element, ("estimate", "truth"), ("sigma", "after", "labels", "title", *ROWS))
+    estimate = reader.signal(element, "estimate")
+    truth = reader.signal(element, "truth", like=estimate)
+    return Error(
+        estimate=estimate,
+        truth=truth,
+        sigma=reader.optional(element, "sigma", lambda name: _sigma(reader, element, name, estimate)),
+        after=reader.number(element, "after"),
+        labels=reader.labels(element, estimate),
+        title=reader.title(element, f"{estimate.label} less {truth.label}"),
+        notes=tuple(reader.notes),
+        rows=reader.rows(element),
+    )
+
+
+def _sigma(reader: SignalReader, element: etree._Element, attribute: str, estimate: Signal) -> Signal:
+    """A standard deviation, which as a difference of values has no offset."""
+    found = reader.signal(element, attribute, like=estimate)
+    return replace(found, offsets=(0.0,) * len(found.names))
+
+
+def read_curve(reader: SignalReader, element: etree._Element) -> Curve:
+    found = reader.attributes(element, ("signals",), CURVE)
+    names = found["signals"].split()
+    first = reader.named(element, "signals", names[0])
+    unit = reader.unit(element, found["unit"], names[0]) if "unit" in found else first.unit
+    signals = [
+        reader.converted(element, f"signals {name}", reader.named(element, "signals", name), unit) for name in names
+    ]
+    labels = tuple(element.get("labels", "").split())
+    if labels and len(labels) != len(signals):
+        raise reader.refuse(element, f"labels has {len(labels)} words, signals {len(signals)}", "give as many")
+    low, high = reader.limits(element, "low", "high")
+    return Curve(
+        title=reader.title(element, found["signals"]),
+        signals=tuple(signals),
+        labels=labels or tuple(names),
+        low=low,
+        high=high,
+        together=reader.truth(element, "together"),
+        rows=reader.rows(element),
+        notes=tuple(reader.notes),
+    )
+
+
+def read_path(reader: SignalReader, element: etree._Element) -> Path:
+    found = reader.attributes(element, ("y",), ("x", "arc", "radius", "equal", "title", *ROWS))
+    if ("x" in found) == ("arc" in found) or ("arc" in found) != ("radius" in found):
+        raise reader.refuse(element, "neither x nor arc with its radius, or more than that", "give x, or the other two")
+    x = reader.scalar(element, "x") if "x" in found else _arc(reader, element)
+    y = reader.scalar(element, "y")
+    equal = reader.truth(element, "equal")
+    if equal and x.unit_name != y.unit_name:
+        raise reader.refuse(element, f"equal, but {x.label} and {y.label} differ in unit", "leave equal out")
+    points = []
+    for item in reader.parts(element, ("Point",))["Point"]:
+        if isinstance(x, Arc):
+            raise reader.refuse(item, "a position beside an arc", "leave it out, or give the Path an x")
+        name = reader.attributes(item, ("x", "y", "name"))["name"]
+        points.append(Point(reader.scalar(item, "x", like=x), reader.scalar(item, "y", like=y), name))
+    return Path(
+        title=reader.title(element, f"{y.label} over {x.label}"),
+        x=x,
+        y=y,
+        equal=equal,
+        points=tuple(points),
+        rows=reader.rows(element),
+        notes=tuple(reader.notes),
+    )
+
+
+def _arc(reader: SignalReader, element: etree._Element) -> Arc:
+    position = reader.signal(element, "arc", unit=METRE)
+    if len(position.names) != 3:
+        problem = f"arc {position.label} has {len(position.names)} elements"
+        raise reader.unfit(element, position.label, problem, "name a position")
+    radius = reader.parameter(element, "radius")
+    if not radius > 0.0:
+        raise reader.refuse(element, f"radius {element.get('radius')} is {radius:g}", "name that of the ground")
+    return Arc(position, radius)

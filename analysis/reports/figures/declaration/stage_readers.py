@@ -1,0 +1,153 @@
+"""Figures of a flight that goes through phases, as elements of the annotation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lxml import etree
+
+from ....common.errors import suggestion
+from ....design.trajectories.declared_bound import read_inputs
+from ....design.trajectories.stored_bound import MissingBound, find_bound
+from ....runtime.ssp.documents import tag
+from ....runtime.system.prepared import PreparedSystem
+from .declared import Figure
+from .history_readers import SECOND
+from .signal_reader import NUMBERS, LackingError, SignalReader
+from .stages import LANDING, MEASURES, BoundValues, Budget, Item, Limit, Limits, Phase, Phases
+
+
+def bound_values(prepared: PreparedSystem) -> BoundValues | None:
+    """What is stored with a system for its values; None where its SSD declares no bound. Raises InputError."""
+    inputs, found = read_inputs(prepared), find_bound(prepared)
+    if inputs is None or found is None:
+        return None
+    names = tuple(dict.fromkeys([LANDING, *(name.partition(".")[0] for name in inputs if "." in name)]))
+    if isinstance(found, MissingBound):
+        return BoundValues(names, {}, found.reason)
+    return BoundValues(names, {LANDING: found.propellant, **found.pieces})
+
+
+def read_phases(reader: SignalReader, element: etree._Element) -> Phases:
+    found = reader.attributes(element, ("signal",), ("spent", "status", "status_times", "title"))
+    if "status" in found and "status_times" in found:
+        raise reader.refuse(element, "status and status_times", "give one of them")
+    parts = reader.parts(element, ("Phase", "Meaning"))
+    signal = reader.scalar(element, "signal", ("Integer",))
+    return Phases(
+        title=reader.title(element, signal.label),
+        signal=signal,
+        phases=_phases(reader, element, parts["Phase"]),
+        spent=reader.optional(element, "spent", lambda name: reader.scalar(element, name)),
+        status=reader.optional(element, "status", lambda name: reader.scalar(element, name, ("Integer",))),
+        status_times=reader.optional(element, "status_times", lambda name: reader.signal(element, name, unit=SECOND)),
+        meanings=_meanings(reader, parts["Meaning"]),
+        notes=tuple(reader.notes),
+    )
+
+
+def _phases(reader: SignalReader, element: etree._Element, parts: Sequence[etree._Element]) -> tuple[Phase, ...]:
+    if not parts:
+        raise reader.refuse(element, "no Phase", 'write <Phase value="1" name="..."/>')
+    phases: list[Phase] = []
+    open_ended: set[int] = set()  # values that no later Phase can share
+    for part in parts:
+        name = reader.attributes(part, ("value", "name"), ("until",))["name"]
+        value = reader.integer(part, "value")
+        if any(name == phase.name for phase in phases):
+            raise reader.refuse(part, f"name {name} is there twice", "choose another")
+        if value in open_ended:
+            raise reader.refuse(part, f"value {value}: the Phase before it has no end", 'give that one until="..."')
+        until = None
+        if "until" in part.attrib:
+            until = reader.scalar(part, "until", (*NUMBERS, "Boolean"))
+        else:
+            open_ended.add(value)
+        phases.append(Phase(value, name, until))
+    for phase, part in zip(phases, parts, strict=True):
+        if phase.value not in open_ended:
+            raise reader.refuse(part, f"no Phase of value {phase.value} without until", "add the one that follows")
+    return tuple(phases)
+
+
+def _meanings(reader: SignalReader, parts: Sequence[etree._Element]) -> dict[int, str]:
+    found: dict[int, str] = {}
+    for part in parts:
+        says = reader.attributes(part, ("value", "says"))["says"]
+        value = reader.integer(part, "value")
+        if value in found:
+            raise reader.refuse(part, f"value {value} is there twice", "say each status once")
+        found[value] = says
+    return found
+
+
+def read_limits(reader: SignalReader, element: etree._Element) -> Limits:
+    reader.attributes(element, (), ("title", "when"))
+    parts = reader.parts(element, ("Limit",))["Limit"]
+    if not parts:
+        raise reader.refuse(element, "no Limit", 'write <Limit signal="..." most="..."/>')
+    limits = tuple(_limit(reader, part) for part in parts)
+    return Limits(
+        title=reader.title(element, "Limits"),
+        limits=limits,
+        when=reader.scalar(element, "when", (*NUMBERS, "Boolean")) if "when" in element.attrib else None,
+        notes=tuple(reader.notes),
+    )
+
+
+def _limit(reader: SignalReader, element: etree._Element) -> Limit:
+    found = reader.attributes(element, ("signal",), ("least", "most", "unit", "name", "measure", "about", "less"))
+    measure = found.get("measure")
+    if measure is not None and measure not in MEASURES:
+        raise reader.refuse(element, f"measure {measure} is unknown", suggestion(measure, MEASURES))
+    least, most = reader.limits(element, "least", "most")
+    if least is None and most is None:
+        raise reader.refuse(element, "neither least nor most", "give one of them, or both")
+    unit = reader.unit(element, found["unit"], found["signal"]) if "unit" in found else None
+    signal = reader.signal(element, "signal", unit=unit)
+    if measure is None and len(signal.names) > 1:
+        remedy = f"name a scalar, or write measure={' or '.join(f'{name!r}' for name in MEASURES)}"
+        raise reader.unfit(element, signal.label, f"signal {signal.label} is a vector", remedy)
+    if "about" in found and "less" in found:
+        raise reader.refuse(element, "about and less", "give one of them")
+    signal = reader.about(element, signal)
+    signal, less = reader.less(element, signal)
+    return Limit(signal, found.get("name") or signal.label, least, most, less, measure)
+
+
+def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[Figure]) -> Budget:
+    """A budget of the phases that are declared before it."""
+    reader.attributes(element, (), ("title",))
+    declared = [item for item in element.itersiblings(preceding=True) if tag(item) == "Phases"]
+    if len(declared) != 1:
+        raise reader.refuse(element, f"{len(declared)} Phases before it", "write one, with what they use up as spent")
+    if "spent" not in declared[0].attrib:
+        raise reader.refuse(element, "the Phases before it have no spent", 'give them spent="..."')
+    phases = [figure for figure in before if isinstance(figure, Phases) and figure.spent is not None]
+    if not phases:
+        raise LackingError("what phases use up is left out")
+    parts = reader.parts(element, ("Item",))["Item"]
+    if not parts:
+        raise reader.refuse(element, "no Item", 'write <Item name="..." phases="..."/>')
+    bound = bound_values(reader.prepared)
+    names = [phase.name for phase in phases[0].phases]
+    items = tuple(_item(reader, part, names, bound) for part in parts)
+    return Budget(title=reader.title(element, "Budget"), of=phases[0], items=items, bound=bound, notes=())
+
+
+def _item(reader: SignalReader, element: etree._Element, phases: Sequence[str], bound: BoundValues | None) -> Item:
+    found = reader.attributes(element, ("name",), ("phases", "plus", "minus"))
+    named, plus, minus = (reader.words(element, name) for name in ("phases", "plus", "minus"))
+    if not named and not plus and not minus:
+        raise reader.refuse(element, "nothing to sum up", "give phases, plus or minus")
+    for name in named:
+        if name not in phases:
+            raise reader.refuse(element, f"phases {name}: no such phase", suggestion(name, phases))
+    for name in (*plus, *minus):
+        if bound is None:
+            raise reader.refuse(
+                element, f"{name}, but the SSD declares no bound", "add the annotation org.perilune.bound"
+            )
+        if name not in bound.names:
+            raise reader.refuse(element, f"{name}: no such bound", suggestion(name, bound.names))
+    return Item(found["name"], named, plus, minus)

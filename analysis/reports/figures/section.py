@@ -1,0 +1,132 @@
+"""What the page shows of one figure that a system asks for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...runtime.flight.results import Result
+from ..common.page import exact
+from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel, swatch
+from ..common.quantities import MINUS, in_shown_unit
+from ..common.style import look, plain_ticks
+from .declaration.values import Rows
+
+HEIGHT = 2.6  # in
+
+
+@dataclass(frozen=True)
+class Table:
+    """Headings and rows of cells; the columns ``numbers`` are set to the right."""
+
+    heads: Sequence[str]
+    rows: Sequence[Sequence[Markup | str]]
+    numbers: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Section:
+    """A heading with figures, ``panels`` side by side or one ``drawn`` as wide as the page, and a table.
+
+    ``legend`` are (swatch, label) of the series, ``findings`` what the figure comes to, ``notes`` how to read it.
+    """
+
+    title: str
+    panels: list[Panel] = field(default_factory=list)
+    drawn: Widths | None = None
+    table: Table | None = None
+    legend: list[tuple[Markup, str]] = field(default_factory=list)
+    findings: list[Markup] = field(default_factory=list)
+    notes: list[Markup] = field(default_factory=list)
+
+
+def legend_of(labels: tuple[str, ...]) -> list[tuple[Markup, str]]:
+    """A vector's elements with the looks that they are drawn with; a scalar needs none."""
+    return [(swatch(look(index)), label) for index, label in enumerate(labels)] if len(labels) > 1 else []
+
+
+def history_panel(
+    label: str, name: str, description: str, unit: str, time: np.ndarray, draw: Callable[[Axes], None]
+) -> Panel:
+    """A panel over time, half as wide as the page's column; ``draw`` adds the lines and sets the ordinate."""
+    return panel(label, name, description, lambda axes: _dress(axes, unit, time, draw, 6), HEIGHT, HALF_WIDTH)
+
+
+def wide_history(name: str, description: str, unit: str, time: np.ndarray, draw: Callable[[Axes], None]) -> Widths:
+    """Likewise, as wide as the page's column."""
+
+    def dress(figure: Figure) -> None:
+        _dress(figure.subplots(), unit, time, draw, 6 if is_slim(figure) else 12)
+
+    return both_widths(name, description, dress, HEIGHT)
+
+
+def _dress(axes: Axes, unit: str, time: np.ndarray, draw: Callable[[Axes], None], intervals: int) -> None:
+    draw(axes)
+    axes.set_xlim(time[0], time[-1] if time[-1] > time[0] else time[0] + 1.0)
+    axes.set_xlabel("time, s")
+    axes.set_title(unit, loc="left", pad=4)
+    plain_ticks(axes, x=intervals, y=5)
+
+
+def chosen_rows(rows: Rows | None, result: Result) -> np.ndarray:
+    """Whether each row is of a figure; all of them where none are chosen."""
+    return np.ones(result.time.size, dtype=bool) if rows is None else rows.chosen(result)
+
+
+def trimmed(chosen: np.ndarray) -> slice:
+    """From the first chosen row to the last; there is one."""
+    found = np.flatnonzero(chosen)
+    return slice(int(found[0]), int(found[-1]) + 1)
+
+
+def choice(rows: Rows) -> Markup:
+    """In words, which rows were chosen."""
+    label, unit = rows.signal.label, rows.signal.unit_name
+    if rows.low is None or rows.high is None:
+        word, limit = ("at least", rows.low) if rows.high is None else ("at most", rows.high)
+        return Markup("{} is {} {}").format(label, word, exact(limit, unit))
+    if rows.low == rows.high:
+        return Markup("{} is {}").format(label, exact(rows.low, unit))
+    return Markup("{} is {} to {}").format(label, exact(rows.low, unit), exact(rows.high, unit))
+
+
+def nothing_chosen(title: str, rows: Rows) -> Section:
+    """What there is of a figure whose rows were not flown."""
+    return Section(title=title, notes=[Markup("Not drawn: in no row {}.").format(choice(rows))])
+
+
+def evenly(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Markup]:
+    """Numbers of a column, all with the decimals that the largest of them has with so many digits."""
+    sizes = [abs(in_shown_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
+    most = max(sizes, default=0.0)
+    places = max(0, digits - 1 - math.floor(math.log10(most))) if most > 0.0 else 0
+    return [
+        exact(value, unit)
+        if value is None or not math.isfinite(value)
+        else Markup('<data value="{}">{}</data>').format(
+            repr(value), f"{in_shown_unit(value, unit) + 0.0:.{places}f}".replace("-", MINUS)
+        )
+        for value in values
+    ]
+
+
+def seconds(time: float) -> Markup:
+    """A time on the page."""
+    return Markup("{} s").format(exact(float(time), digits=6))
+
+
+def sentence(words: Markup) -> Markup:
+    """With a capital at its beginning and a full stop at its end."""
+    return Markup("{}.").format(Markup(capital(words)))
+
+
+def capital(words: str) -> str:
+    """With a capital at its beginning; the rest as it is."""
+    return words[:1].upper() + words[1:]

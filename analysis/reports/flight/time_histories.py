@@ -1,0 +1,166 @@
+"""Every signal of a run over time: a panel each, by component; states and commands first, the rest folded away."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+
+from ...campaigns.verdicts.quantiles import quantiles
+from ...runtime.flight.results import Result
+from ..common.panels import Panel, panel, swatch
+from ..common.quantities import labelled, number, shown_factor
+from ..common.signals import SignalGroup, distinct, signal_groups, states_and_commands
+from ..common.style import FAINT, look, plain_ticks
+
+HEIGHT = 1.9  # in
+MOST = 12  # panels that are open where no name says which are states and commands
+SPIKE = 8.0  # a range so many times wider than the middle 98 % of the values is cut, and the panel says so
+
+
+@dataclass(frozen=True)
+class ComponentHistory:
+    """One component's section: its panels, and the signals that need none of their own.
+
+    ``legend`` are (swatch, element) where one of them is a vector. ``constant`` are (label, values, unit) of groups
+    that never change; ``copies`` are (label, label of the group that has the same values throughout).
+    """
+
+    component: str
+    panels: list[Panel]
+    legend: list[tuple[Markup, str]]
+    constant: list[tuple[str, list[float | int | bool], str | None]]
+    copies: list[tuple[str, str]]
+
+    @property
+    def is_empty(self) -> bool:
+        return not (self.panels or self.constant or self.copies)
+
+
+@dataclass(frozen=True)
+class Histories:
+    """Sections of the states and commands, ``first``, and of the ``rest``, which are folded away.
+
+    Without a signal whose name says that it is one, the first `MOST` panels are ``first``.
+    """
+
+    first: list[ComponentHistory]
+    rest: list[ComponentHistory]
+    are_named: bool
+
+    @property
+    def folded(self) -> int:
+        """How many panels are folded away."""
+        return sum(len(history.panels) for history in self.rest)
+
+
+def time_histories(result: Result) -> Histories:
+    """The sections of all components in the order of the record; a run without rows has none."""
+    if not result.time.size:
+        return Histories([], [], False)
+    groups = signal_groups(result)
+    originals = distinct(groups, result)
+    drawn = [group for group in groups if originals[group] == group and not _is_constant(group, result)]
+    named = states_and_commands(drawn, result)
+    open_ = named or drawn[:MOST]
+    components = list(dict.fromkeys(group.component for group in groups))
+    first, rest = [], []
+    for number_, component in enumerate(components):
+        mine = [group for group in groups if group.component == component]
+        shown = [group for group in open_ if group.component == component]
+        if shown:
+            name = f"history{number_}-first"
+            first.append(ComponentHistory(component, _panels(shown, result, name), _legend(shown), [], []))
+        rest.append(_folded(component, [group for group in mine if group not in open_], originals, result, number_))
+    return Histories(first, [history for history in rest if not history.is_empty], bool(named))
+
+
+def _folded(
+    component: str,
+    groups: list[SignalGroup],
+    originals: dict[SignalGroup, SignalGroup],
+    result: Result,
+    number_: int,
+) -> ComponentHistory:
+    """The section of a component's signals that are not among the first: drawn, constant, or copies of others."""
+    still = [group for group in groups if _is_constant(group, result)]
+    copies = [(group, originals[group]) for group in groups if originals[group] != group and group not in still]
+    drawn = [group for group in groups if group not in still and originals[group] == group]
+    final = result.final()
+    return ComponentHistory(
+        component=component,
+        panels=_panels(drawn, result, f"history{number_}"),
+        legend=_legend(drawn),
+        constant=[(group.label, [final[name] for name in group.names], group.unit) for group in still],
+        copies=[(group.label, original.label) for group, original in copies],
+    )
+
+
+def _is_constant(group: SignalGroup, result: Result) -> bool:
+    values = group.values(result)
+    return bool(np.all(values == values[:, :1]))
+
+
+def _in_order_of_unit(groups: list[SignalGroup]) -> list[SignalGroup]:
+    """Real signals first, those of a unit together, units in order of appearance."""
+    kinds = list(dict.fromkeys((not group.is_real, group.unit) for group in groups))
+    return sorted(groups, key=lambda group: (not group.is_real, kinds.index((not group.is_real, group.unit))))
+
+
+def _panels(groups: list[SignalGroup], result: Result, name: str) -> list[Panel]:
+    def drawing(group: SignalGroup) -> Callable[[Axes], None]:
+        return lambda axes: draw_history(axes, group, result)
+
+    return [
+        panel(
+            labelled(group.variable, group.unit), f"{name}-{index}", f"{group.label} over time", drawing(group), HEIGHT
+        )
+        for index, group in enumerate(_in_order_of_unit(groups))
+    ]
+
+
+def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
+    """The looks of the elements of the longest vector."""
+    elements = max((group.indices for group in groups), key=len, default=())
+    return [(swatch(look(number_)), f"[{index}]") for number_, index in enumerate(elements)]
+
+
+def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
+    """One panel: a scalar or a vector over time; Integers and Booleans as steps."""
+    values = np.where(np.isfinite(group.values(result)), group.values(result), np.nan) * shown_factor(group.unit)
+    style = "default" if group.is_real else "steps-post"
+    for index, row in enumerate(values):
+        colour, dashes, _ = look(index)
+        marker = "." if np.count_nonzero(np.isfinite(row)) == 1 else ""
+        axes.plot(result.time, row, color=colour, linestyle=dashes, drawstyle=style, marker=marker)
+    axes.set_xlabel("time, s")
+    plain_ticks(axes, x=5, y=4, whole_y=not group.is_real)
+    if group.type == "Boolean":
+        axes.set_yticks([0, 1], ["false", "true"])
+        axes.set_ylim(-0.15, 1.15)
+    elif group.is_real:
+        _cut_spikes(axes, values)
+
+
+def _cut_spikes(axes: Axes, values: np.ndarray) -> None:
+    """Keep a few extreme values from flattening the rest; say in the panel how far they go."""
+    finite = values[np.isfinite(values)]
+    if not finite.size:
+        axes.text(0.5, 0.5, "no finite value", transform=axes.transAxes, ha="center", va="center", color=FAINT)
+        return
+    low, high = quantiles(finite, [0.01, 0.99])
+    least, most = float(finite.min()), float(finite.max())
+    if not (high > low and most - least > SPIKE * (high - low)):
+        return
+    margin = 0.15 * (high - low)
+    axes.set_ylim(low - margin, high + 3.0 * margin)  # room for the note
+    beyond = [number(value, 3) for value in (least, most) if not low - margin <= value <= high + 3.0 * margin]
+    outside = np.flatnonzero(np.any((values < low - margin) | (values > high + 3.0 * margin), axis=0))
+    early = float(np.mean(outside)) < values.shape[1] / 2
+    axes.text(
+        0.98 if early else 0.02, 0.98, f"goes on to {' and '.join(beyond)}", transform=axes.transAxes,
+        ha="right" if early else "left", va="top", fontsize=8.0, color=FAINT,
+    )  # fmt: skip

@@ -1,0 +1,214 @@
+"""The path of whatever has a position: plan and side view, with times along it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from ...runtime.flight.results import Result
+from ..common.panels import HALF_WIDTH, Panel, far, panel
+from ..common.quantities import number
+from ..common.round_body import altitude_over, radius_of, track_angles
+from ..common.signals import SignalGroup, position_groups
+from ..common.style import FAINT, GRID, INK, Look, house_style, look, new_figure, plain_ticks
+
+HEIGHT = 3.2  # in
+MAXIMUM_STRETCH = 4.0  # axes whose ranges differ by less are drawn to one scale
+FAR = 0.35  # rad along the ground, beyond which a plan on the tangent plane would fold back: the ground track instead
+GROUND = 0.05  # of the height: what is drawn of the ground
+
+
+class View(NamedTuple):
+    """One side from which paths are seen: heading, a word for it, what a screen reader says, and what draws it."""
+
+    title: str
+    name: str
+    description: str
+    draw: Callable[[Axes], None]
+
+
+def trajectory_panels(result: Result) -> list[Panel]:
+    """The path as it stands on the page; none where nothing has a position."""
+    return [
+        panel(view.title, f"trajectory-{view.name}", view.description, view.draw, HEIGHT, HALF_WIDTH)
+        for view in _views(result)
+    ]
+
+
+def trajectory_reading(result: Result) -> str:
+    """How to read the panels."""
+    words = "Dots: times since the start; ring: the end."
+    groups = position_groups(result)
+    radius = _radius(groups, [group.values(result) for group in groups], result) if result.time.size else None
+    if radius is None:
+        return f"{words} Elements of the position in the frame that the component states."
+    return (
+        f"{words} Grey: the ground. Altitude and distances along the ground are over a sphere of {radius / 1e3:.1f} km "
+        "radius, as the recorded altitude shows it; downrange grows in the direction of flight and is 0 at the origin "
+        "of the position's frame. position[k]: elements in that frame."
+    )
+
+
+def trajectory_plot(result: Result) -> Figure | None:
+    """The same in one figure; None where nothing has a position."""
+    views = _views(result)
+    if not views:
+        return None
+    with house_style():
+        figure = new_figure(HEIGHT, HALF_WIDTH * len(views))
+        for axes, view in zip(figure.subplots(1, len(views), squeeze=False)[0], views, strict=True):
+            view.draw(axes)
+            axes.set_title(view.title, loc="left")
+    return figure
+
+
+def _views(result: Result) -> list[View]:
+    """Seen from above and from the side; none where nothing has a position.
+
+    Of flights over a round body, altitude over downrange distance; else, and from above, elements of the position.
+    """
+    groups = position_groups(result)
+    if not groups or not result.time.size:
+        return []
+    paths = [group.values(result) for group in groups]
+    labels = [group.label for group in groups]
+    who = ", ".join(group.component for group in groups)
+    radius = _radius(groups, paths, result)
+    if radius is None:
+        return _flat_views(paths, labels, result.time, who)
+    arcs = [np.stack([radius * angle for angle in track_angles(path, radius)]) for path in paths]
+    heights = [np.stack([arc[0], altitude_over(path, radius)]) for arc, path in zip(arcs, paths, strict=True)]
+    downrange = "downrange of the origin"
+    side = View("Side view", "side", f"Altitude over downrange distance of {who}, over the surface",
+                _drawing(heights, labels, result.time, (downrange, "altitude"), ground=True))  # fmt: skip
+    if np.nanmax(np.abs(arcs[0][0])) > FAR * radius:
+        draw = _drawing(arcs, labels, result.time, (downrange, "across"))
+        return [View("Ground track", "plan", f"Ground track of {who}", draw), side]
+    return [*_flat_views(paths, labels, result.time, who)[:-1], side]
+
+
+def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: Result) -> float | None:
+    """The radius (m) of the body, from the first component that has a position and its altitude; None without one."""
+    for group, path in zip(groups, paths, strict=True):
+        altitude = f"{group.component}.altitude"
+        if result.units.get(altitude) == "m" and (radius := radius_of(path, result[altitude])) is not None:
+            return radius
+    return None
+
+
+def _flat_views(paths: Sequence[np.ndarray], labels: Sequence[str], time: np.ndarray, who: str) -> list[View]:
+    """Plan (elements 1 and 2) and side view (3 over the wider of the two); where one stays the same, the latter."""
+    spans = np.ptp(np.concatenate(paths, axis=1), axis=1)
+    across = 0 if spans[0] >= spans[1] else 1
+
+    def view(title: str, name: str, x: int, y: int) -> View:
+        names = (f"position[{x + 1}]", f"position[{y + 1}]")
+        draw = _drawing([path[[x, y]] for path in paths], labels, time, names)
+        return View(title, name, f"{title} of the path of {who}", draw)
+
+    if spans[1 - across] == 0.0:
+        constant = number(float(paths[0][1 - across][0]))
+        return [view(f"Side view; position[{2 - across}] stays at {constant} m", "side", across, 2)]
+    return [view("Plan", "plan", across, 1 - across), view("Side view", "side", across, 2)]
+
+
+def _drawing(
+    paths: Sequence[np.ndarray],
+    labels: Sequence[str],
+    time: np.ndarray,
+    names: tuple[str, str],
+    *,
+    ground: bool = False,
+) -> Callable[[Axes], None]:
+    """What draws paths, abscissa and ordinate in m by rows; ``ground``: the ordinate is above a surface, drawn too."""
+    everything = np.concatenate(paths, axis=1)
+    width, height = np.ptp(everything, axis=1)
+    if ground:
+        height = max(height, float(np.nanmax(everything[1])))
+    if _is_even(width, height):
+        (scale, unit) = far(everything)
+        scales, units = (scale, scale), (unit, unit)
+    else:
+        scales, units = zip(*map(far, everything), strict=True)
+    drawn = [np.array(scales)[:, None] * path for path in paths]
+    marks = _marked_rows(time)
+
+    def draw(axes: Axes) -> None:
+        for index, (path, label) in enumerate(zip(drawn, labels, strict=True)):
+            _draw_path(axes, path, look(index), label, marks)
+        if ground:
+            axes.axhspan(-GROUND * scales[1] * height, 0.0, facecolor=GRID, edgecolor="none", zorder=0.8)
+            axes.axhline(0.0, color=INK, linewidth=0.8, zorder=0.9)
+        plain_ticks(axes, x=5, y=6)
+        axes.set_xlabel(f"{names[0]}, {units[0]}")
+        axes.set_ylabel(f"{names[1]}, {units[1]}")
+        _scale(axes, width, height)
+        _label_times(axes, drawn[0], time, marks)
+        if len(paths) > 1:
+            axes.legend(loc="best")
+
+    return draw
+
+
+def _is_even(width: float, height: float) -> bool:
+    """Whether one scale for both axes leaves something to see."""
+    return height > 0.0 and 1.0 / MAXIMUM_STRETCH <= width / height <= MAXIMUM_STRETCH
+
+
+def _marked_rows(time: np.ndarray) -> np.ndarray:
+    """Rows nearest to round times, about eight of them, the end always among them."""
+    if time.size == 1 or time[-1] == time[0]:
+        return np.array([0])
+    round_times = MaxNLocator(8, steps=[1, 2, 5, 10]).tick_values(time[0], time[-1])
+    interval = round_times[1] - round_times[0]
+    inside = [value for value in round_times if time[0] <= value <= time[-1] - 0.6 * interval]
+    return np.append(np.searchsorted(time, np.array(inside) - 1e-9), time.size - 1)
+
+
+def _draw_path(axes: Axes, path: np.ndarray, style: Look, label: str, marks: np.ndarray) -> None:
+    axes.plot(*path, color=style.colour, linestyle=style.dashes, label=label)
+    axes.plot(*path[:, marks], linestyle="", marker="o", markersize=3.5, color=style.colour)
+    axes.plot(*path[:, -1], marker="o", markersize=6, markerfacecolor="white", color=style.colour)
+
+
+def _label_times(axes: Axes, path: np.ndarray, time: np.ndarray, marks: np.ndarray) -> None:
+    """Times at the marks of a path, beside the line and not on each other."""
+    limits = np.array([axes.get_xlim(), axes.get_ylim()])
+    extent = np.ptp(limits, axis=1)
+    for row in marks[:-1]:
+        if np.max(np.abs(path[:, row] - path[:, -1]) / extent) < 0.1:
+            continue  # its label would lie on the end's
+        left, right = path[:, max(0, row - 1)], path[:, row + 1]
+        rising = (right[0] - left[0]) * (right[1] - left[1]) > 0.0  # then there is room above on the left
+        side = -1 if rising else 1
+        _write_time(axes, time[row], path[:, row], (5 * side, 4), color=FAINT)
+    side = 1 if path[0, -1] < limits[0].mean() else -1
+    below = path[1, marks[max(0, marks.size - 2)]] >= path[1, -1]
+    _write_time(axes, time[-1], path[:, -1], (8 * side, -13 if below else 6), color=INK, fontweight="bold")
+
+
+def _write_time(axes: Axes, time: float, point: np.ndarray, offset: tuple[int, int], **style: Any) -> None:
+    axes.annotate(
+        f"{number(float(time), 4)} s", (point[0], point[1]), xytext=offset, textcoords="offset points",
+        ha="left" if offset[0] > 0 else "right", fontsize=8.0, **style,
+    )  # fmt: skip
+
+
+def _scale(axes: Axes, width: float, height: float) -> None:
+    """One scale for both axes where that leaves something to see, else say that there are two."""
+    axes.margins(0.1, 0.12)
+    if _is_even(width, height):
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_title("axes to one scale", loc="right", fontsize=8.0, color=FAINT)
+    elif height > 0.0 and width / height > 1.0:
+        stretch = number(float(width / height), 2)
+        axes.set_title(
+            f"not to scale: the path is {stretch} times as wide as high", loc="right", fontsize=8.0, color=FAINT
+        )
+    else:
+        axes.set_title("axes to different scales", loc="right", fontsize=8.0, color=FAINT)

@@ -1,0 +1,1 @@
+"""The co-simulation master: a system is read, resolved and simulated."""

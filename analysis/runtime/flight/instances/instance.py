@@ -1,0 +1,141 @@
+"""An FMU instantiated: one fmi2Component with its log, its C functions' addresses at hand."""
+
+from __future__ import annotations
+
+import ctypes
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from fmpy import fmi2
+from fmpy.logging import addLoggerProxy
+
+from ....common.errors import InputError
+from ...system.fmu import Fmu
+from .library import LOADING, Library, acquire, release
+from .log import Log
+
+PLACED = {"Boolean": 0, "Real": 1, "Integer": 2}  # FMI types as `perilune_place` numbers them
+
+
+@dataclass
+class Instance:
+    """One fmi2Component with its log; freed with `free`."""
+
+    fmu: Fmu
+    name: str
+    library: Library
+    slave: fmi2.FMU2Slave
+    said: list[bytes]
+    log: Log | None = None
+    is_there: bool = True
+
+    @property
+    def address(self) -> int:
+        """The fmi2Component."""
+        return int(self.slave.component)
+
+    @property
+    def messages(self) -> list[str]:
+        """What the FMU has said since the flight began."""
+        return [_text(message) for message in self.said]
+
+    def function_addresses(self) -> list[int]:
+        """Addresses of the C functions in the order of library.FUNCTION_NAMES."""
+        return self.library.addresses
+
+    def place(self, references: np.ndarray, kind: str, *, to_set: bool = False) -> int:
+        """The address of values that lie side by side in this instance's memory, in order.
+
+        ``references`` are uint32 value references, ``kind`` their type, one of PLACED. They may be read or, if they are
+        ``to_set``, written there between steps. 0 where they lie otherwise, or the FMU does not say.
+        """
+        if self.library.place is None:
+            return 0
+        return self.library.place(self.address, references.ctypes.data, references.size, PLACED[kind], to_set) or 0
+
+    def free(self) -> None:
+        if self.is_there:
+            self.is_there = False
+            _logs.pop(self.slave.instanceName, None)
+            self.slave.fmi2FreeInstance(self.slave.component)
+            _alone.discard(self.fmu.digest)
+            release(self.fmu)
+
+    def abandon(self) -> None:
+        """Never use it again, nor free it."""
+        self.is_there = False
+        _alone.discard(self.fmu.digest)
+
+    def renew(self) -> None:
+        """Another fmi2Component in the place of this one, which is freed; raises InputError."""
+        self.free()
+        fresh = instantiate(self.fmu, self.name, self.log)
+        self.library, self.slave, self.said, self.is_there = fresh.library, fresh.slave, fresh.said, True
+
+
+Listener = Callable[[int, str, str], None]  # fmi2Status, category, message
+
+
+class _Heard(list[bytes]):
+    """Messages as they come from an FMU, and who else is to have them."""
+
+    listener: Listener | None = None
+
+
+# fmpy's proxy, which formats printf messages, keeps one logger per process: it finds the log by instance name.
+_logs: dict[str, _Heard] = {}
+_instances = itertools.count(1)
+_alone: set[str] = set()  # digests of FMUs that are instantiated, and may be only once in a process
+
+
+def _log(_environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
+    log = _logs.get((instance or b"").decode(errors="replace"))
+    if log is not None and message:
+        log.append(message)
+        if log.listener is not None:
+            log.listener(status, _text(category or b""), _text(message))
+
+
+def _text(message: bytes) -> str:
+    return message.decode(errors="replace").strip()
+
+
+_callbacks = fmi2.fmi2CallbackFunctions()
+_callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(_log)
+_callbacks.allocateMemory = fmi2.defaultCallbacks.allocateMemory
+_callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
+addLoggerProxy(ctypes.byref(_callbacks))
+
+
+def instantiate(fmu: Fmu, name: str, log: Log | None = None) -> Instance:
+    """Instantiate an FMU; ``name`` is the component's, made unique in the process. ``log`` has all that it says."""
+    if fmu.is_alone:
+        with LOADING:
+            if fmu.digest in _alone:
+                problem = (
+                    "can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess), which it is"
+                )
+                raise InputError(fmu.label, name, problem, "fly it once at a time, or export it for more instances")
+            _alone.add(fmu.digest)
+    unique = f"{name}#{next(_instances)}"
+    _logs[unique] = _Heard()
+    if log is not None:
+        _logs[unique].listener = partial(log.write, name)
+    library = None
+    try:
+        library = acquire(fmu)
+        slave = library.slave(unique)
+        slave.instantiate(callbacks=_callbacks, loggingOn=True)
+        if log is not None and log.everything:
+            slave.setDebugLogging(True, [])  # no categories named: all of them
+    except Exception as error:  # fmpy raises bare Exception when the library does not load or instantiate
+        _alone.discard(fmu.digest)
+        if library is not None:
+            release(fmu)
+        said = " | ".join([str(error), *map(_text, _logs.pop(unique))])
+        raise InputError(fmu.label, name, f"cannot be instantiated: {said}", "see the FMU's log") from error
+    return Instance(fmu, name, library, slave, _logs[unique], log)

@@ -1,0 +1,121 @@
+"""The instances of a simulation from flight to flight: terminated, then reset or made anew."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
+
+import numpy as np
+from fmpy.fmi1 import FMICallException
+
+from .compiled import arrays, codes
+from .endings import Outcome, initialised
+from .instances.instance import Instance
+from .instances.reset_check import ResetVerdict, judge, known_verdict, reset_verdict
+from .instructions import InstructionList
+
+
+class LifeCycle:
+    """What each instance may be asked next, by the state machine of FMI 2.0 (co-simulation).
+
+    Our own FMUs that flew well are terminated and reset by the loop itself. Others are here: those whose reset cannot
+    be trusted, and those that returned an error or discarded a step, which the trial of a reset need not have come
+    to, are instantiated anew. A flight is ended when the next one begins, since until then it can go on.
+    """
+
+    def __init__(
+        self, instances: Mapping[str, Instance], program: arrays.Program, instructions: InstructionList
+    ) -> None:
+        self._instances = instances
+        self._program = program
+        self._instructions = instructions
+        self._are_own = all(instance.fmu.is_own for instance in instances.values())
+        self._fresh = True
+        self._running: AbstractSet[str] = set()  # initialised, so that they can be terminated
+        self._broken: set[str] = set()  # returned an error
+        self._discarded: set[str] = set()  # discarded a step, to end the simulation or not
+
+    def note(self, outcome: Outcome, program: arrays.Program) -> None:
+        """Remember how the loop has left the instances."""
+        self._fresh = False
+        if outcome.is_well and not self._broken:
+            self._running = self._instances.keys()
+            return
+        names = list(self._instances)
+        reached = initialised(outcome, program, len(names))
+        self._running = {name for name, running in zip(names, reached, strict=True) if running} - self._broken
+        if outcome.is_error:
+            self._broken.add(names[outcome.subject])
+            self._running -= self._broken
+        if outcome.is_discarded_step:
+            self._discarded.add(names[outcome.subject])
+
+    def make_ready(self) -> bool:
+        """Get the instances ready for a start; returns whether the loop is to terminate and reset them.
+
+        Raises InputError where one cannot be instantiated anew.
+        """
+        if self._fresh:
+            return False
+        if self._are_own and len(self._running) == len(self._instances):
+            self._running = set()
+            return True
+        for index, (name, instance) in enumerate(self._instances.items()):
+            if not self._is_reset(name, instance):
+                instance.renew()
+                self._readdress(index, instance)
+        self._running = set()
+        self._broken.clear()
+        self._discarded.clear()
+        self._fresh = True
+        return False
+
+    def _is_reset(self, name: str, instance: Instance) -> bool:
+        """Whether an instance has been reset, and is as good as a new one for it."""
+        sound = instance.fmu.is_own or name not in self._broken | self._discarded
+        if not instance.is_there or not self._terminate(name, instance) or not sound:
+            return False
+        if known_verdict(instance.fmu) is None and instance.fmu.is_alone:
+            instance.free()  # the trial needs its place
+        if not reset_verdict(instance.fmu).resets or not instance.is_there:
+            return False
+        try:
+            instance.slave.reset()
+        except FMICallException as error:
+            judge(instance.fmu, ResetVerdict(False, f"fmi2Reset returned status {error.status}"))
+            return False
+        return True
+
+    def _terminate(self, name: str, instance: Instance) -> bool:
+        """End an instance's flight, if it has one that can be ended; returns whether all went well."""
+        if name in self._running:
+            self._running = self._running - {name}
+            try:
+                instance.slave.terminate()
+            except FMICallException:
+                return False
+        return True
+
+    def _readdress(self, index: int, instance: Instance) -> None:
+        """Let the program call the new instance of a component."""
+        rows = self._program.instructions
+        calls = (rows[:, codes.INSTANCE] != 0) & (rows[:, codes.COMPONENT] == index)
+        in_memory = calls & np.isin(rows[:, codes.CODE], codes.IN_MEMORY)
+        calls &= ~in_memory
+        addresses = instance.function_addresses()
+        rows[in_memory, codes.ADDRESS] += np.uint64(instance.address) - rows[in_memory, codes.INSTANCE]
+        rows[calls | in_memory, codes.INSTANCE] = instance.address
+        rows[calls, codes.ADDRESS] = [addresses[function] for function in rows[calls, codes.FUNCTION]]
+        self._instructions.addresses[index] = (instance.address, addresses)
+
+    def close(self, fatal: str | None = None) -> None:
+        """End all flights and free the instances, but for those of the FMU whose digest is ``fatal``.
+
+        After fmi2Fatal no instance of it may be used again, nor freed (FMI 2.0).
+        """
+        for name, instance in self._instances.items():
+            if instance.fmu.digest == fatal:
+                instance.abandon()
+            else:
+                self._terminate(name, instance)
+                instance.free()

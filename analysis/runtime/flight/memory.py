@@ -1,0 +1,165 @@
+"""The complete memory of a system between two communication points: saved, put back, read and changed."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from lxml import etree
+
+from ...common.errors import InputError
+from ..system.fmu import Fmu
+from .instances.instance import Instance
+from .simulation import Simulation
+
+STATE_ANNOTATION = "org.perilune.state"  # in modelDescription.xml of FMUs that tell how they serialise their memory
+HEADER_WORDS = 6
+REMEMBERED = ("local", "output", "input")
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One real number that the system remembers: an FMU's variable, or the last value of a connector."""
+
+    name: str
+    unit: str | None
+    component: str | None  # None: an exchanged value
+    place: int  # value reference, or slot
+
+
+@dataclass
+class Snapshot:
+    """What `Memory.take` saved."""
+
+    point: int  # communication point
+    states: dict[str, Any]  # fmi2FMUstate by component
+    serialized: dict[str, bytes]
+    values: np.ndarray
+    whole: np.ndarray
+    frozen: np.ndarray
+
+
+class Piece:
+    """The real variables of one FMU, read in one call."""
+
+    def __init__(self, instance: Instance, references: np.ndarray) -> None:
+        self._instance = instance
+        self._references = references
+        self._values = np.zeros(references.size)
+        self._pointers = (
+            references.ctypes.data_as(ctypes.POINTER(ctypes.c_uint)),
+            self._values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)),
+        )
+
+    def read(self) -> np.ndarray:
+        """Their values; the array is used again by the next call."""
+        if self._references.size:
+            references, values = self._pointers
+            slave = self._instance.slave
+            slave.fmi2GetReal(slave.component, references, self._references.size, values)
+        return self._values
+
+
+class Memory:
+    """The memory of a simulation's FMUs and connectors as real numbers, ``cells``; nothing else is remembered.
+
+    Whole numbers, and what FMUs name as frozen (random number generators, covariances), are saved and put back, but
+    are no cells.
+    Raises InputError where an FMU does not tell how it serialises its memory.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self.simulation = simulation
+        self.cells: list[Cell] = []
+        self._write: dict[str, Callable[[bytes, int, float], bytes]] = {}
+        self._pieces: list[Piece] = []
+        for component, instance in simulation.instances.items():
+            encoding, frozen = _layout(instance.fmu, component)
+            self._write[component] = ENCODINGS[encoding]
+            mine = [
+                variable
+                for variable in instance.fmu.variables.values()
+                if variable.type == "Real"
+                and variable.causality in REMEMBERED
+                and variable.valueReference not in frozen
+            ]
+            self.cells += [
+                Cell(f"{component}.{item.name}", instance.fmu.unit_of(item), component, item.valueReference)
+                for item in mine
+            ]
+            self._pieces.append(Piece(instance, np.array([item.valueReference for item in mine], dtype=np.uint32)))
+        # Followers' outputs that others read a step late are remembered by the exchange only.
+        followers = set(simulation.prepared.schedule.followers)
+        self._slots: list[int] = []
+        for name, slot in simulation.layout.slots.items():
+            node = simulation.prepared.network.nodes.get(name)
+            real = simulation.layout.types[name] == "Real"
+            if node is not None and node.kind == "output" and node.component in followers and real:
+                self.cells.append(Cell(f"{name} as exchanged", simulation.layout.units[name], None, slot))
+                self._slots.append(slot)
+
+    def read(self) -> np.ndarray:
+        """The values of all cells now."""
+        parts = [piece.read() for piece in self._pieces]
+        return np.concatenate([*parts, self.simulation.buffers.values[self._slots]])
+
+    def take(self, point: int) -> Snapshot:
+        """Save everything at communication point ``point``; `release` it in the end."""
+        states, serialized = {}, {}
+        for component, instance in self.simulation.instances.items():
+            states[component] = instance.slave.getFMUstate()
+            serialized[component] = instance.slave.serializeFMUstate(states[component])
+        buffers = self.simulation.buffers
+        return Snapshot(point, states, serialized, buffers.values.copy(), buffers.whole.copy(), buffers.frozen.copy())
+
+    def put_back(self, snapshot: Snapshot, cell: Cell | None = None, value: float = 0.0) -> None:
+        """Everything as it was, but for one cell's value."""
+        for component, instance in self.simulation.instances.items():
+            instance.slave.setFMUstate(snapshot.states[component])
+        buffers = self.simulation.buffers
+        buffers.values[:] = snapshot.values
+        buffers.whole[:] = snapshot.whole
+        buffers.frozen[:] = snapshot.frozen
+        if cell is None:
+            return
+        if cell.component is None:
+            buffers.values[cell.place] = value
+            return
+        slave = self.simulation.instances[cell.component].slave
+        changed = self._write[cell.component](snapshot.serialized[cell.component], cell.place, value)
+        state = slave.deSerializeFMUstate(changed)
+        slave.setFMUstate(state)
+        slave.freeFMUstate(state)
+
+    def release(self, snapshot: Snapshot) -> None:
+        """Free what `take` saved."""
+        for component, state in snapshot.states.items():
+            self.simulation.instances[component].slave.freeFMUstate(state)
+
+
+def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
+    """Encoding of an FMU's serialised state, and the value references that are no cells."""
+    description = etree.parse(fmu.folder / "modelDescription.xml")
+    found = description.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/SerializedState")
+    if found is None or found.get("encoding") not in ENCODINGS:
+        raise InputError(fmu.label, component, "does not tell how it serialises its memory", "measure by injection")
+    return found.get("encoding"), {int(item) for item in found.get("frozen", "").split()}
+
+
+def _write_word(serialized: bytes, reference: int, value: float) -> bytes:
+    words = np.frombuffer(serialized, dtype=np.float64).copy()
+    words[HEADER_WORDS + reference] = value
+    return words.tobytes()
+
+
+def _write_json(serialized: bytes, reference: int, value: float) -> bytes:
+    state = json.loads(serialized.rstrip(b"\0").decode())
+    state["values"][reference] = value
+    return json.dumps(state).encode()
+
+
+ENCODINGS: dict[str, Callable[[bytes, int, float], bytes]] = {"words": _write_word, "json": _write_json}

@@ -1,0 +1,119 @@
+"""What a run leaves: a table of signals over time, how it ended, where it came from."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow
+import pyarrow.csv
+import pyarrow.parquet
+
+from ...common.atomic import whole_file, write_atomically
+from ...common.errors import suggestion
+from ..system.names import elements, vectors
+
+TIMED_OUT = "timed_out"
+COMPLETE = ("finished", "stop_time", "terminated")
+
+
+def require_pandas() -> None:
+    """Raises ImportError, with what to install, where pandas is not."""
+    if find_spec("pandas") is None:
+        raise ImportError("to_pandas needs pandas, which is not here; pip install 'perilune[notebook]'")
+
+
+@dataclass(repr=False)
+class Flight:
+    """One flight in memory. Row n of every signal is its value at ``time[n]`` (s).
+
+    ``status`` is ``finished`` (the system's own end), ``stop_time``, ``terminated`` (an FMU asked for the end, at a
+    time of its own), ``nonfinite`` (a component gave NaN or infinity), ``failed`` (an FMU reported an error, or did
+    not take a parameter), ``interrupted`` (by Ctrl-C) or ``timed_out`` (it took longer than it may); ``message``
+    explains the last five. ``signals`` are float64, Integer and Boolean values included; ``types`` are FMI's.
+    """
+
+    time: np.ndarray
+    signals: dict[str, np.ndarray]
+    types: dict[str, str]
+    status: str
+    message: str
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A signal by name, ``component.variable``: [n], or [n, k] for a vector of k elements by its own name.
+
+        Raises KeyError with the nearest names.
+        """
+        if name in self.signals:
+            return self.signals[name]
+        parts = elements(name, self.signals)
+        if not parts:
+            raise KeyError(f"no signal {name}; {suggestion(name, [*self.signals, *vectors(self.signals)])}")
+        return np.stack([self.signals[part] for part in parts], axis=1)
+
+    def __repr__(self) -> str:
+        end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
+        return f"{type(self).__name__}({self.status}{end}, {self.time.size} rows, {len(self.signals)} signals)"
+
+    @property
+    def complete(self) -> bool:
+        return self.status in COMPLETE
+
+    def final(self) -> dict[str, float | int | bool]:
+        """Last values by signal, with their types."""
+        convert = {"Integer": int, "Enumeration": int, "Boolean": bool}
+        if not self.time.size:
+            return {}
+        return {name: convert.get(self.types[name], float)(values[-1]) for name, values in self.signals.items()}
+
+
+@dataclass(repr=False)
+class Result(Flight):
+    """A flight with units by signal, and with parameter values, hashes and versions as provenance."""
+
+    units: dict[str, str | None]
+    provenance: dict[str, Any]
+
+    def table(self) -> pyarrow.Table:
+        """The flight as an Arrow table: time first, units and provenance in the metadata."""
+        arrays = [pyarrow.array(self.time)]
+        fields = [pyarrow.field("time", pyarrow.float64(), metadata={"unit": "s"})]
+        kinds = {"Integer": pyarrow.int32(), "Enumeration": pyarrow.int32(), "Boolean": pyarrow.bool_()}
+        for name, values in self.signals.items():
+            kind = kinds.get(self.types[name], pyarrow.float64())
+            arrays.append(pyarrow.array(values).cast(kind))
+            unit = self.units[name]
+            fields.append(pyarrow.field(name, kind, metadata={"unit": unit} if unit else None))
+        metadata = {"perilune": json.dumps(self.summary())}
+        return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields, metadata=metadata))
+
+    def summary(self) -> dict[str, Any]:
+        """Status and provenance, without the signals."""
+        last = float(f"{self.time[-1]:.12g}") if self.time.size else None  # 283.4, not 283.40000000000003
+        return {"status": self.status, "message": self.message, "rows": int(self.time.size), "end_time": last} | (
+            self.provenance
+        )
+
+    def to_pandas(self) -> Any:
+        """The flight as a pandas.DataFrame, a column for each signal, with time (s) as its index; needs pandas."""
+        require_pandas()
+        return self.table().to_pandas().set_index("time")
+
+    def write(self, path: str | Path) -> None:
+        """Write .parquet, or .csv with units and provenance in a .json file beside it."""
+        path = Path(path)
+        if path.suffix == ".parquet":
+            with whole_file(path) as partial:
+                pyarrow.parquet.write_table(self.table(), partial)
+        else:
+            plain = not any(mark in name for name in self.signals for mark in ',"')
+            options = pyarrow.csv.WriteOptions(quoting_header="none" if plain else "needed")
+            with whole_file(path) as partial:
+                pyarrow.csv.write_csv(self.table(), partial, options)
+            units = {"time": "s"} | {name: unit for name, unit in self.units.items() if unit}
+            text = json.dumps(self.summary() | {"units": units}, indent=1)
+            write_atomically(path.with_name(f"{path.name}.json"), f"{text}\n".encode())

@@ -1,0 +1,33 @@
+"""How the components of a flight fared, by their statuses."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...common.percent import short_percent
+from ..system.names import parted
+from ..system.network import Network
+from ..system.status_words import STATUS, status_meaning
+from .results import Flight
+
+
+def status_lines(network: Network, flight: Flight) -> list[str]:
+    """A line for every component that reported a status other than 0: the worst, for how long, and the last."""
+    found = []
+    for name, values in flight.signals.items():
+        component, variable = parted(name, network.fmus)
+        if variable != STATUS or not component or flight.types[name] != "Integer" or not values.any():
+            continue
+        worst, last = int(np.max(values)), int(values[-1])
+        first = float(flight.time[np.argmax(values == worst)])
+        share = np.count_nonzero(values == worst) / values.size
+        meaning = status_meaning(network, name, worst)
+        words = (
+            f"{name}: {worst}{f' ({meaning})' if meaning else ''} from t = {first:g} s, {_percent(share)} of the rows"
+        )
+        found.append(words if last == worst else f"{words}, {last} at the end")
+    return found
+
+
+def _percent(share: float) -> str:
+    return "all" if share == 1.0 else f"{short_percent(share)} %"

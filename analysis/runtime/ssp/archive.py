@@ -1,0 +1,264 @@
+"""A system's files: an .ssp archive or a folder, read-only."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import lzma
+import posixpath
+import struct
+import warnings
+import zipfile
+import zlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from multiprocessing import parent_process
+from pathlib import Path
+from urllib.parse import unquote
+
+from ....fmus_src.export.available import fmu_file
+from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER, DESCRIPTION, system_files
+from ....fmus_src.paths import IS_CHECKOUT, ROOT, SYSTEMS, own_fmus
+from ...common.errors import InputError, suggestion
+
+HOW_TO_BUILD = (
+    "build_fmus.py builds this repository's, " if IS_CHECKOUT else ""
+) + "perilune export FILE.py those of your own"
+OSP_DESCRIPTION = "OspSystemStructure.xml"
+FMU = ".fmu"
+DEFAULT_VARIANT = DESCRIPTION.removesuffix(".ssd")
+
+# what zipfile and the decompressors below it raise for files that are no zips, or damaged ones
+UNREADABLE = (
+    zipfile.BadZipFile,
+    zlib.error,
+    lzma.LZMAError,
+    struct.error,
+    EOFError,
+    OSError,
+    NotImplementedError,
+    RuntimeError,
+    ValueError,
+    OverflowError,
+)
+
+
+@dataclass(frozen=True)
+class SystemArchive:
+    """Files of a system by archive name; ``label`` names it in messages, ``description`` is read without a variant.
+
+    ``elsewhere`` are files that stand for those outside of it, by `fmu_asked`, `use_asked` and `parameters_asked`; a
+    system that has any takes none from other places. ``besides`` collects what is read of its folder that ``files``
+    lack.
+    """
+
+    name: str
+    label: str
+    path: Path
+    files: Mapping[str, Path | bytes]
+    description: str = DESCRIPTION
+    elsewhere: Mapping[str, Path] = field(default_factory=dict)
+    besides: dict[str, None] = field(default_factory=dict)
+
+    @property
+    def is_fmu(self) -> bool:
+        """Whether it is an FMU alone, which no SSD describes."""
+        return self.path.suffix == FMU and self.path.is_file()
+
+    def read(self, name: str, element: str) -> bytes:
+        """Content of a file the description refers to, at ``element``."""
+        return self._content(self._place(name), element)
+
+    def _place(self, source: str) -> str:
+        """The archive name that a source means: a URI, so that %20 is a space unless a file has it in its name."""
+        name = posixpath.normpath(source)
+        return name if self._has(name) else posixpath.normpath(unquote(source))
+
+    def _has(self, name: str) -> bool:
+        return name in self.files or (self._inside(name) and (self.path / name).is_file())
+
+    def _inside(self, name: str) -> bool:
+        """Whether a name may be that of a file in the system's folder that `system_files` does not list."""
+        return self.path.is_dir() and not _leaves(name)
+
+    def _content(self, name: str, element: str) -> bytes:
+        if _leaves(name):
+            problem = f"{name} lies outside the system's {'folder' if self.path.is_dir() else 'archive'}"
+            raise InputError(self.label, element, problem, "put the file inside and correct the reference")
+        if not self._has(name):
+            raise InputError(self.label, element, f"no file {name}", "add the file or correct the reference")
+        if name not in self.files:
+            self.besides[name] = None
+        content = self.files.get(name, self.path / name)
+        return content if isinstance(content, bytes) else content.read_bytes()
+
+    def fmu(self, source: str, element: str, flavour: str) -> tuple[Callable[[], bytes], str]:
+        """What reads an FMU's content, and its name in messages.
+
+        A folder without FMUs of its own takes those of this repository, of the working folder, and of that which it
+        lies in.
+        """
+        if self.is_fmu:
+            return self.path.read_bytes, self.label
+        if fmu_asked(source) in self.elsewhere:
+            return self.elsewhere[fmu_asked(source)].read_bytes, source
+        name = self._place(source)
+        if self._has(name) or self.path.is_file() or not self._inside(name):
+            return partial(self._content, name, element), f"{self.label}!{name}"
+        path = fmu_file(Path(name).stem, flavour, self.path)
+        if path is None:
+            places = " or ".join(map(str, own_fmus(Path(name).stem, flavour, self.path)))
+            if not self.path.is_relative_to(SYSTEMS.resolve()):
+                problem = f"no file {name} in the system's folder, and no FMU of this name is built ({places})"
+                remedy = "build it: perilune export FILE.py, the file of its block; or correct the source"
+                raise InputError(self.label, element, problem, remedy)
+            problem = f"no file {name} in the system, no {flavour} FMU of this repository, and none is built ({places})"
+            raise InputError(self.label, element, problem, f"{HOW_TO_BUILD}, or add the FMU")
+        return path.read_bytes, str(path)
+
+    def is_own_file(self, source: str) -> bool:
+        """Whether a source is a file of the system, not one of those that `fmu` finds elsewhere."""
+        return self.is_fmu or self._has(self._place(source))
+
+    def variants(self) -> list[str]:
+        """Names of the archive's SSDs, the default one included."""
+        return sorted(name.removesuffix(".ssd") for name in self.files if name.endswith(".ssd") and "/" not in name)
+
+    def description_name(self, variant: str | None) -> str:
+        """Archive name of the SSD: the default one or a variant's."""
+        if self.is_fmu:
+            raise InputError(self.label, DESCRIPTION, "an FMU alone has none", "give a system here")
+        name = self.description if variant is None else f"{variant.removesuffix('.ssd')}.ssd"
+        if name not in self.files:
+            variants = self.variants()
+            if variant is None:
+                raise InputError(self.label, name, "not found", f"add it (SSDs here: {', '.join(variants) or 'none'})")
+            raise InputError(self.label, "--variant", f"no variant {variant}", suggestion(variant, variants))
+        return name
+
+    def parameter_set(self, name: str) -> tuple[bytes, str]:
+        """A parameter set by name: the system's own, else a path."""
+        return self._named(name, (f"resources/{name}", name, f"resources/{name}.ssv"), "--parameters", ".ssv")
+
+    def campaign(self, name: str) -> tuple[bytes, str]:
+        """A campaign by name: the system's own, else a path."""
+        places = (f"{CAMPAIGN_FOLDER}/{name}", f"{CAMPAIGN_FOLDER}/{name}.toml")
+        return self._named(name, places, "--campaign", ".toml")
+
+    def _named(self, name: str, places: tuple[str, ...], option: str, suffix: str) -> tuple[bytes, str]:
+        for place in places:
+            if place in self.files:
+                content, label = self._content(place, option), f"{self.label}!{place}"
+                _warn_of_another(name, content, label, option, suffix)
+                return content, label
+        if parameters_asked(name) in self.elsewhere:
+            return self.elsewhere[parameters_asked(name)].read_bytes(), name
+        if Path(name).is_file():
+            return Path(name).read_bytes(), name
+        known = sorted(Path(entry).name for entry in self.files if entry.endswith(suffix))
+        raise InputError(
+            self.label, option, f"no {name} in the system, nor a file of this name", suggestion(name, known)
+        )
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 over names and contents."""
+        total = hashlib.sha256()
+        for name in sorted(self.files):
+            total.update(name.encode() + b"\0" + hashlib.sha256(self._content(name, name)).digest())
+        return total.hexdigest()
+
+
+def _warn_of_another(name: str, content: bytes, label: str, option: str, suffix: str) -> None:
+    """Say, once, that a file of the working folder has the name of a system's own one, which is read instead of it."""
+    if parent_process() is not None:
+        return  # a worker: who started it has said so
+    for path in dict.fromkeys((Path(name), Path(f"{name}{suffix}"))):
+        if path.is_file() and path.read_bytes() != content:
+            other = path if path.is_absolute() else f"./{path}"
+            warnings.warn(
+                f"{option} {name}: read from {label}; another file of this name, {path} in the working folder, is not: "
+                f"write {option} {other} for that one",
+                stacklevel=4,
+            )
+            return
+
+
+def fmu_asked(source: str) -> str:
+    """How `SystemArchive.elsewhere` names the FMU of a component's source."""
+    return f"source:{source}"
+
+
+def use_asked(name: str) -> str:
+    """How it names an FMU that options put into a slot."""
+    return f"use:{name}"
+
+
+def parameters_asked(name: str) -> str:
+    """How it names a parameter set."""
+    return f"parameters:{name}"
+
+
+def open_zip(data: bytes, label: str) -> zipfile.ZipFile:
+    """A zip archive whose every file reads back; raises InputError for anything else."""
+    try:
+        archive = zipfile.ZipFile(io.BytesIO(data))
+        broken = archive.testzip()
+    except UNREADABLE as error:
+        raise InputError(label, "archive", f"not a readable zip: {error}", "build or copy the file again") from error
+    if broken is not None:
+        raise InputError(label, broken, "damaged in the zip (checksum)", "build or copy the file again")
+    for name in archive.namelist():
+        parts = name.split("/")
+        if name.startswith("/") or ".." in parts or "\\" in name or ":" in parts[0]:
+            raise InputError(label, name, "a file name that leaves the archive's folder", "repack without it")
+    return archive
+
+
+def open_system(system: str | Path) -> SystemArchive:
+    """A system by name under ssp_systems, by folder or by .ssp file; an .fmu is one of a single component."""
+    text = str(system)
+    if (SYSTEMS / text).is_dir() and "/" not in text and text not in ("", ".", ".."):
+        return _folder(SYSTEMS / text)
+    path = Path(text)
+    if path.is_dir():
+        return _folder(path)
+    if path.is_file() and (path.suffix == ".ssd" or path.name == OSP_DESCRIPTION):
+        return _folder(path.parent, path.name)
+    if path.suffix == FMU:
+        if not path.is_file():
+            raise InputError(text, "file", "not found", "give the path of an .fmu")
+        return SystemArchive(path.stem, text, path, {path.name: path})
+    if path.suffix == ".py":
+        remedy = f"perilune export {text} builds them; fly the folder of a system that names them"
+        raise InputError(text, "", "a file of blocks is no system", remedy)
+    if path.is_file():
+        archive = open_zip(path.read_bytes(), text)
+        files = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
+        return SystemArchive(path.stem, text, path, files)
+    raise InputError(text, "system", "neither a system, a folder nor a file", suggestion(text, system_names()))
+
+
+def system_names() -> list[str]:
+    """Names of the systems under ssp_systems."""
+    return sorted(entry.parent.name for entry in SYSTEMS.glob(f"*/{DESCRIPTION}"))
+
+
+def _leaves(name: str) -> bool:
+    """Whether a normalised name leads out of the folder that it starts from."""
+    return name.startswith(("/", "..")) or ":" in name.partition("/")[0]
+
+
+def _folder(path: Path, description: str | None = None) -> SystemArchive:
+    path = path.resolve()
+    label = path.relative_to(ROOT).as_posix() if path.is_relative_to(ROOT) else str(path)
+    if description is None:
+        has_ssd = any(path.glob("*.ssd"))  # before the folder is searched, which may be a large one
+        if not has_ssd and not (path / OSP_DESCRIPTION).is_file():
+            raise InputError(label, DESCRIPTION, "not found", "give a folder with an SSD in it, or add one")
+        description = DESCRIPTION if has_ssd else OSP_DESCRIPTION
+    files = system_files(path)
+    if description == OSP_DESCRIPTION:
+        files[OSP_DESCRIPTION] = path / OSP_DESCRIPTION
+    return SystemArchive(path.name, label, path, files, description)

@@ -1,0 +1,82 @@
+"""Communication steps and algorithms, which SSP has no place for: our annotation and those of other tools.
+
+OMSimulator writes a master into each system, the Open Simulation Platform (libcosim, Vico) an algorithm into the
+default experiment and hints into components. The masters of both are of Jacobi's kind.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from lxml import etree
+
+from ...common.errors import InputError
+from .documents import child, children, tag
+
+OURS = "org.perilune.step"
+OMSIMULATOR = "org.openmodelica"
+OSP = ("com.opensimulationplatform", "org.open-simulation-platform", "com.github.ntnu-ihb.vico")  # the last is Vico's
+
+
+@dataclass(frozen=True)
+class Pace:
+    """A communication step (s) and the algorithm it is meant for; ``varies``: the line of one whose step varies."""
+
+    step: float | None = None
+    algorithm: str | None = None
+    varies: int | None = None
+
+
+def pace_of_experiment(experiment: etree._Element | None, file: str) -> Pace:
+    """What the default experiment says; raises InputError."""
+    for kind, item in _annotated(experiment):
+        if kind == OURS and tag(item) == "CommunicationStep":
+            return Pace(_seconds(item, ("size",), file))
+        if kind in OSP and tag(item) == "FixedStepAlgorithm":
+            return Pace(_seconds(item, ("baseStepSize", "stepSize"), file), "jacobi")
+    return Pace()
+
+
+def pace_of_system(system: etree._Element, file: str) -> Pace:
+    """What a system says of itself, inner systems apart; raises InputError."""
+    for kind, item in _annotated(system):
+        if kind == OMSIMULATOR or kind in OSP:
+            if tag(item) == "FixedStepMaster":
+                return Pace(_seconds(item, ("stepSize",), file), "jacobi")
+            if tag(item) in ("VariableStepMaster", "VariableStepSolver"):
+                return Pace(algorithm="jacobi", varies=item.sourceline)
+    return Pace()
+
+
+def step_of_component(component: etree._Element, file: str) -> float | None:
+    """The step (s) that a component is to be made with, where it is not the system's; raises InputError."""
+    for kind, item in _annotated(component):
+        if kind in OSP and tag(item) == "StepSizeHint":
+            return _seconds(item, ("value",), file)
+    return None
+
+
+def _annotated(element: etree._Element | None) -> Iterator[tuple[str, etree._Element]]:
+    """Everything in the annotations of an element, with the annotations' types."""
+    if element is not None:
+        for annotation in children(child(element, "ssd:Annotations"), "ssc:Annotation"):
+            for item in annotation.iterdescendants(etree.Element):
+                yield annotation.get("type", ""), item
+
+
+def _seconds(item: etree._Element, names: tuple[str, ...], file: str) -> float:
+    text = next((item.get(name) for name in names if item.get(name) is not None), "")
+    return positive_seconds(text or "", names[0], f"{tag(item)} (line {item.sourceline})", file)
+
+
+def positive_seconds(text: str, name: str, where: str, file: str) -> float:
+    """A step's text as a number; raises InputError naming the attribute or element ``name``."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < math.inf:
+        raise InputError(file, where, f"{name} is not a positive number of seconds", f'write {name}="0.1"')
+    return value

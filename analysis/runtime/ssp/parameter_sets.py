@@ -1,0 +1,120 @@
+"""Parameter sets (.ssv) and mappings (.ssm): values by name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from lxml import etree
+
+from ...common.errors import InputError
+from .documents import check_schema, child, children, read_document, tag
+from .transformations import Transformation, check_type, read_transformation
+from .units import Unit, units_of_document
+
+ParameterValue = float | int | bool | str
+SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """A value on its way to a parameter, with where it came from.
+
+    ``type_name`` is Real, Integer, Boolean, Enumeration or String; a value from the command line
+    is ``Text`` and takes the type of its target.
+    """
+
+    name: str
+    value: ParameterValue
+    type_name: str
+    unit: Unit | None
+    file: str
+    line: int
+    transformation: Transformation | None = None
+    suppress_unit_conversion: bool = False
+
+    @property
+    def where(self) -> str:
+        return f"{self.name} (line {self.line})" if self.line else self.name
+
+    @property
+    def origin(self) -> str:
+        """The file that gives the value, without its folders, and the line; or the option."""
+        name = self.file.rpartition("!")[2].rpartition("/")[2]
+        return f"{name} line {self.line}" if self.line else name
+
+
+def read_parameter_set(root: etree._Element, file: str) -> list[Assignment]:
+    """The values of a ParameterSet element, valid already or not."""
+    check_schema(root, "ssv", file)
+    units = units_of_document(root, "ssv")
+    found: dict[str, Assignment] = {}
+    for parameter in children(child(root, "ssv:Parameters"), "ssv:Parameter"):
+        name, line = parameter.get("name", ""), parameter.sourceline
+        if name in found:
+            raise InputError(file, f"{name} (line {line})", "given twice in one parameter set", "remove one")
+        for item in parameter:
+            if tag(item) == "Binary":
+                raise InputError(file, f"{name} (line {line})", "Binary values are not supported", "remove it")
+            if tag(item) in ("Real", "Integer", "Boolean", "String", "Enumeration"):
+                unit_name = item.get("unit") or None
+                if unit_name is not None and unit_name not in units:
+                    raise InputError(
+                        file, f"{name} (line {line})", f"unit {unit_name} is not defined here", "add it under Units"
+                    )
+                value = parse_value(item.get("value", ""), tag(item), file, f"{name} (line {line})")
+                found[name] = Assignment(name, value, tag(item), units.get(unit_name or ""), file, line)
+    return list(found.values())
+
+
+def parse_value(text: str, type_name: str, file: str, element: str) -> ParameterValue:
+    """A value's text as the type says; raises InputError."""
+    try:
+        if type_name == "Real":
+            return float(text)
+        if type_name == "Integer":
+            return int(text)
+    except ValueError:
+        raise InputError(file, element, f"{text!r} is not of type {type_name}", "write a number") from None
+    if type_name == "Boolean":
+        if text not in ("true", "false", "1", "0"):
+            raise InputError(file, element, f"{text!r} is not a Boolean", "write true or false")
+        return text in ("true", "1")
+    return text
+
+
+def apply_mapping(assignments: list[Assignment], root: etree._Element, file: str) -> list[Assignment]:
+    """The assignments that a ParameterMapping passes on, under their target names."""
+    check_schema(root, "ssm", file)
+    by_name = {assignment.name: assignment for assignment in assignments}
+    mapped = []
+    for entry in children(root, "ssm:MappingEntry"):
+        source, line = entry.get("source", ""), entry.sourceline
+        if source not in by_name:
+            raise InputError(
+                file,
+                f"{source} (line {line})",
+                "the parameter set has no such parameter",
+                "correct or remove the entry",
+            )
+        origin = by_name[source]
+        transformation = read_transformation(entry)
+        check_type(transformation, origin.type_name, file, f"{source} (line {line})")
+        mapped.append(
+            Assignment(
+                entry.get("target", ""),
+                origin.value,
+                origin.type_name,
+                origin.unit,
+                file,
+                line,
+                transformation,
+                entry.get("suppressUnitConversion") in ("true", "1"),
+            )
+        )
+    return mapped
+
+
+def read_parameter_file(data: bytes, file: str) -> list[Assignment]:
+    """The values of an .ssv document."""
+    return read_parameter_set(read_document(data, "ssv", file), file)

@@ -1,0 +1,197 @@
+"""A SystemStructureDescription read: from the XML of an SSD to a `Description`."""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from ...common.errors import InputError
+from .archive import OSP_DESCRIPTION, SystemArchive
+from .description import Binding, Component, Connection, Connector, Description, DictionaryReference, System
+from .direct_outputs import feedthrough_of_component
+from .documents import child, children, read_document, tag
+from .experiment import Pace, pace_of_experiment, pace_of_system, step_of_component
+from .osp import Load, read_osp
+from .own_annotations import check_annotations
+from .sources import is_elsewhere, source_file
+from .transformations import read_transformation
+from .units import Unit, units_of_document
+
+FMU_TYPE = "application/x-fmu-sharedlibrary"
+
+
+def read_description(archive: SystemArchive, variant: str | None = None) -> Description:
+    """The SSD of an archive, the default one or a variant's; raises InputError."""
+    name = archive.description_name(variant)
+    read = read_osp if name == OSP_DESCRIPTION else read_ssd
+    return read(archive.read(name, "SSD"), f"{archive.label}/{name}", archive.read)
+
+
+def read_ssd(data: bytes, file: str, load: Load) -> Description:
+    """An SSD; ``load(name, element)`` returns the bytes of a file that it refers to. Raises InputError."""
+    return Reader(file, load).read(data)
+
+
+class Reader:
+    """Reads one SSD, see `read_ssd`."""
+
+    def __init__(self, file: str, load: Load) -> None:
+        self.file = file
+        self.load = load
+        self.units: dict[str, Unit] = {}
+
+    def refuse(self, element: etree._Element, what: str, problem: str, remedy: str) -> InputError:
+        return InputError(self.file, f"{what} (line {element.sourceline})", problem, remedy)
+
+    def read(self, data: bytes) -> Description:
+        """The whole document; raises InputError."""
+        root = read_document(data, "ssd", self.file)
+        check_annotations(root, self.file)
+        self.units = units_of_document(root, "ssd")
+        system = child(root, "ssd:System")
+        assert system is not None  # the schema requires it
+        experiment = child(root, "ssd:DefaultExperiment")
+        start = stop = None
+        if experiment is not None:
+            start, stop = experiment.get("startTime"), experiment.get("stopTime")
+        pace = pace_of_experiment(experiment, self.file)
+        if pace == Pace():
+            pace = pace_of_system(system, self.file)
+        return Description(
+            file=self.file,
+            name=root.get("name", ""),
+            system=self.system(system),
+            units=self.units,
+            enumerations={
+                enumeration.get("name", ""): {
+                    item.get("name", ""): int(item.get("value", "0")) for item in children(enumeration, "ssc:Item")
+                }
+                for enumeration in children(child(root, "ssd:Enumerations"), "ssc:Enumeration")
+            },
+            start_time=float(start) if start is not None else 0.0,
+            stop_time=float(stop) if stop is not None else None,
+            step=pace.step,
+            algorithm=pace.algorithm,
+            varies=pace.varies,
+            annotations={
+                annotation.get("type", ""): annotation
+                for annotation in children(child(root, "ssd:Annotations"), "ssc:Annotation")
+            },
+        )
+
+    def system(self, element: etree._Element) -> System:
+        system = System(**self.common(element), step=pace_of_system(element, self.file).step)
+        for dictionary in children(child(element, "ssd:SignalDictionaries"), "ssd:SignalDictionary"):
+            system.dictionaries[dictionary.get("name", "")] = self.dictionary(dictionary)
+        elements = child(element, "ssd:Elements")
+        for item in elements if elements is not None else ():
+            read = {"Component": self.component, "System": self.system, "SignalDictionaryReference": self.reference}
+            if tag(item) in read:
+                inner = read[tag(item)](item)
+                if inner.name in system.elements:
+                    raise self.refuse(item, inner.name, "two elements of this name in one system", "rename one")
+                system.elements[inner.name] = inner
+        for item in children(child(element, "ssd:Connections"), "ssd:Connection"):
+            system.connections.append(
+                Connection(
+                    (item.get("startElement") or None, item.get("startConnector", "")),  # "": the system itself
+                    (item.get("endElement") or None, item.get("endConnector", "")),
+                    item.get("suppressUnitConversion") in ("true", "1"),
+                    read_transformation(item),
+                    item.sourceline,
+                )
+            )
+        return system
+
+    def component(self, element: etree._Element) -> Component:
+        name = element.get("name", "")
+        kind = element.get("type", FMU_TYPE)
+        if kind != FMU_TYPE:
+            raise self.refuse(element, name, f"components of type {kind} are not supported", "use an FMU")
+        if element.get("implementation", "any") == "ModelExchange":
+            problem = 'implementation="ModelExchange" is not supported'
+            raise self.refuse(element, name, problem, 'use a co-simulation FMU and write implementation="CoSimulation"')
+        source = source_file(element.get("source", ""))
+        if not source.endswith(".fmu"):
+            raise self.refuse(element, name, f"source {source} is not an .fmu", "use an FMU as the component's source")
+        if is_elsewhere(source):
+            raise self.refuse(element, name, f"source {source} is on another machine", "name a file of the system")
+        return Component(
+            **self.common(element),
+            source=source,
+            step=step_of_component(element, self.file),
+            feedthrough=feedthrough_of_component(element, self.file),
+        )
+
+    def reference(self, element: etree._Element) -> DictionaryReference:
+        return DictionaryReference(**self.common(element, signals=True), dictionary=element.get("dictionary", ""))
+
+    def common(self, element: etree._Element, *, signals: bool = False) -> dict:
+        """What all elements have; ``signals``: the connectors are a dictionary's, which have both directions."""
+        connectors: dict[str, Connector] = {}
+        for item in children(child(element, "ssd:Connectors"), "ssd:Connector"):
+            connector = self.connector(item, signals)
+            if connector.name in connectors:
+                raise self.refuse(item, connector.name, "declared twice", "remove one")
+            connectors[connector.name] = connector
+        bindings = children(child(element, "ssd:ParameterBindings"), "ssd:ParameterBinding")
+        return {
+            "name": element.get("name", ""),
+            "connectors": connectors,
+            "bindings": [self.binding(item) for item in bindings],
+            "line": element.sourceline,
+        }
+
+    def connector(self, item: etree._Element, signal: bool) -> Connector:
+        name, kind = item.get("name", ""), item.get("kind", "")
+        if kind == "inout" and not signal:
+            raise self.refuse(item, name, "inout connectors are not supported", "declare it input or output")
+        return self.typed(item, name, kind)
+
+    def typed(self, item: etree._Element, name: str, kind: str) -> Connector:
+        type_name = unit = enumeration = None
+        for inner in item:
+            kind_of_value = tag(inner)
+            if kind_of_value == "Binary":
+                raise self.refuse(item, name, "Binary connectors are not supported", "remove the connector")
+            if kind_of_value in ("Real", "Integer", "Boolean", "String", "Enumeration"):
+                type_name, unit, enumeration = kind_of_value, inner.get("unit") or None, inner.get("name")
+        return Connector(name, kind, type_name, unit, enumeration, item.sourceline)
+
+    def dictionary(self, element: etree._Element) -> dict[str, Connector]:
+        name, source = element.get("name", ""), element.get("source")
+        if source is not None:
+            root = read_document(self.load(source, f"signal dictionary {name}"), "ssb", source)
+        else:
+            inline = element.find("{*}SignalDictionary")
+            if inline is None:
+                raise self.refuse(element, name, "signal dictionary without source or content", "give one of them")
+            root = inline
+        self.units |= units_of_document(root, "ssb")
+        return {
+            entry.get("name", ""): self.typed(entry, entry.get("name", ""), "inout")
+            for entry in children(root, "ssb:DictionaryEntry")
+        }
+
+    def binding(self, element: etree._Element) -> Binding:
+        mapping = child(element, "ssd:ParameterMapping")
+        for part, kind in ((element, "set"), (mapping, "mapping")):
+            expected = f"application/x-ssp-parameter-{kind}"
+            if part is not None and part.get("sourceBase", "SSD") != "SSD":
+                raise self.refuse(part, "ParameterBinding", 'sourceBase="component" is not supported', "use SSD")
+            if part is not None and part.get("type", expected) != expected:
+                raise self.refuse(
+                    part, "ParameterBinding", f"type {part.get('type')} is not supported", f"use {expected}"
+                )
+        values = child(element, "ssd:ParameterValues")
+        source = element.get("source")
+        inline = values.find("{*}ParameterSet") if values is not None else None
+        if source is None and inline is None:
+            raise self.refuse(element, "ParameterBinding", "neither source nor inline values", "give one of them")
+        return Binding(
+            prefix=element.get("prefix", ""),
+            source=source,
+            inline=inline,
+            mapping_source=mapping.get("source") if mapping is not None else None,
+            mapping_inline=mapping.find("{*}ParameterMapping") if mapping is not None else None,
+            line=element.sourceline,
+        )

@@ -1,0 +1,82 @@
+"""An FMU that flies alone: the description of a system of one component, which no SSD holds."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from fmpy.util import auto_interval
+
+from ...common.errors import InputError
+from ..ssp.description import Component, Connector, Description, System
+from .fmu import Fmu
+from .options import SystemOptions
+
+CONNECTED = ("input", "output", "parameter")
+DURATION = 1.0  # s, where the FMU proposes no end; FMPy's, too
+WHOLE = 1e-9  # what a number of steps may lack of a whole one
+
+
+def name_alone(fmu: Fmu) -> str:
+    """What the component of an FMU alone is called: its model's name, or the C identifier that it has beside it."""
+    if fmu.name.isidentifier():
+        return fmu.name
+    return re.sub(r"\W", "_", fmu.description.coSimulation.modelIdentifier)
+
+
+def describe_alone(fmu: Fmu, options: SystemOptions) -> tuple[Description, list[str]]:
+    """The description of a system of one FMU, and remarks on what was taken where the FMU proposes nothing.
+
+    Its inputs, outputs and parameters are the component's connectors, start, end and step those of its default
+    experiment. Without them the start is 0, the end 1 s later, the step the FMU's internal one or FMPy's
+    `auto_interval` of the duration; an end that is not asked for is the last whole step before the FMU's. Raises
+    InputError for a variant, which an FMU does not have.
+    """
+    if options.variant is not None:
+        raise InputError(fmu.label, "--variant", "an FMU alone has no variants", "leave it out")
+    connectors = {
+        variable.name: Connector(variable.name, variable.causality, variable.type, None, None, 0)
+        for variable in fmu.variables.values()
+        if variable.causality in CONNECTED and not (variable.type == "String" and variable.causality != "parameter")
+    }
+    name = name_alone(fmu)
+    component = Component(name, connectors, [], 0, fmu.label)
+    start, stop, step, remarks = _times(fmu, options)
+    remarks += [
+        f"{name}.{variable.name}: a String {variable.causality}, not exchanged"
+        for variable in fmu.variables.values()
+        if variable.type == "String" and variable.causality in ("input", "output")
+    ]
+    root = System(name, {}, [], 0, elements={name: component})
+    return Description(fmu.label, fmu.name, root, {}, {}, start, stop, step), remarks
+
+
+def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[str]]:
+    """Start, end and step (s), and what is to be said of them."""
+    experiment = fmu.description.defaultExperiment
+    start, stop, step = (
+        None if value is None else float(value)
+        for value in (
+            getattr(experiment, "startTime", None),
+            getattr(experiment, "stopTime", None),
+            getattr(experiment, "stepSize", None) or fmu.description.coSimulation.fixedInternalStepSize,
+        )
+    )
+    remarks: list[str] = []
+    start = 0.0 if start is None else start
+    if stop is None:
+        stop = start + DURATION
+        if options.stop_time is None:
+            remarks.append(f"the FMU proposes no stop time: {stop:g} s taken")
+    if step is None:
+        duration = (stop if options.stop_time is None else options.stop_time) - start
+        step = float(auto_interval(duration if duration > 0.0 else DURATION))
+        if options.step is None:
+            remarks.append(f"the FMU proposes no step: {step:g} s taken")
+    taken = step if options.step is None else options.step
+    steps = math.floor((stop - start) / taken + WHOLE) if 0.0 < (stop - start) / taken < math.inf else 0
+    if options.stop_time is None and steps and (stop - start) / taken - steps > WHOLE:
+        whole = start + steps * taken
+        remarks.append(f"{stop - start:g} s are not whole steps of {taken:g} s: the end is {whole:g} s")
+        stop = whole
+    return start, stop, step, remarks

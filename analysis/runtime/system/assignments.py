@@ -1,0 +1,327 @@
+"""Which value reaches which parameter or input: bindings, parameter sets, single settings."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from ...common.errors import InputError, suggestion
+from ..ssp.archive import SystemArchive
+from ..ssp.bindings import read_binding
+from ..ssp.description import Binding, Component, System
+from ..ssp.parameter_sets import Assignment, ParameterValue, SetValue, parse_value
+from ..ssp.transformations import VALUE_TYPES, Transformation
+from .network import Link, Network, Node
+from .open_inputs import check_signals, settle_open_inputs
+from .options import SystemOptions
+
+SETTABLE = ("parameter", "input")
+SINGLE = "--set"  # where single values come from, unless a file says them
+TEXT = "Text"  # type of a single value, which takes that of its target
+ELEMENTS = ","  # between the values of a vector
+RANGE = ":"  # between the numbers of a sweep, which is no single value
+INDEX = re.compile(r"\[[\d,]+\]$")
+
+
+@dataclass
+class Settings:
+    """Values by (component, variable), and of system connectors by node name; ``origins``: where each comes from.
+
+    ``left_out`` is where values come from that no mapping passes on, by what they would be applied to without one.
+    ``chosen`` are the values that options give, ``replaced`` what parameters of the system take the place of: the
+    parameter's name and the value before, by component and variable.
+    """
+
+    variables: dict[tuple[str, str], ParameterValue] = field(default_factory=dict)
+    origins: dict[tuple[str, str], str] = field(default_factory=dict)
+    node_origins: dict[str, str] = field(default_factory=dict)
+    nodes: dict[str, float | str] = field(default_factory=dict)
+    unmatched: list[str] = field(default_factory=list)
+    left_out: dict[str, str] = field(default_factory=dict)
+    chosen: list[Assignment] = field(default_factory=list)
+    replaced: dict[tuple[str, str], tuple[str, ParameterValue]] = field(default_factory=dict)
+
+
+def collect_settings(
+    network: Network, archive: SystemArchive, assignments: Sequence[Assignment], options: SystemOptions
+) -> Settings:
+    """All values of a system: its bindings from the inside out, then ``assignments``; later ones win.
+
+    Raises InputError for a name that matches nothing (unless allowed), a value that does not
+    fit its variable, and declared inputs that have neither connection nor value (unless they keep their starts).
+    """
+    settings, allow_unmatched = Settings(), options.allow_unmatched
+    # Deeper systems first: the binding of an outer one wins.
+    for path, system in sorted(network.systems.items(), key=lambda item: -item[0].count(".")):
+        for element in system.elements.values():
+            if isinstance(element, Component):
+                for assignment in _bound(network, settings, archive, element.bindings, f"{path}{element.name}."):
+                    _apply(network, settings, path, f"{element.name}.", assignment, allow_unmatched)
+        for assignment in _bound(network, settings, archive, system.bindings, path):
+            _apply(network, settings, path, "", assignment, allow_unmatched)
+    settings.chosen = [part for given in assignments for part in _elements(network, given)]
+    for assignment in settings.chosen:
+        _check_driven(network, assignment)
+        _apply(network, settings, "", "", assignment, allow_unmatched)
+    _pass_parameters(network, settings)
+    settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
+    check_signals(network, settings)
+    return settings
+
+
+def single_value(name: str, value: SetValue, place: tuple[str, int] | None = None) -> Assignment:
+    """A value that is set by itself, by the command line or at a ``place`` (file, line); of a vector all elements."""
+    file, line = place or (SINGLE, 0)
+    return Assignment(name.strip(), ELEMENTS.join(_texts(value)), TEXT, None, file, line)
+
+
+def _texts(value: object) -> list[str]:
+    """The elements of a value as text: of [1, 2, 3], of 1,2,3 as a text, of one number."""
+    if isinstance(value, str):
+        return [part.strip() for part in value.strip().removeprefix("[").removesuffix("]").split(ELEMENTS)]
+    if isinstance(value, Iterable):
+        return [text for item in value for text in _texts(item)]
+    return [str(value).lower() if isinstance(value, bool) else str(value)]
+
+
+def _elements(network: Network, assignment: Assignment) -> list[Assignment]:
+    """A value for a whole vector as one for each of its elements; others as they are. Raises InputError."""
+    target = _resolve(network, "", assignment.name)
+    if assignment.type_name != TEXT or not isinstance(target, tuple) or target[1] in network.fmus[target[0]].variables:
+        return [assignment]
+    variables = network.fmus[target[0]].variables
+    names = [f"{target[0]}.{name}" for name in variables if INDEX.sub("", name) == target[1] and name != target[1]]
+    if not names:
+        return [assignment]
+    values = str(assignment.value).split(ELEMENTS)
+    if len(values) != len(names):
+        problem = f"{len(values)} value{'s' if len(values) > 1 else ''} for the {len(names)} elements {names[0]} ..."
+        remedy = f"give {len(names)} with commas between, or one element: {names[0]}"
+        raise InputError(assignment.file, assignment.where, problem, remedy)
+    return [replace(assignment, name=name, value=value) for name, value in zip(names, values, strict=True)]
+
+
+def _bound(
+    network: Network, settings: Settings, archive: SystemArchive, bindings: list[Binding], place: str
+) -> list[Assignment]:
+    """Assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
+    found: list[Assignment] = []
+    for binding in bindings:
+        values, without = read_binding(archive, network.file, binding)
+        found += values
+        settings.left_out |= {place + value.name: f"{value.name} of {value.origin}" for value in without}
+        if without:
+            names = ", ".join(value.name for value in without)
+            where = f"{place}ParameterBinding (line {binding.line})"
+            network.notes.append(f"{where}: its mapping has no entry for {names}: not applied")
+    return found
+
+
+def _resolve(network: Network, path: str, name: str) -> Node | tuple[str, str] | None:
+    """What a name means inside a system: a system connector, or (component, variable)."""
+    system: System = network.systems[path]
+    if name in system.connectors:
+        return network.nodes[path + name]
+    for element in system.elements.values():
+        if name.startswith(f"{element.name}."):
+            rest = name[len(element.name) + 1 :]
+            if isinstance(element, Component):
+                return path + element.name, rest
+            if isinstance(element, System):
+                return _resolve(network, f"{path}{element.name}.", rest)
+    return None
+
+
+def _apply(
+    network: Network, settings: Settings, path: str, prefix: str, assignment: Assignment, allow_unmatched: bool
+) -> None:
+    target = _resolve(network, path, prefix + assignment.name)
+    known: list[str] = []
+    problem = "matches no parameter"
+    if isinstance(target, Node):
+        if target.kind in SETTABLE:
+            number = _fit(assignment, target.type_name or "Real", target)
+            _check_bounds(assignment, None, number)
+            settings.nodes[target.name] = number if isinstance(number, str) else float(number)
+            settings.node_origins[target.name] = assignment.origin
+            return
+    elif target is not None:
+        component, name = target
+        fmu = network.fmus[component]
+        variable = fmu.variables.get(name)
+        known = [f"{component}.{key}" for key, value in fmu.variables.items() if value.causality in SETTABLE]
+        is_constant = variable is not None and variable.variability == "constant"
+        has_start = variable is not None and (variable.causality in SETTABLE or variable.initial in ("exact", "approx"))
+        if variable is not None and has_start and not is_constant:
+            items = {}
+            if variable.type == "Enumeration" and variable.declaredType is not None:
+                items = {item.name: int(item.value) for item in variable.declaredType.items or ()}
+            unit = fmu.units.get(fmu.unit_of(variable) or "")
+            node = Node(f"{component}.{name}", variable.causality, component, name, variable.type, unit, 0, items)
+            value = _fit(assignment, variable.type, node)
+            _check_bounds(assignment, variable, value)
+            settings.variables[component, name] = value
+            settings.origins[component, name] = assignment.origin
+            return
+        if variable is not None:
+            problem += ": it is a constant" if is_constant else f": it is of causality {variable.causality}"
+    if not allow_unmatched:
+        if len(network.fmus) == 1:
+            known = [
+                f"{component}.{key}"
+                for component, fmu in network.fmus.items()
+                for key, value in fmu.variables.items()
+                if value.causality in SETTABLE
+            ]
+        name = path + prefix + assignment.name
+        remedy = suggestion(name, known) if known else suggestion(name.partition(".")[0], network.fmus)
+        raise InputError(assignment.file, assignment.where, problem, f"{remedy}; --allow-unmatched lets it pass")
+    settings.unmatched.append(f"{assignment.file}: {assignment.where}")
+
+
+def _check_driven(network: Network, assignment: Assignment) -> None:
+    """Refuse a single value for a connected input, which would be lost before the first step."""
+    link = network.driver.get(assignment.name)
+    if assignment.type_name == TEXT and assignment.name in network.driven:
+        problem = f"is driven by column {network.driven[assignment.name]} of the inputs over time"
+        raise InputError(assignment.file, assignment.where, problem, "leave out the column or the value")
+    if assignment.type_name == TEXT and link is not None and link.target.kind == "input":
+        problem = f"is connected to {link.source.name}, which would overwrite the value"
+        remedy = f"set a parameter, or override it: --fault {assignment.name}=override:{assignment.value}@0"
+        raise InputError(assignment.file, assignment.where, problem, remedy)
+
+
+def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
+    """The assignment's value as its target needs it: type, unit, transformation."""
+    value, given = assignment.value, assignment.type_name
+    if given == TEXT:
+        given = type_name
+        value = _parsed(assignment, type_name, node)
+    if given == "Integer" and type_name == "Real" and not isinstance(value, bool):
+        given, value = "Real", float(value)
+    if given in ("String", "Integer") and type_name == "Enumeration":
+        given = "Enumeration"
+    if given != type_name:
+        remedy = f"give {'an' if type_name in ('Enumeration', 'Integer') else 'a'} {type_name}"
+        raise InputError(assignment.file, assignment.where, f"is {given}, the variable is {type_name}", remedy)
+    transformation = assignment.transformation or Transformation()
+    if type_name == "Real":
+        if assignment.unit and node.unit and not assignment.suppress_unit_conversion:
+            if not assignment.unit.fits(node.unit):
+                raise InputError(
+                    assignment.file,
+                    assignment.where,
+                    f"unit {assignment.unit.name} does not fit {node.unit.name}",
+                    f"give the value in a unit that converts to {node.unit.name}",
+                )
+            transformation = transformation.after_units(assignment.unit.conversion_to(node.unit))
+        return float(value) * transformation.factor + transformation.offset
+    if transformation.table:
+        table = [
+            [parse_value(text, type_name, assignment.file, assignment.where) for text in entry]
+            for entry in transformation.table
+        ]
+        found = [target for source, target in table if source == value]
+        if not found:
+            raise InputError(assignment.file, assignment.where, f"the mapping has no entry for {value}", "add one")
+        value = found[-1]
+    if type_name == "Enumeration":
+        by_value = {str(number): number for number in node.enumeration.values()}  # as OMSimulator writes items
+        items = by_value | node.enumeration
+        if str(value) in items:
+            return items[str(value)]
+        raise InputError(
+            assignment.file,
+            assignment.where,
+            f"no item {value} in the enumeration",
+            suggestion(str(value), node.enumeration),
+        )
+    return value
+
+
+def _parsed(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
+    """A single value, which is a bare number in the variable's unit."""
+    if type_name in ("Real", "Integer", "Boolean") and RANGE in str(assignment.value):
+        unit = f", in {node.unit.name}" if node.unit is not None else ""
+        remedy = f"give one{unit}; low:high:step, a sweep, is what perilune batch --campaign flies"
+        raise InputError(assignment.file, assignment.where, f"{assignment.value!r} is no single value", remedy)
+    try:
+        return parse_value(str(assignment.value), type_name, assignment.file, assignment.where)
+    except InputError as error:
+        if type_name != "Real" or node.unit is None:
+            raise
+        raise InputError(error.file, error.element, error.problem, f"write a number, in {node.unit.name}") from None
+
+
+def _check_bounds(assignment: Assignment, variable: object, value: ParameterValue) -> None:
+    """Refuse a number outside the FMU's declared minimum and maximum, or not finite."""
+    if isinstance(value, str | bool):
+        return
+    low, high = getattr(variable, "min", None), getattr(variable, "max", None)
+    if not abs(value) < float("inf"):
+        raise InputError(assignment.file, assignment.where, f"{value} is not finite", "give a finite number")
+    if isinstance(value, int) and not -(2**31) <= value < 2**31:
+        raise InputError(assignment.file, assignment.where, f"{value} has more than 32 bits", "give a smaller number")
+    if low is not None and value < float(low):
+        raise InputError(
+            assignment.file, assignment.where, f"{value} is below the minimum {low}", "give a larger value"
+        )
+    if high is not None and value > float(high):
+        raise InputError(
+            assignment.file, assignment.where, f"{value} is above the maximum {high}", "give a smaller value"
+        )
+
+
+def _pass_parameters(network: Network, settings: Settings) -> None:
+    """Carry values of system parameter connectors along their connections to components."""
+    for node in network.nodes.values():
+        if node.kind != "parameter" or node.component is None or node.name not in network.driver:
+            continue
+        chain = [network.driver[node.name]]
+        while chain[-1].source.name in network.driver:
+            chain.append(network.driver[chain[-1].source.name])
+        given = [position for position, link in enumerate(chain) if link.source.name in settings.nodes]
+        if given:  # the outermost value wins
+            outermost = chain[given[-1]].source.name
+            value = settings.nodes[outermost]
+            for link in reversed(chain[: given[-1] + 1]):
+                value = _passed(network, link, value)
+            kind: Any = {"Real": float, "Boolean": bool, "String": str}.get(node.type_name or "", int)
+            target = node.component or "", node.variable
+            before = settings.variables.get(target)
+            settings.variables[target] = kind(value)
+            if before is not None and before != settings.variables[target]:
+                settings.replaced[target] = outermost, before
+            settings.origins[target] = f"{outermost} of {settings.node_origins[outermost]}"
+
+
+def _passed(network: Network, link: Link, value: float | str) -> float | str:
+    """A parameter's value behind a connection."""
+    if isinstance(value, str):
+        return value
+    if not link.transformation.table:
+        return value * link.transformation.factor + link.transformation.offset
+    table = dict(numbers(network, link))
+    if value not in table:
+        raise InputError(network.file, link.where, f"the mapping has no entry for {value:g}", "add one")
+    return table[value]
+
+
+def numbers(network: Network, link: Link) -> list[tuple[float, float]]:
+    """A connection's mapping as numbers: Booleans 0 and 1, enumeration items by their values; else nothing."""
+    transformation = link.transformation
+    kind = VALUE_TYPES[transformation.kind][0]
+
+    def number(text: str, node: Node) -> float:
+        if kind == "Boolean":
+            return float(text in ("true", "1"))
+        if kind == "Integer":
+            return float(text)
+        if text not in node.enumeration:
+            problem = f"{node.name} has no enumeration item {text}"
+            raise InputError(network.file, link.where, problem, suggestion(text, node.enumeration))
+        return float(node.enumeration[text])
+
+    return [(number(source, link.source), number(target, link.target)) for source, target in transformation.table]

@@ -1,0 +1,69 @@
+"""Checks before a system flies: FMUs that do not fit their slots, shared parameters set apart, samples too close."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from fmpy import read_model_description
+
+from ....fmus_src.export.available import fmu_flavours
+from ...common.errors import InputError
+from ..ssp.description import Component
+from .assignments import Settings
+from .network import Network
+
+MOST = 6  # FMUs that are named
+
+
+def unfit(slot: str, fmu: str, component: Component, error: InputError) -> InputError:
+    """That an FMU does not fit the slot that the user puts it in; ``error`` is what the description says of it."""
+    fits = list(_fitting(component))
+    more = f" and {len(fits) - MOST} more" if len(fits) > MOST else ""
+    remedy = f"these do: {', '.join(fits[:MOST])}{more}" if fits else "no FMU here does; build one with its connectors"
+    reason = error.element.partition(" (line")[0]
+    return InputError("--use", f"{slot}={fmu}", f"it does not fit {slot}: {reason}: {error.problem}", remedy)
+
+
+def _fitting(component: Component) -> Iterator[str]:
+    """The FMUs that have all connectors of a component, by name."""
+    wanted = {(connector.name, connector.kind) for connector in component.connectors.values()}
+    for name, flavours in fmu_flavours().items():
+        path = next((path for path in flavours.values() if path is not None), None)
+        if path is not None:
+            variables = read_model_description(str(path), validate=False).modelVariables
+            if wanted <= {(variable.name, variable.causality) for variable in variables}:
+                yield name
+
+
+def check_shared(network: Network, settings: Settings) -> None:
+    """Refuse a chosen value that a parameter of the system replaces by another one.
+
+    What several components must agree on is such a parameter, so that none of them can be set apart from the others.
+    Raises InputError.
+    """
+    last = {assignment.name: assignment for assignment in settings.chosen}
+    for (component, variable), (shared, value) in settings.replaced.items():
+        name = f"{component}.{variable}"
+        if name in last:
+            readers = {link.target.name for link in network.driver.values() if link.source.name == shared} | {name}
+            given = settings.variables[component, variable]
+            problem = f"{value} is not {given}, which {shared} of the system gives to {', '.join(sorted(readers))}"
+            raise InputError(last[name].file, last[name].where, problem, f"set {shared} instead: they must agree")
+
+
+def check_samples(network: Network, settings: Settings, step: float, periods: dict[str, int]) -> None:
+    """Refuse a sample period shorter than what its component steps by, of which two samples would fall into one step.
+
+    Raises InputError.
+    """
+    for component, fmu in network.fmus.items():
+        variable = fmu.variables.get("sample_period")
+        if variable is None or not fmu.is_own:
+            continue
+        period = float(settings.variables.get((component, "sample_period"), variable.start))
+        own = step * periods.get(component, 1)
+        if 0.0 < period < own * (1.0 - 1e-9):
+            file = settings.origins.get((component, "sample_period"), network.file)
+            problem = f"{period:g} s is shorter than the communication step of {own:g} s"
+            remedy = f"give a --step of {period:g} or a whole part of it, or a longer period"
+            raise InputError(file, f"{component}.sample_period", problem, remedy)

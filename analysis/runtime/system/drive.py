@@ -1,0 +1,155 @@
+"""Inputs driven over time: which inputs a series of samples drives, and their values at the communication points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...common.errors import InputError, suggestion
+from .faults import INTEGERS
+from .in_flight.series import InputSeries
+from .network import Network
+
+HELD = ("discrete", "tunable")  # variabilities of Reals that are held, not interpolated
+CLOSE = 1e-9  # of the greater of two times that are one: FMPy's, which is that of math.isclose
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """The inputs that a series drives, by name, and their values: ``table`` [points + 1, inputs].
+
+    Row 0 is what initialisation is given, row n + 1 what communication point n is given.
+    """
+
+    series: InputSeries
+    names: tuple[str, ...]
+    table: np.ndarray
+
+    def facts(self) -> dict[str, object]:
+        """What a result depends on here, for its provenance."""
+        return {"input": {"file": self.series.file, "sha256": self.series.sha256, "signals": list(self.names)}}
+
+
+def driven_inputs(network: Network, series: InputSeries, alone: str | None) -> dict[str, str]:
+    """The columns of a series by the inputs that they drive: connectors of the root, ``component.variable``.
+
+    These are inputs that nothing is connected to; those of a component that flies ``alone`` go by their own names,
+    too. Raises InputError for any other column, and for numbers that an input's type cannot have.
+    """
+    types = {node.name: node.type_name or "Real" for node in network.nodes.values() if _is_free(network, node.name)}
+    types |= {
+        f"{component}.{variable.name}": variable.type
+        for component, fmu in network.fmus.items()
+        for variable in fmu.variables.values()
+        if variable.causality == "input" and variable.type != "String"
+        if f"{component}.{variable.name}" not in network.driver
+    }
+    found: dict[str, str] = {}
+    for column in series.columns:
+        name = f"{alone}.{column}" if alone is not None and f"{alone}.{column}" in types else column
+        where = (series.file, f"column {column}")
+        if name in network.driver:
+            problem = f"is connected to {network.driver[name].source.name}, which would overwrite it"
+            raise InputError(*where, problem, "drive an input that nothing is connected to, or give a --fault")
+        if name not in types:
+            known = types if alone is None else [text.removeprefix(f"{alone}.") for text in types]
+            raise InputError(*where, "no such input", suggestion(column, known))
+        if name in found:
+            raise InputError(*where, f"drives {name}, as column {found[name]} does", "leave one of them out")
+        _check_type(series, column, types[name])
+        found[name] = column
+    return found
+
+
+def _is_free(network: Network, name: str) -> bool:
+    """Whether a node is a system's own input that nothing is connected to."""
+    node = network.nodes[name]
+    return node.component is None and node.kind == "input" and name not in network.driver
+
+
+def _check_type(series: InputSeries, column: str, type_name: str) -> None:
+    values = series.columns[column]
+    if type_name == "Real":
+        return
+    if type_name == "Boolean":
+        wrong, problem, remedy = (values != 0.0) & (values != 1.0), "is not a Boolean", "give true or false, 1 or 0"
+    else:
+        wrong = (values != np.round(values)) | (values < INTEGERS[0]) | (values > INTEGERS[1])
+        problem, remedy = f"is not of type {type_name}", "give a whole number of 32 bits"
+    if wrong.any():
+        row = int(np.flatnonzero(wrong)[0])
+        raise InputError(series.file, series.place(row, column), f"{values[row]:.12g} {problem}", remedy)
+
+
+def drive_inputs(
+    network: Network, series: InputSeries, driven: dict[str, str], start: float, step: float, steps: int
+) -> Drive:
+    """The values of ``driven`` inputs, as `driven_inputs` gives them, at all communication points."""
+    points = start + np.arange(steps + 1) * step
+    first = points[:1]
+    table = np.empty((steps + 2, len(driven)))
+    for place, (name, column) in enumerate(driven.items()):
+        values = series.columns[column]
+        of_type = interpolated if _is_continuous(network, name) else held
+        table[0, place] = of_type(first, series.time, values, after_event=False)[0]
+        table[1:, place] = of_type(points, series.time, values, after_event=True)
+    return Drive(series, tuple(driven), table)
+
+
+def _is_continuous(network: Network, name: str) -> bool:
+    """Whether an input is interpolated: a Real, of an FMU a continuous one; of a system if all are that it leads to."""
+    for component, fmu in network.fmus.items():
+        if name.startswith(f"{component}."):
+            variable = fmu.variables.get(name.removeprefix(f"{component}."))
+            if variable is not None:
+                return variable.type == "Real" and variable.variability not in HELD
+    readers = [link.target.name for link in network.driver.values() if link.source.name == name]
+    return network.nodes[name].type_name in ("Real", None) and all(_is_continuous(network, name) for name in readers)
+
+
+def interpolated(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
+    """A continuous input at ``points`` (s), from ``values`` at ``time``, as FMPy's `Input.interpolate` has it.
+
+    Linear in between, the first and the last value outside. Times given twice are an event: ``after_event`` says which
+    of its values counts at that time, the last or the first; an event at the first time of all has its first.
+    """
+    last = time.size - 1
+    right = np.searchsorted(time, points)
+    found = values[np.clip(right, 0, last)]
+    inner = (right > 0) & (right <= last)
+    behind = right[inner]
+    moments = points[inner]
+    repeated = _close(time[:-1], time[1:])
+    at_event = _close(moments, time[behind]) & np.append(repeated, False)[behind]
+    run_ends = np.flatnonzero(~np.append(repeated, False))  # where runs of one time end
+    event = run_ends[np.searchsorted(run_ends, behind)] if after_event else behind
+    between = ~at_event
+    inside = values[event]
+    after = behind[between]
+    weight = (time[after] - moments[between]) / (time[after] - time[after - 1])
+    inside[between] = weight * values[after - 1] + (1.0 - weight) * values[after]
+    found[inner] = inside
+    return found
+
+
+def held(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
+    """A discrete input at ``points`` (s), each value held from its time on, as FMPy's `Input.interpolate` has it.
+
+    ``after_event``: whether a value counts at its own time already. At the first time of all the first value does.
+    """
+    last = time.size - 1
+    right = np.searchsorted(time, points)
+    found = np.clip(right - 1, 0, last)
+    inner = (right > 0) & (right <= last)
+    while after_event:
+        ahead = np.minimum(found + 1, last)
+        moves = inner & (found < last) & _close(points, time[ahead])
+        if not moves.any():
+            break
+        found = np.where(moves, ahead, found)
+    return values[np.where(right > last, last, found)]
+
+
+def _close(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+    return np.abs(left - right) <= CLOSE * np.maximum(np.abs(left), np.abs(right))

@@ -1,0 +1,167 @@
+"""An FMU as a file: checked, unpacked, its variables, units and dependencies."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import shutil
+import tempfile
+import weakref
+import zipfile
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import fmpy
+from fmpy import read_model_description
+from fmpy.model_description import ModelDescription, ValidationError
+from lxml import etree
+
+from ...common.errors import InputError
+from ..ssp.archive import open_zip
+from ..ssp.documents import parse_xml
+from ..ssp.units import Unit, units_of_fmu
+
+DESCRIPTION = "modelDescription.xml"
+MOST_FLAWS = 3  # named in one line
+MOST_DESCRIPTIONS = 32  # kept at once
+
+
+@dataclass
+class Fmu:
+    """An FMI 2.0 co-simulation FMU that can run here."""
+
+    label: str
+    digest: str
+    description: Any  # fmpy ModelDescription
+    folder: Path  # unpacked; removed with the object
+    variables: dict[str, Any] = field(default_factory=dict)  # fmpy ScalarVariable by name
+    units: dict[str, Unit] = field(default_factory=dict)
+    flaws: list[str] = field(default_factory=list)  # rules of FMI that its description breaks, though it is readable
+
+    @property
+    def name(self) -> str:
+        return self.description.modelName
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it was built by Perilune, whose reset and whose errors leave nothing behind."""
+        return (self.description.generationTool or "").startswith("Perilune ")
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether a process can hold one instance of it only."""
+        return bool(self.description.coSimulation.canBeInstantiatedOnlyOncePerProcess)
+
+    @property
+    def is_native(self) -> bool:
+        """Whether it runs without an execution tool such as a Python interpreter."""
+        return not self.description.coSimulation.needsExecutionTool
+
+    def unit_of(self, variable: Any) -> str | None:
+        """Name of a variable's unit, its own or its type's."""
+        declared = variable.declaredType
+        return variable.unit or (declared.unit if declared is not None else None)
+
+    def declared_dependencies(self) -> dict[str, set[str] | None]:
+        """Output -> inputs that it depends on directly, as ModelStructure declares it; None where it does not."""
+        inputs = {name for name, variable in self.variables.items() if variable.causality == "input"}
+        outputs: dict[str, set[str] | None] = {
+            name: None for name, variable in self.variables.items() if variable.causality == "output"
+        }
+        for unknown in self.description.outputs:
+            if unknown.dependencies is not None:
+                outputs[unknown.variable.name] = inputs & {variable.name for variable in unknown.dependencies}
+        return outputs
+
+
+def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
+    """Check and unpack an FMU, ``strict``: refuse one with flaws. Raises InputError naming file and element."""
+    archive = open_zip(data, label)
+    if DESCRIPTION not in archive.namelist():
+        raise InputError(label, DESCRIPTION, "not found", "give an FMU")
+    root = parse_xml(archive.read(DESCRIPTION), f"{label}!{DESCRIPTION}")
+    version = root.get("fmiVersion")
+    if version != "2.0":
+        raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
+    description, flaws = _read_description(archive.read(DESCRIPTION))
+    if description is None:
+        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU")
+    names = Counter(variable.name for variable in description.modelVariables)
+    twice = [name for name, count in names.items() if count > 1]
+    if twice:
+        raise InputError(label, str(twice[0]), "two variables of this name", "mend the FMU's modelDescription.xml")
+    if flaws and strict:
+        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU, or fly without --strict")
+    if description.coSimulation is None:
+        raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export it for co-simulation")
+    if fmpy.architecture == "aarch64" and fmpy.system != "darwin":
+        problem = f"FMI 2.0 has no name for the platform {fmpy.platform_tuple}, so no FMU has a library for it"
+        raise InputError(label, "binaries", problem, "fly on x86_64 or macOS")
+    identifier = description.coSimulation.modelIdentifier
+    binary = f"binaries/{fmpy.platform}/{identifier}{fmpy.sharedLibraryExtension}"
+    if binary not in archive.namelist():
+        runs_python = description.coSimulation.needsExecutionTool
+        remedy = "take its native flavour" if runs_python else "compile the FMU's sources for it"
+        raise InputError(label, binary, "no binary for this platform", remedy)
+    folder = Path(tempfile.mkdtemp(prefix="perilune_"))
+    fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder, flaws=list(flaws))
+    # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.
+    archive.extractall(folder, _needed(archive.namelist()) if fmu.is_own else None)
+    fmu.variables = {variable.name: variable for variable in description.modelVariables}
+    fmu.units = units_of_fmu(description)
+    weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
+    return fmu
+
+
+def _needed(names: Sequence[str]) -> list[str]:
+    """Which files of an FMU built by Perilune a flight on this platform reads."""
+    kept = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
+    return [name for name in names if name.startswith(kept)]
+
+
+@lru_cache(maxsize=MOST_DESCRIPTIONS)
+def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, ...]]:
+    """What an FMU's modelDescription.xml says, None if unreadable, and the rules that it breaks in saying so.
+
+    It is the most of loading an FMU, and nobody changes what it gives: a system that is prepared again shares it.
+    """
+    try:
+        return read_model_description(_zipped(xml), validate=True), ()
+    except ValidationError as error:
+        flaws = tuple(" ".join(problem.split()) for problem in error.problems)
+    except Exception as error:  # fmpy raises bare Exception and lxml's errors
+        flaws = (" ".join(str(error).split()),)
+    try:
+        return read_model_description(_zipped(_with_fixed_parameters(xml)), validate=False), flaws
+    except Exception:
+        return None, flaws
+
+
+def _with_fixed_parameters(xml: bytes) -> bytes:
+    """The description with parameters that vary, as stock pythonfmu writes them, declared fixed.
+
+    fmpy does not read them otherwise, and they are set before a flight begins only.
+    """
+    root = parse_xml(xml, DESCRIPTION)
+    for variable in root.iterfind("ModelVariables/ScalarVariable[@causality='parameter']"):
+        if variable.get("variability", "continuous") not in ("fixed", "tunable"):
+            variable.set("variability", "fixed")
+    return etree.tostring(root)
+
+
+def _zipped(xml: bytes) -> io.BytesIO:
+    """A description as fmpy reads it: in an FMU."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
+        archive.writestr(DESCRIPTION, xml)
+    content.seek(0)
+    return content
+
+
+def _some(flaws: Sequence[str]) -> str:
+    more = f"; and {len(flaws) - MOST_FLAWS} more" if len(flaws) > MOST_FLAWS else ""
+    return "; ".join(flaws[:MOST_FLAWS]) + more

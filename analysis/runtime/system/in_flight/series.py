@@ -1,0 +1,136 @@
+"""Inputs over time as they are given: a CSV file, a structured array, columns by name."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import math
+import os
+from array import array
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ....common.errors import InputError
+
+TIME = "time"
+FORM = "write a comma-separated file whose first line is time and the inputs' names"
+TRUTHS = {"true": 1.0, "false": 0.0}
+
+
+@dataclass(frozen=True, eq=False)
+class InputSeries:
+    """Samples of inputs: ``time`` [n] (s, never falling) and ``columns`` by input's name, float64 [n] each.
+
+    ``file`` is where they come from, in messages; ``lines`` are the samples' lines in it, none of arrays; ``sha256``
+    is the file's, or that of names and numbers.
+    """
+
+    file: str
+    sha256: str
+    time: np.ndarray
+    columns: Mapping[str, np.ndarray]
+    lines: Sequence[int] = ()
+
+    def place(self, row: int, name: str) -> str:
+        """A number's place, as messages name it."""
+        return f"{f'line {self.lines[row]}' if self.lines else f'sample {row}'}, column {name}"
+
+
+Given = str | os.PathLike[str] | npt.NDArray[Any] | Mapping[str, npt.ArrayLike]
+
+
+def read_series(given: Given) -> InputSeries:
+    """Inputs over time from a CSV file by its path, or from a structured array or columns by name, ``time`` among them.
+
+    Raises InputError, naming line and column, for what is no table of numbers with a time that never falls.
+    """
+    series = _of_file(os.fspath(given)) if isinstance(given, str | os.PathLike) else _of_arrays(given)
+    if not series.time.size:
+        raise InputError(series.file, "", "no samples", "give a line of numbers for each time")
+    if not series.columns:
+        raise InputError(series.file, "", "no column beside time", "give one for each input, by its name")
+    for name, values in {TIME: series.time, **series.columns}.items():
+        wrong = np.flatnonzero(~np.isfinite(values))
+        if wrong.size:
+            row = int(wrong[0])
+            raise InputError(series.file, series.place(row, name), f"{values[row]} is not finite", "give a number")
+    falls = np.flatnonzero(np.diff(series.time) < 0.0)
+    if falls.size:
+        row = int(falls[0]) + 1
+        problem = f"the time falls from {series.time[row - 1]:.12g} s to {series.time[row]:.12g} s"
+        raise InputError(series.file, series.place(row, TIME), problem, "sort the samples by time")
+    return series
+
+
+def _of_file(path: str) -> InputSeries:
+    try:
+        content = Path(path).read_bytes()
+    except OSError as error:
+        raise InputError(path, "", error.strerror or str(error), "give a CSV file of inputs over time") from error
+    try:
+        reader = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""), skipinitialspace=True)
+        names = [name.strip() for name in next(reader, [])]
+        _check_names(path, "line 1", names)
+        numbers, lines = array("d"), array("q")
+        for cells in reader:
+            if not cells:
+                continue  # an empty line
+            if len(cells) != len(names):
+                problem = f"{len(cells)} numbers, but {len(names)} columns"
+                raise InputError(path, f"line {reader.line_num}", problem, "give one for each column")
+            try:
+                numbers.extend(map(float, cells))
+            except ValueError:
+                del numbers[len(lines) * len(names) :]
+                numbers.extend(_number(path, reader.line_num, *pair) for pair in zip(names, cells, strict=True))
+            lines.append(reader.line_num)
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise InputError(path, "", f"not a CSV file: {error}", FORM) from error
+    table = np.array(numbers).reshape(-1, len(names))
+    columns = {name: np.ascontiguousarray(table[:, place]) for place, name in enumerate(names)}
+    return InputSeries(path, hashlib.sha256(content).hexdigest(), columns.pop(TIME), columns, lines)
+
+
+def _check_names(file: str, place: str, names: Sequence[str]) -> None:
+    if not any(names):
+        raise InputError(file, "", "empty", FORM)
+    if names[0] != TIME:
+        raise InputError(file, place, f"the first column is {names[0]!r}, not {TIME}", FORM)
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(file, place, f"column {name} is there twice", "leave one of them out")
+
+
+def _number(file: str, line: int, name: str, text: str) -> float:
+    """A cell's number, or what FMPy writes for a Boolean: True is 1, False 0."""
+    try:
+        return TRUTHS.get(text.strip().lower(), math.nan) if text.strip().lower() in TRUTHS else float(text)
+    except ValueError as error:
+        problem = f"{text.strip()!r} is not a number" if text.strip() else "no number"
+        raise InputError(file, f"line {line}, column {name}", problem, "give a number, or true or false") from error
+
+
+def _of_arrays(given: npt.NDArray[Any] | Mapping[str, npt.ArrayLike]) -> InputSeries:
+    file = "input"
+    names = list(given.dtype.names or ()) if isinstance(given, np.ndarray) else list(given)
+    if TIME not in names:
+        raise InputError(file, TIME, "no such column", "give an array with named columns, time and inputs")
+    columns: dict[str, np.ndarray] = {}
+    for name in names:
+        try:
+            columns[name] = np.array(given[name], dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError(file, f"column {name}", f"not numbers: {error}", "give an array of numbers") from error
+        if columns[name].ndim != 1 or columns[name].size != columns[names[0]].size:
+            problem = f"its shape is {columns[name].shape}, that of {names[0]} is {columns[names[0]].shape}"
+            raise InputError(file, f"column {name}", problem, "give one number for each time")
+    digest = hashlib.sha256()
+    for name, values in columns.items():
+        digest.update(name.encode() + b"\0" + values.tobytes())
+    return InputSeries(file, digest.hexdigest(), columns.pop(TIME), columns)

@@ -1,0 +1,69 @@
+"""Inputs that nothing drives, and signals that nothing gives: refused, noted, or left at their starts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...common.errors import InputError
+from .network import Link, Network
+
+if TYPE_CHECKING:
+    from .assignments import Settings
+
+
+def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: bool) -> None:
+    """Leave inputs that have neither a source nor a value at their FMUs' starts, or refuse all of them in one line.
+
+    Raises InputError.
+    """
+    found = [
+        node
+        for node in network.nodes.values()
+        if node.kind == "input"
+        and node.name not in network.driver
+        and node.name not in network.driven
+        and node.name not in settings.nodes
+        and (node.component or "", node.variable) not in settings.variables
+    ]
+    if not found:
+        return
+    if not keep_starts:
+        one = len(found) == 1
+        problem = f"{'input is' if one else f'{len(found)} inputs are'} neither connected nor given a value"
+        remedy = f"connect {'it' if one else 'them'}, give a value: --set {found[0].name}=VALUE, or --open-inputs start"
+        given = next((settings.left_out[node.name] for node in found if node.name in settings.left_out), None)
+        if given is not None:
+            remedy = f"map {given} too, whose mapping leaves it out; or {remedy}"
+        raise InputError(network.file, ", ".join(node.where for node in found), problem, remedy)
+    without = {node.name for node in found}
+    readers: dict[str, list[Link]] = {}
+    for link in network.driver.values():
+        readers.setdefault(link.source.name, []).append(link)
+    while found:
+        node = found.pop()
+        if node.component is not None:
+            start = network.fmus[node.component].variables[node.variable].start
+            network.notes.append(f"{node.name}: open input, keeps {start}")
+        for link in readers.get(node.name, ()):  # of a system's own input: what it leads to is open, too
+            del network.driver[link.target.name]
+            if link.target.name not in without:
+                without.add(link.target.name)
+                found.append(link.target)
+
+
+def check_signals(network: Network, settings: Settings) -> None:
+    """Refuse a signal that is read and never driven, and note what is declared in vain. Raises InputError."""
+    for link in network.driver.values():
+        source = link.source
+        is_signal = source.component is None and source.kind in ("inout", "output")
+        if is_signal and source.name not in network.driver:
+            raise InputError(network.file, source.where, "signal is read but never driven", "connect a source to it")
+    for node in network.nodes.values():
+        if node.component is None and node.kind == "output" and node.name not in network.driver:
+            network.notes.append(f"{node.name}: output without a source, not recorded")
+    for component, fmu in network.fmus.items():
+        for name, variable in fmu.variables.items():
+            full = f"{component}.{name}"
+            if variable.causality == "input" and full not in network.nodes and full not in network.driven:
+                start = settings.variables.get((component, name), variable.start)
+                network.notes.append(f"{component}.{name}: input not declared in the SSD, keeps {start}")

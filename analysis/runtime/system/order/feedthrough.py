@@ -1,0 +1,152 @@
+"""Direct dependencies of outputs on inputs: declared by FMUs, stated by the SSD or a user, or assumed."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from ....common.errors import InputError
+from ..network import Network
+from ..options import SystemOptions
+
+Dependencies = dict[str, dict[str, set[str]]]  # component -> output -> inputs that it depends on directly
+OPTIONS = ("--feedthrough", "--no-feedthrough")
+
+
+class Origin(StrEnum):
+    """Where a component's direct dependencies come from."""
+
+    FMU = "declared by the FMU"
+    SSD = "as the SSD says"
+    OPTION = "as an option says"
+    ALONE = "as an FMU alone flies"
+    ASSUMED = "assumed, since the FMU does not declare it"
+
+
+@dataclass(frozen=True)
+class Feedthrough:
+    """Direct dependencies by component and output: ``stepping`` orders the steps, ``initial`` the initialisation.
+
+    ``undeclared`` are the components whose FMU leaves dependencies of an output open while nobody has settled them,
+    in the order of the SSD. Such a component is stepped with the inputs of t_n, and initialised as if its outputs
+    depended on all inputs. One without a driven input is not among them: its order changes nothing.
+    ``cuts`` are connections into them that close a loop, which no initialisation can settle: there it is cut.
+    ``origins`` say by component where its dependencies come from.
+    """
+
+    stepping: Dependencies
+    initial: Dependencies
+    origins: dict[str, Origin]
+    undeclared: tuple[str, ...] = ()
+    cuts: tuple[str, ...] = ()
+
+    def notes(self, network: Network, algorithm: str) -> list[str]:
+        """What is assumed, a line for each component, and where loops through them are cut."""
+        assumed = self.undeclared if algorithm == "sequential" else ()
+        return [
+            *(f"{name}: FMU {network.fmus[name].name}{ASSUMED}" for name in assumed),
+            *(f"{cut}: a loop through undeclared dependencies, cut here at the start" for cut in self.cuts),
+        ]
+
+
+ASSUMED = (
+    " does not declare which inputs its outputs depend on directly: assumed none, so it is stepped with the inputs of"
+    f" the step's start; if you know better, say {OPTIONS[0]} or {OPTIONS[1]} COMPONENT"
+)
+
+
+def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *, is_alone: bool) -> Feedthrough:
+    """The direct dependencies of every component, and which of them are assumed.
+
+    A user's option overrides the SSD's annotation, which applies to the FMU that the SSD names and not to one that
+    replaces it (``use``); both override the FMU. An FMU alone (``is_alone``) is given the inputs of t_n for the step to
+    t_(n+1), as FMPy does it, whatever its outputs depend on. Jacobi's algorithm gives them to every FMU, so there is
+    nothing to assume but at the start. Raises InputError for an unknown component, one in both options, and for
+    ``feedthrough`` of an FMU alone.
+    """
+    _check(network.fmus, options, is_alone=is_alone)
+    stated = {
+        name: (part.feedthrough, Origin.SSD)
+        for name, part in network.components()
+        if name not in options.use and part.feedthrough is not None
+    }
+    stated |= dict.fromkeys(network.fmus, (False, Origin.ALONE)) if is_alone else {}
+    stated |= dict.fromkeys(options.feedthrough, (True, Origin.OPTION))
+    stated |= dict.fromkeys(options.no_feedthrough, (False, Origin.OPTION))
+    stepping: Dependencies = {}
+    initial: Dependencies = {}
+    origins: dict[str, Origin] = {}
+    for name, fmu in network.fmus.items():
+        declared = fmu.declared_dependencies()
+        every = {variable.name for variable in fmu.variables.values() if variable.causality == "input"}
+        is_open = None in declared.values()
+        if name in stated:
+            direct, origins[name] = stated[name]
+            stepping[name] = initial[name] = dict.fromkeys(declared, every) if direct else {}
+            continue
+        origins[name] = Origin.ASSUMED if is_open and _is_driven(network, name) else Origin.FMU
+        initial[name] = {output: every if inputs is None else inputs for output, inputs in declared.items()}
+        stepping[name] = {} if is_open else initial[name]
+    undeclared = tuple(name for name, origin in origins.items() if origin is Origin.ASSUMED)
+    return Feedthrough(stepping, initial, origins, undeclared)
+
+
+def _is_driven(network: Network, component: str) -> bool:
+    """Whether an input of a component is given values during the flight."""
+    prefix = f"{component}."
+    return any(link.target.component == component and not link.is_parameter for link in network.driver.values()) or any(
+        name.startswith(prefix) for name in network.driven
+    )
+
+
+def _check(components: Collection[str], options: SystemOptions, *, is_alone: bool) -> None:
+    for option, names in zip(OPTIONS, (options.feedthrough, options.no_feedthrough), strict=True):
+        for name in names:
+            if name not in components:
+                raise InputError(option, name, "no such component", f"use one of {', '.join(sorted(components))}")
+    for name in options.feedthrough:
+        if name in options.no_feedthrough:
+            raise InputError(OPTIONS[0], name, f"is given to {OPTIONS[1]}, too", "give it to one of them")
+        if is_alone:
+            problem = "an FMU alone is stepped with the inputs of the step's start, as FMPy does it"
+            raise InputError(OPTIONS[0], name, problem, "leave it out, or fly it as a component of a system")
+
+
+def cut_loops(network: Network, feedthrough: Feedthrough) -> tuple[Feedthrough, set[str]]:
+    """The same without the loops through undeclared dependencies at the start, and the inputs that lost theirs.
+
+    A loop is cut at the first of its undeclared components in the order of the SSD: the input there keeps its start
+    value, and what it drives directly is settled without it.
+    """
+    initial = {name: dict(outputs) for name, outputs in feedthrough.initial.items()}
+    driven = {link.target.name: link for link in network.driver.values() if not link.is_parameter}
+    readers: dict[str, list[str]] = {}
+    for link in driven.values():
+        readers.setdefault(link.source.name, []).append(link.target.name)
+    cuts: dict[str, str] = {}
+    for component in feedthrough.undeclared:
+        for variable in sorted(set().union(*initial[component].values())):
+            name = f"{component}.{variable}"
+            if name in driven and _reaches_itself(network, name, initial, readers):
+                cuts[name] = f"{driven[name].source.name} -> {name}"
+                initial[component] = {output: inputs - {variable} for output, inputs in initial[component].items()}
+    return replace(feedthrough, initial=initial, cuts=tuple(cuts.values())), set(cuts)
+
+
+def _reaches_itself(network: Network, name: str, direct: Dependencies, readers: dict[str, list[str]]) -> bool:
+    """Whether the value of an input comes back to it in the same communication point."""
+    seen: set[str] = set()
+    queue = [name]
+    while queue:
+        current = queue.pop()
+        node = network.nodes.get(current)
+        successors = list(readers.get(current, ()))
+        if node is not None and node.component is not None and node.kind == "input":
+            outputs = direct[node.component].items()
+            successors += [f"{node.component}.{output}" for output, inputs in outputs if node.variable in inputs]
+        if name in successors:
+            return True
+        queue += [other for other in successors if other not in seen]
+        seen.update(successors)
+    return False

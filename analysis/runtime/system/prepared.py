@@ -1,0 +1,230 @@
+"""A system made ready: its files read, its FMUs loaded, everything checked before the first step."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import chdir, contextmanager
+from dataclasses import dataclass, field
+from functools import cache, partial
+from pathlib import Path
+
+from ....fmus_src.export.available import fmu_file, fmu_flavours
+from ....fmus_src.paths import FLAVOURS
+from ...common.errors import InputError, suggestion
+from ..ssp.archive import HOW_TO_BUILD, SystemArchive, fmu_asked, open_system, parameters_asked, use_asked
+from ..ssp.description import Component
+from ..ssp.parameter_sets import Assignment, read_parameter_file
+from ..ssp.reading import read_description
+from .alone import describe_alone
+from .assignments import Settings, collect_settings, single_value
+from .checks import check_samples, check_shared, unfit
+from .drive import Drive, drive_inputs, driven_inputs
+from .fmu import Fmu, load_fmu
+from .in_flight.series import InputSeries
+from .network import Network, build_network
+from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
+from .order.feedthrough import find_feedthrough
+from .order.schedule import Schedule, make_schedule
+from .times import component_periods, flight_times
+
+
+@dataclass
+class PreparedSystem:
+    """A checked system; pass it to `Simulation`. Times in s; ``remarks`` say what an FMU alone left open.
+
+    ``drive`` are its inputs over time, if it has them; ``elsewhere`` reads the files that are not the system's own, by
+    the names of `SystemArchive.elsewhere`.
+    """
+
+    archive: SystemArchive
+    options: SystemOptions
+    network: Network
+    settings: Settings
+    schedule: Schedule
+    algorithm: str
+    start: float
+    step: float
+    steps: int
+    periods: dict[str, int]  # communication steps that one step of a component takes, where more than one
+    remarks: tuple[str, ...] = ()
+    drive: Drive | None = None
+    elsewhere: Mapping[str, Callable[[], bytes]] = field(default_factory=dict)
+
+    @property
+    def assumptions(self) -> list[str]:
+        """What was assumed since an FMU does not declare it, each in a line that names the component and its FMU."""
+        return self.schedule.feedthrough.notes(self.network, self.algorithm)
+
+    @property
+    def is_native(self) -> bool:
+        return all(fmu.is_native for fmu in self.network.fmus.values())
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether a process can fly it once at a time only, since an FMU of it allows no second instance."""
+        return any(fmu.is_alone for fmu in self.network.fmus.values())
+
+    @property
+    def flies_in_threads(self) -> bool:
+        """Whether several threads of a process can fly it side by side, and gain by it."""
+        return self.is_native and not self.is_alone
+
+
+def prepare_system(
+    system: str | Path | SystemArchive,
+    options: SystemOptions | None = None,
+    loaded: dict[str, Fmu] | None = None,
+    series: InputSeries | None = None,
+) -> PreparedSystem:
+    """Read and check a system with its options, and with inputs over time if it is to have them. Raises InputError.
+
+    ``loaded`` keeps FMUs by their place, for a system that is prepared again and again: those in it are not read again.
+    """
+    options = options or SystemOptions()
+    with no_collection(), chdir(options.folder):
+        return _prepared(system, options, {} if loaded is None else loaded, series)
+
+
+def _prepared(
+    system: str | Path | SystemArchive, options: SystemOptions, loaded: dict[str, Fmu], series: InputSeries | None
+) -> PreparedSystem:
+    for name, value, known in (
+        ("--algorithm", options.algorithm, ALGORITHMS),
+        ("--flavour", options.flavour, FLAVOURS),
+        ("--open-inputs", options.open_inputs, OPEN_INPUTS),
+    ):
+        if value is not None and value not in known:
+            raise InputError(name, str(value), "unknown", suggestion(str(value), known))
+    archive = system if isinstance(system, SystemArchive) else open_system(system)
+    elsewhere: dict[str, Callable[[], bytes]] = {}
+
+    used: dict[str, Component] = {}
+
+    @cache
+    def flavour_of(block: str) -> str:
+        return options.flavour or ("native" if fmu_file(block, "native", archive.path) is not None else "python")
+
+    def load(name: str, component: Component) -> Fmu:
+        if name in options.use:
+            used[name] = component
+            asked = use_asked(options.use[name])
+            if asked in archive.elsewhere:
+                read, label = archive.elsewhere[asked].read_bytes, options.use[name]
+            else:
+                read, label = locate_fmu(options.use[name], options.flavour, system=archive.path)
+            elsewhere[asked] = read
+        else:
+            flavour = flavour_of(Path(component.source).stem)
+            read, label = archive.fmu(component.source, f"{name} (line {component.line})", flavour)
+            if not archive.is_own_file(component.source):
+                elsewhere[fmu_asked(component.source)] = read
+        return opened(read, label)
+
+    def opened(read: Callable[[], bytes], label: str) -> Fmu:
+        if label not in loaded:
+            loaded[label] = load_fmu(read(), label, strict=options.strict)
+        return loaded[label]
+
+    remarks: list[str] = []
+    if archive.is_fmu:
+        description, remarks = describe_alone(opened(archive.path.read_bytes, archive.label), options)
+    else:
+        description = read_description(archive, options.variant)
+    try:
+        network = build_network(description, load)
+    except InputError as error:
+        slot = next((slot for slot in used if error.element.startswith(f"{slot}.")), None)
+        if slot is None or error.file != description.file:
+            raise
+        raise unfit(slot, options.use[slot], used[slot], error) from error
+    network.notes += remarks
+    for slot in options.use:
+        if slot not in network.fmus:
+            raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
+    _refuse_seconds(network)
+    if series is not None:
+        network.driven = driven_inputs(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
+    settings = collect_settings(network, archive, _assignments(archive, options, elsewhere), options)
+    check_shared(network, settings)
+    for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
+        network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
+    algorithm = options.algorithm or description.algorithm or ALGORITHMS[0]
+    feedthrough = find_feedthrough(network, options, algorithm, is_alone=archive.is_fmu)
+    schedule = make_schedule(network, feedthrough, algorithm)
+    network.notes += schedule.feedthrough.notes(network, algorithm)
+    start, step, steps = flight_times(network, options)
+    periods = component_periods(network, options, step)
+    check_samples(network, settings, step, periods)
+    return PreparedSystem(
+        archive=archive,
+        options=options,
+        network=network,
+        settings=settings,
+        schedule=schedule,
+        algorithm=algorithm,
+        start=start,
+        step=step,
+        steps=steps,
+        periods=periods,
+        remarks=tuple(remarks),
+        drive=None if series is None else drive_inputs(network, series, network.driven, start, step, steps),
+        elsewhere=elsewhere,
+    )
+
+
+def _refuse_seconds(network: Network) -> None:
+    """Refuse an FMU in two components where a process can hold one instance of it only."""
+    first: dict[str, str] = {}
+    for name, fmu in network.fmus.items():
+        if fmu.is_alone and fmu.digest in first:
+            problem = f"{fmu.label} can be instantiated only once in a process (canBeInstantiatedOnlyOncePerProcess)"
+            remedy = "take one of them out, or export the FMU for more instances"
+            raise InputError(network.file, f"{first[fmu.digest]}, {name}", problem, remedy)
+        first.setdefault(fmu.digest, name)
+
+
+def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:
+    """An FMU named by its block or by a path: its content and its name in messages. Raises InputError."""
+    read, label = locate_fmu(name, flavour, option)
+    return read(), label
+
+
+def locate_fmu(
+    name: str, flavour: str | None, option: str = "--use", system: Path | None = None
+) -> tuple[Callable[[], bytes], str]:
+    """Likewise, with what reads the content; ``system`` is where one's own are looked for, too."""
+    if name.endswith(".fmu") or Path(name).name != name:
+        path = Path(name)
+        if not path.is_file():
+            raise InputError(option, name, "no such file", "give a block's name or the path of an .fmu")
+        return path.read_bytes, name
+    for candidate in FLAVOURS if flavour is None else (flavour,):
+        file = fmu_file(name, candidate, system)
+        if file is not None:
+            return file.read_bytes, str(file)
+    raise InputError(option, name, "no such FMU is built", f"{suggestion(name, fmu_flavours())}; {HOW_TO_BUILD}")
+
+
+def _assignments(
+    archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
+) -> list[Assignment]:
+    found: list[Assignment] = []
+    for name in options.parameters:
+        data, label = archive.parameter_set(name)
+        if not label.startswith(f"{archive.label}!"):
+            elsewhere[parameters_asked(name)] = partial(bytes, data)
+        found += read_parameter_file(data, label)
+    return found + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]
+
+
+@contextmanager
+def no_collection() -> Iterator[None]:
+    """What is made inside has no cycles, and the collector would walk over all of it again and again."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()

@@ -1,0 +1,94 @@
+"""When a system starts and ends, and how often its components step."""
+
+from __future__ import annotations
+
+import math
+
+from ...common.errors import InputError
+from .network import Network
+from .options import SystemOptions
+
+LONGEST_PERIOD = 10_000  # communication steps of a component's step
+
+
+def flight_times(network: Network, options: SystemOptions) -> tuple[float, float, int]:
+    """Start (s), communication step (s) and number of steps; raises InputError."""
+    description = network.description
+    proposed = [
+        float(fmu.description.defaultExperiment.stepSize)
+        for fmu in network.fmus.values()
+        if fmu.description.defaultExperiment is not None and fmu.description.defaultExperiment.stepSize
+    ]
+    if options.step is None and description.varies is not None:
+        line = f"step (line {description.varies})"
+        raise InputError(network.file, line, "varies, which it does not here", "give one: --step SECONDS")
+    given = options.step if options.step is not None else _described(network)
+    step = given if given is not None else min(proposed, default=None)
+    if step is None:
+        raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give --step SECONDS")
+    if not 0.0 < step < float("inf"):
+        raise InputError("--step", str(step), "not a positive number of seconds", "give a positive step")
+    stop = options.stop_time if options.stop_time is not None else description.stop_time
+    experiment = f"{network.file}: DefaultExperiment"
+    if stop is None:
+        raise InputError(experiment, "stopTime", "there is none", "give --stop-time SECONDS")
+    start = description.start_time
+    step_asked = ("--step", f"{step:g}")
+    stop_asked = ("--stop-time", f"{stop:g}") if options.stop_time is not None else (experiment, f"stopTime {stop:g}")
+    duration = stop - start
+    if duration < 0.0:
+        raise InputError(*stop_asked, f"lies before the start, {start:g} s", "give a later stop time")
+    if max(abs(stop), abs(start)) + step == max(abs(stop), abs(start)):
+        problem = f"a step of {step:g} s does not advance a time of {stop:g} s"
+        asked = step_asked if options.step is not None else stop_asked
+        raise InputError(*asked, problem, "give a longer --step or earlier times")
+    steps = round(duration / step) if duration / step < float("inf") else -1
+    if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
+        problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"
+        remedy = f"for instance --stop-time {start + max(1, steps) * step:.12g}"
+        raise InputError(*stop_asked, problem, remedy)
+    return start, step, steps
+
+
+def component_periods(network: Network, options: SystemOptions, step: float) -> dict[str, int]:
+    """Communication steps that one step of a component takes, of those that step less often than ``step`` (s).
+
+    A component whose own step is none of ``step`` takes as many whole ones as fit into it, as libcosim does; a remark
+    says so. Raises InputError.
+    """
+    found = {}
+    for name, component in network.components():
+        own = component.step
+        if own is None and options.step is None:
+            own = _step_of_system(network, name)
+        period = 1 if own is None else max(1, int(own / step * (1.0 + 1e-9)))
+        if period > LONGEST_PERIOD:
+            problem = f"its step of {own:g} s takes more than {LONGEST_PERIOD} communication steps of {step:g} s"
+            raise InputError(network.file, f"{name} (line {component.line})", problem, "give a longer --step")
+        if own is not None and abs(own - period * step) > 1e-9 * own:
+            network.notes.append(f"{name}: steps by {period * step:g} s, not by {own:g} s as it asks")
+        if period > 1:
+            found[name] = period
+    if math.lcm(*found.values()) > LONGEST_PERIOD:
+        problem = (
+            f"the steps of its components come round together after more than {LONGEST_PERIOD} steps of {step:g} s"
+        )
+        raise InputError(network.file, "steps", problem, "give a longer --step")
+    return found
+
+
+def _described(network: Network) -> float | None:
+    """The step (s) that the description gives: the shortest where inner systems have steps of their own."""
+    inner = [system.step for path, system in network.systems.items() if path and system.step is not None]
+    return None if network.description.step is None else min([network.description.step, *inner])
+
+
+def _step_of_system(network: Network, component: str) -> float | None:
+    """The step (s) of the innermost system around a component that says one."""
+    path = component
+    while "." in path:
+        path = path[: path.rindex(".")]
+        system = network.systems.get(f"{path}.")
+        if system is not None and system.step is not None:
+            return system.step
+    return network.description.step

@@ -1,0 +1,154 @@
+"""Route B: a loop's frequency response measured by a multisine added at the cut while the loop is closed.
+
+It needs no memory, only inputs and outputs, so it serves anyone's FMUs. Every flight starts at the beginning; the
+same flight without the multisine is subtracted, so that the motion along the trajectory and the sensors' noise, which
+is the same in both, leave nothing but the answer to the multisine. L = -V/U on whole periods after the transient.
+Source: Pintelon and Schoukens 2012, System Identification, chapters 2 and 5 (multisines, and unexcited lines that
+show what is not linear).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..loops.curves import quotient
+from ..loops.multisine import Multisine, line_spectrum, multisine, unexcited_share
+from ..loops.readings import Curve
+from ..request.channels import Channel
+from ..results.routes import RouteB
+from .bench import Bench, StudyError
+
+SEED = 1  # of the multisine's phases
+PERIODS = 1  # measured at least, after those that the transient takes
+MOST_ROUNDS = 12  # samples of a loop in a hyperperiod up to which the window is a whole number of hyperperiods
+PATIENCE = 8  # periods of transient at most
+SETTLED = 1e-5  # relative difference of two windows one period apart
+STILL_MOVING = 1e-2  # and that above which a loop counts as unstable, or as one that does not repeat itself
+PER_DECADE = 20
+FEWEST, MOST = 128, 65536  # samples in a period
+DEFAULT_SHARE = 0.01  # amplitude where none is declared, of the signal's own size
+FLIGHT_POINTS = 2_000_000  # communication points of one flight at most
+
+
+class NotMeasurableError(RuntimeError):
+    """A loop cannot be measured here; the message says why."""
+
+
+@dataclass
+class Injector:
+    """Measures one channel of a bench. ``lowest`` is the least frequency wanted (rad/s)."""
+
+    bench: Bench
+    channel: Channel
+    lowest: float
+
+    def __post_init__(self) -> None:
+        self.seconds = self.channel.period * self.bench.prepared.step
+        samples = max(FEWEST, round(2.0 * np.pi / (self.lowest * self.seconds)))
+        if samples > MOST:
+            raise NotMeasurableError(f"{self.lowest:g} rad/s needs {samples} samples a period, more than {MOST}")
+        # A periodic loop also answers at frequencies apart by those of the hyperperiod. Over a whole number of
+        # hyperperiods, of which a period of the signal is none, these fall between the lines. Nor is a line at
+        # a multiple of the hyperperiod's frequency, where what stays constant answers in route A.
+        rounds = self.bench.period // self.channel.period
+        while math.gcd(samples, rounds) > 1:
+            samples += 1
+        self.samples = samples
+        self.periods = rounds * math.ceil(PERIODS / rounds) if rounds <= MOST_ROUNDS else PERIODS
+        self.signal: Multisine = multisine(samples, 1.0, (samples - 1) // 2, SEED, per_decade=PER_DECADE)
+        self.frequency = 2.0 * np.pi * self.signal.lines / (self.samples * self.seconds)
+        self._transient = 1
+        self._base: dict[str, np.ndarray] = {}
+
+    def measure(self) -> RouteB:
+        """L with the declared amplitude and with half of it. Raises NotMeasurableError, StudyError."""
+        peak = self.peak()
+        value, unexcited = self.spectrum(peak)
+        half, _ = self.spectrum(0.5 * peak)
+        low = self.frequency <= 0.5 * np.pi / self.seconds
+        return RouteB(
+            amplitude=peak / float(np.max(abs(self.signal.signal))),
+            lines=len(self.signal.lines),
+            periods=self.periods,
+            period=self.samples * self.seconds,
+            half_amplitude_change=float(np.max(abs(quotient(half[low], value[low]) - 1.0))),
+            unexcited=unexcited,
+            curve=Curve(self.frequency, value),
+        )
+
+    def peak(self) -> float:
+        """The largest value of the multisine: the declared amplitude or a share of the signal's own size."""
+        if self.channel.amplitude is not None:
+            return self.channel.amplitude
+        size = float(np.max(abs(self.channel.injected(self._undisturbed()))))
+        return DEFAULT_SHARE * (size or 1.0)
+
+    def spectrum(self, peak: float) -> tuple[np.ndarray, float]:
+        """L on the lines with a multisine of this largest value, and the largest answer on unexcited lines."""
+        wave = self.signal.signal * (peak / float(np.max(abs(self.signal.signal))))
+        window = self.periods * self.samples
+        while True:
+            u, v = self._answer(np.tile(wave, self._transient + self.periods + 1))
+            inside, before = (
+                line_spectrum(u[start : start + window], self.samples, self.signal.lines)
+                for start in (len(u) - window, len(u) - window - self.samples)
+            )
+            change = float(np.max(abs(inside - before)) / np.max(abs(inside)))
+            if change < SETTLED or self._transient >= PATIENCE:
+                break
+            self._transient *= 2
+        if change > STILL_MOVING:
+            periods = self._transient
+            raise NotMeasurableError(f"the answer still changes by {change:.2g} of itself after {periods} periods")
+        back = line_spectrum(v[-window:], self.samples, self.signal.lines)
+        if not np.all(abs(inside) > 0.0):
+            raise NotMeasurableError("nothing of what is added arrives behind the cut")
+        return -back / inside, unexcited_share(u[-window:], self.signal)
+
+    def _points(self) -> int:
+        """Communication points behind the operating point that a measurement takes."""
+        points = (self._transient + self.periods + 1) * self.samples * self.channel.period
+        until = self.bench.point.until
+        end = self.bench.time + points * self.bench.prepared.step
+        if until is not None and end > until:
+            raise NotMeasurableError(
+                f"{self.lowest:.3g} rad/s and its transient take until {end:g} s, but the point lasts until {until:g} s"
+            )
+        if points + self.bench.origin > FLIGHT_POINTS:
+            raise NotMeasurableError(f"a measurement takes {points} communication points, more than {FLIGHT_POINTS}")
+        return points
+
+    def _undisturbed(self) -> dict[str, np.ndarray]:
+        """Signals from the operating point on without anything added."""
+        points = self._points()
+        if not self._base or len(next(iter(self._base.values()))) < points:
+            self._base = self._behind(self.bench.fly(-1, self.bench.origin + points))
+        return {name: values[:points] for name, values in self._base.items()}
+
+    def _behind(self, signals: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+        return {name: values[self.bench.origin + 1 :] for name, values in signals.items()}
+
+    def _answer(self, samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """What goes in and comes back at the channel's samples, the undisturbed flight subtracted."""
+        channel, base = self.channel, self._undisturbed()
+        added = np.repeat(samples, channel.period)
+        mine = channel.excitation(base, added)
+        excitation = np.zeros((added.size, len(self.bench.connectors)))
+        excitation[:, self.bench.columns(channel)] = mine
+        signals = self._behind(self.bench.fly(-1, self.bench.origin + added.size, excitation))
+        nothing = np.zeros_like(mine)
+        rows = slice(0, None, channel.period)
+        u = channel.injected(signals) - channel.injected(base)
+        v = channel.back(signals, mine) - channel.back(base, nothing)
+        return u[rows], v[rows]
+
+
+def measured(injector: Injector, peak: float) -> np.ndarray | None:
+    """L on the lines with this amplitude, None where it cannot be measured with it."""
+    try:
+        return injector.spectrum(peak)[0]
+    except (NotMeasurableError, StudyError):
+        return None

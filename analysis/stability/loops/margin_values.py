@@ -1,0 +1,99 @@
+"""The margins of one loop as values that can be compared: unstable is worse than any number, unlimited better.
+
+Sizes are in the unit in which margins are limited and shown: dB up or down, deg lag or lead, s, 1. The size of every
+margin of an unstable loop is `UNSTABLE`, that of a margin without a crossing `UNLIMITED`; both are floats that
+compare, sort and take part in minima and order statistics as they should.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from ...campaigns.verdicts.quantiles import quantile_rank
+from .decibels import decibel_size, degree_size
+from .readings import Classical, Robust
+
+UNSTABLE = -math.inf
+UNLIMITED = math.inf
+
+
+class Quantity(StrEnum):
+    """What is judged."""
+
+    STABILITY = "stability"
+    GAIN = "gain margin"
+    PHASE = "phase margin"
+    MODULUS = "modulus margin"
+    DISK = "disk margin"
+    DELAY = "delay margin"
+    DISK_GAIN = "disk gain margin"
+    DISK_PHASE = "disk phase margin"
+
+    @property
+    def unit(self) -> str:
+        """The unit of its sizes: dB, deg, s or 1."""
+        return {"gain": "dB", "phase": "deg", "delay": "s"}.get(self.split()[-2] if " " in self else "", "1")
+
+
+MARGINS = (Quantity.GAIN, Quantity.PHASE, Quantity.MODULUS, Quantity.DISK)  # of every loop's line
+
+
+@dataclass(frozen=True)
+class Margins:
+    """The nearest margins of one loop.
+
+    ``gain`` (factor, above 1: upwards), ``phase`` (rad, positive: lag) and ``delay`` (s) are inf where there is no
+    crossing.
+    ``stable`` None: not known. ``largest`` is the largest multiplier of the loop's closed-loop modes, None where no
+    poles are known.
+    """
+
+    gain: float
+    phase: float
+    modulus: float
+    disk: float
+    delay: float
+    stable: bool | None
+    largest: float | None = None
+
+    @classmethod
+    def of(cls, classical: Classical, robust: Robust, stable: bool | None, largest: float | None) -> Margins:
+        """Of the nearest crossings and the distances from -1."""
+        gain, phase = classical.gain_margin, classical.phase_margin
+        return cls(
+            gain=gain.value if gain else math.inf,
+            phase=phase.value if phase else math.inf,
+            modulus=robust.modulus_margin,
+            disk=robust.disk_margin,
+            delay=classical.delay_margin,
+            stable=stable,
+            largest=largest,
+        )
+
+    @property
+    def unstable(self) -> bool:
+        """Whether the loop is known to be unstable: then it has no margins."""
+        return self.stable is False
+
+    def size(self, quantity: Quantity) -> float:
+        """The size of a margin in its unit, `UNSTABLE` or `UNLIMITED`."""
+        if self.unstable:
+            return UNSTABLE
+        if quantity is Quantity.GAIN:
+            return decibel_size(self.gain) if math.isfinite(self.gain) else UNLIMITED
+        if quantity is Quantity.PHASE:
+            return degree_size(self.phase) if math.isfinite(self.phase) else UNLIMITED
+        return {Quantity.MODULUS: self.modulus, Quantity.DISK: self.disk, Quantity.DELAY: self.delay}[quantity]
+
+
+def order_statistic(sizes: Sequence[float], level: float) -> float:
+    """The least size that a share ``level`` of all do not exceed (0: the least), `UNSTABLE` before all numbers."""
+    return sorted(sizes)[quantile_rank(level, len(sizes))]
+
+
+def worst_of(found: Sequence[Margins]) -> int:
+    """The place of the least disk margin; among unstable loops that of the largest multiplier."""
+    return min(range(len(found)), key=lambda place: (found[place].size(Quantity.DISK), -(found[place].largest or 0.0)))

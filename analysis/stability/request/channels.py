@@ -1,0 +1,148 @@
+"""A loop's cut as channels: which connectors a signal is added to, and what is read on either side of the cut."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...common.errors import InputError, suggestion
+from ...runtime.system.names import elements
+from ...runtime.system.network import Network
+from .declaration import Loop
+
+AXES = ("x", "y", "z")
+Signals = Mapping[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One scalar signal that is cut.
+
+    ``connectors`` are those that a signal is added to: one, or the size and the three components of a direction
+    of which ``axis`` is added to. With ``rates``, the connectors of the direction's rate, the direction is the one
+    that is reached ``ahead`` (s) later, which is what counts behind the cut. ``returned``: the connector that comes
+    back where it is not the cut itself. ``period``: how often the loop passes the cut, in communication points.
+    """
+
+    name: str
+    loop: str
+    connectors: tuple[str, ...]
+    axis: int | None
+    returned: str | None
+    period: int
+    amplitude: float | None
+    unit: str | None
+    rates: tuple[str, ...] = ()
+    ahead: float = 0.0
+
+    @property
+    def recorded(self) -> tuple[str, ...]:
+        """All connectors that are read."""
+        back = () if self.returned is None else (self.returned,)
+        return (*self.connectors, *self.rates, *back)
+
+    def _towards(self, signals: Signals) -> np.ndarray:
+        """The direction that counts [r, 3], of any length."""
+        direction = np.column_stack([signals[name] for name in self.connectors[1:]])
+        if self.rates:
+            direction = direction + self.ahead * np.column_stack([signals[name] for name in self.rates])
+        return direction
+
+    def excitation(self, signals: Signals, added: np.ndarray) -> np.ndarray:
+        """What to add to each connector [r, connectors], so that the cut gains ``added`` [r].
+
+        ``signals`` are those of the flight without it: along them a vector's size and direction change together.
+        """
+        if self.axis is None:
+            return added[:, None]
+        size = signals[self.connectors[0]]
+        towards = self._towards(signals)
+        length = np.linalg.norm(towards, axis=1)
+        direction = towards / length[:, None]
+        along = direction[:, self.axis] * added
+        across = -direction * along[:, None]
+        across[:, self.axis] += added
+        return np.column_stack([along, across * (length / size)[:, None]])
+
+    def injected(self, signals: Signals) -> np.ndarray:
+        """The signal behind the cut, with what was added."""
+        if self.axis is None:
+            return signals[self.connectors[0]]
+        towards = self._towards(signals)
+        return signals[self.connectors[0]] * towards[:, self.axis] / np.linalg.norm(towards, axis=1)
+
+    def back(self, signals: Signals, excitation: np.ndarray) -> np.ndarray:
+        """The signal that comes back; ``excitation`` [r, connectors] is what was added to get ``signals``."""
+        if self.returned is not None:
+            return signals[self.returned]
+        before = {name: signals[name] - excitation[:, place] for place, name in enumerate(self.connectors)}
+        return self.injected({**signals, **before})
+
+
+def channels_of(loop: Loop, network: Network, step: float) -> list[Channel]:
+    """The channels of a loop in a network with communication step ``step`` (s). Raises InputError."""
+    where = f"loop {loop.name}"
+    cut = _connectors(network, loop.cut, where)
+    returned: list[str | None] = [*_connectors(network, loop.returned, where)] if loop.returned else []
+    unit = network.nodes[cut[0]].unit
+    base = Channel(
+        name=loop.name,
+        loop=loop.name,
+        connectors=tuple(cut),
+        axis=None,
+        returned=None,
+        period=_period(loop, network, step, where),
+        amplitude=loop.amplitude,
+        unit=unit.name if unit else None,
+    )
+    if loop.direction is not None:
+        direction = _vector(network, loop.direction, where)
+        rates = _vector(network, loop.direction_rate, where) if loop.direction_rate else []
+        if len(cut) != 1:
+            raise InputError(network.file, where, f"{loop.cut} is a vector", "give the size of the direction")
+        whole = replace(base, connectors=(*cut, *direction), rates=tuple(rates), ahead=loop.ahead)
+        named = [replace(whole, name=f"{loop.name}.{name}", axis=axis) for axis, name in enumerate(AXES)]
+    elif len(cut) == 1:
+        named = [base]
+    else:
+        named = [replace(base, name=f"{loop.name}[{place}]", connectors=(name,)) for place, name in enumerate(cut, 1)]
+    if not returned:
+        return named
+    if len(returned) != len(named):
+        problem = f"{loop.returned} has {len(returned)} components, the cut has {len(named)}"
+        raise InputError(network.file, where, problem, "name a signal with as many")
+    return [replace(channel, returned=back) for channel, back in zip(named, returned, strict=True)]
+
+
+def _period(loop: Loop, network: Network, step: float, where: str) -> int:
+    """In communication points."""
+    if loop.period is None:
+        return 1
+    period = round(loop.period / step)
+    if period < 1 or abs(period * step - loop.period) > 1e-9 * loop.period:
+        problem = f"period {loop.period:g} s is no whole number of communication steps of {step:g} s"
+        raise InputError(network.file, where, problem, "give a period or a step that fits")
+    return period
+
+
+def _vector(network: Network, name: str, where: str) -> list[str]:
+    found = _connectors(network, name, where)
+    if len(found) != len(AXES):
+        raise InputError(network.file, where, f"{name} has not three components", "name a vector of three")
+    return found
+
+
+def _connectors(network: Network, name: str, where: str) -> list[str]:
+    """The Real connectors that a name stands for: its own, or those of the vector of this name."""
+    found = elements(name, network.nodes)
+    if not found:
+        known = [node.name for node in network.nodes.values() if node.component is not None]
+        raise InputError(network.file, where, f"no connector {name}", suggestion(name, known))
+    for item in found:
+        node = network.nodes[item]
+        if node.component is None or node.kind not in ("output", "input") or node.type_name != "Real":
+            problem = f"{item} is no Real input or output of a component"
+            raise InputError(network.file, where, problem, "name one as component.connector")
+    return found

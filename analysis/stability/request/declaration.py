@@ -1,0 +1,94 @@
+"""What is asked of a stability study: operating points, loops, elements, sweeps, limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ...runtime.system.options import Layer
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The least margins that pass; gains in dB and phases in deg, as they are agreed and shown."""
+
+    gain_margin_db: float = 6.0
+    phase_margin_deg: float = 30.0
+    modulus_margin: float = 0.5
+    dispersed_gain_margin_db: float = 3.0
+    dispersed_phase_margin_deg: float = 20.0
+
+
+@dataclass(frozen=True)
+class Point:
+    """Where a system is linearised: the first communication point at ``time`` (s) or later that fits its rates.
+
+    ``signal`` and ``falls_to`` choose instead the first communication point at which a signal is no larger than
+    a value. ``layer`` is what of the system's options makes the operating point. ``until`` (s):
+    how long it lasts, for measurements; None: as long as wanted. ``phase`` says in words what the system does.
+    """
+
+    name: str
+    time: float | None = None
+    signal: str | None = None
+    falls_to: float | None = None
+    until: float | None = None
+    phase: str = ""
+    layer: Layer = field(default_factory=Layer)
+
+
+@dataclass(frozen=True)
+class Element:
+    """A nonlinear element at a loop's cut: its describing function's kind and parameters.
+
+    ``use`` is what a simulation flies with, to be compared with a predicted limit cycle.
+    """
+
+    name: str
+    kind: str
+    parameters: dict[str, float]
+    use: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A loop and where it is cut: ``cut`` is a connector or a vector of connectors, each component a channel.
+
+    With ``direction``, a vector of three connectors, the cut is the vector ``cut`` (its size) times ``direction``,
+    with the channels x, y, z; with ``direction_rate`` it is the direction that this rate reaches ``ahead`` (s) later.
+    ``returned`` is the signal that comes back where it is not the cut's own, with
+    as many components. ``period`` (s): how often the loop passes the cut; None: every communication point.
+    ``amplitude``: of an injected signal, in the cut's unit; None: 1 % of what the signal is. ``points`` are names.
+    """
+
+    name: str
+    cut: str
+    points: tuple[str, ...]
+    direction: str | None = None
+    direction_rate: str | None = None
+    ahead: float = 0.0
+    returned: str | None = None
+    period: float | None = None
+    amplitude: float | None = None
+    elements: tuple[Element, ...] = ()
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Margins of one loop's first channel at one point, over a parameter from ``low`` to ``high``."""
+
+    name: str
+    loop: str
+    point: str
+    parameter: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """All that a system declares of its stability."""
+
+    limits: Limits = Limits()
+    points: tuple[Point, ...] = ()
+    loops: tuple[Loop, ...] = ()
+    sweeps: tuple[Sweep, ...] = ()

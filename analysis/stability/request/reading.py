@@ -1,0 +1,138 @@
+"""A system's declaration of its loops, from the `org.perilune.stability` annotation of its SSD."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+from lxml import etree
+
+from ...common.errors import suggestion
+from ...runtime.ssp.annotations import AnnotationReader
+from ...runtime.ssp.description import Description
+from ...runtime.system.options import Layer
+from ..loops.describing_function import ELEMENTS, complete_parameters
+from .declaration import Declaration, Element, Limits, Loop, Point, Sweep
+
+ANNOTATION = "org.perilune.stability"
+
+
+def read_declaration(description: Description) -> Declaration:
+    """What the SSD declares, nothing where it declares nothing. Raises InputError naming the line."""
+    annotation = description.annotations.get(ANNOTATION)
+    if annotation is None:
+        return Declaration()
+    return _Reader(description.file).declaration(annotation)
+
+
+class _Reader(AnnotationReader):
+    def declaration(self, annotation: etree._Element) -> Declaration:
+        parts = self.parts(self.content(annotation, "Stability"), ("Limits", "Point", "Loop", "Sweep"))
+        points = tuple(self.point(item) for item in parts["Point"])
+        loops = tuple(self.loop(item, {point.name for point in points}) for item in parts["Loop"])
+        by_name = {loop.name: loop for loop in loops}
+        sweeps = tuple(self.sweep(item, by_name) for item in parts["Sweep"])
+        for items, elements in ((points, parts["Point"]), (loops, parts["Loop"]), (sweeps, parts["Sweep"])):
+            names = [item.name for item in items]
+            for position, name in enumerate(names):
+                if name in names[:position]:
+                    raise self.refuse(elements[position], f"the name {name} is taken", "give it another one")
+        return Declaration(self.limits(parts["Limits"]), points, loops, sweeps)
+
+    def limits(self, elements: list[etree._Element]) -> Limits:
+        names = [item.name for item in fields(Limits)]
+        values: dict[str, float | None] = {}
+        for element in elements:
+            self.attributes(element, (), names)
+            values |= {
+                name: self.number(element, name, positive=True) for name in names if element.get(name) is not None
+            }
+        return Limits(**values)  # type: ignore[arg-type]
+
+    def point(self, element: etree._Element) -> Point:
+        found = self.attributes(element, ("name",), ("time", "signal", "falls_to", "until", "phase"))
+        if ("signal" in found) != ("falls_to" in found) or ("signal" in found) == ("time" in found):
+            raise self.refuse(element, "neither a time nor a signal that falls_to a value, or both", "give one of them")
+        time, until = self.number(element, "time"), self.number(element, "until")
+        if time is not None and until is not None and until <= time:
+            raise self.refuse(element, f"it lasts until {until:g} s but is at {time:g} s", "give a later end")
+        parts = self.parts(element, ("Use", "ParameterSet", "Set"))
+        return Point(
+            name=found["name"],
+            time=time,
+            signal=found.get("signal"),
+            falls_to=self.number(element, "falls_to"),
+            until=until,
+            phase=found.get("phase", ""),
+            layer=Layer(
+                use=self.uses(parts["Use"]),
+                parameters=tuple(self.attributes(item, ("source",))["source"] for item in parts["ParameterSet"]),
+                set=self.pairs(parts["Set"], "name", "value"),
+                places={item.get("name", "").strip(): (self.file, item.sourceline or 0) for item in parts["Set"]},
+            ),
+        )
+
+    def uses(self, elements: list[etree._Element]) -> dict[str, str]:
+        return self.pairs(elements, "component", "fmu")
+
+    def pairs(self, elements: list[etree._Element], key: str, value: str) -> dict[str, str]:
+        """Two attributes of each element as a mapping; what is given twice is refused."""
+        found: dict[str, str] = {}
+        for element in elements:
+            item = self.attributes(element, (key, value))
+            if item[key] in found:
+                raise self.refuse(element, f"{item[key]} is given twice", "give it once")
+            found[item[key]] = item[value]
+        return found
+
+    def loop(self, element: etree._Element, points: set[str]) -> Loop:
+        found = self.attributes(
+            element,
+            ("name", "cut", "points"),
+            ("direction", "direction_rate", "ahead", "returned", "period", "amplitude"),
+        )
+        if ("direction_rate" in found) != ("ahead" in found) or ("ahead" in found and "direction" not in found):
+            raise self.refuse(element, "direction_rate and ahead come together, with a direction", "give all three")
+        names = tuple(found["points"].split())
+        for name in names:
+            if name not in points:
+                raise self.refuse(element, f"no point {name}", suggestion(name, points))
+        if len(set(names)) < len(names):
+            raise self.refuse(element, "a point is given twice", "give it once")
+        return Loop(
+            name=found["name"],
+            cut=found["cut"],
+            points=names,
+            direction=found.get("direction"),
+            direction_rate=found.get("direction_rate"),
+            ahead=self.number(element, "ahead") or 0.0,
+            returned=found.get("returned"),
+            period=self.number(element, "period", positive=True),
+            amplitude=self.number(element, "amplitude", positive=True),
+            elements=tuple(self.element(item) for item in self.parts(element, ("Element",))["Element"]),
+        )
+
+    def element(self, element: etree._Element) -> Element:
+        name, kind = element.get("name", "").strip(), element.get("kind", "").strip()
+        if not name:
+            raise self.refuse(element, "no name", 'write name="..."')
+        if kind not in ELEMENTS:
+            raise self.refuse(element, f"unknown kind {kind!r}", suggestion(kind, ELEMENTS))
+        values = {
+            str(key): self.number(element, str(key)) or 0.0 for key in element.attrib if key not in ("name", "kind")
+        }
+        try:
+            complete_parameters(kind, values)
+        except ValueError as error:
+            raise self.refuse(element, str(error), "mend it") from error
+        use = self.uses(self.parts(element, ("Use",))["Use"])
+        return Element(name, kind, values, use)
+
+    def sweep(self, element: etree._Element, loops: dict[str, Loop]) -> Sweep:
+        found = self.attributes(element, ("name", "loop", "point", "parameter", "low", "high"))
+        loop = loops.get(found["loop"])
+        if loop is None or found["point"] not in loop.points:
+            raise self.refuse(element, "no such loop at this point", suggestion(found["loop"], loops))
+        low, high = self.number(element, "low"), self.number(element, "high")
+        if low is None or high is None or not low < high:
+            raise self.refuse(element, f"low {low} is not below high {high}", "swap them")
+        return Sweep(found["name"], found["loop"], found["point"], found["parameter"], low, high)

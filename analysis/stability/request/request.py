@@ -1,0 +1,201 @@
+"""What is asked of a study: a system, its loops and points, a campaign; read and checked before anything flies."""
+
+from __future__ import annotations
+
+import math
+import shlex
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ...campaigns.spec.checks import check_plan
+from ...campaigns.spec.plan import BatchPlan, read_plan
+from ...common.errors import InputError, suggestion
+from ...runtime.ssp.archive import open_system
+from ...runtime.ssp.description import Description
+from ...runtime.ssp.reading import read_description
+from ...runtime.system.options import Layer, SystemOptions
+from .declaration import Declaration, Loop, Point
+from .reading import read_declaration
+
+
+@dataclass(frozen=True)
+class Request:
+    """A study to be made; small enough to be sent to every worker.
+
+    ``name`` is the system's and ``label`` its place, for messages. ``plan`` is the campaign that margins are
+    dispersed over, ``campaign`` its name as it was given, ``draws`` the file of its draws where it draws none. ``at``
+    are the times (s) that the user gives for points, none where the declaration's hold.
+    """
+
+    name: str
+    label: str
+    system: str
+    options: SystemOptions
+    declaration: Declaration
+    campaign: str | None = None
+    plan: BatchPlan | None = None
+    draws: Path | None = None
+    at: tuple[float, ...] = ()
+
+    def loops_at(self, point: Point) -> list[Loop]:
+        """The loops that are studied at a point."""
+        return [loop for loop in self.declaration.loops if point.name in loop.points]
+
+    def loop(self, name: str) -> Loop:
+        return next(loop for loop in self.declaration.loops if loop.name == name)
+
+    def point(self, name: str) -> Point:
+        return next(point for point in self.declaration.points if point.name == name)
+
+    def replay(self, loop: str, trial: int) -> str:
+        """The command that studies one trial of the campaign again."""
+        assert self.plan is not None
+        assert self.campaign is not None
+        options = self.options
+        words = ["perilune", "stability", self.system, "--campaign", self.campaign]
+        words += ["--trial", str(trial)]
+        words += ["--trials", str(self.plan.campaign.trials)] if self.draws is None else ["--draws", str(self.draws)]
+        words += ["--seed", str(self.plan.campaign.seed), "--loop", loop]
+        words += ["--at", ",".join(map(repr, self.at))] if self.at else []
+        for slot, fmu in options.use.items():
+            words += ["--use", f"{slot}={fmu}"]
+        for name in options.parameters:
+            words += ["--parameters", name]
+        for name, value in options.set.items():
+            words += ["--set", f"{name}={value}"]
+        chosen = {
+            "--step": options.step,
+            "--stop-time": options.stop_time,
+            "--variant": options.variant,
+            "--flavour": options.flavour,
+            "--algorithm": options.algorithm,
+        }
+        for option, choice in chosen.items():
+            words += [] if choice is None else [option, str(choice)]
+        for name in options.feedthrough:
+            words += ["--feedthrough", name]
+        for name in options.no_feedthrough:
+            words += ["--no-feedthrough", name]
+        words += ["--allow-unmatched"] if options.allow_unmatched else []
+        words += ["--strict"] if options.strict else []
+        words += ["--open-inputs", options.open_inputs] if options.open_inputs != SystemOptions().open_inputs else []
+        return shlex.join(words)
+
+
+def read_request(
+    system: str | Path,
+    options: SystemOptions,
+    *,
+    loops: Sequence[str] = (),
+    at: Sequence[float] = (),
+    campaign: str | None = None,
+    trials: int | None = None,
+    seed: int | None = None,
+    trial: int | None = None,
+    draws: Path | None = None,
+) -> Request:
+    """The study of a system's declared loops, or of some.
+
+    ``loops`` are names of declared loops, or connectors of loops that are not declared, which are cut at the times
+    ``at`` (s; 0 unless given). Declared loops are studied there too, each with the settings of its declared points, and
+    without sweeps, which belong to those points. With ``campaign`` margins are dispersed over its trials, or with
+    ``trial`` the study is made of that trial's draws. ``draws`` is a file of draws to take in place of drawn ones.
+    Raises InputError.
+    """
+    archive = open_system(system)
+    times = tuple(sorted(set(map(float, at))))
+    declaration = _chosen(read_description(archive, options.variant), loops, times)
+    request = Request(archive.name, archive.label, str(system), options, declaration, at=times)
+    if campaign is None:
+        for name, value in (("--trials", trials), ("--seed", seed), ("--trial", trial), ("--draws", draws)):
+            if value is not None:
+                raise InputError(name, str(value), "there is no campaign", "give --campaign NAME with it")
+        return request
+    plan = read_plan(system, campaign, options, trials=trials, seed=seed, draws=draws)
+    plan = replace(plan, campaign=replace(plan.campaign, compare={}))  # of FMUs; a study is of one system
+    check_plan(plan)
+    if trial is None:
+        return replace(request, campaign=campaign, plan=plan, draws=draws)
+    return replace(request, options=_drawn(plan, options, trial))
+
+
+def _chosen(description: Description, names: Sequence[str], at: Sequence[float]) -> Declaration:
+    """The declaration with just the loops that are asked for."""
+    declared = read_declaration(description)
+    by_name = {loop.name: loop for loop in declared.loops}
+    for time in at:
+        if not (math.isfinite(time) and time >= description.start_time):
+            remedy = f"give seconds from {description.start_time:g} on"
+            raise InputError("--at", f"{time:g}", "not a time of the flight", remedy)
+    if not names and not declared.loops:
+        remedy = "name a loop in the SSD, or cut one with --loop COMPONENT.CONNECTOR --at SECONDS"
+        raise InputError(description.file, "", "declares no loops", remedy)
+    cuts = [Point(f"t = {time:g} s", time=time) for time in at or (0.0,)]
+    wanted: list[Loop] = []
+    for name in dict.fromkeys(names or by_name):
+        if name not in by_name and "." not in name:
+            raise InputError("--loop", name, "the SSD names no such loop", _remedy(name, by_name))
+        wanted.append(by_name.get(name) or Loop(name, cut=name, points=tuple(point.name for point in cuts)))
+    points, sweeps = (*declared.points, *cuts), declared.sweeps
+    if at:
+        asked = {name for loop in wanted for name in loop.points}
+        here = [point for point in declared.points if point.name in asked]
+        points, sweeps = (*_moved(here, at), *cuts), ()
+        origins = {point.name: _with_settings_of(point, here) for point in here}
+        wanted = [_at_times(loop, at, origins) if loop.name in by_name else loop for loop in wanted]
+    used = {point for loop in wanted for point in loop.points}
+    kept = {loop.name for loop in wanted}
+    return Declaration(
+        declared.limits,
+        tuple(point for point in points if point.name in used),
+        tuple(wanted),
+        tuple(sweep for sweep in sweeps if sweep.loop in kept),
+    )
+
+
+def _moved(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
+    """Points with the settings of declared ones at other times. Raises InputError where one lies behind their end."""
+    found = []
+    for point in points:
+        for time in at:
+            if point.until is not None and time >= point.until:
+                problem = f"point {point.name} lasts until {point.until:g} s"
+                raise InputError(
+                    "--at", f"{time:g}", problem, "give times before it, or leave its loops out with --loop"
+                )
+            name = _name_at(point.name, time)
+            phase = f"settings of {point.name}"
+            found.append(replace(point, name=name, time=time, signal=None, falls_to=None, phase=phase))
+    return found
+
+
+def _with_settings_of(point: Point, points: Sequence[Point]) -> str:
+    """The first point with the same settings: points that differ by their time only are one when times are given."""
+    return next(other.name for other in points if other.layer == point.layer and other.until == point.until)
+
+
+def _at_times(loop: Loop, at: Sequence[float], origins: Mapping[str, str]) -> Loop:
+    """A declared loop at given times, with the settings of each of its points once."""
+    different = dict.fromkeys(origins[name] for name in loop.points)
+    return replace(loop, points=tuple(_name_at(name, time) for name in different for time in at))
+
+
+def _name_at(point: str, time: float) -> str:
+    return f"{point}, t = {time:g} s"
+
+
+def _remedy(name: str, declared: Mapping[str, Loop]) -> str:
+    if not declared:
+        return "it names none; cut one with COMPONENT.CONNECTOR"
+    return f"{suggestion(name, declared)}, or cut one with COMPONENT.CONNECTOR"
+
+
+def _drawn(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions:
+    """Options with the draws of one trial as settings, over the campaign's own and below the user's."""
+    if not 0 <= trial < plan.campaign.trials:
+        problem = f"the campaign has trials 0 to {plan.campaign.trials - 1}"
+        raise InputError("--trial", str(trial), problem, "give one of them")
+    prepared = plan.prepare(plan.campaign.variants()[0])
+    drawn = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
+    return options.among(campaign=plan.campaign.layer, draws=Layer(set=drawn))

@@ -1,0 +1,98 @@
+"""Margins over the trials of a campaign."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+
+from ...campaigns.spec.plan import BatchPlan
+from ..injection.operating_point import OperatingPoint
+from ..linear.linearise import linearise
+from ..loops.margin_values import Margins, Quantity, worst_of
+from ..point.point_study import PointStudy
+from ..point.routes import LoopModel
+from ..request.declaration import Limits, Loop, Point
+from ..request.subject import Subject
+from ..results.requirement import Requirement, Scope
+from ..results.varied import Dispersion
+from .followed import ONE_STEP, margins_of, model_of, poles_of
+
+
+def dispersed(
+    subject: Subject,
+    plan: BatchPlan,
+    point: Point,
+    loops: Sequence[Loop],
+    limits: Limits,
+    cells: Sequence[int],
+    replay: Callable[[str, int], str],
+    tell: Callable[[int, int], None],
+) -> dict[str, Dispersion]:
+    """Margins of every channel over the trials of a campaign, each linearised on its own flight.
+
+    The campaign's draws, seeds and streams are flown at the point.
+    ``cells`` is the memory that matters at the point; ``replay`` gives the command that studies one trial of one loop
+    again; ``tell`` is told how many trials are expected and done. Raises InputError, StudyError.
+    """
+    tell(plan.campaign.trials, 0)
+    flown = subject.changed(campaign=plan.campaign.layer)
+    rows: dict[str, list[Margins]] = {}
+    poles: dict[str, list[np.ndarray]] = {}
+    with PointStudy(flown, point, loops, varied(plan)) as study:
+        for trial in range(plan.campaign.trials):
+            for name, model in models_of_trial(study, plan, trial, cells).items():
+                rows.setdefault(name, []).append(margins_of(model))
+                poles.setdefault(name, []).append(poles_of(model))
+            tell(0, 1)
+        loop_of = {channel.name: channel.loop for channel in study.channels}
+    return {
+        name: _dispersion(plan, items, np.concatenate(poles[name]), limits, partial(replay, loop_of[name]))
+        for name, items in rows.items()
+    }
+
+
+def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Sequence[int]) -> dict[str, LoopModel]:
+    """The loop of every channel at the draws of one trial; ``study`` is of a system that has the campaign's layer.
+
+    Raises InputError, StudyError.
+    """
+    study.bench.set(plan.parameters(study.prepared, trial))
+    start = OperatingPoint(study.bench)
+    try:
+        linear = linearise(start, cells, ONE_STEP)
+    finally:
+        start.release()
+    return {channel.name: model_of(linear, channel.name) for channel in study.channels}
+
+
+def varied(plan: BatchPlan) -> list[str]:
+    """The parameters that trials of a campaign set."""
+    prepared = plan.prepare(plan.campaign.variants()[0])
+    return sorted(plan.parameters(prepared, 0))
+
+
+def _dispersion(
+    plan: BatchPlan, items: Sequence[Margins], poles: np.ndarray, limits: Limits, replay: Callable[[int], str]
+) -> Dispersion:
+    worst = worst_of(items)
+    unstable = sum(item.unstable for item in items)
+    note = f"{unstable} of {len(items)} trials unstable; the worst again: {replay(worst)}" if unstable else ""
+    share = Requirement(Scope.DISPERSED, Quantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note)
+    wanted = {
+        Quantity.GAIN: limits.dispersed_gain_margin_db,
+        Quantity.PHASE: limits.dispersed_phase_margin_deg,
+    }
+    least = [
+        Requirement.at_least(Scope.DISPERSED, quantity, min(item.size(quantity) for item in items), limit)
+        for quantity, limit in wanted.items()
+    ]
+    return Dispersion(
+        campaign=plan.campaign.file,
+        margins=tuple(items),
+        poles=poles,
+        worst=worst,
+        replay=replay(worst),
+        requirements=(share, *least),
+    )

@@ -1,0 +1,115 @@
+"""Margins over one parameter, and the values at which they reach their limits or the loop becomes unstable."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Sequence
+from functools import cache
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ...runtime.system.options import Layer
+from ...runtime.system.prepared import PreparedSystem
+from ..injection.bench import StudyError
+from ..loops.margin_values import Margins, Quantity
+from ..point.point_study import PointStudy
+from ..request.declaration import Limits, Loop, Point, Sweep
+from ..request.subject import Subject
+from ..results.varied import SweepCrossing, SweepReport
+from .followed import ONE_STEP, margins_of, model_of
+
+VALUES = 13
+CROSSING = 1e-3  # relative, of the value at which a limit is reached
+FAR = 1e3  # dB, deg: what an infinite margin counts as
+
+At = Callable[[float], Margins]
+
+
+def swept(
+    subject: Subject,
+    point: Point,
+    loop: Loop,
+    sweep: Sweep,
+    limits: Limits,
+    cells: Sequence[int],
+    tell: Callable[[int, int], None],
+) -> SweepReport:
+    """Margins of a loop's first channel, at values in geometric order where they are positive.
+
+    ``cells`` is the memory that matters at the point; ``tell`` is told how many intervals between values are expected
+    and done. Raises StudyError where a flight breaks off.
+    """
+
+    @cache
+    def at(value: float) -> Margins:
+        with PointStudy(subject.changed(study=Layer(set={sweep.parameter: value})), point, [loop]) as study:
+            study.linearise(cells, ONE_STEP)
+            if study.linear is None:
+                raise StudyError(study.why_not)
+            return margins_of(model_of(study.linear, study.channels[0].name))
+
+    spread = np.geomspace if sweep.low > 0.0 else np.linspace
+    values = [float(value) for value in spread(sweep.low, sweep.high, VALUES)]
+    wanted = {
+        Quantity.GAIN: limits.gain_margin_db,
+        Quantity.PHASE: limits.phase_margin_deg,
+        Quantity.MODULUS: limits.modulus_margin,
+    }
+    crossings: list[SweepCrossing] = []
+    tell(len(values) - 1, 0)
+    for low, high in itertools.pairwise(values):
+        crossings += _crossings(at, low, high, wanted)
+        tell(0, 1)
+    return SweepReport(
+        name=sweep.name,
+        loop=loop.name,
+        parameter=sweep.parameter,
+        unit=_unit(subject.at(point), sweep.parameter),
+        values=np.array(values),
+        margins=tuple(at(value) for value in values),
+        crossings=tuple(sorted(crossings, key=lambda crossing: crossing.value)),
+    )
+
+
+def _unit(prepared: PreparedSystem, parameter: str) -> str | None:
+    """The unit of ``component.variable``; None where there is no such parameter, which the settings refuse."""
+    for component, fmu in prepared.network.fmus.items():
+        variable = fmu.variables.get(parameter.removeprefix(f"{component}."))
+        if parameter.startswith(f"{component}.") and variable is not None:
+            return fmu.unit_of(variable)
+    return None
+
+
+def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -> list[SweepCrossing]:
+    """What is crossed between two neighbouring values.
+
+    Where the loop becomes unstable in between, limits are looked for on the stable side only: a margin that is still
+    above its limit there does not reach it, it ends.
+    """
+    found: list[SweepCrossing] = []
+    if at(low).unstable and at(high).unstable:
+        return found
+    if at(low).unstable != at(high).unstable:
+        below = at(low).unstable
+        left, right = _bisected(lambda value: at(value).unstable == below, low, high)
+        found.append(SweepCrossing(Quantity.STABILITY, 0.5 * (left + right), below))
+        low, high = (right, high) if below else (low, left)
+    for quantity, limit in wanted.items():
+
+        def excess(value: float, quantity: Quantity = quantity, limit: float = limit) -> float:
+            return float(np.clip(at(value).size(quantity) - limit, -FAR, FAR))
+
+        below = excess(low) < 0.0
+        if below != (excess(high) < 0.0):
+            value = float(brentq(excess, low, high, rtol=CROSSING, xtol=CROSSING * max(abs(low), abs(high))))
+            found.append(SweepCrossing(quantity, value, below))
+    return found
+
+
+def _bisected(is_low: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
+    """Neighbouring values between which a condition that holds at ``low`` and not at ``high`` changes."""
+    while high - low > CROSSING * max(abs(low), abs(high)):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if is_low(middle) else (low, middle)
+    return low, high

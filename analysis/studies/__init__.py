@@ -1,0 +1,1 @@
+"""Studies that choose draws themselves: rare failures, worst cases, sensitivities."""

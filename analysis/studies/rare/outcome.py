@@ -1,0 +1,234 @@
+"""What a study of a rare failure comes to: document, tables, trials to fly again."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...campaigns.draws.declared import drawn_names
+from ...campaigns.fly.shards.files import write_parquet
+from ...campaigns.spec.draw_space import DrawSpace
+from ...campaigns.spec.failure import Failure
+from ...campaigns.tables import aligned, assumption_lines
+from ...common.atomic import write_atomically
+from ...common.percent import short_percent
+from ..evaluation.commands import Commands
+from ..evaluation.flown import Flown, strict
+from ..evaluation.noise import Noise, conditions, noise_line
+from ..evaluation.units import unit_of_expression, with_unit
+from .subset_simulation import LEAST_ACCEPTED, Level, SubsetSimulation
+from .text import cost_text, estimate_text, level_rows
+from .uncertainty import CONFIDENCE
+
+TOLD = 5  # failures
+APART = 1.0  # standard deviations: a failure nearer to a more probable one is not listed
+FAILURES = "failures.parquet"
+
+
+@dataclass(frozen=True, eq=False)
+class RareResult:
+    """The probability of a ``failure``, and the flights that it was found by.
+
+    ``simulation`` has the numbers, ``flown`` every flight, ``facts`` what they depend on, ``noise`` the random numbers
+    that components draw themselves, random or held. ``units`` are those of draws and metrics by name, ``commands``
+    write the command lines that fly points again, where they are known.
+    """
+
+    failure: Failure
+    simulation: SubsetSimulation
+    space: DrawSpace
+    flown: Flown
+    facts: dict[str, Any]
+    noise: Noise
+    samples: int
+    units: Mapping[str, str]
+    commands: Commands | None = None
+
+    @property
+    def probability(self) -> float | None:
+        """Of the failure; None where it was not reached."""
+        return self.simulation.probability
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The 95 % interval of the probability."""
+        return self.simulation.interval.low, self.simulation.interval.high
+
+    @property
+    def flights(self) -> int:
+        """How many were flown."""
+        return self.simulation.evaluations
+
+    @property
+    def brute_force(self) -> float | None:
+        """How many plain Monte Carlo flights of the campaign say as much; None where nothing says."""
+        return self.simulation.equivalent_trials
+
+    @property
+    def conditions(self) -> str:
+        """What the numbers are conditional on, as the end of a line; empty where they are not."""
+        return conditions(self.noise, self.space.held)
+
+    @property
+    def margin_unit(self) -> str:
+        """The unit of margins and thresholds; empty where they have none."""
+        return unit_of_expression(self.failure.expression, self.units)
+
+    @property
+    def why_levels_ended(self) -> str:
+        """Why no level follows the last one, where that is the noise; else empty."""
+        if not self.simulation.noise_ends:
+            return ""
+        level = self.simulation.levels[-1]
+        assert level.noise_acceptance is not None
+        rate, least = short_percent(level.noise_acceptance), short_percent(LEAST_ACCEPTED)
+        lowest = ""
+        if level.source is not None and level.least_acceptance is not None:
+            lowest = f" (least of {self.noise.sources[level.source]}, {short_percent(level.least_acceptance)} %)"
+        place = len(self.simulation.levels)
+        return f"levels end at level {place}: {rate} % of the noise moves are accepted, below {least} %{lowest}"
+
+    @cached_property
+    def failures(self) -> list[dict[str, Any]]:
+        """The most probable failed flights: ``trial`` of failures.parquet, ``distance``, ``margin``, draws and metrics.
+
+        The distance is in standard deviations from the medians of the draws, as independent normal ones. Of noise that
+        is random, ``streams`` are the trials whose noise each component had.
+        """
+        return [
+            {
+                "trial": trial,
+                "distance": float(np.linalg.norm(self.flown.points[place])),
+                "margin": strict(self.flown.values[place]),
+                **self.flown.fact(place),
+                **({"streams": self.flown.streams(int(place))} if self.noise.sources else {}),
+            }
+            for trial, place in enumerate(self._places)
+        ]
+
+    @cached_property
+    def _places(self) -> np.ndarray:
+        """Of the failures among those flown: nearest to the origin first, where the draws are most probable.
+
+        Where no draw varies, those nearest to the limit.
+        """
+        failed = np.flatnonzero(self.flown.values >= 0.0)
+        points = self.flown.points
+        if not self.space.size:
+            return failed[np.argsort(self.flown.values[failed], kind="stable")][:TOLD]
+        chosen: list[int] = []
+        for place in failed[np.argsort(np.linalg.norm(points[failed], axis=1), kind="stable")]:
+            if all(np.linalg.norm(points[place] - points[other]) > APART for other in chosen):
+                chosen.append(int(place))
+            if len(chosen) == TOLD:
+                break
+        return np.array(chosen, dtype=int)
+
+    def replay(self, folder: Path | None, trial: int) -> str:
+        """The command that flies one of the failures again; empty where it is not written to a folder."""
+        return "" if folder is None or self.commands is None else self.commands.replay(folder / FAILURES, trial)
+
+    def values(self) -> dict[str, float]:
+        """The numbers that requirements are about: probability, interval[1] and [2], flights."""
+        share = math.nan if self.probability is None else self.probability
+        low, high = self.interval
+        return {"probability": share, "interval[1]": low, "interval[2]": high, "flights": float(self.flights)}
+
+    def document(self, folder: Path | None = None) -> dict[str, Any]:
+        """The machine-readable result; ``folder`` is where it has been written, if it has."""
+        simulation = self.simulation
+        failures = self.failures
+        if self.replay(folder, 0):
+            failures = [entry | {"replay": self.replay(folder, entry["trial"])} for entry in failures]
+        return {
+            **self.facts,
+            "failure": self.failure.text,
+            "samples": self.samples,
+            "held": self.space.held,
+            **self.noise.document(),
+            "conditional": bool(self.conditions),
+            "conditions": self.conditions.removeprefix(", "),
+            "probability": self.probability,
+            "interval": list(self.interval),
+            "confidence": CONFIDENCE,
+            "variation": strict(simulation.interval.variation),
+            "flights": self.flights,
+            "brute_force_flights": self.brute_force,
+            "families": simulation.families,
+            "levels_ended": self.why_levels_ended,
+            "levels": [self._level(level) for level in simulation.levels],
+            "units": {**self.units, "margin": self.margin_unit},
+            "failures": failures,
+        }
+
+    def _level(self, level: Level) -> dict[str, Any]:
+        """A level as JSON has it."""
+        source = None if level.source is None else self.noise.sources[level.source]
+        return vars(level) | {
+            "threshold": None if level.threshold is None else strict(level.threshold),
+            "source": source,
+            "trusted": level.trusted,
+        }
+
+    def headline(self) -> str:
+        """The failure, its probability and what that is conditional on."""
+        return f"{self.failure.text}: {estimate_text(self.simulation)}{self.conditions}"
+
+    def text(self, folder: Path | None = None) -> str:
+        """The result for a terminal; ``folder`` as in `document`."""
+        under, simulation = self.conditions, self.simulation
+        lines = [self.headline(), cost_text(simulation, under)]
+        lines += [line for line in (noise_line(self.noise), self.bound_text()) if line]
+        lines += assumption_lines(self.facts)
+        unit = f" ({self.margin_unit})" if self.margin_unit else ""
+        lines += ["", f"levels, thresholds of the margin{unit}{under}", *aligned(level_rows(simulation))]
+        if self.failures:
+            lines += ["", f"most probable failures{under}", *aligned(self._failure_rows(f"margin{unit}"))]
+            replay = self.replay(folder, 0)
+            lines += ["", f"replay: {replay}" if replay else "replay: --output DIR writes the flights and the command"]
+        return "\n".join(line.rstrip() for line in lines)
+
+    def bound_text(self) -> str:
+        """Why levels ended, where that is the noise, and what plain Monte Carlo takes for what is below; else empty."""
+        trials = self.brute_force
+        if not self.simulation.noise_ends or trials is None:
+            return ""
+        text = f"{self.why_levels_ended}; what is below is bounded as by {trials:.2g} Monte Carlo flights"
+        command = self.monte_carlo
+        again = f": {command}" if command else ""
+        return f"{text}; a bound ten times lower takes {10.0 * trials:.2g}{again}{self.conditions}"
+
+    @property
+    def monte_carlo(self) -> str:
+        """The batch whose trials give a bound ten times lower, where the noise ends levels; else empty.
+
+        Empty also where a value is held, since a batch holds none: its trials would not be those of this result.
+        """
+        trials = self.brute_force
+        if not self.simulation.noise_ends or trials is None or self.commands is None or self.space.held:
+            return ""
+        return self.commands.monte_carlo(round(10.0 * trials))
+
+    def _failure_rows(self, margin: str) -> list[list[str]]:
+        names = self.space.names
+        rows = [["", "beta", margin, *(with_unit(name, self.units) for name in names)]]
+        for entry in self.failures:
+            value = "-" if entry["margin"] is None else f"{entry['margin']:.4g}"
+            draws = [f"{entry['draws'][name]:.6g}" for name in names]
+            rows.append([f"trial {entry['trial']}", f"{entry['distance']:.2f}", value, *draws])
+        return rows
+
+    def write(self, folder: Path) -> None:
+        """Write rare.json, flights.parquet and, where there are failures, failures.parquet for `--draws`."""
+        if self.failures:
+            write_parquet(self.flown.given(drawn_names(self.space.campaign), self._places), folder / FAILURES)
+        write_parquet(self.flown.table("margin"), folder / "flights.parquet")
+        text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
+        write_atomically(folder / "rare.json", text.encode())

@@ -1,0 +1,72 @@
+"""A rare failure of a campaign: its probability by subset simulation of draws and noise, every point a flight."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ...campaigns.spec.draw_space import DrawSpace
+from ...campaigns.spec.failure import failure_of
+from ...campaigns.spec.plan import BatchPlan
+from ...common.errors import InputError
+from ..evaluation.flights import SampleFlights
+from ..evaluation.flown import Flown
+from ..evaluation.units import units_of
+from .outcome import RareResult
+from .points import Points
+from .subset_simulation import StuckError, subset_simulation
+
+SAMPLES = 4500  # of a level: an interval of a factor 1.3 to either side at 1e-4
+LEAST = 1e-9
+
+
+def rare_failure(
+    plan: BatchPlan,
+    failure: str | None = None,
+    *,
+    hold: Mapping[str, float] | None = None,
+    noise_trial: int | None = None,
+    samples: int = SAMPLES,
+    least: float = LEAST,
+    workers: int | None = None,
+) -> RareResult:
+    """The probability of a failure over a campaign's draws and the noise of its components. Raises InputError.
+
+    ``failure`` is an expression over metrics and draws, by default that a trial is no success. ``hold`` gives draws one
+    value, which choices and grids need. The noise is random, a source for each component that draws random numbers,
+    unless ``noise_trial`` is the trial of the campaign whose noise all flights have.
+    Every level has ``samples`` points; a failure less likely than ``least`` is given up. The campaign's seed is that of
+    the points, too; ``workers`` does not change the result.
+    """
+    if samples < 100:
+        raise InputError("--samples", str(samples), "too few", "give 100 or more")
+    if not 0.0 < least < 1.0:
+        raise InputError("--least", f"{least:g}", "not a probability", "give one between 0 and 1")
+    space = DrawSpace(plan.campaign, hold, may_be_empty=True)
+    wanted = failure_of(plan.campaign, failure)
+    flown = Flown()
+    with SampleFlights(
+        plan, space.from_normals(np.zeros((1, space.size))), noise_trial=noise_trial, workers=workers
+    ) as flights:
+        noise = flights.noise
+        if not noise.sources:
+            space.check_varies()
+
+        def margin(points: Points) -> np.ndarray:
+            trials, draws = flights.fly(space.from_normals(points.draws), noise.of(points.streams))
+            found = wanted.margins({**draws, **trials.metrics}, trials.flown)
+            flown.add(points.draws, draws, trials.metrics, found)
+            return found
+
+        try:
+            simulation = subset_simulation(
+                margin, space.size, len(noise.sources), seed=plan.campaign.seed, samples=samples, least=least
+            )
+        except StuckError as stuck:
+            worth, share = stuck.args
+            problem = f"{100 * share:.0f} % of a level's flights have one margin, {worth:g}, and none is nearer to it"
+            where = ("--failure", failure) if failure is not None else (plan.campaign.file, "success")
+            raise InputError(*where, problem, "compare numbers that come near their limits by degrees") from stuck
+        units = units_of(space, flights.prepared, flights.facts)
+        return RareResult(wanted, simulation, space, flown.whole(), flights.facts, noise, samples, units)

@@ -1,0 +1,138 @@
+"""Margins at chosen draws of a campaign, by processes that stay: each has the loop's bench."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from loky import ProcessPoolExecutor
+
+from ...campaigns.draws.declared import Columns
+from ...campaigns.draws.given import ALL, GivenDraws, Streams
+from ...campaigns.fly.runner import provenance
+from ...campaigns.fly.workers.workers import worker_count
+from ...campaigns.spec.campaign import Record
+from ...campaigns.spec.checks import check_draws
+from ...campaigns.spec.plan import BatchPlan
+from ...common.errors import InputError
+from ...common.process_end import leave_when_done
+from ...common.progress import progress_bar
+from ...stability.injection.bench import StudyError
+from ...stability.loops.margin_values import Margins
+from ...stability.point.point_study import PointStudy
+from ...stability.variation.dispersion import models_of_trial
+from ...stability.variation.followed import margins_of
+from ..evaluation.flights import OWN
+from ..evaluation.noise import given_draws, noise_of
+from .margin import margin_columns
+from .request import MarginAsked
+
+
+class Studied(NamedTuple):
+    """Margins of draws as a trial of a flight has metrics: columns by name, and of which rows there are any."""
+
+    metrics: dict[str, np.ndarray]
+    flown: np.ndarray
+
+
+class MarginStudies:
+    """Studies a loop at chosen draws. Use it as a context manager: it holds processes.
+
+    ``first`` are draws with which everything is checked; the rest is as in `SampleFlights`, whose place it takes.
+    ``reasons`` say of every study why it found no margin, empty where it did. The memory that matters is looked for
+    once, at the nominal point. Raises InputError, also where that cannot be studied.
+    """
+
+    def __init__(
+        self, asked: MarginAsked, first: Columns, *, noise_trial: int | None = None, workers: int | None = None
+    ) -> None:
+        self._count = worker_count(workers)
+        plain = replace(asked.plan.campaign, record=Record(), group=None, scatters=(), faults=())
+        self._plan = replace(asked.plan, campaign=plain).of_samples(
+            GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)})
+        )
+        self._asked = replace(asked, request=replace(asked.request, plan=self._plan))
+        self._study, self._cells = _nominal(self._asked)
+        prepared = self.prepared = self._study.prepared
+        self.noise = noise_of(prepared, noise_trial, self._plan.campaign.seed)
+        check_draws(self._plan, [prepared])
+        self.channels = [channel.name for channel in self._study.channels]
+        self.reasons: list[str] = []
+        known = provenance(self._plan, {"default": prepared})
+        self.facts = {name: fact for name, fact in known.items() if name not in OWN}
+        self.facts |= {"loop": asked.loop.name, "point": asked.point.name, "time": self._study.bench.time}
+        self._pool: ProcessPoolExecutor | None = None
+        if self._count > 1:
+            self._pool = ProcessPoolExecutor(self._count, initializer=_begin, initargs=(self._asked, self._cells))
+        self._progress = progress_bar(unit="study")
+
+    def fly(self, columns: Columns, streams: Streams) -> tuple[Studied, Mapping[str, np.ndarray]]:
+        """The margins of given draws and random streams, in their order, with the drawn and derived values.
+
+        ``streams`` are those of all sources of the noise, by component. Raises InputError.
+        """
+        plan = self._plan.of_samples(given_draws(columns, streams, self.noise))
+        check_draws(plan, [self._study.prepared])
+        rows: list[list[Margins] | None] = []
+        for found in self._found([plan.of_part(range(trial, trial + 1)) for trial in range(plan.campaign.trials)]):
+            self.reasons.append(found if isinstance(found, str) else "")
+            rows.append(None if isinstance(found, str) else found)
+            self._progress.update()
+        studied = Studied(margin_columns(self.channels, rows), np.array([row is not None for row in rows]))
+        return studied, plan.draws.of_part(range(plan.campaign.trials)).columns
+
+    def _found(self, plans: Sequence[BatchPlan]) -> Iterable[list[Margins] | str]:
+        if self._pool is None:
+            return (_margins(self._study, self._cells, plan) for plan in plans)
+        return self._pool.map(_in_process, plans)
+
+    def __enter__(self) -> MarginStudies:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self._progress.close()
+        if self._pool is not None:
+            self._pool.shutdown(kill_workers=True)
+        self._study.close()
+
+
+def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
+    """The study of the point without draws, and the memory that matters there. Raises InputError."""
+    where = (asked.request.label, f"loop {asked.loop.name} at {asked.point.name}")
+    remedy = "what perilune stability cannot study has no worst"
+    try:
+        study = asked.opened()
+    except StudyError as error:
+        raise InputError(*where, str(error), remedy) from error
+    study.linearise()
+    if study.linear is None:
+        study.close()
+        raise InputError(*where, study.why_not, remedy)
+    return study, study.linear.cells
+
+
+def _margins(study: PointStudy, cells: Sequence[int], plan: BatchPlan) -> list[Margins] | str:
+    """The margins of every channel at a plan's one trial, or why there are none."""
+    try:
+        return [margins_of(model) for model in models_of_trial(study, plan, 0, cells).values()]
+    except (InputError, StudyError) as error:
+        return str(error)
+
+
+_held: tuple[PointStudy, Sequence[int]] | None = None  # of a worker process
+
+
+def _begin(asked: MarginAsked, cells: Sequence[int]) -> None:
+    """The first thing that a worker process does."""
+    global _held
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
+    leave_when_done()
+    _held = asked.opened(), cells
+
+
+def _in_process(plan: BatchPlan) -> list[Margins] | str:
+    assert _held is not None  # the process has begun with it
+    return _margins(*_held, plan)

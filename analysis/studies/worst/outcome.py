@@ -1,0 +1,197 @@
+"""What a search for the worst case comes to: text, document, tables, trials to fly again."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...campaigns.fly.shards.files import write_parquet
+from ...campaigns.spec.draw_space import DrawSpace
+from ...campaigns.tables import aligned, assumption_lines
+from ...common.atomic import write_atomically
+from ..evaluation.flown import Flown
+from ..evaluation.noise import Noise, conditions, noise_line
+from ..evaluation.units import unit_of_expression, with_unit
+from .metric import Badness
+from .realisations import Fresh, Realisations
+from .search import Phase
+
+WORST = "worst.parquet"
+
+
+@dataclass(frozen=True, eq=False)
+class WorstResult:
+    """The worst point of a box of draws: its ``value`` of ``badness``, infinite where it failed, and ``place`` in the
+    unit cube.
+
+    ``row`` and ``random`` are the flights, in ``flown``, of the worst and of the worst of the random trials; ``facts``
+    are what the result depends on, ``noise`` the random numbers that components draw themselves, ``units`` those of
+    draws and metrics by name, ``reason`` why the worst failed, where that is known. ``again`` gives the command that
+    flies or studies a trial of a file of draws again. ``phases`` are those of the search by their points, the random
+    trials first.
+
+    Where the noise is random, values of points are those ``over`` its realisations, and ``fresh`` are flights of the
+    worst with others; ``noise_matters`` is whether it changed any value of the random trials, None where that was not
+    looked at.
+    """
+
+    badness: Badness
+    sigmas: float
+    value: float
+    place: np.ndarray
+    row: int
+    random: int
+    random_trials: int
+    space: DrawSpace
+    flown: Flown
+    facts: dict[str, Any]
+    noise: Noise
+    units: Mapping[str, str]
+    over: Realisations | None = None
+    fresh: Fresh | None = None
+    noise_matters: bool | None = None
+    reason: str = ""
+    again: Callable[[Path, int], str] | None = None
+    phases: tuple[Phase, ...] = ()
+
+    @property
+    def flights(self) -> int:
+        """How many were flown."""
+        return len(self.flown.values)
+
+    @property
+    def worst(self) -> dict[str, Any]:
+        """The worst flight: ``value`` (None where it failed), ``trial`` of worst.parquet, ``draws``, ``metrics``."""
+        return {"trial": 0, "value": self._told(self.value), **self.flown.fact(self.places[0], self.badness.fact)}
+
+    @property
+    def worst_random(self) -> dict[str, Any]:
+        """The worst of the random trials, and whether it is ``inside`` the box."""
+        place = self.flown.points[self.random]
+        inside = bool(np.all((place >= 0.0) & (place <= 1.0)))
+        value = self._told(float(self.flown.values[self.random]))
+        return {"trial": 1, "value": value, "inside": inside, **self.flown.fact(self.random, self.badness.fact)}
+
+    def _told(self, value: float) -> float | str | None:
+        """A value as JSON has it: null where it failed, of a margin a word where it is no number."""
+        return self.badness.fact(self.badness.size(value))
+
+    @property
+    def places(self) -> list[int]:
+        """Of the worst flight and of the worst random one, among those flown."""
+        return [self.row, self.random]
+
+    @property
+    def conditions(self) -> str:
+        """What the numbers are conditional on, as the end of a line; empty where they are not."""
+        return conditions(self.noise, self.space.held)
+
+    @property
+    def unit(self) -> str:
+        """The unit of the number that is made worst; empty where it has none, or its text says it."""
+        return "" if self.badness.expression is None else unit_of_expression(self.badness.expression, self.units)
+
+    def values(self) -> dict[str, float]:
+        """The numbers that requirements are about; those of fresh noise are nan where there was none."""
+        values = {"worst": self.value, "random": float(self.flown.values[self.random])}
+        values |= {
+            "fresh_worst": math.nan if self.fresh is None else self.fresh.worst,
+            "fresh_quantile": math.nan if self.fresh is None else self.fresh.at_quantile,
+        }
+        return {name: self.badness.size(value) for name, value in values.items()} | {"flights": float(self.flights)}
+
+    def document(self, folder: Path | None = None) -> dict[str, Any]:
+        """The machine-readable result; ``folder`` is where it has been written, if it has."""
+        replay = self._replay(folder)
+        return {
+            **self.facts,
+            "metric": self.badness.text,
+            "sigmas": self.sigmas,
+            "held": self.space.held,
+            **self.noise.document(),
+            "conditional": bool(self.conditions),
+            "conditions": self.conditions.removeprefix(", "),
+            "unit": self.unit,
+            "units": dict(self.units),
+            **({} if self.over is None else {"objective": self.over.text, "realisations": self.over.count}),
+            **({} if self.fresh is None else {"fresh": self.fresh.document(self._told)}),
+            **({} if self.noise_matters is None else {"noise_matters": self.noise_matters}),
+            "flights": self.flights,
+            "random_trials": self.random_trials,
+            "worst": self.worst,
+            "worst_random": self.worst_random,
+            **({"reason": self.reason} if self.reason else {}),
+            **({"replay": replay} if replay else {}),
+        }
+
+    def _replay(self, folder: Path | None) -> str:
+        return "" if folder is None or self.again is None else self.again(folder / WORST, 0)
+
+    def text(self, folder: Path | None = None) -> str:
+        """The result for a terminal; ``folder`` as in `document`."""
+        found, random, under = self.worst, self.worst_random, self.conditions
+        lines = [*self.headline(), *([f"failed: {self.reason}"] if self.reason else [])]
+        lines += [line for line in (noise_line(self.noise),) if line and self.over is None]
+        lines += assumption_lines(self.facts)
+        rows = [["", "trial 0: worst", "trial 1: random"]]
+        for part in ("draws", "metrics"):
+            names = self.space.names if part == "draws" else list(found[part])
+            rows += [
+                [with_unit(name, self.units), _shown(found[part][name]), _shown(random[part][name])] for name in names
+            ]
+        replay = self._replay(folder)
+        lines += ["", *([under.removeprefix(", ")] if under else []), *aligned(rows)]
+        lines += ["", f"replay: {replay}" if replay else "replay: --output DIR writes the flights and the command"]
+        return "\n".join(line.rstrip() for line in lines)
+
+    def headline(self) -> list[str]:
+        """The worst case, the worst random trial and what fresh noise does to the worst case, with their conditions."""
+        found, random = self.worst, self.worst_random
+        within = f"search box +-{self.sigmas:g} sigma (normal), full range (others)"
+        outside = "" if random["inside"] else ", outside the box"
+        unit, under = f" {self.unit}" if self.unit else "", self.conditions
+        of = "" if self.over is None else f" ({self.over.text})"
+        return [
+            f"{self.badness.text}: worst {_shown(found['value'])}{unit}{of} in {self.flights} flights, {within}{under}",
+            f"worst of {self.random_trials} random trials: {_shown(random['value'])}{unit}{of}{outside}{under}",
+            *self._fresh_lines(unit),
+        ]
+
+    def _fresh_lines(self, unit: str) -> list[str]:
+        """What fresh noise does to the worst point, and how the noise was flown; none where it is not random."""
+        if self.fresh is None or self.over is None:
+            return []
+        worst, quantile = (_shown(self._told(value)) for value in (self.fresh.worst, self.fresh.at_quantile))
+        at_quantile = "" if self.over.quantile == 1.0 else f", {self.over.name} {quantile}{unit}"
+        lines = [
+            f"the worst point under {self.fresh.values.size} fresh noise realisations: "
+            f"worst {worst}{unit}{at_quantile}{self.conditions}"
+        ]
+        names = ", ".join(self.noise.components)
+        every = f"{_every(self.over.count)} at every point"
+        if self.noise_matters is False:
+            every = f"changes none of the random trials in {self.over.count} realisations, so that the search flew one"
+        return [*lines, f"noise of {names}: {every}"]
+
+    def write(self, folder: Path) -> None:
+        """Write worst.json, flights.parquet, and worst.parquet for `--draws`: the worst trial, and the random one."""
+        drawn = [name for draw in self.space.campaign.draws for name in draw.names]
+        write_parquet(self.flown.given(drawn, np.array(self.places)), folder / WORST)
+        write_parquet(self.flown.table("value"), folder / "flights.parquet")
+        write_atomically(
+            folder / "worst.json", f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n".encode()
+        )
+
+
+def _every(count: int) -> str:
+    return "the same realisation" if count == 1 else f"the same {count} realisations"
+
+
+def _shown(value: float | str | None) -> str:
+    return value if isinstance(value, str) else "failed" if value is None else f"{value:.6g}"

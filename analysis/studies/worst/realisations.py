@@ -1,0 +1,93 @@
+"""Noise in a search for the worst: the same realisations at every point, fresh ones for the point that wins."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...campaigns.verdicts.quantiles import quantiles
+from ...common.errors import InputError
+from .search import LEAST
+
+REALISATIONS = 5
+QUANTILE = 0.5
+FRESH = 10  # times as many realisations fly for the point that wins
+
+
+@dataclass(frozen=True)
+class Realisations:
+    """The objective of a point under noise: a ``quantile`` of its values over ``count`` realisations, 1 the worst."""
+
+    count: int
+    quantile: float
+
+    @property
+    def fresh(self) -> int:
+        """How many realisations, which the search has not seen, the point that wins flies."""
+        return FRESH * self.count
+
+    @property
+    def name(self) -> str:
+        """The quantile in words, for metrics, which are worse where larger, and for margins, where smaller."""
+        return {0.5: "median", 1.0: "worst"}.get(self.quantile, f"{self.quantile:g} quantile from best to worst")
+
+    @property
+    def text(self) -> str:
+        """The objective in words."""
+        return "one noise realisation" if self.count == 1 else f"{self.name} of {self.count} noise realisations"
+
+    def objective(self, values: np.ndarray) -> np.ndarray:
+        """The quantile of values (points, realisations) over the realisations."""
+        return quantiles(values.T, (self.quantile,))[0]
+
+
+def read_realisations(
+    count: int | None, quantile: float | None, flights: int, noise_trial: int | None, *, default: int = REALISATIONS
+) -> Realisations:
+    """What is asked of the noise, for a search of so many ``flights``. Raises InputError."""
+    for option, value in (("--realisations", count), ("--quantile", quantile)):
+        if value is not None and noise_trial is not None:
+            problem = f"all flights have the noise of trial {noise_trial}"
+            raise InputError(option, f"{value:g}", problem, "leave it or --noise-trial out")
+    if count is not None and count < 1:
+        raise InputError("--realisations", str(count), "not a positive number", "give 1 or more")
+    share = QUANTILE if quantile is None else quantile
+    if not 0.0 < share <= 1.0:
+        raise InputError("--quantile", f"{share:g}", "not a share of the realisations", "give one above 0, up to 1")
+    found = Realisations(max(1, min(default, flights // LEAST)) if count is None else count, share)
+    if count is not None and LEAST <= flights < count * LEAST:
+        problem = f"{flights} flights are too few: a search has {LEAST} points or more"
+        raise InputError("--realisations", str(count), problem, f"give --flights {count * LEAST} or more")
+    least = 1 if share == 1.0 else math.ceil(1.0 / (1.0 - share) - 1e-9)
+    if quantile is not None and found.count < least:
+        problem = f"{found.count} realisations have no such quantile below their largest"
+        raise InputError("--quantile", f"{share:g}", problem, f"give --realisations {least} or more, or --quantile 1")
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Fresh:
+    """The point that won under fresh noise: ``values`` (realisations,) of the objective, the larger the worse."""
+
+    values: np.ndarray
+    quantile: float
+
+    @property
+    def worst(self) -> float:
+        return float(self.values.max())
+
+    @property
+    def at_quantile(self) -> float:
+        return float(quantiles(self.values, (self.quantile,))[0])
+
+    def document(self, fact: Any) -> dict[str, Any]:
+        """As JSON; ``fact`` maps a value to what JSON has for it."""
+        return {
+            "realisations": int(self.values.size),
+            "worst": fact(self.worst),
+            "quantile": self.quantile,
+            "at_quantile": fact(self.at_quantile),
+        }

@@ -1,0 +1,84 @@
+"""What is asked of a search for the worst margin: a loop at one operating point, over a campaign."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from ...campaigns.spec.plan import BatchPlan
+from ...common.errors import InputError
+from ...runtime.system.options import SystemOptions
+from ...stability.point.point_study import PointStudy
+from ...stability.request.declaration import Loop, Point
+from ...stability.request.request import Request, read_request
+from ...stability.request.subject import Subject
+from ...stability.variation.dispersion import varied
+
+OF_A_LOOP = ("margin", "point", "at")
+OF_FLIGHTS = {  # and what to do where a margin is looked for
+    "metric": "give one of them",
+    "compare": "choose by --use SLOT=FMU",
+    "fault": "margins are of a system without faults",
+    "input": "margins are of a system without inputs over time",
+    "log": "ask perilune run for it",
+    "timeout": "leave it out",
+}
+
+
+@dataclass(frozen=True)
+class MarginAsked:
+    """A loop at an operating point of a study that has a campaign; small enough to be sent to every worker."""
+
+    request: Request
+    loop: Loop
+    point: Point
+
+    @property
+    def plan(self) -> BatchPlan:
+        assert self.request.plan is not None
+        return self.request.plan
+
+    def replay(self, draws: Path, trial: int) -> str:
+        """The command that studies the loop at a row of a file of draws."""
+        return replace(self.request, draws=draws).replay(self.loop.name, trial)
+
+    def opened(self) -> PointStudy:
+        """The point with the campaign's layer and what it draws, to be closed. Raises InputError, StudyError."""
+        subject = Subject(self.request.system, self.request.options).changed(campaign=self.plan.campaign.layer)
+        return PointStudy(subject, self.point, [self.loop], varied(self.plan))
+
+
+def check_options(loop: str | None, options: Mapping[str, Any]) -> None:
+    """Refuse options, by name, that do not go with a loop, or go with one only. Raises InputError."""
+    for name in OF_A_LOOP if loop is None else ():
+        if options[name] is not None:
+            raise InputError(f"--{name}", str(options[name]), "there is no loop", "give --loop NAME with it")
+    for name, remedy in OF_FLIGHTS.items() if loop is not None else ():
+        if options[name]:
+            raise InputError(f"--{name}", "", "does not go with --loop", remedy)
+
+
+def margin_asked(
+    system: str | Path,
+    options: SystemOptions,
+    *,
+    campaign: str,
+    loop: str,
+    point: str | None,
+    at: float | None,
+    seed: int | None,
+) -> MarginAsked:
+    """A loop that a system names, or a connector that is cut at the time ``at`` (s), over the draws of a campaign.
+
+    ``point`` is needed where the loop has several. Raises InputError.
+    """
+    request = read_request(system, options, loops=[loop], at=() if at is None else (at,), campaign=campaign, seed=seed)
+    (found,) = request.declaration.loops
+    if point is None and len(found.points) > 1:
+        problem = f"is studied at {len(found.points)} points, and a search has one"
+        raise InputError("--loop", loop, problem, f"choose: {' or '.join(f'--point {name}' for name in found.points)}")
+    if point is not None and point not in found.points:
+        raise InputError("--point", point, f"{loop} has no such point", f"give {' or '.join(found.points)}")
+    return MarginAsked(request, found, request.point(point or found.points[0]))

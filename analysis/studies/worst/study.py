@@ -1,0 +1,208 @@
+"""The worst that a campaign's draws allow: within a box of them, every point a flight."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from ...campaigns.draws.declared import Columns, drawn_names
+from ...campaigns.draws.given import Streams
+from ...campaigns.spec.draw_space import DrawSpace
+from ...campaigns.spec.plan import BatchPlan
+from ...common.errors import InputError
+from ...runtime.system.prepared import PreparedSystem
+from ..evaluation.flights import SampleFlights
+from ..evaluation.flown import Flown
+from ..evaluation.noise import Noise
+from ..evaluation.units import units_of
+from .margin import SIZES, badness_of_margin
+from .margin_studies import MarginStudies
+from .metric import Badness, badness_of
+from .outcome import WorstResult
+from .realisations import Fresh, Realisations, read_realisations
+from .request import MarginAsked
+from .search import LEAST, Phase, largest
+
+FLIGHTS = 2000
+STUDIES = 500  # a margin costs more than a flight
+MARGIN = "disk"
+SIGMAS = 3.0
+RANDOM = 0.2  # of the flights are random trials, which the worst is told beside
+
+
+class Flights(Protocol):
+    """Who flies draws, or studies them; ``fly`` gives what they come to, and the drawn and derived values."""
+
+    facts: dict[str, Any]
+    noise: Noise
+    prepared: PreparedSystem
+
+    def fly(self, columns: Columns, streams: Streams) -> tuple[Sampled, Mapping[str, np.ndarray]]: ...
+
+
+class Sampled(Protocol):
+    """What draws come to: columns (draws,) by name, and of which there is anything (draws,)."""
+
+    @property
+    def metrics(self) -> Mapping[str, np.ndarray]: ...
+    @property
+    def flown(self) -> np.ndarray: ...
+
+
+def worst_case(
+    plan: BatchPlan,
+    metric: str | None = None,
+    *,
+    sigmas: float = SIGMAS,
+    flights: int = FLIGHTS,
+    hold: Mapping[str, float] | None = None,
+    noise_trial: int | None = None,
+    realisations: int | None = None,
+    quantile: float | None = None,
+    workers: int | None = None,
+) -> WorstResult:
+    """The draws that make an expression largest, within ``sigmas`` of normal draws and the ends of others.
+
+    ``metric`` is over metrics and draws, by default the margin by which a trial is no success. ``hold`` and
+    ``noise_trial`` are as in `rare_failure`. Where components have noise, every point flies the same ``realisations``
+    of it (5, or one for every hundred ``flights`` where these are fewer than 500), whose ``quantile`` (the median) is
+    made largest; the point that wins flies ten times as many fresh ones. A fifth of the ``flights`` are random trials,
+    to begin with and to compare with. The campaign's seed is that of the search; ``workers`` does not change the
+    result. Raises InputError.
+    """
+    over = read_realisations(realisations, quantile, flights, noise_trial)
+    box = _Box(plan, sigmas, flights, hold)
+    badness = badness_of(plan.campaign, metric)
+    with SampleFlights(plan, box.middle, noise_trial=noise_trial, workers=workers) as flights_of:
+        return box.searched(flights_of, badness, over)
+
+
+def worst_margin(
+    asked: MarginAsked,
+    margin: str = MARGIN,
+    *,
+    sigmas: float = SIGMAS,
+    flights: int = STUDIES,
+    hold: Mapping[str, float] | None = None,
+    noise_trial: int | None = None,
+    realisations: int | None = None,
+    quantile: float | None = None,
+    workers: int | None = None,
+) -> WorstResult:
+    """The draws that make the least margin of a loop's channels smallest, in the box of `worst_case`.
+
+    ``margin`` is one of `SIZES`. An unstable loop is worse than any margin, by its largest multiplier; draws that
+    cannot be studied are the worst there is. The rest is as in `worst_case`, but for ``realisations``: 1, since noise
+    moves a loop's margin only by where it has brought the flight to. Raises InputError.
+    """
+    if margin not in SIZES:
+        raise InputError("--margin", margin, "no such margin", f"give {', '.join(SIZES)}")
+    over = read_realisations(realisations, quantile, flights, noise_trial, default=1)
+    box = _Box(asked.plan, sigmas, flights, hold)
+    with MarginStudies(asked, box.middle, noise_trial=noise_trial, workers=workers) as studies:
+        badness = badness_of_margin(asked.loop.name, asked.point.name, studies.channels, margin)
+        found = box.searched(studies, badness, over)
+        return replace(found, reason=studies.reasons[found.places[0]], again=asked.replay)
+
+
+class _Box:
+    """Where is searched, and with how many flights. Raises InputError."""
+
+    def __init__(self, plan: BatchPlan, sigmas: float, flights: int, hold: Mapping[str, float] | None) -> None:
+        if flights < LEAST:
+            raise InputError("--flights", str(flights), "too few", f"give {LEAST} or more")
+        if not 0.0 < sigmas < 20.0:
+            raise InputError("--sigmas", f"{sigmas:g}", "no such box", "give a number above 0, such as 3")
+        self._space = DrawSpace(plan.campaign, hold)
+        self._sigmas, self._flights, self._seed = sigmas, flights, plan.campaign.seed
+
+    @property
+    def middle(self) -> Columns:
+        return self._space.from_box(np.full((1, self._space.size), 0.5), self._sigmas)
+
+    def searched(self, flights_of: Flights, badness: Badness, over: Realisations) -> WorstResult:
+        """The worst of random trials and of a search from them. Raises InputError."""
+        space, sigmas = self._space, self._sigmas
+        points = _Points(flights_of, badness, over if flights_of.noise.sources else None)
+        budget = self._budget(points)
+        random = np.random.Generator(np.random.Philox(np.random.SeedSequence(self._seed)))
+        own = space.from_normals(random.standard_normal((int(RANDOM * budget) // points.realisations, space.size)))
+        places = space.to_box(own, sigmas)
+        values = points.fly(places, own)
+        inside = np.all((places >= 0.0) & (places <= 1.0), axis=1)
+        if not inside.any():
+            problem = f"none of {len(values)} random trials is within {sigmas:g} sigmas in all draws"
+            raise InputError("--sigmas", f"{sigmas:g}", problem, "give more")
+        left = budget - points.flights
+        points.leave_out_noise_without_effect()
+        place, value, phases = largest(
+            lambda points_: points.fly(points_, space.from_box(points_, sigmas)),
+            places[inside],
+            values[inside],
+            left // points.realisations,
+            random,
+        )
+        worst, worst_random = points.row_of(place, value), points.row_of(places[int(np.argmax(values))], values.max())
+        fresh = points.fly_fresh(worst, drawn_names(space.campaign)) if points.over is not None else None
+        units = units_of(space, flights_of.prepared, flights_of.facts)
+        return WorstResult(
+            badness, sigmas, value, place, worst, worst_random, len(values), space, points.flown.whole(),
+            flights_of.facts, flights_of.noise, units, points.over, fresh, points.effect,
+            phases=(Phase("random trials", len(values)), *phases),
+        )  # fmt: skip
+
+    def _budget(self, points: _Points) -> int:
+        """The flights of the search, those of fresh noise left out."""
+        return self._flights if points.over is None else self._flights - points.over.fresh
+
+
+class _Points:
+    """Points flown with the realisations of noise that all have; ``over`` is None where there is no random noise.
+
+    ``effect`` says whether the noise changed a value of the random trials; where it did not, points fly one.
+    """
+
+    def __init__(self, flights_of: Flights, badness: Badness, over: Realisations | None) -> None:
+        self._flights_of, self._badness = flights_of, badness
+        self.over, self.flown, self.flights = over, Flown(), 0
+        self.realisations = 1 if over is None else over.count
+        self.effect: bool | None = None
+        self._varied = False
+
+    def fly(self, places: np.ndarray, columns: Mapping[str, np.ndarray]) -> np.ndarray:
+        """The objective of points (points,)."""
+        count = self.realisations
+        columns = {name: np.repeat(column, count) for name, column in columns.items()}
+        values = self._fly(np.repeat(places, count, axis=0), columns, np.tile(np.arange(count), len(places)))
+        rows = values.reshape(len(places), count)
+        self._varied |= bool(np.any(rows != rows[:, :1]))
+        return rows[:, 0] if self.over is None or count == 1 else self.over.objective(rows)
+
+    def leave_out_noise_without_effect(self) -> None:
+        """After the random trials: one realisation is enough where noise has not changed a value of any."""
+        if self.realisations > 1:
+            self.effect = self._varied
+            self.realisations = self.realisations if self._varied else 1
+
+    def fly_fresh(self, row: int, names: Sequence[str]) -> Fresh:
+        """The point of a flight with noise that no flight of the search had."""
+        assert self.over is not None
+        whole, count = self.flown.whole(), self.over.fresh
+        columns = {name: np.full(count, whole.draws[name][row]) for name in names}
+        values = self._fly(np.tile(whole.points[row], (count, 1)), columns, self.over.count + np.arange(count))
+        return Fresh(values, self.over.quantile)
+
+    def row_of(self, place: np.ndarray, value: float) -> int:
+        """The first flight of a point that has its objective: quantiles are values of flights."""
+        whole = self.flown.whole()
+        return int(np.argmax(np.all(whole.points == place, axis=1) & (whole.values == value)))
+
+    def _fly(self, places: np.ndarray, columns: Mapping[str, np.ndarray], streams: np.ndarray) -> np.ndarray:
+        trials, draws = self._flights_of.fly(dict(columns), self._flights_of.noise.same(streams))
+        values = self._badness({**draws, **trials.metrics}, trials.flown)
+        self.flown.add(places, draws, trials.metrics, values)
+        self.flights += len(values)
+        return values

@@ -1,0 +1,128 @@
+"""`perilune new system`: what it writes is built, flies, and has the margins of its equations.
+
+Truth: python-control on the held rigid body and its sampled control; scipy's integrator with the law written here;
+the flavours against each other, bit by bit; ruff with the product's own settings.
+"""
+
+import json
+from pathlib import Path
+
+import control
+import numpy as np
+import pytest
+from lxml import etree
+from scipy.integrate import solve_ivp
+
+import perilune
+from perilune.analysis.cli import main
+from perilune.fmus_src.paths import FLAVOURS
+from tests.support.loops.exact_margins import crossings, disk_margin
+from tests.support.own_style import assert_in_style
+
+NAME = "mine"
+INERTIA, DISTURBANCE, START = 500.0, 0.01, np.radians(5.0)
+PERIOD, KP, KI, KD = 0.5, 6.6, 0.1, 90.0
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A working folder with the system in it, its FMUs built in both flavours."""
+    path = tmp_path_factory.mktemp("working")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(path)
+        assert main(["new", "system", NAME]) == 0
+        assert main(["export", f"{NAME}/blocks.py"]) == 0
+    return path
+
+
+@pytest.fixture(autouse=True)
+def in_it(request, monkeypatch):
+    if "folder" in request.fixturenames:
+        monkeypatch.chdir(request.getfixturevalue("folder"))
+
+
+def flown_here():
+    """Angles at the communication points of 0.1 s."""
+    motion, summed, torque, angles = np.array([START, 0.0]), 0.0, 0.0, [START]
+    for cycle in range(800):
+        summed += PERIOD * motion[0] if cycle else 0.0
+        torque = -KP * motion[0] - KI * summed - KD * motion[1]
+        assert abs(torque) < 1.0
+        turned = solve_ivp(
+            lambda _, y, held=torque: (y[1], (held + DISTURBANCE) / INERTIA),
+            (0.0, PERIOD),
+            motion,
+            rtol=1e-12,
+            atol=1e-15,
+            t_eval=0.1 * np.arange(1, 6),
+        )
+        angles += list(turned.y[0])
+        motion = turned.y[:, -1]
+    return np.array(angles)
+
+
+def open_loop():
+    """Minus the transfer around control.torque, sampled."""
+    plant = control.ss([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0 / INERTIA]], np.eye(2), np.zeros((2, 1)))
+    # the sum takes the angle of its own instant: ki T z/(z - 1) = ki T (1 + 1/(z - 1))
+    law = control.ss(1.0, [[1.0, 0.0]], KI * PERIOD, [[KP + KI * PERIOD, KD]], PERIOD)
+    return law * control.c2d(plant, PERIOD, "zoh")
+
+
+def test_it_flies_as_its_equations_do(folder):
+    flights = {flavour: perilune.simulate(NAME, flavour=flavour) for flavour in FLAVOURS}
+    assert {flight.status for flight in flights.values()} == {"stop_time"}
+    expected = flown_here()
+    assert abs(flights["native"]["plant.angle"] - expected).max() < 1e-12
+    for name, values in flights["native"].signals.items():
+        assert (values == flights["python"][name]).all(), name
+
+
+def test_its_margins_are_those_of_its_equations(folder):
+    report = perilune.stability(NAME)
+    (loop,) = report.loops
+    gain, phase, _ = crossings(open_loop())
+    assert loop.margins.gain == pytest.approx(gain[np.argmin(abs(np.log(gain)))], rel=1e-4)
+    assert loop.margins.phase == pytest.approx(min(abs(phase)), rel=1e-4)
+    assert loop.robust.disk_margin == pytest.approx(disk_margin(open_loop()), rel=1e-5)
+    assert loop.agreement.agrees
+    assert report.verdict == "pass"
+
+
+@pytest.mark.usefixtures("folder")
+def test_the_commands_that_it_names(capsys):
+    assert main(["run", NAME, "--parameters", "heavy.ssv", "--report", "page.html"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.rpartition(": ")[2] for line in lines[1:3]] == ["kept", "kept"]
+    page = Path("page.html").read_text(encoding="utf-8")
+    assert "Torque" in page
+    assert "settled" in page
+    require = ["--require", "default.success_rate == 1"]
+    assert main(["batch", NAME, "--campaign", "dispersed", "--trials", "20", "--output", "results", *require]) == 0
+    assert main(["validate", NAME, f"{NAME}/heavy.ssv", f"{NAME}/campaigns/dispersed.toml"]) == 0
+    assert main(["export", NAME]) == 0
+    assert main(["validate", f"{NAME}.ssp"]) == 0
+
+
+@pytest.mark.usefixtures("folder")
+def test_connectors_are_all_that_the_blocks_declare():
+    spaces = {"ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription"}
+    root = etree.parse(f"{NAME}/SystemStructure.ssd").getroot()
+    for component in root.iterfind(".//ssd:Component", spaces):
+        fmu = Path("build/fmus/python", component.get("source").partition("/")[2])
+        described = json.loads(_described(fmu))["variables"]
+        expected = {row["name"] for row in described if row["causality"] in ("input", "output")}
+        assert {item.get("name") for item in component.iterfind(".//ssd:Connector", spaces)} == expected
+
+
+def _described(fmu):
+    assert main(["describe", str(fmu), "--json", "described.json"]) == 0
+    return Path("described.json").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", ["a", "an_axis_of_a_spacecraft_that_has_a_long_name"])
+def test_its_python_is_as_ruff_writes_it(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "system", name]) == 0
+    assert main(["new", "block", f"{name}_block"]) == 0
+    assert_in_style(tmp_path)

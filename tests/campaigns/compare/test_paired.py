@@ -1,0 +1,112 @@
+"""perilune.analysis.campaigns.compare.paired: two variants on the same trials.
+
+Truth: counting by hand; the binomial distribution summed with `math.comb`; the published example of McNemar's
+exact test (Bentur et al. 2009 in Fagerland, Lydersen and Laake 2014: 1, 1, 7 and 12 children, p = 0.0703); the
+coverage of both intervals, exactly enumerated or from order statistics.
+"""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from perilune.analysis.campaigns.compare.paired import paired_rates, paired_values
+
+
+def outcomes(both, only_a, only_b, neither):
+    """Outcomes of A and B with so many trials of each kind."""
+    kinds = [(True, True)] * both + [(True, False)] * only_a + [(False, True)] * only_b + [(False, False)] * neither
+    a, b = zip(*kinds, strict=True)
+    return np.array(a), np.array(b)
+
+
+def coin(k, n):
+    """Probability of at least so uneven a split of n tosses of a fair coin, either way."""
+    least = min(k, n - k)
+    tail = sum(math.comb(n, i) for i in range(least + 1)) / 2**n
+    return min(1.0, 2.0 * tail)
+
+
+def test_the_published_example():
+    found = paired_rates(*outcomes(1, 1, 7, 12))
+    assert (found.both, found.only_a, found.only_b, found.neither) == (1, 1, 7, 12)
+    assert found.difference == pytest.approx(-6 / 21)
+    assert found.p_value == pytest.approx(0.0703125, rel=1e-12)
+    assert found.interval[0] < found.difference < found.interval[1] < 0.0
+
+
+@given(st.lists(st.tuples(st.booleans(), st.booleans()), min_size=1, max_size=60))
+def test_counts_and_test_against_counting(rows):
+    a, b = (np.array(column) for column in zip(*rows, strict=True))
+    found = paired_rates(a, b)
+    assert found.both == sum(x and y for x, y in rows)
+    assert found.neither == sum(not x and not y for x, y in rows)
+    assert found.difference == pytest.approx(a.mean() - b.mean(), abs=1e-12)
+    discordant = found.only_a + found.only_b
+    assert found.both + found.neither + discordant == len(rows)
+    assert found.p_value == pytest.approx(coin(found.only_a, discordant) if discordant else 1.0, rel=1e-9)
+    assert -1.0 <= found.interval[0] <= found.difference <= found.interval[1] <= 1.0
+    swapped = paired_rates(b, a)
+    assert swapped.interval == pytest.approx((-found.interval[1], -found.interval[0]), abs=1e-12)
+
+
+@pytest.mark.parametrize("rates", [(0.1, 0.1), (0.02, 0.08), (0.3, 0.05), (0.0, 0.05), (0.2, 0.4)])
+@pytest.mark.parametrize("trials", [20, 60])
+def test_the_interval_of_rates_covers_nearly_as_often_as_it_says(rates, trials):
+    """Summed over every possible number of disagreements of either kind."""
+    p, q = rates
+    covered = 0.0
+    for k, m in itertools.product(range(trials + 1), repeat=2):
+        if k + m > trials:
+            continue
+        ways = math.comb(trials, k) * math.comb(trials - k, m)
+        probability = ways * p**k * q**m * (1.0 - p - q) ** (trials - k - m)
+        if probability > 1e-9:
+            low, high = paired_rates(*outcomes(trials - k - m, k, m, 0)).interval
+            covered += probability * (low <= p - q <= high)
+    assert covered >= 0.935
+
+
+NUMBERS = st.floats(-100.0, 100.0)
+
+
+@given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=1, max_size=40))
+def test_values_against_counting(rows):
+    a, b = (np.array(column) for column in zip(*rows, strict=True))
+    found = paired_values(a, b)
+    difference = sorted(x - y for x, y in rows)
+    assert found.count == len(rows)
+    assert found.smaller == sum(value < 0.0 for value in difference)
+    assert found.equal == sum(value == 0.0 for value in difference)
+    assert found.larger == sum(value > 0.0 for value in difference)
+    assert found.median == difference[(len(rows) - 1) // 2]  # of an even number the lower one in the middle
+    n = found.smaller + found.larger
+    assert found.p_value == pytest.approx(coin(found.smaller, n) if n else 1.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("trials", [1, 5, 6, 7, 20, 101, 400])
+def test_the_interval_of_the_median_is_the_shortest_of_order_statistics_that_covers(trials):
+    """Ends k-th from either end cover the median with 1 - 2 P(fewer than k of n tosses are heads)."""
+    difference = np.random.default_rng(trials).normal(size=trials)
+    ordered = np.sort(difference)
+    found = paired_values(difference, np.zeros(trials))
+    miss, k = 0.0, 0
+    while 2.0 * (miss + math.comb(trials, k) / 2**trials) <= 0.05:
+        miss += math.comb(trials, k) / 2**trials
+        k += 1
+    if k == 0:
+        assert found.interval is None
+    else:
+        assert found.interval == (ordered[k - 1], ordered[trials - k])
+
+
+def test_only_trials_where_both_are_finite_count():
+    a = np.array([1.0, np.nan, np.inf, 4.0, 2.0])
+    b = np.array([2.0, 1.0, 1.0, 1.0, -np.inf])
+    found = paired_values(a, b)
+    assert (found.count, found.smaller, found.larger, found.median) == (2, 1, 1, -1.0)
+    nothing = paired_values(a[1:3], b[1:3])
+    assert (nothing.count, nothing.median, nothing.interval, nothing.p_value) == (0, None, None, None)

@@ -1,0 +1,72 @@
+"""perilune.analysis.campaigns.fly.shards.arrow: columns between numpy and Arrow.
+
+Truth: pyarrow's own conversions, which load pandas.
+"""
+
+import subprocess
+import sys
+
+import numpy as np
+import pyarrow
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from perilune.analysis.campaigns.fly.shards.arrow import numbers_of, numpy_of, table_of, texts_of
+
+KINDS = st.sampled_from([np.float64, np.int64, np.int32, np.uint32, np.bool_])
+columns = KINDS.flatmap(lambda kind: arrays.arrays(kind, st.integers(0, 40)))
+
+
+@given(columns, st.integers(1, 3))
+def test_numbers_are_those_that_pyarrow_makes(values, step):
+    values = values[::step]  # not side by side
+    made = numbers_of(values)
+    made.validate(full=True)
+    assert made.null_count == 0
+    assert made.type == pyarrow.array(values).type
+    np.testing.assert_array_equal(made.to_numpy(zero_copy_only=False), values)
+
+
+@given(st.lists(st.text(), max_size=20))
+def test_texts_are_those_that_pyarrow_makes(values):
+    made = texts_of(values)
+    made.validate(full=True)
+    assert made.equals(pyarrow.array(values, pyarrow.string()))
+
+
+@given(columns, st.integers(0, 3), st.integers(0, 10), st.integers(0, 40))
+def test_numbers_come_back_whatever_their_pieces(values, pieces, first, count):
+    column = pyarrow.chunked_array([pyarrow.array(values)] * pieces, pyarrow.array(values).type).slice(first, count)
+    found = numpy_of(column)
+    assert found.dtype == values.dtype
+    np.testing.assert_array_equal(found, np.tile(values, pieces)[first : first + count])
+
+
+@given(st.lists(st.text(), max_size=20), st.integers(0, 3), st.integers(0, 5))
+def test_texts_come_back_whatever_their_pieces(values, pieces, first):
+    column = pyarrow.chunked_array([pyarrow.array(values, pyarrow.string())] * pieces, pyarrow.string()).slice(first)
+    found = numpy_of(column)
+    assert found.dtype == object
+    assert found.tolist() == (values * pieces)[first:]
+
+
+def test_a_table_has_its_columns_in_order():
+    table = table_of({"b": np.arange(3), "a": texts_of("xyz"), "c": np.array([True, False, True])})
+    expected = pyarrow.table({"b": np.arange(3), "a": ["x", "y", "z"], "c": [True, False, True]})
+    assert table.equals(expected)
+
+
+WITHOUT = """
+import sys
+from perilune.analysis.cli import main
+status = main(["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", "3", "--output", sys.argv[1]])
+sys.exit(status or "pandas" in sys.modules)
+"""
+
+
+@pytest.mark.usefixtures("fmus")
+def test_a_batch_flies_without_pandas(tmp_path):
+    found = subprocess.run([sys.executable, "-c", WITHOUT, str(tmp_path / "out")], capture_output=True, text=True)
+    assert found.returncode == 0, found.stderr

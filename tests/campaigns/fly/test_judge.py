@@ -1,0 +1,97 @@
+"""What flights come to when a task's are looked at together.
+
+Truth: every metric of every flight worked out by itself, to the bit.
+"""
+
+import math
+import tomllib
+
+import numpy as np
+import pytest
+
+from perilune.analysis.campaigns.draws.table import DrawTable
+from perilune.analysis.campaigns.fly.workers.evaluation import Judge
+from perilune.analysis.campaigns.spec.checks import VariantNames
+from perilune.analysis.campaigns.spec.drawn import DrawnTrials
+from perilune.analysis.campaigns.spec.file import parse_campaign
+from perilune.analysis.campaigns.spec.metrics import evaluate_metric
+from perilune.analysis.campaigns.spec.toml_table import Table
+from perilune.analysis.runtime.flight.results import Flight
+
+TEXT = """
+[draw.bias]
+distribution = "uniform"
+low = 0
+high = 1
+[metric.miss]
+expression = "norm(p.x - bias, sin(p.y) * exp(-time / 7))"
+reduction = "final"
+[metric.highest]
+expression = "p.x * bias"
+reduction = "max"
+[metric.late]
+expression = "p.x"
+reduction = "final"
+window = [0.0, 1.0]
+[metric.gain]
+expression = "p.gain"
+reduction = "final"
+[record]
+final = ["p.y"]
+traces = "{traces}"
+[success]
+expression = "miss < 1.5"
+"""
+COUNT = 40
+
+
+def flight(number):
+    """A flight by its number: every seventh fails, every eleventh without a row."""
+    source = np.random.default_rng(number)
+    rows = 0 if number % 11 == 10 else 5 + number % 4
+    signals = {name: source.normal(size=rows) for name in ("p.x", "p.y", "p.status")}
+    signals["p.status"] = np.zeros(rows)
+    status = "failed" if rows == 0 or number % 7 == 6 else "finished"
+    return Flight(np.arange(rows) * 0.5, signals, {}, status, "it broke" if status == "failed" else "")
+
+
+@pytest.fixture(params=["none", "failures", "all"])
+def judged(request):
+    head = 'system = "s"\ntrials = 40\nseed = 1\n'
+    campaign = parse_campaign(Table(tomllib.loads(head + TEXT.format(traces=request.param)), "test.toml"))
+    bias = np.random.default_rng(3).uniform(size=COUNT)
+    drawn = DrawnTrials(None, range(100, 100 + COUNT), DrawTable(COUNT, {"bias": bias}), [])
+    names = VariantNames([], ["p.x", "p.y"], ["p.status"], {"p.gain": 2.5})
+    return campaign, names, drawn, bias
+
+
+def test_together_or_one_by_one_to_the_bit(judged):
+    campaign, names, drawn, bias = judged
+    together, alone = Judge(campaign, names), Judge(campaign, names)
+    singles = []
+    for number in range(COUNT):
+        together.add(flight(number), 100 + number, drawn)
+        alone.add(flight(number), 100 + number, drawn)
+        singles.append(alone.trials())
+    found = together.trials()
+    assert found.trial.tolist() == list(range(100, 100 + COUNT))
+    assert list(found.metrics) == ["miss", "highest", "late", "gain"]
+    for number, single in enumerate(singles):
+        one = flight(number)
+        values = {"time": one.time, **one.signals, "p.gain": 2.5, "bias": bias[number]}
+        for metric in campaign.metrics:
+            expected = evaluate_metric(metric, one.time, values) if one.complete else math.nan
+            for value in (found.metrics[metric.name][number], single.metrics[metric.name][0]):
+                assert value == expected or math.isnan(expected)
+        miss = found.metrics["miss"][number]
+        assert found.success[number] == single.success[0] == (one.complete and miss < 1.5)
+        assert found.statuses[number] == one.status
+        last = one.signals["p.y"][-1] if one.time.size else math.nan
+        np.testing.assert_array_equal(
+            [found.final["p.y"][number], found.end_time[number]], [last, one.time[-1] if one.time.size else math.nan]
+        )
+        kept = campaign.record.traces == "all" or (campaign.record.traces == "failures" and not found.success[number])
+        assert (100 + number in found.traces) == kept
+        assert (100 + number in found.messages) == (not one.complete)
+    for trial, traces in found.traces.items():
+        assert traces["p.x"].tobytes() == flight(trial - 100).signals["p.x"].tobytes()

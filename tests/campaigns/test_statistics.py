@@ -1,0 +1,129 @@
+"""perilune.analysis.campaigns.statistics.
+
+Truth: Python's statistics module, scipy's distribution function and numpy's quantile over the same finite columns; a
+quantile's definition counted trial by trial, in integers.
+"""
+
+import math
+import statistics as exact
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+from scipy.stats import ecdf
+
+from perilune.analysis.campaigns.statistics import QUANTILES, STATISTICS, quantile
+from perilune.analysis.campaigns.statistics import statistics as of_blocks
+from perilune.analysis.campaigns.verdicts import order_statistics
+
+NUMBERS = st.floats(-1e6, 1e6)
+ANY = NUMBERS | st.sampled_from([math.inf, -math.inf, math.nan])
+
+
+def statistics(values, unit):
+    """Statistics of a column in one block."""
+    return of_blocks(lambda: [values], unit)
+
+
+def counted(values, percent):
+    """The least value that at least so many percent of the values do not exceed."""
+    known = [value for value in values if not math.isnan(value)]
+    fits = [x for x in known if 100 * sum(value <= x for value in known) >= percent * len(known)]
+    return min(fits) if fits else None
+
+
+@given(st.lists(NUMBERS, min_size=2, max_size=300))
+def test_finite_columns_against_other_libraries(values):
+    found = statistics(np.array(values), "m")
+    assert (found["count"], found["unit"]) == (len(values), "m")
+    assert (found["min"], found["max"]) == (min(values), max(values))
+    assert found["mean"] == pytest.approx(exact.fmean(values), rel=1e-9, abs=1e-9)
+    assert found["std"] == pytest.approx(exact.stdev(values), rel=1e-9, abs=1e-9)
+    assert found["rms"] == pytest.approx(math.sqrt(exact.fmean(value * value for value in values)), rel=1e-9)
+    share = ecdf(values).cdf
+    for key, percent in QUANTILES.items():
+        assert share.evaluate(found[key]) >= percent / 100 > share.evaluate(np.nextafter(found[key], -math.inf))
+
+
+@given(st.lists(ANY, max_size=120))
+def test_quantiles_by_counting(values):
+    found = statistics(np.array(values, dtype=float), "1")
+    for key, percent in QUANTILES.items():
+        expected = counted(values, percent)
+        assert (None if found[key] is None else float(found[key])) == expected
+        assert found[key] is None or isinstance(found[key], str) == math.isinf(expected)
+
+
+@given(st.lists(ANY, max_size=60))
+def test_other_statistics_are_those_of_the_finite_values(values):
+    column = np.array(values, dtype=float)
+    found = statistics(column, "1")
+    assert found["count"] == sum(map(math.isfinite, values))
+    alone = statistics(column[np.isfinite(column)], "1")
+    for key in set(STATISTICS) - set(QUANTILES):
+        assert found[key] == alone[key]
+        assert (found[key] is None) == (found["count"] < (2 if key == "std" else 1))
+
+
+@pytest.mark.parametrize("trials", [20, 100, 1000, 2000])
+def test_quantiles_of_whole_numbers(trials):
+    found = statistics(np.random.default_rng(trials).permutation(trials) + 1.0, "1")
+    assert [found[key] for key in QUANTILES] == [math.ceil(percent * trials / 100) for percent in (5, 50, 95, 99)]
+
+
+def test_one_trial_in_twenty_that_never_settles():
+    settled = np.array([math.inf, math.nan, *range(1, 20)])
+    found = statistics(settled, "s")
+    assert (found["count"], found["max"], found["p95"], found["p99"]) == (19, 19.0, 19.0, "inf")
+    assert statistics(settled[:-1], "s")["p95"] == "inf"
+
+
+@given(st.lists(st.lists(ANY, max_size=20), min_size=1, max_size=6), st.randoms(use_true_random=False))
+def test_blocks_change_no_bit_and_neither_does_their_order(lists, chance):
+    parts = [np.array(values, dtype=float) for values in lists]
+    whole = statistics(np.concatenate(parts), "1")
+    chance.shuffle(parts)
+    assert of_blocks(lambda: parts, "1") == whole
+
+
+@pytest.fixture(params=[order_statistics.HELD, 2])
+def held(request, monkeypatch):
+    """How many numbers are held: all of these few, or so few that every bit is counted."""
+    monkeypatch.setattr(order_statistics, "HELD", request.param)
+
+
+def asked(parts, share):
+    return quantile(lambda: iter(parts), share)
+
+
+parts_of_numbers = st.lists(st.floats(allow_nan=True, allow_infinity=True), max_size=40)
+
+
+@given(st.lists(parts_of_numbers, max_size=5), st.floats(0.0, 1.0))
+@example([[0.0, -0.0], [5e-324, -5e-324]], 0.5)
+@example([[math.inf, -math.inf, math.nan], [1.0]], 0.999)
+@example([[1.0] * 30, [np.nextafter(1.0, 2.0)] * 3], 0.95)
+@pytest.mark.usefixtures("held")
+def test_quantiles_are_numpys(parts, share):
+    arrays = [np.array(part, dtype=float) for part in parts]
+    everything = np.concatenate([*arrays, np.zeros(0)])
+    known = everything[~np.isnan(everything)]
+    found = asked(arrays, share)
+    if known.size:
+        assert found == np.quantile(known, share, method="inverted_cdf")
+    else:
+        assert math.isnan(found)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.001, 0.05, 0.25, 0.5, 0.95, 0.99, 0.999, 1.0])
+@pytest.mark.usefixtures("held")
+def test_many_numbers_that_are_nearly_the_same(share):
+    values = 200.0 + 1e-12 * np.random.default_rng(4).normal(size=20_000)
+    assert asked(np.array_split(values, 7), share) == np.quantile(values, share, method="inverted_cdf")
+
+
+@pytest.mark.parametrize("share", [-0.1, 1.1, math.nan])
+def test_what_is_no_share(share):
+    with pytest.raises(ValueError, match="is not between 0 and 1"):
+        asked([np.ones(3)], share)

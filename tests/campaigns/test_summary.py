@@ -1,0 +1,119 @@
+"""perilune.analysis.campaigns.summary"""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from perilune.analysis.campaigns import summary as summaries
+from perilune.analysis.campaigns.rows import TrialColumns
+from perilune.analysis.campaigns.spec.campaign import Metric
+from perilune.analysis.campaigns.spec.expressions import Expression
+from perilune.analysis.campaigns.spec.groups import Group
+from perilune.analysis.campaigns.summary import requirement_values, success_interval, summarise
+
+METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
+GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
+BAD = TrialColumns(["nonfinite", "finished"], np.array([False, False]), {"miss": np.array([math.nan, 900.0])})
+
+
+@pytest.fixture(scope="module")
+def summary():
+    return summarise({"good": GOOD, "bad": BAD}, METRICS)
+
+
+def test_rates_and_statuses(summary):
+    assert summary["good"]["trials"] == 4
+    assert summary["good"]["success_rate"] == 0.75
+    assert summary["good"]["success_interval"] == list(success_interval(3, 4))
+    assert summary["bad"]["statuses"] == {"finished": 1, "nonfinite": 1}
+
+
+def test_metrics_are_over_successes_and_over_all(summary):
+    good = summary["good"]
+    assert good["metrics_over"] == "successful trials"
+    assert good["metrics"]["miss"] == {
+        "count": 3, "mean": 3.0, "std": pytest.approx(math.sqrt(7)), "max": 6.0, "min": 1.0,
+        "rms": pytest.approx(math.sqrt(41 / 3)), "p5": 1.0, "p50": 2.0, "p95": 6.0, "p99": 6.0, "unit": "m",
+    }  # fmt: skip
+    assert good["metrics_all"]["miss"]["max"] == 500.0
+
+
+def test_what_cannot_be_had_is_none(summary):
+    assert summary["bad"]["metrics"]["miss"] == {
+        "count": 0, "mean": None, "std": None, "max": None, "min": None, "rms": None,
+        "p5": None, "p50": None, "p95": None, "p99": None, "unit": "m",
+    }  # fmt: skip
+    assert summary["bad"]["metrics_all"]["miss"]["count"] == 1
+    assert summary["bad"]["metrics_all"]["miss"]["std"] is None
+
+
+def test_is_strict_json(summary):
+    assert json.loads(json.dumps(summary, allow_nan=False)) == summary
+
+
+def test_requirements_reach_every_number(summary):
+    values = requirement_values(summary)
+    text = "good.success_rate > 0.7 and good.metrics.miss.max < 7 and good.success_interval[1] < bad.trials"
+    assert Expression(text).evaluate(values) == 1.0
+    assert values["good.metrics.miss.p95"] == 6.0
+    assert math.isnan(values["bad.metrics.miss.mean"])
+
+
+def test_requirements_see_what_is_infinite():
+    """A trial that never settles: the quantile is infinite, so a bound on it is not met, and not 0 either."""
+    late = TrialColumns(["finished"] * 2, np.array([True, True]), {"miss": np.array([1.0, math.inf])})
+    summary = summarise({"late": late}, METRICS)
+    assert summary["late"]["metrics"]["miss"]["p95"] == "inf"
+    assert requirement_values(summary)["late.metrics.miss.p95"] == math.inf
+    assert requirement_values(summary)["late.metrics.miss.p50"] == 1.0
+    json.dumps(summary, allow_nan=False)
+
+
+CASES = np.array([0.5, 2.0, 2.0, 0.5])
+GROUPS = [Group("0.5", 0.5), Group("2", 2.0)]
+PARTED = replace(GOOD, draws={"case": CASES})
+
+
+def test_groups_are_summed_up_as_the_whole():
+    summary = summarise({"good": PARTED}, METRICS, GROUPS, "case")
+    found = summary["good"].pop("groups")
+    assert summary == summarise({"good": GOOD}, METRICS)
+    assert list(found) == ["0.5", "2"]
+    for group in GROUPS:
+        own = [trial for trial, case in enumerate(CASES) if case == group.value]
+        alone = TrialColumns(["finished"] * 2, GOOD.success[own], {"miss": GOOD.metrics["miss"][own]})
+        entry = found[group.label]
+        assert entry.pop("value") == group.value
+        assert entry == summarise({"x": alone}, METRICS)["x"]
+
+
+def test_requirements_reach_groups_by_their_value():
+    values = requirement_values(summarise({"good": PARTED}, METRICS, GROUPS, "case"))
+    text = 'good.groups["0.5"].success_rate == 0.5 and good.groups["2"].metrics.miss.p95 == 6'
+    assert Expression(text).names <= set(values)
+    assert Expression(text).evaluate(values) == 1.0
+    assert values['good.groups["0.5"].success_interval[1]'] == success_interval(1, 2)[0]
+
+
+class InParts:
+    """Trials in two parts, which count how often they are read."""
+
+    def __init__(self, trials):
+        self.trials, self.readings = trials, 0
+
+    def parts(self, *names):
+        self.readings += 1
+        for rows in (slice(0, 3), slice(3, 4)):
+            yield {name: self.trials.column(name)[rows] for name in names}
+
+
+@pytest.mark.parametrize("held", [12, 11])
+def test_few_trials_are_read_once_and_many_come_to_the_same(monkeypatch, held):
+    """Three columns of four trials are held, statuses are read for the whole and both groups; or no column is held."""
+    monkeypatch.setattr(summaries, "HELD", held)
+    trials = InParts(PARTED)
+    assert summarise({"x": trials}, METRICS, GROUPS, "case") == summarise({"x": PARTED}, METRICS, GROUPS, "case")
+    assert (trials.readings <= 4) == (held >= 12)

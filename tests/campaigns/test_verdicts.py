@@ -1,0 +1,192 @@
+"""perilune.analysis.campaigns.requirement_verdicts: requirements judged by a variant's trials, and what is told of it.
+
+Truth: failures counted by hand; those of tests/campaigns/verdicts; [success], which has the same rule.
+"""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.stats import binom
+
+from perilune.analysis.campaigns.requirement_verdicts import (
+    add_verdicts,
+    decided_after,
+    kept,
+    looks,
+    requirement_verdict,
+    unmet_lines,
+)
+from perilune.analysis.campaigns.rows import TrialColumns
+from perilune.analysis.campaigns.spec.campaign import Metric
+from perilune.analysis.campaigns.spec.expressions import Expression
+from perilune.analysis.campaigns.spec.metrics import successes
+from perilune.analysis.campaigns.spec.requirements import Requirement
+from perilune.analysis.campaigns.summary import requirement_values, summarise
+from perilune.analysis.campaigns.tables import summary_text
+from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
+
+METRICS = [Metric("miss", Expression("p.x"), "final", unit="m"), Metric("mass", Expression("p.m"), "final", unit="kg")]
+NEAR = Requirement("near", Expression("miss < 1"), 0.9987, 0.9, "miss", "upper")
+HEAVY = Requirement("heavy", Expression("mass > 5 and success"), 0.9, 0.9, "mass", "lower")
+NUMBERS = st.floats(allow_nan=True, allow_infinity=True)
+
+
+def columns(miss, mass=None, success=None):
+    """A variant from its metrics."""
+    miss = np.asarray(miss, dtype=float)
+    mass = np.full(miss.size, 6.0) if mass is None else np.asarray(mass, dtype=float)
+    success = np.full(miss.size, True) if success is None else np.asarray(success)
+    return TrialColumns(["finished"] * miss.size, success, {"miss": miss, "mass": mass})
+
+
+def flights(count, failures):
+    """A variant whose first flights miss."""
+    return columns(np.where(np.arange(count) < failures, 2.0, 0.5))
+
+
+def decided(requirements, **variants):
+    """After how many of these trials all requirements are decided."""
+    flown = {name: [kept(requirement, trials) for requirement in requirements] for name, trials in variants.items()}
+    return decided_after(requirements, flown)
+
+
+@given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=1, max_size=20))
+def test_a_flight_is_judged_as_by_success(rows):
+    text = "miss / mass < 1 or mass == 0"
+    miss, mass = np.array(rows).T
+    found = kept(Requirement("r", Expression(text), 0.9, 0.9), columns(miss, mass))
+    each = [successes(Expression(text), {"miss": np.array([a]), "mass": np.array([b])}, 1) for a, b in rows]
+    assert found.tolist() == np.concatenate(each).tolist()
+
+
+def test_a_flight_that_did_not_end_fails_it():
+    """Its metrics are nan, which a comparison turned round would let pass."""
+    trials = columns([0.5, math.nan, math.inf, -math.inf], success=[True, False, False, False])
+    assert kept(Requirement("r", Expression("not miss >= 1"), 0.9, 0.9), trials).tolist() == [True, False, False, False]
+    assert kept(Requirement("r", Expression("success"), 0.9, 0.9), trials).tolist() == [True, False, False, False]
+
+
+@pytest.mark.parametrize(
+    ("count", "failures", "verdict", "missing"),
+    [
+        (1771, 0, "met", [None] * 3),
+        (1770, 0, "undecided", [1, 1221, 2323]),
+        (2991, 1, "met", [None] * 3),
+        (2000, 1, "undecided", [991, 2093, 3138]),
+        (4093, 2, "met", [None] * 3),
+        (1771, 6, "not met", [None] * 3),
+    ],
+)
+def test_a_campaign_of_a_fixed_size(count, failures, verdict, missing):
+    found = requirement_verdict(NEAR, flights(count, failures))
+    assert (found["verdict"], found["flights"], found["failures"]) == (verdict, count, failures)
+    assert found["consumer_risk"] == pytest.approx(binom.cdf(failures, count, 0.0013))
+    assert list(found["flights_to_decide"].values()) == missing
+    assert found["decided_after"] == (None if verdict == "undecided" else count)
+    assert found["rule"] == "fixed size"
+
+
+def test_bounds():
+    """Of 1771 flights the worst is the bound; of 38, the worst but one is for 90 % at 90 %."""
+    found = requirement_verdict(NEAR, columns(np.arange(1771) / 1000))["bound"]
+    assert found == {
+        "metric": "miss", "side": "upper", "value": 1.77, "rank": 1, "flights": 1771, "flights_to_decide": 0,
+    }  # fmt: skip
+    few = requirement_verdict(NEAR, columns(np.ones(1000)))["bound"]
+    assert (few["value"], few["rank"], few["flights_to_decide"]) == (None, None, 771)
+    low = requirement_verdict(HEAVY, columns(np.zeros(38), np.arange(38)))["bound"]
+    assert (low["value"], low["rank"]) == (1.0, 2)
+    lost = requirement_verdict(HEAVY, columns(np.zeros(38), [math.nan, math.nan, *range(36)]))["bound"]
+    assert lost["value"] == "-inf"
+
+
+def test_until_decided_only_the_looks_count():
+    early = requirement_verdict(NEAR, flights(2300, 0), until_decided=True)
+    assert (early["verdict"], early["decided_after"], early["rule"]) == ("met", 2300, "until decided")
+    assert early["bound"]["rank"] == 1
+    fixed = requirement_verdict(NEAR, flights(1771, 0), until_decided=True)
+    assert fixed["verdict"] == "undecided"
+    assert fixed["flights_to_decide"] == {"0": 529, "1": 2229, "2": 3829}
+    assert fixed["bound"]["flights_to_decide"] == 529
+    late = np.full(3000, 0.5)
+    late[2500:] = 2.0  # after the verdict, which stands
+    found = requirement_verdict(NEAR, columns(late), until_decided=True)
+    assert (found["verdict"], found["decided_after"], found["failures"]) == ("met", 2300, 500)
+
+
+def test_all_of_all_variants_have_to_be_decided():
+    rule = stopping_rule(0.9, 0.9)
+    first = next(count for count in rule.looks(100) if rule.permitted_failures(count) >= 0)
+    assert decided([HEAVY], a=flights(200, 0)) == first
+    assert decided([NEAR, HEAVY], a=flights(2400, 0)) == 2300
+    assert decided([NEAR, HEAVY], a=flights(2299, 0)) is None
+    assert decided([NEAR], a=flights(2400, 0), b=flights(2400, 1)) is None
+    assert decided([NEAR], a=flights(4100, 0), b=flights(4100, 1)) == 4000
+    assert decided([], a=flights(10, 0)) is None
+    assert looks([NEAR, HEAVY], 300) == sorted({*rule.looks(300), 100, 200, 300})
+
+
+def test_parts_that_arrive_change_nothing():
+    """However many trials have flown when it is asked, the answer is the same once there is one."""
+    source = np.random.default_rng(6)
+    trials = columns(np.where(source.uniform(size=6000) < 0.0004, 2.0, 0.5), source.uniform(4.7, 9.0, 6000))
+    miss, mass = trials.metrics.values()
+    whole = decided([NEAR, HEAVY], a=trials)
+    assert whole is not None
+    for count in (whole, whole + 1, 6000):
+        assert decided([NEAR, HEAVY], a=columns(miss[:count], mass[:count])) == whole
+    assert decided([NEAR, HEAVY], a=columns(miss[: whole - 1], mass[: whole - 1])) is None
+
+
+@pytest.fixture(scope="module")
+def summary():
+    variants = {"good": flights(2000, 0), "odd": flights(2000, 1), "bad": flights(2000, 300)}
+    found = summarise(variants, METRICS)
+    add_verdicts(found, [NEAR, HEAVY], variants)
+    return found
+
+
+def test_the_summary_has_them(summary):
+    assert [entry["requirements"]["near"]["verdict"] for entry in summary.values()] == ["met", "undecided", "not met"]
+    assert json.loads(json.dumps(summary, allow_nan=False)) == summary
+    values = requirement_values(summary)
+    assert Expression("odd.requirements.near.failures == 1 and good.requirements.near.bound.value == 0.5").evaluate(
+        values
+    )
+    plain = summarise({"good": flights(9, 0)}, METRICS)
+    add_verdicts(plain, [], {"good": flights(9, 0)})
+    assert "requirements" not in plain["good"]
+
+
+def test_lines_name_variant_requirement_and_figures(summary):
+    assert unmet_lines(summary) == [
+        "odd: requirement near: miss < 1 in 99.87 % of flights at 90 %: undecided: 1 of 2000 flights fail it; "
+        "a campaign longer by 991, 2093 or 3138 flights would meet it with 0, 1 or 2 more failures",
+        "bad: requirement near: miss < 1 in 99.87 % of flights at 90 %: not met: 300 of 2000 flights fail it",
+    ]
+
+
+def test_text(summary):
+    lines = summary_text(summary).splitlines()
+    start = next(place for place, line in enumerate(lines) if line.startswith("requirement"))
+    cells = [line.split("at 90 %")[1].split() for line in lines[start + 1 : start + 4]]
+    assert cells == [
+        ["good", "2000", "0", "7.41", "met", "-,", "-,", "-"],
+        ["odd", "2000", "1", "26.72", "undecided", "991,", "2093,", "3138"],
+        ["bad", "2000", "300", "100.00", "not", "met", "-,", "-,", "-"],
+    ]
+    assert "good: miss <= 0.5 m in 99.87 % of flights at 90 %: the worst of 2000 flights" in lines
+    permitted = max(count for count in range(300) if binom.cdf(count, 2000, 0.1) <= 0.1)
+    assert f"good: mass >= 6 kg in 90 % of flights at 90 %: the worst but {permitted} of 2000 flights" in lines
+
+
+def test_text_of_a_bound_that_takes_more_flights():
+    variants = {"x": flights(1000, 0)}
+    found = summarise(variants, METRICS)
+    add_verdicts(found, [NEAR], variants)
+    line = "x: no upper bound of miss in 99.87 % of flights at 90 %: a campaign longer by 771 has one"
+    assert line in summary_text(found).splitlines()

@@ -1,0 +1,65 @@
+"""The smallest output feedback in the set of those with the poles."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.linalg import null_space
+from scipy.optimize import approx_fprime
+
+from perilune import modal
+from perilune.analysis.design.poles.output.smallest import polynomial_and_slope
+from tests.support.lengths import LONG, either
+from tests.support.modal.draws import assert_placed, random_systems
+
+
+def test_coefficients_and_their_derivatives() -> None:
+    random = np.random.default_rng(0)
+    for size in (1, 2, 5):
+        matrix = random.normal(size=(size, size))
+        coefficients, adjugate = polynomial_and_slope(matrix)
+        np.testing.assert_allclose(coefficients, np.poly(matrix)[1:], atol=1e-12)
+        expected = approx_fprime(matrix.ravel(), lambda m, n=size: np.poly(m.reshape(n, n))[1:], 1e-7)
+        slope = -adjugate.swapaxes(1, 2).reshape(size, -1)
+        np.testing.assert_allclose(slope, expected.reshape(size, -1), atol=1e-5)
+
+
+def test_has_the_poles_and_is_smaller() -> None:
+    norms = []
+    for a, b, c, poles in random_systems(either(20, 1), 6, 3, 4, most_pairs=2, seed=36):
+        least = modal.output_feedback(a, b, c, poles, choice="least_norm")
+        found = modal.output_feedback(a, b, c, poles, choice="smallest")
+        assert_placed(a + b @ found.gain @ c, poles)
+        norms.append((found.norm, least.norm))
+        assert norms[-1][0] <= norms[-1][1]
+    if LONG:
+        smallest, least = np.median(norms, axis=0)
+        assert smallest < 0.5 * least
+
+
+def test_no_way_down_remains() -> None:
+    """Where the search ended, F is at right angles to every direction that leaves the poles (Lagrange)."""
+    ended = 0
+    for a, b, c, poles in random_systems(either(20, 3), 4, 3, 3, most_pairs=0, seed=37):
+        found = modal.output_feedback(a, b, c, poles, choice="smallest")
+        if found.method == "smallest":
+            slope = polynomial_and_slope(a + b @ found.gain @ c)[1]
+            constraints = (c @ slope @ b).swapaxes(1, 2).reshape(4, -1)
+            along = null_space(constraints / np.linalg.norm(constraints, axis=1, keepdims=True))
+            ended += np.linalg.norm(along.T @ found.gain.ravel()) < 0.05 * np.linalg.norm(found.gain)
+            assert (found.upper, found.condition_x) == (None, None)
+    assert ended >= either(15, 2)
+
+
+def test_poles_that_the_plant_has_need_little_gain() -> None:
+    for a, b, c, _ in random_systems(either(10, 2), 5, 3, 3, seed=38):
+        found = modal.output_feedback(a, b, c, np.linalg.eigvals(a), choice="smallest")
+        assert found.norm <= modal.output_feedback(a, b, c, np.linalg.eigvals(a), choice="least_norm").norm
+        assert_placed(a + b @ found.gain @ c, np.linalg.eigvals(a))
+
+
+def test_repeated_poles_have_no_derivative() -> None:
+    a, b, c, _ = next(random_systems(1, 5, 3, 4))
+    with pytest.raises(modal.PlacementError, match="poles are repeated") as refused:
+        modal.output_feedback(a, b, c, [-1.0] * 5, choice="smallest")
+    assert refused.value.reason is modal.Reason.RANK

@@ -1,0 +1,148 @@
+"""The TOML file of a synthesis.
+
+Truth: the keys as documented; every mistake in one line that names the file and the place; docs/synthesis.md
+and the fields of the settings name the same keys with the same defaults.
+"""
+
+import re
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+
+from perilune.analysis.campaigns.spec.file import read_campaign
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.design.laws.law import named_law, read_law
+from perilune.analysis.design.synthesis.search_settings import SearchSettings
+from perilune.analysis.design.synthesis.synthesis_file import LIMITS, read_synthesis
+from perilune.fmus_src.paths import LAWS
+from tests.support.laws.campaign_text import CAMPAIGN, TEXT
+
+DOCS = (Path(__file__).parents[2] / "docs" / "synthesis.md").read_text(encoding="utf-8")
+
+
+def read(tmp_path, text):
+    path = tmp_path / "search.toml"
+    path.write_text(text)
+    return read_synthesis(path)
+
+
+def test_a_file_as_it_should_be(tmp_path):
+    found = read(tmp_path, TEXT)
+    assert found.campaign.trials == 4
+    assert found.component == "guidance"
+    assert found.fmu is None
+    assert found.basic == read_law(named_law("diveev_2013_basic"))
+    assert (found.step, found.stop_time) == (0.5, 320.0)
+    assert (found.settings.population, found.settings.mutation) == (8, 0.7)
+    assert list(found.objectives) == ["altitude", "speed"]
+    plan = found.plan(5)
+    assert plan.campaign.seed == 5
+    assert plan.options.step == 0.5
+    assert len(plan.overlaid) == 256 + 3 + 1
+    with_fmu = read(tmp_path, TEXT.replace("[network_operator]\n", '[network_operator]\nfmu = "other"\n'))
+    assert with_fmu.plan().options.use == {"guidance": "other"}
+
+
+def test_published_numbers_are_the_defaults():
+    published = {"population": 256, "generations": 64, "crossovers": 128, "variations": 8, "elites": 8}
+    published |= {"mutation": 0.7, "crossover": 0.4, "renewal": 29, "integer_bits": 4, "fraction_bits": 12}
+    assert asdict(SearchSettings()) == published | {"stop": True}
+
+
+def test_every_key_is_documented_with_its_default_and_range():
+    for name, default in asdict(SearchSettings()).items():
+        (row,) = re.findall(rf"^\| `{name}` .*\|$", DOCS, re.MULTILINE)
+        assert f"| {str(default).lower()} |" in row
+        if name in LIMITS:
+            low, high = LIMITS[name]
+            assert f"{low:g} to {high:g}" in row
+    for name in ("component", "fmu", "law", "step", "stop_time", "objectives"):
+        assert re.search(rf"^\|.*`{name}`.* \|", DOCS, re.MULTILINE)
+
+
+def test_the_example_in_the_docs_is_a_synthesis(tmp_path):
+    (example,) = re.findall(r"```toml\n(.*?)```", DOCS, re.DOTALL)
+    found = read(tmp_path, example)
+    assert found.settings == SearchSettings()
+
+
+@pytest.mark.parametrize("path", sorted(LAWS.glob("searches/*.toml")), ids=lambda path: path.stem)
+def test_the_searches_of_this_repository(path):
+    found = read_synthesis(path)
+    assert path.stem.startswith(found.campaign.system)
+    assert found.settings == SearchSettings()
+    assert list(found.objectives) == ["altitude", "speed"]
+
+
+def test_a_law_beside_the_file(tmp_path):
+    (tmp_path / "mine.json").write_text(named_law("diveev_2013").read_text())
+    found = read(tmp_path, TEXT.replace("diveev_2013_basic", "mine.json"))
+    assert found.basic == read_law(named_law("diveev_2013"))
+
+
+def changed(old, new):
+    assert old in TEXT
+    return TEXT.replace(old, new)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (CAMPAIGN, "network_operator: missing"),
+        (changed("population", "populatoin"), "network_operator.populatoin: unknown key"),
+        (changed("population = 8", "population = 8.0"), "network_operator.population: 8.0 is not a whole number"),
+        (changed("population = 8", "population = 1"), "network_operator.population: 1 is out of range; give 2 to 5000"),
+        (changed("generations = 3", "generations = 0"), "generations: 0 is out of range"),
+        (changed("crossovers = 6", "crossovers = 0"), "crossovers: 0 is out of range"),
+        (changed("variations = 4", "variations = 0"), "variations: 0 is out of range"),
+        (changed("renewal = 2", "renewal = 0"), "renewal: 0 is out of range"),
+        (changed("elites = 2", "elites = -1"), "elites: -1 is out of range"),
+        (changed("elites = 2", "elites = 8"), "elites: 8 of a population of 8"),
+        (changed("renewal = 2", "mutation = 1.5"), "mutation: 1.5 is out of range; give 0 to 1"),
+        (changed("renewal = 2", "crossover = -0.1"), "crossover: -0.1 is out of range"),
+        (changed("renewal = 2", "integer_bits = 25"), "integer_bits: 25 is out of range"),
+        (changed("renewal = 2", "integer_bits = 0\nfraction_bits = 0"), "no bits at all"),
+        (changed("renewal = 2", "integer_bits = 0"), "q[1]: 1 is outside 0 to 2^0"),
+        (changed("renewal = 2", "stop = 1"), "stop: 1 is neither true nor false"),
+        (changed("step = 0.5", "step = 0"), "network_operator.step: 0 s; give more than 0 s"),
+        (changed("stop_time = 320", "stop_time = -1"), "stop_time: -1 s"),
+        (changed('component = "guidance"\n', ""), "network_operator.component: missing"),
+        (changed('"diveev_2013_basic"', '"none"'), "no such law or file"),
+        (changed("[network_operator.objectives]", "[other]"), "other: unknown key"),
+        (changed('speed = "final_speed"', 'speed = "sped"'), "objectives.speed: 'sped' is not a metric"),
+        (changed('speed = "final_speed"', 'speed = "1 +"'), "objectives.speed"),
+        (changed('speed = "final_speed"', '"a b" = "final_speed"'), "'a b' is not a plain name"),
+        (TEXT.split("[network_operator.objectives]")[0], "network_operator.objectives: no objective"),
+        (TEXT + '[compare]\nguidance = ["a", "b"]\n', "compare: not for a synthesis: one law flies at a time"),
+        (TEXT + '[group]\nby = "x"\n', "group: not for a synthesis: a law is judged by all trials"),
+        (TEXT + '[record]\ntraces = "all"\n', "record: not for a synthesis: nothing is kept"),
+        (changed('"sensor.altitude_noise" = 0.02', '"guidance.q[2]" = 1'), "guidance.q[2]: a part of the law"),
+        (
+            changed('[draw."plant.initial_altitude"]', '[draw."guidance.matrix[1,7]"]'),
+            "guidance.matrix[1,7]: a part of the law that is searched for",
+        ),
+        (changed("trials = 4", "trials = 0"), "trials: 0 trial(s)"),
+        (changed("seed = 11", "seed = 1.5"), "seed: 1.5 is not a whole number"),
+    ],
+)
+def test_mistakes_are_named(tmp_path, text, words):
+    with pytest.raises(InputError) as caught:
+        read(tmp_path, text)
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_basic_solution_that_cannot_be_varied(tmp_path):
+    document = named_law("diveev_2013_basic").read_text()
+    row = " [ 0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  1,  0]"
+    (tmp_path / "mine.json").write_text(document.replace(row, row.replace("1", "0")))
+    with pytest.raises(InputError, match=r"mine.json: matrix: nothing leads to node 15; give it an edge"):
+        read(tmp_path, TEXT.replace("diveev_2013_basic", "mine.json"))
+
+
+def test_a_batch_does_not_fly_a_synthesis(tmp_path):
+    path = tmp_path / "search.toml"
+    path.write_text(TEXT)
+    with pytest.raises(InputError, match="network_operator: a search, not a batch; search with perilune synthesize"):
+        read_campaign(path)

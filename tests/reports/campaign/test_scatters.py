@@ -1,0 +1,106 @@
+"""A metric over another on the page of a batch, and how many trials saw each status.
+
+Truth: outcomes made by hand, whose marks are counted in the figure and whose places follow from its ticks.
+"""
+
+import math
+import re
+from collections import Counter
+
+import numpy as np
+from lxml import etree
+
+from perilune.analysis.reports.campaign.batch_report import write_batch_report
+from perilune.analysis.reports.campaign.scatters import scatter_figures
+from perilune.analysis.reports.campaign.seen_statuses import seen_statuses
+from tests.support.pages.checks import assert_self_contained, parse, text_of
+from tests.support.pages.samples import DRAWS, batch_result
+
+PLANE = """
+[metric.east]
+expression = "ship.position[1]"
+reduction = "final"
+unit = "{0}"
+[metric.north]
+expression = "ship.position[2]"
+reduction = "final"
+unit = "{1}"
+[success]
+expression = "east < 9"
+[scatter.contact]
+x = "east"
+y = "north"
+{2}
+"""
+NEAR = [(True, 1.0, 2.0), (True, -3.0, 0.5), (False, 12.0, 0.0), (False, math.nan, 0.0)]
+FAR = [(True, 5.0, 5.0)] * 4
+ASKED = PLANE.format("m", "m", 'circle = 10\ntitle = "Contact points"')
+
+
+def marks(figure):
+    """How often each marker stands in the figure, by its colour; legends have one of each."""
+    found = {}
+    for use in etree.fromstring(figure).xpath("//*[local-name()='use'][contains(@style, 'fill') or @style]"):
+        colour = re.search(r"#(9a9a9a|d55e00)", use.get("style"))
+        if colour:
+            found[colour[0]] = found.get(colour[0], 0) + 1
+    return found
+
+
+def test_every_finite_trial_has_its_mark():
+    (found,) = scatter_figures(batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED))
+    assert found.title == "Contact points"
+    near, far = (marks(panel.figure) for panel in found.panels)
+    assert near == {"#9a9a9a": 2 + 1, "#d55e00": 1 + 1}  # a legend in each panel
+    assert far == {"#9a9a9a": 4 + 1, "#d55e00": 1}
+    words = [str(note) for note in found.notes]
+    assert words[0] == 'Dashed: <data value="10.0">10</data> m around the origin.'
+    assert words[1:] == ["near: 1 of 4 trials have no finite value and no mark."]
+
+
+def test_the_circle_is_round_and_to_scale():
+    (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + ASKED))
+    root = etree.fromstring(found.panels[0].figure)
+    round_ones = [path.get("d") for path in root.xpath("//*[local-name()='path']") if path.get("d").count("C") == 8]
+    points = [np.array(re.findall(r"-?\d+(?:\.\d+)?", path), dtype=float).reshape(-1, 2) for path in round_ones]
+    width, height = max((np.ptp(found, axis=0) for found in points), key=max)  # the others are marks
+    np.testing.assert_allclose(width, height, rtol=1e-3)
+    places = {}  # of the ticks of the abscissa, in points
+    for group in root.xpath("//*[local-name()='g'][contains(@id, 'xtick')]"):
+        (text,) = group.xpath(".//*[local-name()='text']")
+        places[float(text.text.replace("\N{MINUS SIGN}", "-"))] = float(group.xpath(".//*[local-name()='use']/@x")[0])
+    low, high = min(places), max(places)
+    scale = (places[high] - places[low]) / (high - low)
+    np.testing.assert_allclose(width, 20.0 * scale, rtol=1e-3)
+
+
+def test_angles_are_in_degrees():
+    asked = PLANE.format("rad", "rad", f"circle = {math.pi / 6}")
+    (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + asked))
+    assert found.title == "north over east"
+    assert ">30</data> deg around the origin." in found.notes[0]
+    assert "east, deg" in found.panels[0].figure
+
+
+def test_units_that_differ_and_nothing_finite(tmp_path):
+    (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + PLANE.format("m", "kg", "")))
+    assert "north, kg" in found.panels[0].figure
+    nothing = batch_result({"lost": [(False, math.nan, math.inf)] * 3}, DRAWS + ASKED)
+    write_batch_report(nothing, tmp_path / "page.html", "Lost")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert_self_contained(page)
+    assert "lost: 3 of 3 trials have no finite value and no mark." in text_of(page)
+
+
+def test_statuses_are_counted_by_component_where_trials_saw_several(tmp_path):
+    result = batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED)
+    assert seen_statuses(result) == []  # the table of ends says it all
+    texts = ["finished (hover.status 2, sequencer.status 4)", "finished (hover.status 2)", "finished", "stop_time"]
+    result.summary["near"]["statuses"] = Counter(texts)
+    rows = [("near", "hover.status", 2, 2, 4), ("near", "sequencer.status", 4, 1, 4)]
+    assert [tuple(row) for row in seen_statuses(result)] == rows
+    write_batch_report(result, tmp_path / "page.html", "Seen")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    (table,) = parse(page).xpath("//h3[text()='Statuses by component']/following-sibling::div[1]/table")
+    cells = [[" ".join(cell.text_content().split()) for cell in row.xpath("td")] for row in table.xpath(".//tbody/tr")]
+    assert cells == [["near", "hover.status", "2", "2", "50.00"], ["", "sequencer.status", "4", "1", "25.00"]]

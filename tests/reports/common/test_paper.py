@@ -1,0 +1,57 @@
+"""How many sheets pages take, and that what is left out on paper is said there.
+
+Truth: the sheets that a browser prints, on letter and, in full length, on A4.
+"""
+
+from dataclasses import replace
+
+import pytest
+
+from perilune.analysis.campaigns.compare.side_by_side import compare
+from perilune.analysis.reports.compare.page import write_comparison_page
+from perilune.analysis.reports.stability.page import write_stability_page
+from tests.support.pages.comparison_samples import write_sample
+from tests.support.pages.paper import FORMATS, printed, words_of
+
+MOST_OF_A_COMPARISON, MOST_OF_A_STUDY = 8, 12
+SIX = ("alpha", "beta", "gamma", "delta", "epsilon", "zeta")
+
+
+@pytest.mark.slow
+def test_a_comparison_of_six_variants_is_short(browser, tmp_path):
+    page = tmp_path / "page.html"
+    write_sample(tmp_path / "out", variants=SIX)
+    write_comparison_page(compare([tmp_path / "out"]), page, "perilune compare out")
+    for paper in FORMATS:
+        sheets = printed(browser, page, tmp_path, paper)
+        assert 3 < len(sheets.pages) <= MOST_OF_A_COMPARISON
+        words = words_of(sheets)
+        assert "Provenance" in words
+        assert "The panels of each variant stand on the screen, not on paper." in words
+        assert "The same over all trials: on the screen, not on paper" in words
+
+
+@pytest.mark.parametrize(
+    ("times", "full"),
+    [(1, True), pytest.param(9, False, marks=pytest.mark.slow)],
+    ids=["two loops", "eighteen loops"],
+)
+def test_a_stability_study_is_short(browser, tmp_path, studies, times, full):
+    """Eighteen loops are the two of the coupled pair nine times, with responses so large that none is another's."""
+    page = tmp_path / "page.html"
+    report = studies.pair
+    loops = [larger(loop, 1.4**number, number) for number in range(times) for loop in report.loops]
+    write_stability_page(replace(report, loops=tuple(loops)), page)
+    for paper in FORMATS:
+        sheets = printed(browser, page, tmp_path, paper)
+        assert 1 < len(sheets.pages) <= MOST_OF_A_STUDY
+        words = words_of(sheets)
+        assert ("On paper, of each loop: Bode, Nichols;" in words) != full
+        assert words.count("Classical") == len(loops)  # a table of each
+        assert (words.count("Controllable from the break point".lower()) == len(loops)) == full
+
+
+def larger(loop, factor, number):
+    """A loop whose response is larger by a factor."""
+    curve = replace(loop.curve, value=factor * loop.curve.value)
+    return replace(loop, curve=curve, name=f"{loop.name} {number}")

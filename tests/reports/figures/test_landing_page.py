@@ -1,0 +1,85 @@
+"""The figures of a flight of landing_mission.
+
+Truth: what the sequencer says of its phases' times, the record of the mass at them, and the monitor of the contact.
+"""
+
+import re
+
+import numpy as np
+import pytest
+
+import perilune
+from perilune.analysis.reports.figures.budget_table import amount, spent_by_phase
+from perilune.analysis.reports.figures.declaration.reading import read_figures
+from perilune.analysis.reports.figures.declaration.stages import Budget, Limits, Phases
+from perilune.analysis.reports.figures.limit_table import is_kept
+from perilune.analysis.reports.figures.own_figures import own_sections
+from perilune.analysis.reports.figures.phase_spans import spans_of, statuses_of
+from perilune.analysis.runtime.system.prepared import prepare_system
+
+pytestmark = pytest.mark.usefixtures("fmus")
+
+
+@pytest.fixture(scope="module")
+def figures(fmus):
+    return read_figures(prepare_system("landing_mission"))
+
+
+@pytest.fixture(scope="module")
+def result(fmus):
+    """From the beginning of the braking to contact."""
+    return perilune.simulate("landing_mission", parameters=["start_3.ssv"])
+
+
+def one(figures, kind):
+    (found,) = (figure for figure in figures if isinstance(figure, kind))
+    return found
+
+
+def test_phases_are_those_that_the_sequencer_tells(figures, result):
+    phases = one(figures, Phases)
+    spans = spans_of(phases, result)
+    named = {phase.name: phase.value for phase in phases.phases}
+    assert [span.name for span in spans] == list(named)[2:]
+    final = result.final()
+    for value in range(3, 9):
+        own = [span for span in spans if named[span.name] == value]
+        assert own[0].begin == pytest.approx(final[f"sequencer.phase_time[{value}]"], abs=1e-9)
+        ends = [final[f"sequencer.phase_time[{number}]"] for number in (value, value + 1)]
+        before, after = np.interp(ends, result.time, result["plant.mass"])
+        assert sum(span.spent for span in own) == pytest.approx(before - after, abs=1e-9)
+    told = [final[f"sequencer.status_time[{status}]"] for status in range(1, 10)]
+    assert dict(statuses_of(phases, result)) == {status: time for status, time in enumerate(told, 1) if time >= 0.0}
+
+
+def test_the_budget_is_what_was_flown_over_its_bound(figures, result):
+    """The pieces' bounds cancel, so that the items together are what all phases from the braking on used up."""
+    budget = one(figures, Budget)
+    spent = spent_by_phase(budget, result)
+    amounts = [amount(item, spent, budget.bound) for item in budget.items]
+    mass = result["plant.mass"]
+    assert sum(amounts) == pytest.approx(mass[0] - mass[-1], abs=1e-9)
+    assert min(amounts) > 0.0  # no flight beats its bound
+    section = own_sections([budget], result)[0]
+    exact = [float(re.search(r'value="([^"]+)"', row[1])[1]) for row in section.table.rows]
+    np.testing.assert_allclose(exact, [*amounts, sum(amounts), mass[0] - mass[-1]], atol=1e-9)
+
+
+def test_limits_are_kept_where_the_monitor_says_so(figures, result):
+    limits = one(figures, Limits)
+    assert result.final()["touchdown.within_limits"]
+    assert all(is_kept(limit, result) for limit in limits.limits)
+    hard = perilune.simulate("landing_mission", parameters=["start_9.ssv"], set={"plant.initial_velocity[3]": -6.0})
+    assert not hard.final()["touchdown.within_limits"]
+    assert [limit.name for limit in limits.limits if not is_kept(limit, hard)] == ["vertical speed"]
+
+
+def test_all_figures_are_drawn(figures, result):
+    sections = own_sections(figures, result)
+    assert len(sections) == len(figures) > 10
+    assert not any(
+        "Not drawn" in words for section in sections for words in section.notes if "coast" not in section.title
+    )
+    wide = sum(len(figure) for section in sections for figure in section.drawn or ())
+    size = wide + sum(len(panel.figure) for section in sections for panel in section.panels)
+    assert size < 2_500_000

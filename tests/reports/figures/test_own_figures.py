@@ -1,0 +1,308 @@
+"""The figures that a system asks for, on the page of a run.
+
+Truth: histories made by hand, whose answers can be said; and of a flight its own record, counted here row by row.
+"""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from lxml import etree, html
+
+import perilune
+from perilune.analysis.reports.figures.declaration.histories import Pulses
+from perilune.analysis.reports.figures.declaration.reading import read_figures
+from perilune.analysis.reports.figures.declaration.values import Signal, Undrawn
+from perilune.analysis.reports.figures.own_figures import joint_findings, own_sections
+from perilune.analysis.reports.flight.run_report import write_run_report
+from perilune.analysis.runtime.system.prepared import prepare_system
+from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+from tests.support.pages.own_samples import (  # fmt: skip
+    ANGLES,
+    DEG,
+    DEGREE,
+    ERROR,
+    PULSES,
+    RADIAN,
+    ROWS,
+    SECOND,
+    TIME,
+    angles,
+    errors,
+    flown,
+    pulses,
+    scalar,
+    vector,
+)
+from tests.support.pages.samples import run_result
+
+
+def page_of(result, tmp_path, *figures):
+    path = tmp_path / "run.html"
+    write_run_report(result, path, "Own", figures)
+    return path.read_text(encoding="utf-8")
+
+
+def plain(markup):
+    return html.fromstring(f"<p>{markup}</p>").text_content()
+
+
+def findings(*sections):
+    return [plain(words) for section in sections for words in section.findings]
+
+
+def notes(*sections):
+    return [plain(words) for section in sections for words in section.notes]
+
+
+def captions(section):
+    return [panel.label for panel in section.panels]
+
+
+def values_in(*markups):
+    """Exact numbers that stand in the markup."""
+    return {value for markup in markups for value in re.findall(r'<data value="([^"]*)"', markup)}
+
+
+def texts(figure):
+    """What is written in a figure."""
+    return {text.strip() for text in etree.fromstring(figure).xpath("//*[local-name()='text']/text()")}
+
+
+def bars(figure):
+    """Foot and head (x, y in points) of all bars by the colour of their sign, a lane after the other."""
+    found = {}
+    for path in etree.fromstring(figure).xpath("//*[local-name()='path'][contains(@style, 'stroke-width: 1.1')]"):
+        colour = re.search(r"stroke: (#\w+)", path.get("style"))[1]
+        numbers = [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", path.get("d"))]
+        assert re.sub(r"[^A-Z]", "", path.get("d")) == "ML" * (len(numbers) // 4)
+        found.setdefault(colour, []).append(np.array(numbers).reshape(-1, 2, 2))
+    return found
+
+
+def count_of(figure):
+    return sum(len(lane) for lanes in bars(figure).values() for lane in lanes)
+
+
+def one(figure, result):
+    (section,) = own_sections([figure], result)
+    return section
+
+
+def test_a_page_without_figures_has_no_such_section(tmp_path):
+    assert "Figures of this system" not in page_of(run_result(), tmp_path)
+    assert "Figures of this system" not in page_of(run_result(rows=0, status="failed"), tmp_path, ANGLES)
+
+
+def test_they_are_on_the_page_above_the_time_histories(tmp_path):
+    figures = (ANGLES, PULSES, ERROR, Undrawn("Jets & more", ("lengths: no such signal",)))
+    page = page_of(flown(angles=angles(), **pulses(), **errors()), tmp_path, *figures)
+    assert_self_contained(page)
+    headings = [part.text for part in parse(page).xpath("//h2 | //h3")]
+    begin = headings.index("Figures of this system")
+    assert headings[begin + 1 : begin + 6] == ["Angles", "Jets", "Error", "Jets & more", "States and commands"]
+    for words in ("Settled from 97.5 s on: roll", "20 pulses", "within sigma", "Not drawn: lengths: no such signal."):
+        assert words in text_of(page)
+    assert {"97.5", "40.5"} <= set(data_values(page))
+
+
+def test_a_band_says_from_when_on():
+    found = one(ANGLES, flown(angles=angles()))
+    assert findings(found) == ["Settled from 97.5 s on: roll from 40.5 s, yaw from 97.5 s."]
+    assert notes(found) == ["Shaded: \N{MINUS SIGN}0.5 to 0.5 deg of ship.angles; dotted: from there on settled."]
+    assert captions(found) == ["The whole flight", "The band close up"]
+    assert [label for _, label in found.legend] == ["roll", "yaw"]
+    assert {"20", "deg"} <= texts(found.panels[0].figure)
+    close = texts(found.panels[1].figure)
+    assert {"1", "\N{MINUS SIGN}1", "deg"} <= close
+    assert "20" not in close
+
+
+def test_a_band_that_is_left_again_or_never_is():
+    values = angles()
+    inside = one(ANGLES, flown(angles=0.0 * values))
+    assert findings(inside) == ["Settled throughout: roll throughout, yaw throughout."]
+    assert captions(inside) == ["The whole flight"]  # nothing to see closer
+    values[0, -1] = np.nan
+    assert findings(one(ANGLES, flown(angles=values))) == ["Not settled at the end: roll not, yaw from 97.5 s."]
+    values[:, :] = np.nan
+    assert findings(one(ANGLES, flown(angles=values))) == ["Not settled at the end: roll not, yaw not."]
+
+
+def test_what_is_subtracted_and_a_single_limit():
+    """The rate is 0.002 rad/s less than about, -0.05 rad/s, to 20 s, and then equal to it."""
+    rate = np.where(TIME < 20.0, -0.052, -0.05)
+    signal = Signal("ship.rate", ("ship.rate",), RADIAN, 1.0, (0.05,))
+    band = replace(ANGLES, signal=signal, low=-0.001, high=None, about=(-0.05,), labels=("",), name="within the band")
+    found = one(band, flown(rate=rate))
+    assert findings(found) == ["Within the band from 20 s on."]
+    (note,) = notes(found)
+    assert note.startswith("Shaded: from \N{MINUS SIGN}0.0573 deg of ship.rate less (\N{MINUS SIGN}2.865) deg; dotted")
+    assert values_in(*found.notes) == {"-0.001", "-0.05"}
+
+
+def test_bands_of_one_name_are_told_together():
+    first = replace(ANGLES, signal=scalar("ship.angles[1]", DEG, 1.0 / DEGREE), labels=("",))
+    second = replace(first, signal=scalar("ship.angles[2]", DEG, 1.0 / DEGREE))
+    result = flown(angles=angles())
+    words = [plain(found) for found in joint_findings([first, second, replace(first, name="calm"), PULSES], result)]
+    assert words == ["Both bands together: settled from 97.5 s on."]
+    words = [plain(found) for found in joint_findings([first, first, first], result)]
+    assert words == ["All 3 bands together: settled from 40.5 s on."]
+
+
+def test_a_bar_for_each_pulse():
+    """81 ticks: x fires up in 8 and down in 8 of them, y in the first 4; the last row's tick never acts."""
+    found = one(PULSES, flown(**pulses()))
+    assert findings(found) == ["20 pulses, 2.4 s in all: x 16 pulses, 1.6 s; y 4 pulses, 0.8 s."]
+    drawn = bars(found.drawn.wide)
+    (x_up, y_up), (x_down,) = drawn["#0072b2"], drawn["#d55e00"]
+    assert [len(part) for part in (x_up, x_down, y_up)] == [8, 8, 4]
+    heights = {name: part[:, 0, 1] - part[:, 1, 1] for name, part in (("+", x_up), ("-", x_down), ("y", y_up))}
+    scale = heights["y"][0] / 0.2  # points to the second, the same in all lanes
+    assert scale > 50.0
+    np.testing.assert_allclose(heights["+"], 0.05 * scale, atol=0.02)
+    np.testing.assert_allclose(heights["-"], -0.15 * scale, atol=0.02)
+    np.testing.assert_allclose(heights["y"], 0.2 * scale, atol=0.02)
+    np.testing.assert_allclose(np.diff(y_up[:, 0, 0]), np.diff(x_up[:, 0, 0])[0] / 10.0, atol=0.02)  # 2.5 s and 25 s
+    assert {"x, s", "y, s", "ship.spent, s"} <= texts(found.drawn.wide)
+    assert "thin line: ship.rest" in notes(found)[0]
+
+
+def test_without_a_count_every_row_has_new_pulses():
+    lengths = np.where(np.arange(ROWS) == 7, -0.1, 0.0)
+    lengths[[20, 21]] = 0.3
+    signal = scalar("ship.lengths", SECOND)
+    alone = replace(PULSES, lengths=signal, count=None, remainder=None, total=None, labels=("",))
+    found = one(alone, flown(lengths=lengths))
+    assert findings(found) == ["3 pulses, 0.7 s."]
+    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(found.drawn.wide).items()} == {
+        "#0072b2": [2],
+        "#d55e00": [1],
+    }
+    still = one(alone, flown(lengths=0.0 * lengths))
+    assert findings(still) == ["No pulse was fired."]
+    assert still.drawn is None
+
+
+def test_many_pulses_stay_small():
+    rows = 2501
+    lengths = np.random.default_rng(1).uniform(-0.2, 0.2, (3, rows))
+    signal = vector("ship.lengths", 3, SECOND)
+    signals = dict(zip(signal.names, lengths, strict=True))
+    result = replace(run_result(), time=0.2 * np.arange(rows), signals=signals)
+    found = one(Pulses("Jets", (), signal, None, None, None, ("x", "y", "z")), result)
+    assert count_of(found.drawn.wide) == 3 * (rows - 1)
+    assert len(found.drawn.wide) < 40 * 3 * rows  # a bar is two points of some ten letters each
+
+
+def test_an_error_within_its_sigma():
+    """Of four rows one is within sigma and three within three of it; 301 rows from 50 s on begin with the first."""
+    found = one(ERROR, flown(**errors()))
+    inside = sum(1 for row in range(100, ROWS) if row % 4 == 0) / 301
+    within = sum(1 for row in range(100, ROWS) if row % 4 != 3) / 301
+    assert {repr(inside), repr(within)} <= values_in(*found.findings)
+    assert findings(found) == [
+        f"From 50 s on 25.2 % of the time within sigma ({100.0 * math.erf(math.sqrt(0.5)):.3g} % of a normal error "
+        "would be), 75.1 % within three."
+    ]
+    assert notes(found) == [
+        "Line: ship.estimate less ship.truth; shaded: one and three of ship.sigma either way, where it is not 0."
+    ]
+    assert captions(found) == ["The whole flight", "To the scale of the last quarter"]  # 11.5 deg first, then 0.35 deg
+
+
+def test_an_error_without_sigma():
+    signals = errors()
+    found = one(ERROR, flown(**(signals | {"sigma": 0.0 * TIME})))
+    assert findings(found) == []
+    assert notes(found) == ["Line: ship.estimate less ship.truth; ship.sigma states no deviation, it is 0 throughout."]
+    bare = one(replace(ERROR, sigma=None, notes=("Left out: sigma.",)), flown(**signals))
+    assert notes(bare) == ["Line: ship.estimate less ship.truth.", "Left out: sigma."]
+    assert findings(one(replace(ERROR, after=1000.0), flown(**signals))) == []
+
+
+def test_errors_of_a_vector():
+    result = flown(**{name: [values] * 2 for name, values in errors().items()})
+    parts = {name: vector(f"ship.{name}", 2, RADIAN) for name in ("estimate", "truth", "sigma")}
+    found = one(replace(ERROR, **parts, labels=("[1]", "[2]")), result)
+    assert [words[:12] for words in findings(found)] == ["[1]: from 50", "[2]: from 50"]
+    assert captions(found)[2:] == ["[2], the whole flight", "[2], to the scale of the last quarter"]
+
+
+@pytest.mark.parametrize("rows", [1, 2])
+def test_short_runs(rows):
+    values = {"angles": angles(), **pulses(), **errors()}
+    result = flown(**{name: np.atleast_2d(found)[:, :rows] for name, found in values.items()})
+    result["ship.estimate"][-1] = np.inf
+    result["ship.lengths[1]"][-1] = np.nan
+    assert len(own_sections([ANGLES, PULSES, ERROR], result)) == 3
+
+
+def settled(time, *conditions):
+    """The time of the first row from which on all conditions hold to the last one."""
+    row = len(time)
+    while row and all(condition[row - 1] for condition in conditions):
+        row -= 1
+    return float(time[row])
+
+
+@pytest.mark.usefixtures("fmus")
+@pytest.mark.parametrize(
+    ("use", "parameters"),
+    [
+        ({}, ["noisy.ssv"]),
+        ({"observer": "orbital_observer_discrete", "regulator": "orbital_modal_control"}, []),
+        ({}, ["tick_1s.ssv"]),
+    ],
+    ids=["filter", "observer", "pulses held over five rows"],
+)
+def test_a_flight_of_the_orbital_attitude(use, parameters):
+    result = perilune.simulate("orbital_attitude", use=use, parameters=parameters)
+    figures = read_figures(prepare_system("orbital_attitude"))
+    sections = own_sections(figures, result)
+    shown = [*joint_findings(figures, result), *(words for section in sections for words in section.findings)]
+    time, values = result.time, values_in(*shown)
+    angles = [np.abs(result[f"plant.angles[{k}]"]) <= 0.5 * DEGREE for k in (1, 2, 3)]
+    rates = [result[f"plant.angular_velocity[{k}]"] + (0.0011 if k == 3 else 0.0) for k in (1, 2, 3)]
+    rates = [np.abs(rate) <= 0.05 * DEGREE for rate in rates]
+    for conditions in ([*angles, *rates], angles, rates, *([row] for row in [*angles, *rates])):
+        assert repr(settled(time, *conditions)) in values
+    fired = np.array([result[f"pulses.pulse_lengths[{k}]"] for k in (1, 2, 3)])[:, :-1]
+    fired[:, 1:] *= np.diff(result["pulses.pulse_count"])[:-1] != 0
+    assert count_of(sections[2].drawn.wide) == np.count_nonzero(fired) > 20
+    (told,) = re.findall(r'pulses, <data value="([^"]+)">[^<]+</data> s in all', sections[2].findings[0])
+    assert float(told) == pytest.approx(result["plant.jet_seconds"][-1], abs=1e-9)  # what is drawn was fired
+    later = (time >= 60.0) & (result["observer.yaw_sigma"] > 0.0)
+    off = np.abs(result["observer.estimated_angles[2]"] - result["plant.angles[2]"])
+    assert len(sections[3].findings) == later.any()
+    for times in (1.0, 3.0) if later.any() else ():
+        within = sum(off[row] <= times * result["observer.yaw_sigma"][row] for row in np.flatnonzero(later))
+        assert repr(int(within) / int(later.sum())) in values
+    assert sum(len(panel.figure) for section in sections for panel in section.panels) < 300_000
+
+
+def test_a_band_less_a_signal_shaded_and_against_another():
+    """Roll follows a target within 0.2 deg from 50 s on; shaded while the clock is below 20; two panels more."""
+    roll = np.where(TIME < 50.0, 5.0, 0.2) * DEGREE
+    band = replace(
+        ANGLES,
+        signal=scalar("ship.roll", DEG, 1.0 / DEGREE),
+        labels=("",),
+        less=scalar("ship.target", DEG, 1.0 / DEGREE),
+        shade=scalar("ship.clock"),
+        shade_below=20.0,
+        against=(scalar("ship.pressure"), scalar("ship.height")),
+    )
+    result = flown(
+        roll=roll + 0.3, target=np.full(ROWS, 0.3), clock=TIME, pressure=np.exp(0.1 * TIME), height=1e5 - TIME
+    )
+    (section,) = own_sections([band], result)
+    assert 'from <data value="50.0">50</data> s on' in str(section.findings[0])
+    assert [panel.label for panel in section.panels][-2:] == ["Against pressure", "Against height"]
+    words = " ".join(map(str, section.notes))
+    assert "less ship.target" in words
+    assert "grey: ship.clock below" in words
+    assert "mathdefault" not in str(section.panels[-2].figure)

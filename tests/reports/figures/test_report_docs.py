@@ -1,0 +1,25 @@
+"""docs/reports.md names all that a system can ask of its page."""
+
+import re
+from pathlib import Path
+
+from perilune.analysis.reports.figures.declaration.history_readers import BAND, CURVE
+from perilune.analysis.reports.figures.declaration.reading import BUDGET, READERS
+from perilune.analysis.reports.figures.declaration.signal_reader import ROWS
+from perilune.fmus_src.paths import ROOT, SYSTEMS
+
+WORDS = set(
+    re.findall(r"[A-Za-z_]+", " ".join(re.findall(r"`([^`\n]+)`", Path(ROOT, "docs", "reports.md").read_text())))
+)
+
+
+def test_every_element_and_attribute_is_documented():
+    assert {*READERS, BUDGET, *BAND, *CURVE, *ROWS} <= WORDS
+
+
+def test_what_our_systems_ask_for_is_documented():
+    asked = "".join(path.read_text(encoding="utf-8") for path in SYSTEMS.glob("*/SystemStructure.ssd"))
+    reports = " ".join(re.findall(r"<Report .*?</Report>", asked, re.DOTALL))
+    names = {*re.findall(r"<([A-Z]\w+)", reports), *re.findall(r"\s(\w+)=\"", reports)} - {"Report", "xmlns"}
+    assert len(names) > 20
+    assert names <= WORDS

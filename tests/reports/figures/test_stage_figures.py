@@ -1,0 +1,308 @@
+"""Phases, budgets, limits, paths and curves on the page of a run.
+
+Truth: a run made by hand, whose phases, sums and places can be said.
+"""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from lxml import etree, html
+
+from perilune.analysis.reports.figures.declaration.stages import BoundValues
+from perilune.analysis.reports.figures.declaration.values import Arc, Rows
+from perilune.analysis.reports.figures.limit_table import limit_facts, limit_lines
+from perilune.analysis.reports.figures.own_figures import own_sections
+from perilune.analysis.reports.figures.phase_spans import spans_of, statuses_of
+from perilune.analysis.reports.figures.section import evenly
+from perilune.analysis.reports.flight.run_report import write_run_report
+from tests.support.pages.checks import assert_self_contained, parse
+from tests.support.pages.mission_samples import (  # fmt: skip
+    BUDGET,
+    CURVE,
+    FIGURES,
+    LIMITS,
+    METRE,
+    PATH,
+    PHASES,
+    SPANS,
+    WHERE,
+    mission,
+)
+from tests.support.pages.own_samples import ERROR, SECOND, TIME, scalar, vector
+
+MINUS = "\N{MINUS SIGN}"
+
+
+def plain(markup):
+    return html.fromstring(f"<p>{markup}</p>").text_content()
+
+
+def one(figure, result):
+    (section,) = own_sections([figure], result)
+    return section
+
+
+def notes(section):
+    return [plain(words) for words in section.notes]
+
+
+def findings(section):
+    return [plain(words) for words in section.findings]
+
+
+def cells(section):
+    return [[plain(cell) for cell in row] for row in section.table.rows]
+
+
+def texts(figure):
+    return [text.strip() for text in etree.fromstring(figure).xpath("//*[local-name()='text']/text()")]
+
+
+def test_all_of_them_are_on_a_page(tmp_path):
+    write_run_report(mission(), tmp_path / "run.html", "Mission", FIGURES)
+    page = (tmp_path / "run.html").read_text(encoding="utf-8")
+    assert_self_contained(page)
+    titles = [part.text for part in parse(page).xpath("//h2[text()='Figures of this system']/following-sibling::h3")]
+    assert titles == ["Phases", "Budget", "Contact", "Plan view", "Tilt"]
+    tables = parse(page).xpath("//h2[text()='Figures of this system']/following-sibling::div/table")
+    assert [len(table.xpath("tbody/tr")) for table in tables] == [6, 5, 3]
+    assert tables[0].xpath("thead/tr/th/text()") == ["phase", "begins, s", "takes, s", "uses up, kg"]
+
+
+def test_phases_as_they_were_flown():
+    found = spans_of(PHASES, mission())
+    assert [(span.name, span.begin, span.end) for span in found] == [row[:3] for row in SPANS]
+    assert [span.spent for span in found] == pytest.approx([row[3] for row in SPANS], abs=1e-12)
+
+
+def test_a_part_that_never_ends_one_that_is_over_at_once_and_a_value_without_name():
+    never = [span.name for span in spans_of(PHASES, mission(done=0.0 * TIME))]
+    assert never == ["burn", "coast", "capture", "descent"]
+    at_once = [span.name for span in spans_of(PHASES, mission(done=1.0 + 0.0 * TIME))]
+    assert at_once == ["burn", "coast", "hover", "descent"]
+    (nameless,) = spans_of(replace(PHASES, spent=None), mission(phase=7.0 + 0.0 * TIME))
+    assert (nameless.name, nameless.begin, nameless.end, nameless.spent) == ("ship.phase 7", 0.0, 200.0, None)
+
+
+def test_a_phase_that_comes_again():
+    phase = np.where((TIME >= 50.0) & (TIME < 60.0), 5, 1)
+    found = [(span.name, span.begin, span.end) for span in spans_of(PHASES, mission(phase=phase))]
+    assert found == [("burn", 0.0, 50.0), ("descent", 50.0, 60.0), ("burn", 60.0, 200.0)]
+
+
+def test_statuses_where_they_rise():
+    assert statuses_of(PHASES, mission()) == [(2, 30.0), (6, 190.0)]  # 2 is over at 40 s, which is no rise
+    section = one(PHASES, mission())
+    assert findings(section) == ["Status 2 at 30 s: the plan was late.", "Status 6 at 190 s: no probe."]
+    assert findings(one(replace(PHASES, meanings={}), mission()))[1] == "Status 6 at 190 s."
+    assert findings(one(PHASES, mission(status=0.0 * TIME))) == ["Status 0 throughout."]
+    assert findings(one(replace(PHASES, status=None), mission())) == []
+
+
+def test_statuses_with_times_of_their_own():
+    """Of three statuses the second was first, and the third never."""
+    asked = replace(PHASES, status=None, status_times=vector("ship.times", 3, SECOND))
+    times = np.stack([np.where(TIME < 60.0, -1.0, 60.0), np.where(TIME < 30.0, -1.0, 30.0), np.full(TIME.size, -1.0)])
+    assert statuses_of(asked, mission(times=times)) == [(2, 30.0), (1, 60.0)]
+
+
+def test_the_table_of_phases():
+    found = cells(one(PHASES, mission()))
+    expected = [[name, f"{begin:g}", f"{end - begin:g}", f"{spent:.3f}"] for name, begin, end, spent in SPANS]
+    assert found == [*expected, ["all", "0", "200", "24.000"]]
+    assert one(replace(PHASES, spent=None), mission()).table.heads == ("phase", "begins, s", "takes, s")
+
+
+def bars(figure):
+    """Left and right end (points) of all bars, by the height of their middle."""
+    found = {}
+    for path in etree.fromstring(figure).xpath("//*[local-name()='path'][contains(@style, 'fill: #0072b2')]"):
+        points = np.array(re.findall(r"-?\d+(?:\.\d+)?", path.get("d")), dtype=float).reshape(-1, 2)
+        ends = (float(points[:, 0].min()), float(points[:, 0].max()))
+        found.setdefault(round(float(points[:, 1].mean()), 1), []).append(ends)
+    return [found[height] for height in sorted(found)]
+
+
+def test_the_long_phase_is_cut_and_the_others_are_to_scale():
+    """From the status at 30 s to the end of the coast, 120 of 200 s, nothing happens; 6 % of the other 80 s is left."""
+    section = one(PHASES, mission())
+    assert notes(section) == ["A bar for each phase with how long it takes, s. The time is cut by 110.4 s."]
+    lanes = bars(section.drawn.wide)
+    assert [len(lane) for lane in lanes] == [1, 2, 1, 1, 1]
+    widths = [sum(right - left for left, right in lane) for lane in lanes]
+    np.testing.assert_allclose(widths[2:], np.array([15.0, 15.0, 20.0]) * widths[0] / 20.0, rtol=0.02)
+    np.testing.assert_allclose(widths[1], (130.0 - 110.4) * widths[0] / 20.0, rtol=0.03)
+    assert {"burn", "coast", "capture", "hover", "descent", "130", "15", "2", "6"} <= set(texts(section.drawn.wide))
+
+
+def test_phases_of_like_length_are_not_cut():
+    section = one(PHASES, mission(phase=np.where(TIME < 100.0, 1, 2), status=0.0 * TIME))
+    assert notes(section) == ["A bar for each phase with how long it takes, s."]
+    (first,), (second,) = bars(section.drawn.wide)
+    assert first[1] - first[0] == pytest.approx(second[1] - second[0], rel=0.01)
+    assert first[1] == pytest.approx(second[0], abs=1.0)
+
+
+def test_a_budget_beside_its_bound():
+    """9.5; 3 + 8 - 9.5; 3: together 14, which is what these phases used up."""
+    section = one(BUDGET, mission())
+    assert section.table.heads == ("", "kg", "from")
+    assert cells(section) == [
+        ["bound", "9.500", "bound of landing"],
+        ["capture and descent over it", "1.500", "capture + descent less bound of landing"],
+        ["hover", "3.000", "hover"],
+        ["together", "14.000", ""],
+        ["used up in these phases", "14.000", "capture, descent, hover"],
+    ]
+
+
+def test_a_budget_without_bound_and_of_phases_that_were_not_flown():
+    bare = one(replace(BUDGET, bound=BoundValues(("landing",), {}, "it is not there; make it")), mission())
+    assert [row[1] for row in cells(bare)] == ["\N{EN DASH}", "\N{EN DASH}", "3.000", "\N{EN DASH}", "14.000"]
+    assert notes(bare) == ["Without the bound: it is not there; make it."]
+    short = one(BUDGET, mission(done=0.0 * TIME))
+    assert notes(short) == ["Not flown: hover."]
+    assert [row[1] for row in cells(short)][2:] == ["\N{EN DASH}"] * 3
+
+
+def test_limits_at_the_end():
+    section = one(LIMITS, mission())
+    assert findings(section) == ["Not kept: tilt, mass."]
+    assert cells(section) == [
+        ["tilt", "7.5", "at most 5", "deg", "not kept"],
+        ["mass", "76", "at least 80", "kg", "not kept"],
+        ["east", "8", f"{MINUS}10 to 10", "m", "kept"],
+    ]
+    assert findings(one(replace(LIMITS, limits=LIMITS.limits[2:]), mission())) == ["All 1 kept."]
+    assert findings(one(LIMITS, mission(x=np.full(TIME.size, np.nan)))) == ["Not kept: tilt, mass, east."]
+
+
+@pytest.mark.parametrize(
+    ("changed", "ended", "why"),
+    [
+        ({"done": 0.0 * TIME}, "finished", "ship.done is 0 at the end"),
+        ({"done": TIME > 1.0}, "nonfinite", "the flight did not reach its end: nonfinite"),
+        ({"done": TIME > 1.0}, "interrupted", "the flight did not reach its end: interrupted"),
+    ],
+)
+def test_limits_that_are_not_evaluated(changed, ended, why):
+    """What stands in the last row of a flight without the event, or without an end, is held against nothing."""
+    asked = replace(LIMITS, when=scalar("ship.done"))
+    flight = replace(mission(**changed), status=ended)
+    section = one(asked, flight)
+    assert findings(section) == [f"Not evaluated: {why}."]
+    assert [(row[1], row[4]) for row in cells(section)] == [("\N{EN DASH}", "not evaluated")] * 3
+    assert limit_lines(asked, flight)[0] == f"tilt: at most 5 deg: not evaluated, {why}"
+    facts = limit_facts(asked, flight)
+    assert [(fact["value"], fact["verdict"], fact["reason"]) for fact in facts] == [(None, "not evaluated", why)] * 3
+    landed = one(asked, mission(done=TIME > 1.0))
+    assert findings(landed) == ["Not kept: tilt, mass."]
+
+
+def lines_of(figure, colour):
+    """Points of the lines of one colour."""
+    paths = etree.fromstring(figure).xpath(f"//*[local-name()='path'][contains(@style, 'stroke: {colour}')]")
+    return [np.array(re.findall(r"-?\d+(?:\.\d+)?", path.get("d")), dtype=float).reshape(-1, 2) for path in paths]
+
+
+def test_a_path_has_one_scale_and_its_site_twice():
+    """From (500, 300) to (8, 0) m, where the phase is 4 or more."""
+    section = one(PATH, mission())
+    assert notes(section) == [
+        "Ring: the end; marks: site (ship.site_x, ship.site_y) wherever it stood, large where it stands last; where "
+        "ship.phase is at least 4; both axes to one scale."
+    ]
+    line = max(lines_of(section.drawn.wide, "#0072b2"), key=lambda points: np.ptp(points[:, 0]))
+    width, height = np.ptp(line, axis=0)
+    assert height / width == pytest.approx(300.0 / 492.0, rel=0.01)
+    uses = etree.fromstring(section.drawn.wide).xpath("//*[local-name()='use'][contains(@style, '#d55e00')]")
+    assert len(uses) == 2 + 1 + 1  # both places, the last one large, and the legend
+    assert {"ship.x, m", "ship.y, m", "site"} <= set(texts(section.drawn.wide))
+
+
+def test_a_long_path_is_in_km_and_keeps_its_detail():
+    y = 2e4 * np.sin(TIME)
+    section = one(replace(PATH, rows=None, points=(), equal=False), mission(x=TIME, y=y))
+    assert "ship.y, km" in texts(section.drawn.wide)
+    assert "ship.x, m" in texts(section.drawn.wide)
+    line = max(lines_of(section.drawn.wide, "#0072b2"), key=len)
+    turns = np.count_nonzero(np.diff(np.sign(np.diff(line[:, 1]))))
+    assert turns >= np.count_nonzero(np.diff(np.sign(np.diff(y)))) > 60
+
+
+def test_a_path_over_the_ground():
+    """Straight up above a point a quarter round the sphere, and above the origin."""
+    arc = Arc(vector("ship.place", 3, METRE), 1000.0)
+    place = np.zeros((3, TIME.size))
+    place[0], place[2] = 1000.0 + TIME, -1000.0
+    section = one(replace(PATH, x=arc, points=(), equal=False), mission(place=place))
+    np.testing.assert_allclose(arc.shown(mission(place=place)), 500.0 * math.pi, rtol=1e-15)
+    np.testing.assert_array_equal(arc.shown(mission(place=np.stack([0.0 * TIME, 0.0 * TIME, TIME]))), 0.0)
+    assert notes(section)[0].endswith("range: along the ground, from the origin to below ship.place.")
+
+
+def test_a_range_goes_on_beyond_half_the_circumference():
+    """Once round from 1.2 half circumferences away, in the plane of the origin or a little off it."""
+    angle = np.linspace(1.2 * math.pi, 0.0, TIME.size)
+    radius = 1000.0
+    for across in (0.0, 1e-4):
+        place = np.stack([radius * np.sin(angle), np.full(TIME.size, radius * across), radius * (np.cos(angle) - 1.0)])
+        shown = Arc(vector("ship.place", 3, METRE), radius).shown(mission(place=place))[0]
+        np.testing.assert_allclose(shown, radius * angle, atol=2.0 * radius * across)
+        assert np.all(np.diff(shown) < 0.0)
+    section = one(replace(PATH, x=Arc(vector("ship.place", 3, METRE), radius), rows=None, points=(), equal=False),
+                  mission(place=place))  # fmt: skip
+    assert notes(section)[0].endswith("along the great circle of the track.")
+
+
+def test_curves_each_and_together():
+    apart = one(CURVE, mission())
+    assert [panel.label for panel in apart.panels] == ["tilt", "lean"]
+    assert notes(apart) == ["Line: ship.tilt, ship.lean; dashed: 5 deg; where ship.phase is at least 4."]
+    joined = one(replace(CURVE, together=True), mission())
+    assert joined.panels == []
+    assert [label for _, label in joined.legend] == ["tilt", "lean"]
+    alone = one(replace(CURVE, signals=CURVE.signals[:1], labels=("tilt",)), mission())
+    assert alone.legend == []
+    words = texts(alone.drawn.wide)
+    ticks = [float(text.replace(MINUS, "-")) for text in words if re.fullmatch(rf"{MINUS}?[\d.]+", text)]
+    assert 160.0 in ticks
+    assert not any(100.0 < tick < 150.0 for tick in ticks)  # 150 s is where phase 4 begins
+
+
+@pytest.mark.parametrize("figure", [PATH, CURVE, replace(ERROR, rows=WHERE)])
+def test_where_nothing_was_flown(figure):
+    section = one(replace(figure, rows=Rows(scalar("ship.phase"), 8.0, 9.0)), mission())
+    assert notes(section) == ["Not drawn: in no row ship.phase is 8 to 9."]
+    assert section.drawn is None
+    assert section.panels == []
+
+
+def test_an_error_in_some_rows_only():
+    """Inside sigma in the rows from 150 s on, and never before."""
+    estimate = np.where(TIME < 150.0, 5.0, 0.5)
+    result = mission(estimate=estimate, truth=0.0 * TIME, sigma=1.0 + 0.0 * TIME)
+    assert findings(one(replace(ERROR, after=None, rows=WHERE), result))[0].startswith(
+        "From 150 s on 100 % of the time"
+    )
+    assert findings(one(replace(ERROR, after=None), result))[0].startswith("From 0 s on 25.2 % of the time")
+
+
+@pytest.mark.parametrize("rows", [1, 2])
+def test_short_runs(rows):
+    short = {name: values[:rows] for name, values in mission().signals.items()}
+    figures = [replace(figure, rows=None) if hasattr(figure, "rows") else figure for figure in FIGURES]
+    result = replace(mission(), time=TIME[:rows], signals=short)
+    assert len(own_sections(figures, result)) == len(figures)
+
+
+def test_columns_have_the_decimals_of_their_largest():
+    assert [plain(cell) for cell in evenly([400.821, 0.00234, -7.5, None, 0.0], "kg")] == [
+        "400.82", "0.00", f"{MINUS}7.50", "\N{EN DASH}", "0.00"
+    ]  # fmt: skip
+    assert [plain(cell) for cell in evenly([123456.7, 1.0, math.inf], "kg")] == ["123457", "1", "\N{INFINITY}"]
+    assert [plain(cell) for cell in evenly([math.pi], "rad")] == ["180.00"]
+    assert str(evenly([math.pi], "rad")[0]).startswith(f'<data value="{math.pi!r}">')

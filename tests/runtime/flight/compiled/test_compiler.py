@@ -1,0 +1,52 @@
+"""Where the compiled loop is kept: in the cache folder, never beside the source.
+
+Truth: the folders before and after; a folder that cannot be.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from numba import config
+
+from perilune.analysis.runtime.flight.compiled import compiler
+from perilune.analysis.runtime.flight.compiled.loop import fly_locked, fly_unlocked
+from perilune.fmus_src.paths import CACHE
+
+
+def doubled(x):
+    return 2 * x
+
+
+def test_the_loop_is_kept_in_the_cache_folder():
+    for loop in (fly_locked, fly_unlocked):
+        assert Path(loop.stats.cache_path).is_relative_to(config.CACHE_DIR or CACHE / "numba")
+
+
+def test_a_function_is_kept_and_found_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(compiler, "CACHE", tmp_path)
+    monkeypatch.setattr(config, "CACHE_DIR", "")
+    assert compiler.compiled(doubled)(21) == 42
+    assert list((tmp_path / "numba").rglob("*doubled*.nbc"))
+    assert config.CACHE_DIR == ""
+    again = compiler.compiled(doubled)
+    assert again(21) == 42
+    assert sum(again.stats.cache_hits.values()) == 1
+
+
+def test_the_folder_that_numba_is_told_of_wins(tmp_path, monkeypatch):
+    monkeypatch.setattr(compiler, "CACHE", tmp_path / "ours")
+    monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path / "theirs"))
+    assert compiler.compiled(doubled)(21) == 42
+    assert [path.name for path in tmp_path.iterdir()] == ["theirs"]
+
+
+def test_a_folder_that_cannot_be_written_is_said(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setattr(compiler, "CACHE", tmp_path / "file")
+    monkeypatch.setattr(config, "CACHE_DIR", "")
+    with pytest.warns(UserWarning, match="cannot be written: compiled anew; set NUMBA_CACHE_DIR"):
+        function = compiler.compiled(doubled)
+    assert function(21) == 42
+    assert not list(Path(__file__).parent.rglob("*doubled*.nb*"))

@@ -1,0 +1,96 @@
+"""An FMU alone as a prepared system: its name, what it proposes, what is refused.
+
+Truth: the modelDescription.xml written for each case; FMI 2.0.
+"""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+import perilune
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
+from tests.support.builders import retouched
+
+
+@pytest.mark.parametrize(
+    ("model", "name"),
+    [("gain", "gain"), ("Modelica.Blocks.Gain", "gain"), ("a gain", "gain"), ("Verstärker", "Verstärker")],
+)
+def test_the_component_has_the_models_name(tiny_folder, tmp_path, model, name):
+    path = tmp_path / "x.fmu"
+    retouched(
+        tiny_folder / "native" / "gain.fmu",
+        path,
+        lambda text: re.sub(r'modelName="[^"]*"', f'modelName="{model}"', text),
+    )
+    prepared = prepare_system(path)
+    assert list(prepared.network.fmus) == [name]
+    assert prepared.archive.name == "x"
+    assert prepared.network.file == str(path)
+    flight = perilune.simulate(path, set={f"{name}.u": 2.0})
+    assert set(flight[f"{name}.y"]) == {6.0}
+
+
+def test_connectors_are_inputs_outputs_and_parameters(tiny):
+    kinds = {node.variable: node.kind for node in prepare_system(tiny / "gain.fmu").network.nodes.values()}
+    assert kinds == {"factor": "parameter", "u": "input", "y": "output"}
+    strings = prepare_system(tiny / "stranger.fmu")
+    assert {node.variable for node in strings.network.nodes.values()} == {"u", "y", "word", "length"}
+    assert perilune.simulate(tiny / "stranger.fmu", set={"Stranger.word": "four"}).final()["Stranger.length"] == 4.0
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        (lambda text: text.replace('fmiVersion="2.0"', 'fmiVersion="3.0"'), ": fmiVersion: '3.0' is not supported; "),
+        (
+            lambda text: re.sub(
+                r"<CoSimulation[^>]*modelIdentifier=\"(\w+)\"[^>]*?(/>|>.*?</CoSimulation>)",
+                r'<ModelExchange modelIdentifier="\1"/>',
+                text,
+                flags=re.DOTALL,
+            ),
+            ": CoSimulation: not a co-simulation FMU; ",
+        ),
+    ],
+)
+def test_what_does_not_fly(tiny_folder, tmp_path, change, expected):
+    path = retouched(tiny_folder / "native" / "gain.fmu", tmp_path / "x.fmu", change)
+    with pytest.raises(InputError) as error:
+        perilune.simulate(path)
+    assert str(error.value).startswith(f"{path}{expected}")
+    assert perilune.validate(path)[0]["problems"] == [str(error.value)]
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ({"variant": "other"}, "--variant: an FMU alone has no variants; leave it out"),
+        ({"set": {"gain.facto": 1}}, "use one of gain.factor, gain.u"),
+        ({"set": {"factor": 1}}, "use one of gain.factor, gain.u"),
+        ({"parameters": ("x.ssv",)}, "no x.ssv in the system, nor a file of this name"),
+        ({"stop_time": 0.05}, "--stop-time: 0.05: 0.05 s from the start are not a whole number of steps of 0.1 s"),
+    ],
+)
+def test_options_that_do_not_fit(tiny_folder, options, expected):
+    with pytest.raises(InputError, match=re.escape(expected)):
+        prepare_system(tiny_folder / "native" / "gain.fmu", SystemOptions(**options))
+
+
+def test_a_file_that_is_not_there_and_one_that_is_none(tmp_path):
+    with pytest.raises(InputError, match=r"none\.fmu: file: not found"):
+        perilune.simulate(tmp_path / "none.fmu")
+    (tmp_path / "x.fmu").write_text("no zip")
+    with pytest.raises(InputError, match=r"x\.fmu: archive: not a readable zip"):
+        perilune.simulate(tmp_path / "x.fmu")
+    with pytest.raises(InputError, match="an FMU alone has none; give a system here"):
+        perilune.stability(tmp_path / "x.fmu")
+
+
+def test_others_take_its_place(tiny):
+    flight = perilune.simulate(tiny / "gain.fmu", use={"gain": tiny / "kilometre_gain.fmu"}, set={"gain.u": 2.0})
+    assert set(flight["gain.y"]) == {6.0}

@@ -1,0 +1,69 @@
+"""What of an FMU is unpacked, and what loading it again may share.
+
+Truth: the FMU's own archive.
+"""
+
+import zipfile
+
+import fmpy
+import pytest
+
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.system.fmu import load_fmu
+from tests.support.builders import retouched, write_zip
+
+
+def contents(path):
+    with zipfile.ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def unpacked(fmu):
+    files = (path for path in fmu.folder.rglob("*") if path.is_file())
+    return {path.relative_to(fmu.folder).as_posix(): path.read_bytes() for path in files}
+
+
+def load(path):
+    return load_fmu(path.read_bytes(), path.name)
+
+
+@pytest.fixture
+def large(tiny, tmp_path):
+    """The ramp with files for another platform, sources, documents, and files for no purpose that FMI knows."""
+    more = ("binaries/win32/ramp.dll", "binaries/common.txt", "sources/ramp.c", "documentation/index.html", "extra/x")
+    files = contents(tiny / "ramp.fmu") | {name: name.encode() for name in (*more, "resources/deep/table.csv")}
+    return write_zip(tmp_path / "large.fmu", files)
+
+
+def test_of_our_own_what_a_flight_here_reads(large):
+    kept = ("modelDescription.xml", f"binaries/{fmpy.platform}/", "resources/")
+    expected = {name: content for name, content in contents(large).items() if name.startswith(kept)}
+    assert "resources/deep/table.csv" in expected
+    assert f"binaries/{fmpy.platform}/ramp{fmpy.sharedLibraryExtension}" in expected
+    assert unpacked(load(large)) == expected
+
+
+def test_of_others_everything(large, tmp_path):
+    foreign = retouched(large, tmp_path / "foreign.fmu", lambda text: text.replace('"Perilune ', '"Another '))
+    fmu = load(foreign)
+    assert not fmu.is_own
+    assert unpacked(fmu) == contents(foreign)
+
+
+def test_a_second_one_has_a_folder_of_its_own(tiny):
+    first, second = load(tiny / "ramp.fmu"), load(tiny / "ramp.fmu")
+    assert first.folder != second.folder
+    assert unpacked(first) == unpacked(second)
+    assert list(first.variables) == list(second.variables)
+
+
+def test_flaws_are_told_each_time(tiny, tmp_path):
+    flawed = retouched(
+        tiny / "ramp.fmu", tmp_path / "flawed.fmu", lambda text: text.replace("<ModelVar", "<Odd/><ModelVar")
+    )
+    first, second = load(flawed), load(flawed)
+    assert first.flaws == second.flaws != []
+    first.flaws.clear()
+    assert load(flawed).flaws == second.flaws
+    with pytest.raises(InputError, match=r"again: modelDescription.xml: not valid: .*Odd.*; mend the FMU"):
+        load_fmu(flawed.read_bytes(), "again", strict=True)

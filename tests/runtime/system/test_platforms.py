@@ -1,0 +1,43 @@
+"""Platforms that FMI 2.0 has no name for, and those that an FMU has no library for: one line says so.
+
+Truth: the platforms of FMI 2.0.4, section 2.3, which are of x86 alone; macOS loads universal libraries by that name.
+"""
+
+import platform
+import sys
+
+import fmpy
+import pytest
+
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.runtime.system.fmu import load_fmu
+from perilune.fmus_src.export.compilers import local_platform
+
+
+@pytest.mark.parametrize(("system", "named"), [("linux", False), ("windows", False), ("darwin", True)])
+def test_an_arm_processor(tiny_folder, monkeypatch, system, named):
+    data = (tiny_folder / "native" / "ramp.fmu").read_bytes()
+    monkeypatch.setattr(fmpy, "architecture", "aarch64")
+    monkeypatch.setattr(fmpy, "system", system)
+    monkeypatch.setattr(fmpy, "platform_tuple", f"aarch64-{system}")
+    if named:
+        assert load_fmu(data, "ramp.fmu").name == "ramp"
+        return
+    with pytest.raises(InputError, match=f"ramp.fmu: binaries: FMI 2.0 has no name for the platform aarch64-{system}"):
+        load_fmu(data, "ramp.fmu")
+
+
+@pytest.mark.parametrize(
+    ("system", "processor", "name"),
+    [
+        ("linux", "x86_64", "linux64"),
+        ("win32", "AMD64", "win64"),
+        ("darwin", "x86_64", "darwin64"),
+        ("darwin", "arm64", "darwin64"),
+        ("linux", "aarch64", None),
+    ],
+)
+def test_the_name_of_this_platform(monkeypatch, system, processor, name):
+    monkeypatch.setattr(sys, "platform", system)
+    monkeypatch.setattr(platform, "machine", lambda: processor)
+    assert local_platform() == name
