@@ -47,7 +47,7 @@ def test_names_are_counted_where_they_are_given():
 
 
 @pytest.mark.parametrize(
-    ("told", "data", "message"),
+    ("words", "data", "message"),
     [
         (2, 11, ""),
         (3, 10, "told: 3 names, 2 allowed"),
@@ -55,8 +55,8 @@ def test_names_are_counted_where_they_are_given():
         (2, 12, "data: 12"),
     ],
 )
-def test_numbers_may_only_fall_and_plain_names_grow_by_a_tenth(told, data, message):
-    problems = names.check_limits(Counter(told=told, place=3, data=data), LIMITS)
+def test_numbers_may_only_fall_and_plain_names_grow_by_a_tenth(words, data, message):
+    problems = names.check_limits(Counter(told=words, place=3, data=data), LIMITS)
     assert len(problems) == bool(message)
     assert all(message in problem for problem in problems)
 
