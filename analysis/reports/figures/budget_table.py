@@ -11,7 +11,8 @@ from ...runtime.flight.results import Result
 from ..common.quantities import shown_unit
 from .declaration.stages import BoundValues, Budget, Item
 from .phase_spans import spans_of
-from .section import Section, Table, evenly
+from ..common.tables import Table
+from .section import Section, evenly
 
 
 def spent_by_phase(budget: Budget, result: Result) -> dict[str, float]:

@@ -7,7 +7,8 @@ from markupsafe import Markup
 from ...runtime.flight.results import Result
 from .declaration.stages import Limits
 from .limit_table import Verdict, evaluate, limit_rows
-from .section import Section, Table, sentence
+from ..common.tables import Table
+from .section import Section, sentence
 
 
 def limit_section(limits: Limits, result: Result) -> Section:

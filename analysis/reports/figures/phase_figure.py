@@ -15,7 +15,8 @@ from ..common.quantities import number, shown_unit
 from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 from .declaration.stages import Phases
 from .phase_spans import Span, spans_of, statuses_of
-from .section import Section, Table, evenly, seconds, sentence
+from ..common.tables import Table
+from .section import Section, evenly, seconds, sentence
 
 LANE = 0.27  # in
 LONG = 0.5  # share of the flight in which nothing happens from which on it is cut, so that the rest is seen

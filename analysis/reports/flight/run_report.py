@@ -1,4 +1,4 @@
-"""The page of one run: how it ended, where it went, what its system asks for, every signal, what it was made of."""
+"""The page of one run: termination, final values, system-specific plots, trajectory, all signals, provenance."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from ..figures.own_figures import joint_findings, own_sections
 from .time_histories import time_histories
 from .trajectory import trajectory_panels, trajectory_reading
 
-STATUS_WORDS = {
-    "finished": "Ended by itself: the system reported that it is finished.",
-    "stop_time": "Ran to its stop time; the system did not end by itself.",
-    "terminated": "Ended by itself: an FMU asked for the end of the simulation.",
-    "nonfinite": "Broke off: a component gave a value that is not a finite number.",
-    "failed": "Broke off: an FMU reported an error, or did not take a parameter.",
-    "timed_out": "Broke off: it took longer than --timeout lets it.",
-    "interrupted": "Broke off: it was interrupted from the keyboard.",
+ENDINGS = {
+    "finished": "Nominal termination: end-of-run flag raised.",
+    "stop_time": "Reached stop time; no end condition triggered.",
+    "terminated": "Terminated by an FMU.",
+    "nonfinite": "Aborted: a component returned a value that is not finite.",
+    "failed": "Aborted: an FMU reported an error or rejected a parameter.",
+    "timed_out": "Aborted: exceeded the wall-clock limit (--timeout).",
+    "interrupted": "Aborted: interrupted from the keyboard.",
 }
 MOST_KEYS = 12  # signals of a system that has none of what one looks at first
 KEY_VECTORS = ("position", "velocity")

@@ -18,7 +18,7 @@ from .rare_figures import (
     level_spans,
     limit_state_figure,
 )
-from .tables import Table, cell, fraction
+from ..common.tables import Table, cell, fraction
 
 
 def write_rare_page(result: RareResult, path: Path, folder: Path | None = None) -> None:

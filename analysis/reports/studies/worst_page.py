@@ -19,7 +19,7 @@ from ..figures.section import Section
 from ..flight.time_histories import Histories, time_histories
 from ..flight.trajectory import trajectory_panels, trajectory_reading
 from .conditions import conditions_of
-from .tables import Table, cell, fraction
+from ..common.tables import Table, cell, fraction
 from .worst_figures import box_figure, box_lanes, fresh_panel, objective_of, search_figure, trials_panel
 
 
