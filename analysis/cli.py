@@ -49,7 +49,7 @@ _CAMPAIGN = (
     "a requirement of the campaign is not met or undecided, a --require is not met, or a flight did not reach its end"
 )
 FAILURES = {
-    "run": "a limit of the SSD is not kept or not evaluated, a --require is not met, or the flight did not finish",
+    "run": "a limit of the SSD is violated or not evaluated, a --require is not met, or the flight did not finish",
     "replay": "as of run; or the trial is no success of its campaign, or is not the stored one to the last bit",
     "batch": _CAMPAIGN,
     "shard": "a flight did not reach its end, or workers ended again and again, or the scheduler did",

@@ -22,8 +22,7 @@ from ..common.errors import InputError, suggestion
 from ..common.percent import short_percent
 from ..common.targets import check_folder
 from ..reports.campaign.batch_report import write_batch_report
-from ..reports.campaign.distributions import sort_metrics
-from ..reports.campaign.plots import metric_plot
+from ..reports.campaign.distributions import metric_plot, sort_metrics
 from ..runtime.flight.results import require_pandas
 from ..runtime.ssp.parameter_sets import SetValue
 from ..runtime.system.faults import Fault, faults_of

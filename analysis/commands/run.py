@@ -10,9 +10,9 @@ from pathlib import Path
 
 from ..campaigns.tables import faults_line
 from ..common.targets import PAGES, Results, check_file
-from ..reports.figures.declaration.declared import Figure
+from ..reports.figures.declaration.figures import Figure
 from ..reports.figures.declaration.reading import read_figures
-from ..reports.figures.limit_table import limit_document
+from ..reports.figures.limits import limit_document
 from ..runtime.flight.instances.log import Log
 from ..runtime.flight.interruptible import StuckError, fly
 from ..runtime.flight.results import Result

@@ -11,7 +11,7 @@ from ...campaigns.fly.replay import ReplayedTrial, replay_trial
 from ...campaigns.tables import faults_line
 from ...common.targets import PAGES, Results, check_file
 from ...reports.figures.declaration.reading import read_figures
-from ...reports.figures.limit_table import limit_document
+from ...reports.figures.limits import limit_document
 from ...runtime.flight.interruptible import StuckError
 from ..common.exit_status import ExitStatus, exit_status
 from ..common.flight import check_flight, flight_lines
