@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from .analysis.design.trajectories.bounds import Landing
     from .analysis.design.trajectories.path import PlanError
     from .analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
-    from .analysis.runtime.system.faults import Fault
+    from .analysis.runtime.system.fault import Fault
     from .analysis.stability.injection.bench import StudyError
     from .fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
     from .fmus_src.interfaces.allocation import Allocation
@@ -160,7 +160,7 @@ _HOMES = {
     "analysis.design.trajectories.vehicle": ("Margins", "Transfer", "Vehicle"),
     "analysis.stability.injection.bench": ("StudyError",),
     "analysis.design.synthesis.outcome": ("SynthesisResult",),
-    "analysis.runtime.system.faults": ("Fault",),
+    "analysis.runtime.system.fault": ("Fault",),
 }
 
 if not (Path(__file__).parent / "analysis").is_dir():

@@ -26,7 +26,7 @@ from ..reports.campaign.distributions import sort_metrics
 from ..reports.campaign.plots import metric_plot
 from ..runtime.flight.results import require_pandas
 from ..runtime.ssp.parameter_sets import SetValue
-from ..runtime.system.faults import Fault, faults_of
+from ..runtime.system.fault import Fault, faults_of
 from ..runtime.system.in_flight.series import Given, read_series
 from ..runtime.system.in_flight.watch import Watch
 from ..studies.sensitivity.ranks import rank_correlations

@@ -23,7 +23,7 @@ from ..runtime.flight.instances.log import Log
 from ..runtime.flight.interruptible import fly
 from ..runtime.flight.simulation import Simulation
 from ..runtime.ssp.parameter_sets import SetValue
-from ..runtime.system.faults import Fault, faults_of
+from ..runtime.system.fault import Fault, faults_of
 from ..runtime.system.in_flight.series import Given, read_series
 from ..runtime.system.in_flight.watch import Watch
 from ..runtime.system.prepared import prepare_system

@@ -15,7 +15,7 @@ from ...common.targets import check_folder
 from ...reports.studies.plots import sensitivity_plot
 from ...reports.studies.sensitivity_page import driver_table, rank_table, write_sensitivity_page
 from ...runtime.ssp.parameter_sets import SetValue
-from ...runtime.system.faults import Fault
+from ...runtime.system.fault import Fault
 from ...runtime.system.in_flight.series import Given
 from ...studies.sensitivity import outcome, study
 from ..notebook import Grid, notebook_view

@@ -16,7 +16,7 @@ from ...reports.studies.plots import worst_plot
 from ...reports.studies.worst_flight import worst_flight
 from ...reports.studies.worst_page import metric_table, parameter_table, write_worst_page
 from ...runtime.ssp.parameter_sets import SetValue
-from ...runtime.system.faults import Fault
+from ...runtime.system.fault import Fault
 from ...runtime.system.in_flight.series import Given
 from ...studies.worst import outcome
 from ...studies.worst.request import check_options, margin_asked

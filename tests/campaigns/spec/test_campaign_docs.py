@@ -14,7 +14,7 @@ from perilune.analysis.campaigns.spec.faults import KEYS
 from perilune.analysis.campaigns.spec.file import REDUCTION_OF, SCATTER
 from perilune.analysis.campaigns.spec.requirements import KEYS as REQUIREMENT
 from perilune.analysis.campaigns.spec.requirements import SIDES, TOGETHER
-from perilune.analysis.runtime.system.faults import KINDS
+from perilune.analysis.runtime.system.fault import KINDS
 
 TEXT = (Path(__file__).parents[2] / "docs" / "campaigns.md").read_text(encoding="utf-8")
 

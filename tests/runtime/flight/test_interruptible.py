@@ -19,9 +19,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 @pytest.mark.parametrize(("flavour", "step"), [("python", None), ("native", 0.005)])
 def test_what_was_flown_comes_back(monkeypatch, flavour, step):
-    monkeypatch.setattr(
-        "perilune.analysis.runtime.flight.interruptible.PATIENCE", 60.0
-    )
+    monkeypatch.setattr("perilune.analysis.runtime.flight.interruptible.PATIENCE", 60.0)
     prepared = prepare_system("lunar_landing", SystemOptions(flavour=flavour, step=step))
     with Simulation(prepared, wanted=["plant.position[1]", "plant.mass"]) as simulation:
         with interrupted_when(lambda: simulation.buffers.outcome[4] > 100):

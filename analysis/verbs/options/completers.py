@@ -19,9 +19,12 @@ from ...runtime.ssp.reading import read_description
 Completer = Callable[..., Iterable[str]]
 
 
-def completed(action: argparse.Action, completer: Completer) -> None:
-    """Let an argument be completed by ``completer``, which is called with what is typed of it so far."""
-    vars(action)["completer"] = completer
+def csv_files(prefix: str, **_: Any) -> list[str]:
+    return _paths(prefix, "csv")
+
+
+def parquet_files(prefix: str, **_: Any) -> list[str]:
+    return _paths(prefix, "parquet")
 
 
 def systems(prefix: str, **_: Any) -> list[str]:
