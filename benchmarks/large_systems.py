@@ -21,9 +21,9 @@ MEASURED = """
 import json, resource, sys, time
 
 begin = time.perf_counter()
-from perilune.analysis.flight.simulation import Simulation
-from perilune.analysis.system.options import SystemOptions
-from perilune.analysis.system.prepared import prepare_system
+from perilune.analysis.runtime.flight.simulation import Simulation
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.analysis.runtime.system.prepared import prepare_system
 
 imported = time.perf_counter()
 prepared = prepare_system(sys.argv[1], SystemOptions(step=0.1))

@@ -88,8 +88,8 @@ import json, os, sys
 from pathlib import Path
 import perilune.fmus_src.plants.flat_moon_lander as newer
 assert "2.0 * self.thrust" in open(newer.__file__).read()
-from perilune.analysis.flight.instances.instance import instantiate
-from perilune.analysis.system.fmu import load_fmu
+from perilune.analysis.runtime.flight.instances.instance import instantiate
+from perilune.analysis.runtime.system.fmu import load_fmu
 fmus = [load_fmu(Path(path).read_bytes(), path) for path in sys.argv[1:]]
 instances = [instantiate(fmu, name) for fmu, name in zip(fmus, ("old", "new"))]
 reference = lambda name: [fmus[0].variables[name].valueReference]

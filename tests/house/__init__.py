@@ -1,0 +1,1 @@
+"""Counts of the project's own text: its size, its repetitions and its words. `python -m tests.house --help`."""

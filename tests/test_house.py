@@ -1,0 +1,89 @@
+"""tests/house: the words that are to be given up become fewer, and what counts them counts right.
+
+Truth: the numbers of `tests/house/limits.toml`, and texts whose counts are plain to see.
+"""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import PurePosixPath
+
+import pytest
+
+from tests.house import likeness, names, structure
+from tests.house.sources import Checkout, Source
+
+LIMITS = {"words": {"told": 2}, "names": {"place": 3}, "plain": {"data": 10}}
+
+
+@dataclass(frozen=True)
+class Files(Checkout):
+    """A checkout of given texts by path."""
+
+    texts: Mapping[str, str] = field(default_factory=dict)
+
+    def read(self) -> list[Source]:
+        return [Source(PurePosixPath(path), text) for path, text in self.texts.items()]
+
+
+def test_words_to_be_given_up_become_fewer():
+    limits = names.read_limits()
+    problems = names.check_limits(names.count_words(iter_once(Checkout().read()), limits), limits)
+    assert not problems, "\n".join(problems)
+
+
+def iter_once(sources: list[Source]) -> Iterator[Source]:
+    """One syntax tree in memory at a time."""
+    while sources:
+        yield sources.pop()
+
+
+def test_names_are_counted_where_they_are_given():
+    text = (
+        "def told(place, x):\n    x.place = place.data\n    told_rows = f(place=1)\n    return toldest, 'place', placed"
+    )
+    counts = names.count_words(Files(texts={"analysis/place.py": text}).sources, LIMITS)
+    assert (counts["told"], counts["place"], counts["data"]) == (2, 4, 0)
+
+
+@pytest.mark.parametrize(
+    ("words", "data", "message"),
+    [
+        (2, 11, ""),
+        (3, 10, "told: 3 names, 2 allowed"),
+        (1, 10, "told: 1 names, 2 stored: lower it"),
+        (2, 12, "data: 12"),
+    ],
+)
+def test_numbers_may_only_fall_and_plain_names_grow_by_a_tenth(words, data, message):
+    problems = names.check_limits(Counter(told=words, place=3, data=data), LIMITS)
+    assert len(problems) == bool(message)
+    assert all(message in problem for problem in problems)
+
+
+def test_the_ratchet_lowers_and_never_raises():
+    text = "# x = 1\n[words]\ntold = 2\n[names]\nplace = 3\n[plain]\ndata = 10\n"
+    assert names.lower_limits(text, Counter(told=1, place=5, data=7)) == text.replace("told = 2", "told = 1")
+
+
+def test_circles_hide_neither_below_type_checking_nor_in_functions():
+    files = Files(
+        texts={
+            "analysis/a.py": "from .b import x",
+            "analysis/b.py": "if TYPE_CHECKING:\n    from . import c",
+            "analysis/c.py": "def f():\n    from .a import y",
+            "analysis/d.py": "from . import a",
+        }
+    )
+    assert structure.circles(files) == ("1", ["analysis/a.py <-> analysis/b.py <-> analysis/c.py"])
+
+
+def test_a_run_of_like_lines_is_one_pair():
+    lines = "\n\n".join(f"v{k} = w{k} + {{}}  # {{}}" for k in range(8))
+    like = Files(
+        texts={"analysis/a.py": lines.format(*range(16)), "fmus_src/b.py": "import os\n" + lines.format(*range(1, 17))}
+    )
+    assert likeness.like_lines(like)[1] == ["8 lines: analysis/a.py:1 = fmus_src/b.py:2"]
+    assert (
+        likeness.like_lines(Files(texts={"analysis/a.py": lines, "analysis/b.py": lines.replace("v4", "x4")}))[1] == []
+    )
