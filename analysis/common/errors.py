@@ -34,8 +34,12 @@ class InputError(ValueError):
     def line(self, flags: Mapping[str, str]) -> str:
         """The error in one line, each parameter called as ``flags`` say, or by its name."""
         location = ": ".join(part for part in (self.file, self.element, self.problem) if part)
-        text = PARAMETER.sub(lambda match: flags.get(match[1], match[1]), f"{location}; {self.remedy}")
-        return " ".join(text.split())
+        return " ".join(call_by_flags(f"{location}; {self.remedy}", flags).split())
+
+
+def call_by_flags(text: str, flags: Mapping[str, str]) -> str:
+    """A message with each parameter called as ``flags`` say, or by its name."""
+    return PARAMETER.sub(lambda match: flags.get(match[1], match[1]), text)
 
 
 class EndedError(RuntimeError):

@@ -39,7 +39,8 @@ class Fault:
         if self.kind == "freeze" and self.value != 0.0:
             raise InputError("fault", self.name, "a freeze has no value", "leave it out: what was there is held")
         if not self.start < self.stop:
-            problem = f"empty window: the end, {number_text(self.stop)} s, is not after the start, {number_text(self.start)} s"
+            start, stop = number_text(self.start), number_text(self.stop)
+            problem = f"empty window: the end, {stop} s, is not after the start, {start} s"
             raise InputError("fault", self.name, problem, "give a start before the end")
 
     def __str__(self) -> str:

@@ -1,4 +1,4 @@
-"""The one writer of commands and records: options that differ from their defaults, as a command line or plain values."""
+"""The one writer of commands and records: options that differ from their defaults."""
 
 from __future__ import annotations
 
@@ -25,14 +25,9 @@ def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str
         if _is_default(value, each.option.default):
             continue
         for text in value_texts(each, value):
+            flag = f"--{each.flag}"
             # with the equals sign a text that begins with a dash stays a value
-            words += (
-                [f"--{each.flag}"]
-                if not text
-                else [f"--{each.flag}={text}"]
-                if text[0] == "-"
-                else [f"--{each.flag}", text]
-            )
+            words += [flag] if not text else [f"{flag}={text}"] if text[0] == "-" else [flag, text]
     return shlex.join(words)
 
 

@@ -1,8 +1,7 @@
 """An option, declared once: a key of a TypedDict, ``name: Annotated[type, Option(text, default, ...)]``.
 
-Groups of options inherit from one another. What the declaration says is derived by `options_of`: the parser of the
-command line, the signature of the Python function, commands that are printed, records in manifests and JSON, the tables of
-the documentation.
+Groups of options inherit from one another. `options_of` reads the declarations; from it derive the parser of the
+command line, the signature of the Python function, printed commands, records in manifests and JSON, tables of the docs.
 """
 
 from __future__ import annotations
@@ -31,10 +30,10 @@ class StructuredArray(Protocol):
 class Option:
     """What is said of an option; its name is the key that it annotates.
 
-    ``default`` holds where the option is not given; a mutable one is an empty constant. ``flag`` is the name on the command
-    line where it differs: the singular of an option that may be repeated. ``above`` and ``minimum`` bound a number.
-    ``completer`` names a function of `completers`. ``comma`` reads several values from one text, with commas between; ``suffixes`` are
-    those that a file may have.
+    ``default`` holds where the option is not given; a mutable one is an empty constant. ``flag`` is the name on the
+    command line where it differs: the singular of an option that may be repeated. ``above`` and ``minimum`` bound a
+    number. ``completer`` names a function of `completers`. ``comma`` reads several values from one text, with commas
+    between; ``suffixes`` are those that a file may have.
     """
 
     text: str
@@ -90,21 +89,6 @@ def options_of(group: type) -> Mapping[str, Declared]:
         kind, element = _kinds(annotation)
         declared[name] = Declared(name, option, annotation, kind, element, _choices(annotation))
     return types.MappingProxyType(declared)
-
-
-@cache
-def sections_of(group: type) -> tuple[tuple[str, tuple[Declared, ...]], ...]:
-    """The options of a group by the class that declares them: its title, the first line of its docstring, and options."""
-    sections, seen = [], set[str]()
-    options = options_of(group)
-    for base in (*getattr(group, "__orig_bases__", ()), group):
-        for title, inherited in sections_of(base) if base is not group and hasattr(base, "__orig_bases__") else ():
-            new = tuple(each for each in inherited if each.name not in seen)
-            seen |= {each.name for each in new}
-            sections += [(title, new)] if new else []
-    own = tuple(each for name, each in options.items() if name not in seen)
-    title = (group.__doc__ or "").strip().partition("\n")[0].rstrip(".")
-    return (*sections, (title, own)) if own else tuple(sections)
 
 
 def defaults_of(group: type) -> dict[str, Any]:

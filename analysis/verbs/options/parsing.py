@@ -7,24 +7,34 @@ import importlib
 from collections.abc import Mapping
 from typing import Any
 
-from .option import Declared, Kind, options_of, sections_of
+from .option import Declared, Kind, options_of
+from .system import SHARED
 from .values import read_value
 from .verb import Argument, Verb
 
-SHARED = ("System options", "Simulation options")  # titles of groups whose options --help-all explains
-
 
 def add_verb(parser: argparse.ArgumentParser, verb: Verb, is_complete: bool) -> None:
-    """Add a verb's arguments and options: those of its own first; shared ones are explained where ``is_complete``."""
+    """Add a verb's arguments and options: its own first; shared ones are explained where ``is_complete``."""
+    parser.usage = f"{parser.prog} {' '.join(map(_usage, verb.arguments))} [OPTION ...]".replace("  ", " ")
     for argument in verb.arguments:
         _add_argument(parser, argument)
-    sections = [*sections_of(verb.options), *sections_of(verb.files)]
-    for title, options in sorted(sections, key=lambda section: section[0] in SHARED):
-        group = parser.add_argument_group(title.lower())
-        for declared in options:
-            _add_option(group, declared, is_explained=is_complete or title not in SHARED)
-        if title in SHARED and not is_complete:
-            group.description = f"{' '.join(f'--{each.flag}' for each in options)}: see --help-all"
+    options = [*options_of(verb.options).values(), *options_of(verb.files).values()]
+    shared = {name: title for title, group in SHARED.items() for name in options_of(group)}
+    sections: dict[str, list[Declared]] = {}
+    for each in sorted(options, key=lambda each: each.name in shared):
+        sections.setdefault(shared.get(each.name, "options of this verb"), []).append(each)
+    for title, members in sections.items():
+        is_explained = is_complete or title not in SHARED
+        names = " ".join(f"--{each.flag}" for each in members)
+        group = parser.add_argument_group(title, None if is_explained else f"{names} (explained by --help-all)")
+        for each in members:
+            _add_option(group, each, is_explained)
+
+
+def _usage(argument: Argument) -> str:
+    if argument.is_option:
+        return f"--{argument.name} {argument.metavar}"
+    return f"[{argument.metavar}]" if argument.optional else f"{argument.metavar}{' ...' if argument.many else ''}"
 
 
 def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:

@@ -1,12 +1,15 @@
-"""Options of everything that simulates: the system with its FMUs and parameters, and what happens during a simulation."""
+"""Options of everything that simulates: the system, its FMUs and parameters; faults, inputs, log and time limit."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Annotated, Any, Literal, TypedDict
 
 from ...runtime.system.fault import Fault
 from .option import FilePath, Option, SetValue, StructuredArray
+
+NONE: Mapping[str, Any] = MappingProxyType({})
 
 
 class SystemOptions(TypedDict, total=False):
@@ -14,7 +17,7 @@ class SystemOptions(TypedDict, total=False):
 
     use: Annotated[
         Mapping[str, FilePath],
-        Option("replace the FMU of a component", {}, metavar="SLOT=FMU", completer="slots_with_fmus"),
+        Option("replace the FMU of a component", NONE, metavar="SLOT=FMU", completer="slots_with_fmus"),
     ]
     parameters: Annotated[
         Sequence[FilePath],
@@ -24,7 +27,7 @@ class SystemOptions(TypedDict, total=False):
         Mapping[str, SetValue],
         Option(
             "set a parameter or an unconnected input, in SI units; in a batch LOW:HIGH:STEP sweeps it",
-            {},
+            NONE,
             metavar="COMPONENT.VARIABLE=VALUE",
         ),
     ]
@@ -59,7 +62,7 @@ class SimulationOptions(TypedDict, total=False):
     faults: Annotated[
         Sequence[Fault | str],
         Option(
-            "inject a fault at a connector: COMPONENT.CONNECTOR=KIND[:VALUE]@T[..T], from T s on, or until the second T",
+            "inject a fault, COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T], times in s",
             (),
             flag="fault",
             metavar="FAULT",
@@ -108,3 +111,6 @@ class ReportFiles(JsonFile, total=False):
     report: Annotated[
         FilePath | None, Option("write a page with figures", metavar="F.html", suffixes=(".html", ".htm"))
     ]
+
+
+SHARED = {"system options": SystemOptions, "simulation options": SimulationOptions}  # which --help-all explains

@@ -90,7 +90,7 @@ def check_value(declared: Declared, value: Any) -> Any:
 
 
 def value_texts(declared: Declared, value: Any) -> list[str]:
-    """The texts after each occurrence of the option's flag that give it this value; of a flag that is set, one empty."""
+    """The text after each occurrence of the option's flag; for a flag without value one empty text."""
     if declared.kind is Kind.FLAG:
         return [""] if value else []
     if declared.kind is Kind.PAIRS:

@@ -43,9 +43,9 @@ class Verb:
     """What the command line, the signature and the documentation need of a verb.
 
     ``name`` is what the command line calls it (two words for those of a group), ``purpose`` the heading of
-    `perilune --help` under which it stands. ``options`` are those of the Python function, too; ``files`` are what only the
-    command line has: where it writes the result. ``not_met`` is what exit status 1 means in addition to an interruption.
-    ``home`` is the module below `verbs` and the function in it.
+    `perilune --help` under which it stands. ``options`` are those of the Python function, too; ``files`` are those that
+    only the command line has: where it writes the result. ``not_met`` is what exit status 1 means in addition to an
+    interruption. ``home`` is the module below `verbs` and the function in it.
     """
 
     name: str
