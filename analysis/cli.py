@@ -113,7 +113,7 @@ def _carry_out(given: Sequence[str]) -> int:
     try:
         return _module(options.verb).run(options) if verb is None else carry_out(verb, options)
     except InputError as error:
-        print(f"perilune: {error.line({} if verb is None else flags_of(verb))}", file=sys.stderr)
+        print(f"perilune: {error.line(flags_of(DECLARED['run'] if verb is None else verb))}", file=sys.stderr)
         return ExitStatus.REFUSED
     except TimeoutError as error:
         print(f"perilune: {error}", file=sys.stderr)
