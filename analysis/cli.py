@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import os
+import shutil
 import sys
 import textwrap
 from collections.abc import Sequence
@@ -14,12 +15,17 @@ from typing import Any, NoReturn
 
 import argcomplete
 
-from .commands.common.exit_status import ExitStatus
 from .common.errors import EndedError, InputError, warn_in_one_line
+from .common.exit_status import ExitStatus
 from .common.process_end import leave
 from .common.streams import steady_streams
 from .examples import EXAMPLES
+from .verbs.options.parsing import add_verb, flags_of, read_parsed
+from .verbs.options.verb import Verb
+from .verbs.options.verbs import VERBS as DECLARED
 
+HELP_ALL = "--help-all"
+WIDEST = 100  # columns of any output
 VERBS = {
     "list": "list systems, with parameter sets, campaigns and loops, laws and FMUs",
     "describe": "say what a system, an FMU or a slot has: connectors, parameters with their values, what fits where",
@@ -63,7 +69,10 @@ FAILURES = {
 
 
 class Formatter(argparse.HelpFormatter):
-    """argparse's own, which keeps the lines of examples as they are: those with an indent."""
+    """argparse's own, at most 100 columns wide, which keeps the lines of examples as they are: those with an indent."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, max_help_position=32, width=min(shutil.get_terminal_size().columns, WIDEST))
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return "\n".join(
@@ -100,11 +109,15 @@ def _carry_out(given: Sequence[str]) -> int:
     parser = parser_of(given)
     argcomplete.autocomplete(parser)
     options = parser.parse_args(given)
+    verb = DECLARED.get(options.verb)
     try:
-        return _module(options.verb).run(options)
+        return _module(options.verb).run(options) if verb is None else carry_out(verb, options)
     except InputError as error:
-        print(f"perilune: {error}", file=sys.stderr)
+        print(f"perilune: {error.line(flags_of(DECLARED['run'] if verb is None else verb))}", file=sys.stderr)
         return ExitStatus.REFUSED
+    except TimeoutError as error:
+        print(f"perilune: {error}", file=sys.stderr)
+        return ExitStatus.NOT_MET
     except EndedError as ended:
         print(f"perilune: {ended}", file=sys.stderr)
         return ended.status
@@ -115,6 +128,16 @@ def _carry_out(given: Sequence[str]) -> int:
         reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)
         print(f"perilune: {reason}; give another path or mend this one", file=sys.stderr)
         return ExitStatus.REFUSED
+
+
+def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
+    """Call the function of a verb with what a command line gives, and present its result."""
+    arguments, options, files = read_parsed(verb, parsed)
+    result = importlib.import_module(".verbs.result", __package__)
+    result.check_files(verb, files)
+    module, function = verb.home
+    called = getattr(importlib.import_module(f".verbs.{module}", __package__), function)
+    return result.present(called(**arguments, **options), files, flags_of(verb))
 
 
 def exit_status(verb: str) -> str:
@@ -133,7 +156,10 @@ def parser_of(given: Sequence[str]) -> Parser:
         examples = "".join(f"  {command}\n      {comment}\n" for command, comment in EXAMPLES[verb])
         epilog = f"Examples:\n{examples}\n{exit_status(verb)}"
         own = verbs.add_parser(verb, help=words, description=words, epilog=epilog)
-        if verb in named:
+        if verb in named and verb in DECLARED:
+            add_verb(own, DECLARED[verb], is_complete=HELP_ALL in named)
+            own.add_argument(HELP_ALL, action="help", help="show the shared options, too")
+        elif verb in named:
             _module(verb, "asked.").add(own)
     return parser
 

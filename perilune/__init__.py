@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from .analysis.api.comparison import Comparison, compare
     from .analysis.api.describe import describe
     from .analysis.api.export import Exported, export
-    from .analysis.api.flight import Result, simulate
     from .analysis.api.inventory import inventory
     from .analysis.api.laws import Law, law, synthesize
     from .analysis.api.own import new_block, new_system
@@ -37,8 +36,9 @@ if TYPE_CHECKING:
     from .analysis.design.trajectories.bounds import Landing
     from .analysis.design.trajectories.path import PlanError
     from .analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
-    from .analysis.runtime.system.faults import Fault
+    from .analysis.runtime.system.fault import Fault
     from .analysis.stability.injection.bench import StudyError
+    from .analysis.verbs.run import Result, simulate
     from .fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
     from .fmus_src.interfaces.allocation import Allocation
     from .fmus_src.interfaces.attitude_observer import AttitudeObserver
@@ -140,7 +140,7 @@ _HOMES = {
     "analysis.api.comparison": ("Comparison", "compare"),
     "analysis.api.describe": ("describe",),
     "analysis.api.export": ("Exported", "export"),
-    "analysis.api.flight": ("Result", "simulate"),
+    "analysis.verbs.run": ("Result", "simulate"),
     "analysis.api.inventory": ("inventory",),
     "analysis.api.laws": ("Law", "law", "synthesize"),
     "analysis.api.own": ("new_block", "new_system"),
@@ -160,7 +160,7 @@ _HOMES = {
     "analysis.design.trajectories.vehicle": ("Margins", "Transfer", "Vehicle"),
     "analysis.stability.injection.bench": ("StudyError",),
     "analysis.design.synthesis.outcome": ("SynthesisResult",),
-    "analysis.runtime.system.faults": ("Fault",),
+    "analysis.runtime.system.fault": ("Fault",),
 }
 
 if not (Path(__file__).parent / "analysis").is_dir():

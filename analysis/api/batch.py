@@ -23,13 +23,13 @@ from ..common.percent import short_percent
 from ..common.targets import check_folder
 from ..reports.campaign.batch_report import write_batch_report
 from ..reports.campaign.distributions import metric_plot, sort_metrics
+from ..reports.common.notebook import Grid, metric_grid, notebook_view
 from ..runtime.flight.results import require_pandas
 from ..runtime.ssp.parameter_sets import SetValue
-from ..runtime.system.faults import Fault, faults_of
+from ..runtime.system.fault import Fault, faults_of
 from ..runtime.system.in_flight.series import Given, read_series
 from ..runtime.system.in_flight.watch import Watch
 from ..studies.sensitivity.ranks import rank_correlations
-from .notebook import Grid, metric_grid, notebook_view
 from .options import Compared, FilePath, check_list, compared, system_options
 
 MOST_PLOTTED = 6  # metrics, in a notebook

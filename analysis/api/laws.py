@@ -16,8 +16,8 @@ from ..design.laws.parameter_set import parameter_set
 from ..design.synthesis.outcome import SynthesisResult
 from ..design.synthesis.synthesis import run_synthesis
 from ..design.synthesis.synthesis_file import named_search, read_synthesis
+from ..reports.common.notebook import Grid, notebook_view
 from ..reports.common.style import house_style
-from .notebook import Grid, notebook_view
 from .options import FilePath
 
 

@@ -10,6 +10,7 @@ from typing import Any, Literal
 from matplotlib.figure import Figure as Plot
 
 from ..common.errors import suggestion
+from ..reports.common.notebook import Grid, notebook_view
 from ..reports.stability.orders.words import order_sentences
 from ..reports.stability.page import write_stability_page
 from ..reports.stability.plots import Diagram, loop_plot
@@ -23,7 +24,6 @@ from ..stability.results.document import KEYS, document
 from ..stability.results.loop import LoopReport
 from ..stability.results.requirement import Verdict
 from ..stability.study import study
-from .notebook import Grid, notebook_view
 from .options import FilePath, check_list, system_options
 
 

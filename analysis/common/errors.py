@@ -6,15 +6,18 @@ import difflib
 import os
 import re
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+
+PARAMETER = re.compile(r"`(\w+)`")  # how a message marks the name of a parameter
 
 
 class InputError(ValueError):
     """Input that is wrong: a file, an option, a name.
 
-    ``file`` is where the input came from (a path, or an option such as ``--require``),
+    ``file`` is where the input came from (a path, or a parameter such as `` `require` ``),
     ``element`` the part of it that is wrong, ``problem`` what is wrong and ``remedy`` what to
-    do. The command line prints it as one line and exits with status 2.
+    do. Parameters stand between backquotes, in all four: Python shows their names, the command line
+    its options. The command line prints the error as one line and exits with status 2.
     """
 
     def __init__(self, file: str | os.PathLike[str], element: str, problem: str, remedy: str) -> None:
@@ -26,8 +29,17 @@ class InputError(ValueError):
         self.remedy = remedy
 
     def __str__(self) -> str:
-        place = ": ".join(part for part in (self.file, self.element, self.problem) if part)
-        return " ".join(f"{place}; {self.remedy}".split())
+        return self.line({})
+
+    def line(self, flags: Mapping[str, str]) -> str:
+        """The error in one line, each parameter called as ``flags`` say, or by its name."""
+        location = ": ".join(part for part in (self.file, self.element, self.problem) if part)
+        return " ".join(call_by_flags(f"{location}; {self.remedy}", flags).split())
+
+
+def call_by_flags(text: str, flags: Mapping[str, str]) -> str:
+    """A message with each parameter called as ``flags`` say, or by its name."""
+    return PARAMETER.sub(lambda match: flags.get(match[1], match[1]), text)
 
 
 class EndedError(RuntimeError):

@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
 from ...fmus_src.paths import ROOT
-from ..api.flight import simulate
 from ..common.process_end import leave
 from ..reports.common.style import BLUE, FAINT, INK, ORANGE, SKY, VERMILION, house_style, look, new_figure, plain_ticks
 from ..reports.common.svg import DECIMALS, svg_bytes
 from ..runtime.flight.results import Result
+from ..verbs.run import simulate
 from .landing import vector
 
 PHASES = ("accelerate", "turn", "approach", "hold")

@@ -21,7 +21,7 @@ def nothing_flies(monkeypatch):
     def fly(*_, **__):
         raise AssertionError("it flew")
 
-    monkeypatch.setattr("perilune.analysis.commands.run.fly", fly)
+    monkeypatch.setattr("perilune.analysis.verbs.run.fly", fly)
     monkeypatch.setattr("perilune.analysis.commands.campaigns.batch.run_batch", fly)
 
 

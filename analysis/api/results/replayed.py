@@ -9,11 +9,11 @@ from typing import Literal
 
 from ...campaigns.fly.replay import replay_trial
 from ...reports.figures.declaration.reading import read_figures
-from ..flight import Result
+from ...verbs.run import Result
 from ..options import FilePath
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, kw_only=True)
 class ReplayResult(Result):
     """A trial of a campaign as a flight with every signal; see `Result` for what it has, plots and page.
 
@@ -48,7 +48,7 @@ def replay(
         replayed = replay_trial(Path(folder), trial, configuration, log=log, timeout=timeout)
     return ReplayResult(
         **vars(replayed.flight),
-        system=replayed.prepared.archive.name,
+        prepared=replayed.prepared,
         figures=tuple(read_figures(replayed.prepared)),
         configuration=replayed.configuration,
         trial=trial,

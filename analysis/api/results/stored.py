@@ -11,8 +11,8 @@ from matplotlib.figure import Figure as Plot
 
 from ...campaigns.folder.folder import read_folder
 from ...campaigns.folder.opened import OpenedResults
+from ...reports.common.notebook import Grid, notebook_view
 from ...runtime.flight.results import require_pandas
-from ..notebook import Grid, notebook_view
 from ..options import FilePath
 from .plots import distributions
 

@@ -13,7 +13,7 @@ from ...campaigns.draws.given import ALL, GivenDraws
 from ...campaigns.spec.plan import BatchPlan, read_plan
 from ...reports.campaign.replays import replay_command
 from ...runtime.ssp.parameter_sets import SetValue
-from ...runtime.system.faults import Fault, faults_of
+from ...runtime.system.fault import Fault, faults_of
 from ...runtime.system.in_flight.series import Given, read_series
 from ...runtime.system.in_flight.watch import Watch
 from ...studies.evaluation.commands import Commands

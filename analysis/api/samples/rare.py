@@ -11,14 +11,14 @@ from typing import Literal
 from matplotlib.figure import Figure as Plot
 
 from ...common.targets import check_folder
+from ...reports.common.notebook import Grid, notebook_view
 from ...reports.studies.plots import rare_plot
 from ...reports.studies.rare_page import design_table, level_table, write_rare_page
 from ...runtime.ssp.parameter_sets import SetValue
-from ...runtime.system.faults import Fault
+from ...runtime.system.fault import Fault
 from ...runtime.system.in_flight.series import Given
 from ...studies.rare import outcome
 from ...studies.rare.study import LEAST, SAMPLES, rare_failure
-from ..notebook import Grid, notebook_view
 from ..options import Compared, FilePath
 from .plans import commands_of, sample_plan
 from .results import as_class, condition_words

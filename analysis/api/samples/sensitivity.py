@@ -12,13 +12,13 @@ from matplotlib.figure import Figure as Plot
 
 from ...common.errors import suggestion
 from ...common.targets import check_folder
+from ...reports.common.notebook import Grid, notebook_view
 from ...reports.studies.plots import sensitivity_plot
 from ...reports.studies.sensitivity_page import driver_table, rank_table, write_sensitivity_page
 from ...runtime.ssp.parameter_sets import SetValue
-from ...runtime.system.faults import Fault
+from ...runtime.system.fault import Fault
 from ...runtime.system.in_flight.series import Given
 from ...studies.sensitivity import outcome, study
-from ..notebook import Grid, notebook_view
 from ..options import Compared, FilePath
 from .plans import commands_of, sample_plan
 from .results import as_class, condition_words

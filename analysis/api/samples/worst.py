@@ -12,16 +12,16 @@ from matplotlib.figure import Figure as Plot
 
 from ...campaigns.spec.plan import BatchPlan
 from ...common.targets import check_folder
+from ...reports.common.notebook import Grid, notebook_view
 from ...reports.studies.plots import worst_plot
 from ...reports.studies.worst_flight import worst_flight
 from ...reports.studies.worst_page import metric_table, parameter_table, write_worst_page
 from ...runtime.ssp.parameter_sets import SetValue
-from ...runtime.system.faults import Fault
+from ...runtime.system.fault import Fault
 from ...runtime.system.in_flight.series import Given
 from ...studies.worst import outcome
 from ...studies.worst.request import check_options, margin_asked
 from ...studies.worst.study import MARGIN, worst_case, worst_margin
-from ..notebook import Grid, notebook_view
 from ..options import Compared, FilePath, system_options
 from .plans import commands_of, sample_plan
 from .results import as_class, condition_words

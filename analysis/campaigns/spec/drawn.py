@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...runtime.system.faults import Fault
+from ...runtime.system.fault import Fault
 from ...runtime.system.prepared import PreparedSystem
 from ..draws.streams import stream_numbers
 from ..draws.table import DrawTable

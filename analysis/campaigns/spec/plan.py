@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ...common.errors import InputError
 from ...runtime.ssp.archive import SystemArchive, open_system
-from ...runtime.system.faults import Fault
+from ...runtime.system.fault import Fault
 from ...runtime.system.in_flight.series import InputSeries
 from ...runtime.system.in_flight.watch import UNWATCHED, Watch
 from ...runtime.system.options import Layer, SystemOptions

@@ -4,24 +4,43 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from ...campaigns.fly.replay import ReplayedTrial, replay_trial
 from ...campaigns.tables import faults_line
 from ...common.targets import PAGES, Results, check_file
+from ...reports.figures.declaration.figures import Figure
 from ...reports.figures.declaration.reading import read_figures
 from ...reports.figures.limits import limit_document
 from ...runtime.flight.interruptible import StuckError
+from ...runtime.flight.results import Result
 from ..common.exit_status import ExitStatus, exit_status
 from ..common.flight import check_flight, flight_lines
 from ..common.in_flight import watch
 from ..common.options import check_json, json_number, write_json
 from ..common.requirements import check_requirements, read_requirements
-from ..run import OUTPUT_SUFFIXES, STUCK, last_values, write_page
 from .telling import outcome_lines
 
 METRIC = "metric."
+OUTPUT_SUFFIXES = (".csv", ".parquet")
+STUCK = "nothing is written; see what it says with --log all, or give it longer"
+
+
+def last_values(result: Result) -> dict[str, float]:
+    """What requirements on one flight are about: the last values of signals and of time."""
+    if not result.time.size:
+        return {}
+    return {"time": float(result.time[-1]), **{name: float(value) for name, value in result.final().items()}}
+
+
+def write_page(result: Result, system: str, figures: Sequence[Figure], path: Path) -> None:
+    """The page of one flight, which ``system`` heads."""
+    from ...reports.flight.run_report import write_run_report  # and matplotlib, which takes half a second
+
+    write_run_report(result, path, system, figures)
 
 
 def run(options: argparse.Namespace) -> int:

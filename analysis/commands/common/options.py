@@ -14,7 +14,7 @@ from ....fmus_src.paths import FLAVOURS
 from ...common.atomic import write_atomically
 from ...common.errors import InputError
 from ...common.targets import Results, check_file
-from ...runtime.system.faults import KINDS, Fault, parse_fault
+from ...runtime.system.fault import KINDS, Fault, parse_fault
 from ...runtime.system.options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from .completers import completed, parameter_sets, slots_with_fmus, systems, systems_and_fmu_files
 from .exit_status import exit_status

@@ -1,15 +1,9 @@
-"""`--require EXPRESSION`: what has to be true of a result's numbers, or the command ends with status 1."""
-
-from __future__ import annotations
+"""Requirements, for commands that are not verbs yet."""
 
 import argparse
 import sys
-from collections.abc import Collection, Mapping, Sequence
 
-import numpy as np
-
-from ...campaigns.spec.expressions import Expression
-from ...common.errors import InputError, suggestion
+from ...verbs.common.requirements import read_requirements, requirement_problems
 
 
 def add_requirements(parser: argparse.ArgumentParser, numbers: str) -> None:
@@ -18,24 +12,11 @@ def add_requirements(parser: argparse.ArgumentParser, numbers: str) -> None:
     )
 
 
-def read_requirements(texts: Sequence[str], known: Collection[str], families: tuple[str, ...] = ()) -> list[Expression]:
-    """Requirements on known numbers, or on those whose names begin like ``families``. Raises InputError."""
-    found = [Expression(text, ("--require", text)) for text in texts]
-    for requirement in found:
-        for name in sorted(requirement.names - set(known)):
-            if not name.startswith(families or ("\0",)):
-                raise InputError("--require", name, "no such number in what results", suggestion(name, known))
-    return found
+def check_requirements(requirements, values):  # type: ignore[no-untyped-def]
+    lines = requirement_problems(requirements, values)
+    for line in lines:
+        print(f"perilune: {line}".replace("`require`", "--require"), file=sys.stderr)
+    return not lines
 
 
-def check_requirements(requirements: Sequence[Expression], values: Mapping[str, float]) -> bool:
-    """Whether all hold; those that do not, and those on a number that could not be had, are told."""
-    failed = [
-        requirement.text
-        for requirement in requirements
-        if not all(np.isfinite(values.get(name, np.nan)) for name in requirement.names)
-        or not requirement.evaluate(values)
-    ]
-    for text in failed:
-        print(f"perilune: --require: {text}: not met", file=sys.stderr)
-    return not failed
+__all__ = ["add_requirements", "check_requirements", "read_requirements"]

@@ -7,7 +7,7 @@ from importlib.metadata import version
 from typing import Any
 
 from ..system.assignments import Settings
-from ..system.faults import Fault
+from ..system.fault import Fault
 from ..system.prepared import PreparedSystem
 from .parameters import Parameters
 

@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import pyarrow
@@ -77,6 +77,11 @@ class Result(Flight):
 
     units: dict[str, str | None]
     provenance: dict[str, Any]
+
+    @classmethod
+    def extending(cls, flight: Result, **more: Any) -> Self:
+        """A flight with what a subclass has in addition."""
+        return cls(**vars(flight), **more)
 
     def table(self) -> pyarrow.Table:
         """The flight as an Arrow table: time first, units and provenance in the metadata."""

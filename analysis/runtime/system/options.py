@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 from ..ssp.parameter_sets import SetValue
 
@@ -68,6 +69,18 @@ class SystemOptions(Layer):
             set={name: value for layer in ordered for name, value in layer.set.items()},
             places=_places(ordered),
         )
+
+
+def system_options(options: Mapping[str, Any]) -> SystemOptions:
+    """The system options among the options of a verb, by name; FMUs and parameter sets as names or paths."""
+    given = {each.name: options[each.name] for each in fields(SystemOptions) if each.name in options}
+    return SystemOptions(
+        **given
+        | {
+            "use": {slot: os.fspath(fmu) for slot, fmu in given["use"].items()},
+            "parameters": tuple(os.fspath(name) for name in given["parameters"]),
+        }
+    )
 
 
 def _places(layers: Sequence[Layer]) -> dict[str, tuple[str, int]]:

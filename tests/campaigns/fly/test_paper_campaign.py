@@ -10,7 +10,7 @@ from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.analysis.campaigns.spec.file import read_campaign
 from perilune.fmus_src.catalogue import catalogue
 
-CAMPAIGNS = Path(__file__).parents[2] / "ssp_systems" / "lunar_terminal_guidance" / "campaigns"
+CAMPAIGNS = Path(__file__).parents[3] / "ssp_systems" / "lunar_terminal_guidance" / "campaigns"
 NAMES = ("paper", "noisy")
 ALPHA = 1e-3
 

@@ -179,7 +179,7 @@ def test_what_is_no_folder_of_results(folder, tmp_path):
 
 @pytest.mark.parametrize(("module", "ask"), [("pandas", "to_pandas"), ("xarray", "traces")])
 def test_what_is_not_installed_is_named_with_its_extra(original, monkeypatch, module, ask):
-    for place in ("flight.results", "results.traces"):
+    for place in ("runtime.flight.results", "campaigns.folder.traces"):
         monkeypatch.setattr(f"perilune.analysis.{place}.find_spec", lambda name: None if name == module else name)
     words = {"to_pandas": [], "traces": ["alpha"]}[ask]
     with pytest.raises(ImportError, match=rf"needs {module}, which is not here; pip install 'perilune\[notebook\]'"):

@@ -14,9 +14,9 @@ from perilune.analysis.campaigns.spec.faults import KEYS
 from perilune.analysis.campaigns.spec.file import REDUCTION_OF, SCATTER
 from perilune.analysis.campaigns.spec.requirements import KEYS as REQUIREMENT
 from perilune.analysis.campaigns.spec.requirements import SIDES, TOGETHER
-from perilune.analysis.runtime.system.faults import KINDS
+from perilune.analysis.runtime.system.fault import KINDS
 
-TEXT = (Path(__file__).parents[2] / "docs" / "campaigns.md").read_text(encoding="utf-8")
+TEXT = (Path(__file__).parents[3] / "docs" / "campaigns.md").read_text(encoding="utf-8")
 
 
 EXAMPLES = re.findall(r"```toml\n(.*?)```", TEXT, re.DOTALL)

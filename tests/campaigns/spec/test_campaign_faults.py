@@ -10,7 +10,7 @@ import pytest
 
 from perilune.analysis.campaigns.spec.plan import BatchPlan
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.runtime.system.faults import Fault
+from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.options import SystemOptions
 
 DRAWS = """

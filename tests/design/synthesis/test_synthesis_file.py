@@ -18,7 +18,7 @@ from perilune.analysis.design.synthesis.synthesis_file import LIMITS, read_synth
 from perilune.fmus_src.paths import LAWS
 from tests.support.laws.campaign_text import CAMPAIGN, TEXT
 
-DOCS = (Path(__file__).parents[2] / "docs" / "synthesis.md").read_text(encoding="utf-8")
+DOCS = (Path(__file__).parents[3] / "docs" / "synthesis.md").read_text(encoding="utf-8")
 
 
 def read(tmp_path, text):

@@ -12,7 +12,7 @@ from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.system.faults import Fault
+from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.in_flight.series import read_series
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system

@@ -12,7 +12,7 @@ import pytest
 
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.flight.simulation import Simulation
-from perilune.analysis.runtime.system.faults import Fault
+from perilune.analysis.runtime.system.fault import Fault
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, connection, document, fly, pack, system
 

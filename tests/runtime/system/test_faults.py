@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.runtime.system.faults import KINDS, Fault, check_fault, parse_fault
+from perilune.analysis.runtime.system.fault import KINDS, Fault, parse_fault
+from perilune.analysis.runtime.system.faults import check_fault
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.builders import component, connection, document, pack, system
 

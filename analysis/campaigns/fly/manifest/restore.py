@@ -11,7 +11,7 @@ import pyarrow.parquet
 
 from ....runtime.flight.instances.reset_check import ResetVerdict, known
 from ....runtime.ssp.archive import SystemArchive
-from ....runtime.system.faults import parse_fault
+from ....runtime.system.fault import parse_fault
 from ....runtime.system.in_flight.series import InputSeries
 from ....runtime.system.in_flight.watch import Watch
 from ....runtime.system.options import SystemOptions

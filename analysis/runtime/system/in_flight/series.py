@@ -42,7 +42,7 @@ class InputSeries:
         return f"{f'line {self.lines[row]}' if self.lines else f'sample {row}'}, column {name}"
 
 
-Given = str | os.PathLike[str] | npt.NDArray[Any] | Mapping[str, npt.ArrayLike]
+Given = str | os.PathLike[str] | npt.NDArray[Any] | Mapping[str, npt.ArrayLike] | Any
 
 
 def read_series(given: Given) -> InputSeries:

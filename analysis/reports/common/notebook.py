@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 from markupsafe import Markup
 from matplotlib.figure import Figure as Plot
 
-from ..campaigns.statistics import STATISTICS
-from ..campaigns.summary import SummaryRow
-from ..campaigns.tables import who_cells, who_heads
-from ..reports.common.page import render_page
-from ..reports.common.quantities import in_shown_unit, number, shown_unit
-from ..reports.common.svg import svg_bytes
+from ...campaigns.statistics import STATISTICS
+from ...campaigns.summary import SummaryRow
+from ...campaigns.tables import who_cells, who_heads
+from .page import render_page
+from .quantities import in_shown_unit, number, shown_unit
+from .svg import svg_bytes
 
 TEMPLATE = Path(__file__).with_name("notebook.html")
 MOST_ROWS = 12

@@ -1,0 +1,88 @@
+"""A fault on a connector, and the text that stands for it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from ...common.errors import InputError
+
+KINDS = ("override", "bias", "freeze")
+FORM = "COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]"
+WRITTEN = re.compile(  # a window's ends have no dot beside the two between them: 1...2 could be read in two ways
+    r"(?P<name>.+)=(?P<kind>[^=:@]+)(?::(?P<value>[^=:@]+))?@(?P<start>[^=:@]*?[^=:@.])(?:\.\.(?P<stop>(?!\.)[^=:@]*))?"
+)
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A connector's value replaced (override), shifted (bias) or held (freeze) in [start, stop) s.
+
+    ``name`` is ``component.connector``: on an output every reader sees the fault, on an input
+    only that component. ``value`` is in the connector's unit; a freeze has none. As a text a fault is what
+    `parse_fault` reads. Raises InputError for an unknown kind, a value that is not finite or a window that is empty.
+    """
+
+    name: str
+    kind: str
+    value: float | bool = 0.0
+    start: float = 0.0
+    stop: float = math.inf
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise InputError("fault", self.name, f"unknown kind {self.kind}", f"use one of {', '.join(KINDS)}")
+        if not math.isfinite(self.value):
+            raise InputError("fault", self.name, f"the value {self.value} is not finite", "give a number")
+        if self.kind == "freeze" and self.value != 0.0:
+            raise InputError("fault", self.name, "a freeze has no value", "leave it out: what was there is held")
+        if not self.start < self.stop:
+            start, stop = number_text(self.start), number_text(self.stop)
+            problem = f"empty window: the end, {stop} s, is not after the start, {start} s"
+            raise InputError("fault", self.name, problem, "give a start before the end")
+
+    def __str__(self) -> str:
+        value = "" if self.kind == "freeze" else f":{number_text(self.value)}"
+        stop = "" if self.stop == math.inf else f"..{number_text(self.stop)}"
+        return f"{self.name}={self.kind}{value}@{number_text(self.start)}{stop}"
+
+
+def number_text(value: float | bool) -> str:
+    """A number in so many digits that it is read back as it was."""
+    return str(value).lower() if isinstance(value, bool) else repr(float(value)).removesuffix(".0")
+
+
+def parse_fault(text: str, option: str = "`faults`") -> Fault:
+    """The fault that a text of the form `FORM` stands for; without a second T it has no end.
+
+    ``option`` is what errors name. Raises InputError.
+    """
+    found = WRITTEN.fullmatch(text.strip())
+    if found is None:
+        raise InputError(option, text, f"not of the form {FORM}", "write it so")
+    name, kind = found["name"].strip(), found["kind"].strip()
+    if kind == "freeze" and found["value"] is not None:
+        raise InputError(option, text, "a freeze has no value", "leave it out: what was there is held")
+    if kind in ("override", "bias") and found["value"] is None:
+        raise InputError(option, text, f"{kind} lacks its value", f"write {kind}:VALUE")
+    try:
+        stop = float(found["stop"]) if found["stop"] else math.inf
+        return Fault(name, kind, _value(found["value"] or "0"), float(found["start"]), stop)
+    except InputError as error:
+        raise InputError(option, text, error.problem, error.remedy) from error
+    except ValueError as error:
+        problem = str(error).replace("could not convert string to float", "not a number")
+        raise InputError(option, text, problem, f"write {FORM}, times in s") from error
+
+
+def faults_of(given: Iterable[Fault | str]) -> list[Fault]:
+    """Faults, or texts of them. Raises InputError."""
+    return [parse_fault(item) if isinstance(item, str) else item for item in given]
+
+
+def _value(text: str) -> float | bool:
+    """A value as it is written; raises ValueError."""
+    text = text.strip()
+    return text == "true" if text in ("true", "false") else float(text)

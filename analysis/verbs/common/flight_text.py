@@ -1,0 +1,62 @@
+"""What commands say of one flight: its limits, its statuses, and whether all is met."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...reports.figures.declaration.figures import Figure, Limits
+from ...reports.figures.declaration.values import Undrawn
+from ...reports.figures.limits import Verdict, evaluate, limit_lines
+from ...runtime.flight.results import Flight, Result
+from ...runtime.flight.statuses import status_lines
+from ...runtime.system.prepared import PreparedSystem
+
+REMEDIES = {
+    "nonfinite": "see what drives it with `output`",
+    "interrupted": "what was flown until then is in the files",
+    "timed_out": "what was flown until then is in the files; give it longer, or see what takes so long with `log`",
+}
+FINISHED = "finished"  # the root output that ends a run
+
+
+def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> list[str]:
+    """How a flight ended: status, limits, statuses of components."""
+    end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
+    lines = [f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows"]
+    for figure in figures:
+        if isinstance(figure, Limits):
+            lines += limit_lines(figure, result)
+        elif isinstance(figure, Undrawn) and figure.has_limits:
+            lines += [f"{figure.title}: {Verdict.NOT_EVALUATED}, {note}" for note in figure.notes]
+    return [*lines, *status_lines(prepared.network, result)]
+
+
+def flight_problems(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> list[str]:
+    """A line for each reason why a flight did not complete, or violates a limit of its SSD."""
+    file, lines = prepared.network.file, []
+    if not result.complete:
+        remedy = REMEDIES.get(result.status, "see the FMU's message and its documentation")
+        lines.append(f"{' '.join(result.message.split())}; {remedy}")
+    elif _is_cut_off(prepared, result):
+        lines.append(f"{FINISHED} was never true until the stop time, {result.time[-1]:g} s; give `stop_time`")
+    for figure in figures if result.complete else ():
+        if isinstance(figure, Limits):
+            named = {
+                verdict: [limit.name for limit, each in evaluate(figure, result) if each is verdict]
+                for verdict in Verdict
+            }
+            if named[Verdict.VIOLATED]:
+                lines.append(f"limits violated: {', '.join(named[Verdict.VIOLATED])}")
+            if named[Verdict.NOT_EVALUATED]:
+                names = ", ".join(named[Verdict.NOT_EVALUATED])
+                lines.append(f"limits not evaluated: {names}: {figure.obstacle(result)}")
+        elif isinstance(figure, Undrawn) and figure.has_limits:
+            lines += [f"limits not evaluated: {note}" for note in figure.notes]
+    return [f"{file}: {line}" for line in lines]
+
+
+def _is_cut_off(prepared: PreparedSystem, result: Flight) -> bool:
+    """Whether a system that says itself when it has finished did not, by a stop time that the user did not choose."""
+    end = prepared.network.nodes.get(FINISHED)
+    says_so = end is not None and end.component is None and end.kind == "output"
+    return says_so and result.status == "stop_time" and prepared.options.stop_time is None

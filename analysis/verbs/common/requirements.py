@@ -1,0 +1,30 @@
+"""The option `require`: expressions that have to be true of a result's numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+
+from ...campaigns.spec.expressions import Expression
+from ...common.errors import InputError, suggestion
+
+
+def read_requirements(texts: Sequence[str], known: Collection[str], families: tuple[str, ...] = ()) -> list[Expression]:
+    """Requirements on known numbers, or on those whose names begin like ``families``. Raises InputError."""
+    requirements = [Expression(text, ("`require`", text)) for text in texts]
+    for requirement in requirements:
+        for name in sorted(requirement.names - set(known)):
+            if not name.startswith(families or ("\0",)):
+                raise InputError("`require`", name, "no such number in the result", suggestion(name, known))
+    return requirements
+
+
+def requirement_problems(requirements: Sequence[Expression], values: Mapping[str, float]) -> list[str]:
+    """A line for each requirement that is not met, or whose numbers are missing or not finite."""
+    return [
+        f"`require`: {requirement.text}: not met"
+        for requirement in requirements
+        if not all(np.isfinite(values.get(name, np.nan)) for name in requirement.names)
+        or not requirement.evaluate(values)
+    ]

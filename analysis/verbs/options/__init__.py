@@ -1,0 +1,1 @@
+"""The declarations of verbs and options, from which command line, Python signatures, commands and records derive."""

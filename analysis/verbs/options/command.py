@@ -1,0 +1,61 @@
+"""The one writer of commands and records: options that differ from their defaults."""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from .option import options_of
+from .values import value_texts
+from .verb import Verb
+
+
+def write_command(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> str:
+    """The command line that calls a verb with these arguments and options; what equals its default is left out."""
+    words = ["perilune", *verb.name.split()]
+    for argument in verb.arguments:
+        given = arguments.get(argument.name)
+        texts = [] if given is None else [_argument_text(each) for each in (given if argument.many else [given])]
+        words += [f"--{argument.name}", *texts] if argument.is_option and texts else texts
+    declared = {**options_of(verb.options), **options_of(verb.files)}
+    for name, value in options.items():
+        each = declared[name]
+        if _is_default(value, each.option.default):
+            continue
+        for text in value_texts(each, value):
+            flag = f"--{each.flag}"
+            # with the equals sign a text that begins with a dash stays a value
+            words += [flag] if not text else [f"{flag}={text}"] if text[0] == "-" else [flag, text]
+    return shlex.join(words)
+
+
+def _argument_text(value: Any) -> str:
+    return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
+
+
+def _is_default(value: Any, default: Any) -> bool:
+    if isinstance(value, Sequence | Mapping) and not isinstance(value, str):
+        return not value and not default
+    return value is None or (type(value) is type(default) and value == default)
+
+
+def record_options(group: type, options: Mapping[str, Any]) -> dict[str, Any]:
+    """The options that differ from their defaults as values of JSON, for manifests and documents."""
+    known = options_of(group)
+    return {
+        name: _plain(value)
+        for name, value in options.items()
+        if name in known and not _is_default(value, known[name].option.default)
+    }
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {name: _plain(each) for name, each in value.items()}
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [_plain(each) for each in value]
+    return value if isinstance(value, str | int | float | bool) or value is None else str(value)

@@ -1,0 +1,96 @@
+"""What a shell offers for an argument: names of systems, campaigns, sets, FMUs, as far as they are cheap to find."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+from argcomplete.completers import FilesCompleter
+
+from ....fmus_src.export.available import fmu_flavours
+from ....fmus_src.paths import LAWS, SEARCHES
+from ...common.errors import InputError
+from ...runtime.ssp.archive import SystemArchive, open_system, system_names
+from ...runtime.ssp.description import Component
+from ...runtime.ssp.reading import read_description
+
+Completer = Callable[..., Iterable[str]]
+
+
+def csv_files(prefix: str, **_: Any) -> list[str]:
+    return _paths(prefix, "csv")
+
+
+def parquet_files(prefix: str, **_: Any) -> list[str]:
+    return _paths(prefix, "parquet")
+
+
+def systems(prefix: str, **_: Any) -> list[str]:
+    return [*system_names(), *_paths(prefix, "ssp")]
+
+
+def systems_and_fmu_files(prefix: str, **_: Any) -> list[str]:
+    return [*system_names(), *_paths(prefix, "ssp", "fmu")]
+
+
+def systems_and_files(prefix: str, **_: Any) -> list[str]:
+    return [*system_names(), *_paths(prefix)]
+
+
+def fmus(prefix: str, **_: Any) -> list[str]:
+    return [*fmu_flavours(), *_paths(prefix, "fmu")]
+
+
+def systems_and_fmus(prefix: str, **_: Any) -> list[str]:
+    return [*system_names(), *fmu_flavours(), *_paths(prefix)]
+
+
+def campaigns(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    return [*_inside(parsed_args, ".toml", stem=True), *_paths(prefix, "toml")]
+
+
+def parameter_sets(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    return [*_inside(parsed_args, ".ssv"), *_paths(prefix, "ssv")]
+
+
+def slots_with_fmus(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
+    """``SLOT=`` of the system first, then ``SLOT=FMU``."""
+    slot, equals, rest = prefix.partition("=")
+    if equals:
+        return [f"{slot}={name}" for name in fmus(rest)]
+    archive = _system(parsed_args)
+    if archive is None:
+        return []
+    try:
+        elements = read_description(archive).system.elements
+    except InputError:  # the command itself will say so
+        return []
+    return [f"{name}=" for name, element in elements.items() if isinstance(element, Component)]
+
+
+def laws(prefix: str, **_: Any) -> list[str]:
+    return [*(path.stem for path in LAWS.glob("*.json")), *_paths(prefix, "json")]
+
+
+def searches(prefix: str, **_: Any) -> list[str]:
+    return [*(path.stem for path in SEARCHES.glob("*.toml")), *_paths(prefix, "toml")]
+
+
+def _system(parsed_args: argparse.Namespace) -> SystemArchive | None:
+    """The system that the line names so far."""
+    try:
+        return open_system(parsed_args.system) if getattr(parsed_args, "system", None) else None
+    except InputError:
+        return None
+
+
+def _inside(parsed_args: argparse.Namespace, suffix: str, stem: bool = False) -> list[str]:
+    archive = _system(parsed_args)
+    paths = [Path(name) for name in archive.files if name.endswith(suffix)] if archive is not None else []
+    return sorted(path.stem if stem else path.name for path in paths)
+
+
+def _paths(prefix: str, *suffixes: str) -> list[str]:
+    return list(FilesCompleter(suffixes)(prefix))

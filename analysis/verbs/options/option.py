@@ -1,0 +1,134 @@
+"""An option, declared once: a key of a TypedDict, ``name: Annotated[type, Option(text, default, ...)]``.
+
+Groups of options inherit from one another. `options_of` reads the declarations; from it derive the parser of the
+command line, the signature of the Python function, printed commands, records in manifests and JSON, tables of the docs.
+"""
+
+from __future__ import annotations
+
+import os
+import types
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import cache
+from typing import Annotated, Any, Literal, Protocol, Union, get_args, get_origin, get_type_hints
+
+FilePath = str | os.PathLike[str]
+ParameterValue = float | int | bool | str
+SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
+
+
+class StructuredArray(Protocol):
+    """A NumPy array with named columns."""
+
+    @property
+    def dtype(self) -> Any: ...
+
+
+@dataclass(frozen=True)
+class Option:
+    """What is said of an option; its name is the key that it annotates.
+
+    ``default`` holds where the option is not given; a mutable one is an empty constant. ``flag`` is the name on the
+    command line where it differs: the singular of an option that may be repeated. ``above`` and ``minimum`` bound a
+    number. ``completer`` names a function of `completers`. ``comma`` reads several values from one text, with commas
+    between; ``suffixes`` are those that a file may have.
+    """
+
+    text: str
+    default: Any = None
+    unit: str = ""
+    metavar: str | None = None
+    flag: str = ""
+    above: float | None = None
+    minimum: float | None = None
+    completer: str = ""
+    comma: bool = False
+    suffixes: tuple[str, ...] = ()
+    form: str = field(default="NAME=VALUE")  # of an option with pairs
+
+
+class Kind(Enum):
+    """What the command line reads for an option."""
+
+    FLAG = "flag"
+    NUMBER = "number"
+    INTEGER = "integer"
+    TEXT = "text"
+    PATH = "path"
+    LIST = "list"  # of texts or numbers
+    PAIRS = "pairs"  # NAME=VALUE
+
+
+@dataclass(frozen=True)
+class Declared:
+    """An option with its name and what its type says: its kind, that of its elements, its choices."""
+
+    name: str
+    option: Option
+    annotation: Any
+    kind: Kind
+    element: Kind
+    choices: tuple[str, ...]
+
+    @property
+    def flag(self) -> str:
+        """Its name on the command line, without dashes."""
+        return (self.option.flag or self.name).replace("_", "-")
+
+
+@cache
+def options_of(group: type) -> Mapping[str, Declared]:
+    """The options of a group by name, those of the groups that it inherits from first."""
+    declared = {}
+    for name, hint in get_type_hints(group, include_extras=True).items():
+        if get_origin(hint) is not Annotated:
+            raise TypeError(f"{group.__name__}.{name} has no Option")
+        annotation, option = get_args(hint)
+        kind, element = _kinds(annotation)
+        declared[name] = Declared(name, option, annotation, kind, element, _choices(annotation))
+    return types.MappingProxyType(declared)
+
+
+def defaults_of(group: type) -> dict[str, Any]:
+    """The value of each option that is not given."""
+    return {name: each.option.default for name, each in options_of(group).items()}
+
+
+def _members(annotation: Any) -> tuple[Any, ...]:
+    """The alternatives of a type, without None."""
+    if get_origin(annotation) in (Union, types.UnionType):
+        return tuple(inner for member in get_args(annotation) for inner in _members(member))
+    return () if annotation is type(None) else (annotation,)
+
+
+def _choices(annotation: Any) -> tuple[str, ...]:
+    members = _members(annotation)
+    choices = [text for member in members if get_origin(member) is Literal for text in get_args(member)]
+    if not choices and len(members) == 1 and get_origin(members[0]) is not None:  # of the elements of a list
+        inner = get_args(members[0])
+        choices = list(_choices(inner[0])) if inner and get_origin(members[0]) is Sequence_ else []
+    return tuple(choices)
+
+
+Sequence_ = get_origin(Sequence[str])
+_Mapping = get_origin(Mapping[str, str])
+
+
+def _kinds(annotation: Any) -> tuple[Kind, Kind]:
+    """The kind of a type, and that of its elements."""
+    members = _members(annotation)
+    origins = {get_origin(member) for member in members}
+    paths = {get_origin(member) or member for member in members} & {os.PathLike}
+    if paths and Sequence_ not in origins:
+        return Kind.PATH, Kind.PATH
+    if _Mapping in origins:
+        return Kind.PAIRS, Kind.TEXT
+    for member in members:
+        if get_origin(member) is Sequence_:
+            return Kind.LIST, _kinds(get_args(member)[0])[0]
+    for kind, python in ((Kind.FLAG, bool), (Kind.NUMBER, float), (Kind.INTEGER, int)):
+        if python in members:
+            return kind, kind
+    return Kind.TEXT, Kind.TEXT

@@ -1,0 +1,127 @@
+"""A verb's declaration as an argparse parser, and what it parsed as arguments and options of the Python function."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+from collections.abc import Mapping
+from typing import Any
+
+from .option import Declared, Kind, options_of
+from .system import SHARED
+from .values import read_value
+from .verb import Argument, Verb
+
+
+def add_verb(parser: argparse.ArgumentParser, verb: Verb, is_complete: bool) -> None:
+    """Add a verb's arguments and options: its own first; shared ones are explained where ``is_complete``."""
+    parser.usage = f"{parser.prog} {' '.join(map(_usage, verb.arguments))} [OPTION ...]".replace("  ", " ")
+    for argument in verb.arguments:
+        _add_argument(parser, argument)
+    options = [*options_of(verb.options).values(), *options_of(verb.files).values()]
+    shared = {name: title for title, group in SHARED.items() for name in options_of(group)}
+    sections: dict[str, list[Declared]] = {}
+    for each in sorted(options, key=lambda each: each.name in shared):
+        sections.setdefault(shared.get(each.name, "options of this verb"), []).append(each)
+    for title, members in sections.items():
+        is_explained = is_complete or title not in SHARED
+        names = " ".join(f"--{each.flag}" for each in members)
+        group = parser.add_argument_group(title, None if is_explained else f"{names} (explained by --help-all)")
+        for each in members:
+            _add_option(group, each, is_explained)
+
+
+def _usage(argument: Argument) -> str:
+    if argument.is_option:
+        return f"--{argument.name} {argument.metavar}"
+    return f"[{argument.metavar}]" if argument.optional else f"{argument.metavar}{' ...' if argument.many else ''}"
+
+
+def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
+    keywords: dict[str, Any] = {"metavar": argument.metavar, "help": argument.text}
+    if argument.is_option:
+        action = parser.add_argument(f"--{argument.name}", required=not argument.optional, **keywords)
+    else:
+        nargs = "+" if argument.many else "?" if argument.optional else None
+        action = parser.add_argument(argument.name, nargs=nargs, **keywords)
+    _complete(action, argument.completer)
+
+
+def _add_option(group: argparse._ArgumentGroup, declared: Declared, is_explained: bool) -> None:
+    option = declared.option
+    text = f"{option.text}{_default_text(declared)}" if is_explained else argparse.SUPPRESS
+    if declared.kind is Kind.FLAG:
+        group.add_argument(f"--{declared.flag}", dest=declared.name, action="store_const", const=[""], help=text)
+        return
+    action = group.add_argument(
+        f"--{declared.flag}",
+        dest=declared.name,
+        action="append",
+        metavar=option.metavar or _metavar(declared),
+        help=text,
+    )
+    if declared.choices:
+        action.choices = declared.choices
+    _complete(action, option.completer)
+
+
+def _metavar(declared: Declared) -> str:
+    if declared.choices:
+        return f"{{{','.join(declared.choices)}}}"
+    return {Kind.NUMBER: "X", Kind.INTEGER: "N", Kind.PAIRS: declared.option.form}.get(declared.kind, "TEXT")
+
+
+def _default_text(declared: Declared) -> str:
+    option = declared.option
+    unit = f", {option.unit}" if option.unit and f", {option.unit}" not in option.text else ""
+    if declared.kind in (Kind.LIST, Kind.PAIRS) and not option.comma:
+        return f"{unit}; may be repeated"
+    if option.default in (None, False, ()) or declared.kind is Kind.FLAG:
+        return unit
+    shown = f"{option.default:g}" if isinstance(option.default, float) else option.default
+    return f"{unit}; default: {shown}"
+
+
+def _complete(action: argparse.Action, completer: str) -> None:
+    """Let a shell offer what a function of `completers`, imported only then, gives for an argument."""
+    if completer:
+
+        def offer(*arguments: Any, **keywords: Any) -> Any:
+            module = importlib.import_module(".completers", __package__)
+            return getattr(module, completer)(*arguments, **keywords)
+
+        vars(action)["completer"] = offer
+
+
+def read_parsed(verb: Verb, parsed: argparse.Namespace) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
+    """Arguments, options of the function and files that a command line gives, by name; defaults are left out.
+
+    Raises InputError, with the parameter's name.
+    """
+    arguments = {}
+    for argument in verb.arguments:
+        given = getattr(parsed, argument.name)
+        if given is not None:
+            arguments[argument.name] = (
+                [argument.read(text) for text in given] if argument.many else argument.read(given)
+            )
+    return arguments, _read_group(verb.options, parsed), _read_group(verb.files, parsed)
+
+
+def _read_group(group: type, parsed: argparse.Namespace) -> dict[str, Any]:
+    values = {}
+    for name, declared in options_of(group).items():
+        texts = getattr(parsed, name)
+        if texts is not None:
+            values[name] = True if declared.kind is Kind.FLAG else read_value(declared, texts)
+    return values
+
+
+def flags_of(verb: Verb) -> Mapping[str, str]:
+    """What a verb's parameters are called on the command line, by name."""
+    flags = {
+        argument.name: f"--{argument.name}" if argument.is_option else argument.metavar for argument in verb.arguments
+    }
+    for group in (verb.options, verb.files):
+        flags |= {name: f"--{declared.flag}" for name, declared in options_of(group).items()}
+    return flags

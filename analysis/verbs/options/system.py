@@ -1,0 +1,116 @@
+"""Options of everything that simulates: the system, its FMUs and parameters; faults, inputs, log and time limit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Annotated, Any, Literal, TypedDict
+
+from ...runtime.system.fault import Fault
+from .option import FilePath, Option, SetValue, StructuredArray
+
+NONE: Mapping[str, Any] = MappingProxyType({})
+
+
+class SystemOptions(TypedDict, total=False):
+    """System options"""
+
+    use: Annotated[
+        Mapping[str, FilePath],
+        Option("replace the FMU of a component", NONE, metavar="SLOT=FMU", completer="slots_with_fmus"),
+    ]
+    parameters: Annotated[
+        Sequence[FilePath],
+        Option("apply a parameter set, by name or path", (), metavar="F.ssv", completer="parameter_sets"),
+    ]
+    set: Annotated[
+        Mapping[str, SetValue],
+        Option(
+            "set a parameter or an unconnected input, in SI units; in a batch LOW:HIGH:STEP sweeps it",
+            NONE,
+            metavar="COMPONENT.VARIABLE=VALUE",
+        ),
+    ]
+    step: Annotated[float | None, Option("communication step", unit="s", metavar="H")]
+    stop_time: Annotated[float | None, Option("end of the simulation", unit="s", metavar="T")]
+    algorithm: Annotated[
+        Literal["sequential", "jacobi"] | None,
+        Option("master algorithm (Gauss-Seidel or Jacobi); default: the system's, else sequential"),
+    ]
+    variant: Annotated[str | None, Option("another SSD of the archive", metavar="NAME")]
+    flavour: Annotated[
+        Literal["native", "python"] | None, Option("which build of Perilune's FMUs; default: native where built")
+    ]
+    open_inputs: Annotated[
+        Literal["refuse", "start"],
+        Option("unconnected inputs: refuse the system, or keep their start values", "refuse"),
+    ]
+    allow_unmatched: Annotated[bool, Option("ignore unknown parameters of parameter sets", False)]
+    strict: Annotated[bool, Option("refuse FMUs whose descriptions violate rules of FMI", False)]
+    feedthrough: Annotated[
+        Sequence[str],
+        Option("treat all outputs of a component as direct functions of all its inputs", (), metavar="COMPONENT"),
+    ]
+    no_feedthrough: Annotated[
+        Sequence[str], Option("treat a component as without direct feedthrough", (), metavar="COMPONENT")
+    ]
+
+
+class SimulationOptions(TypedDict, total=False):
+    """Simulation options"""
+
+    faults: Annotated[
+        Sequence[Fault | str],
+        Option(
+            "inject a fault, COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T], times in s",
+            (),
+            flag="fault",
+            metavar="FAULT",
+        ),
+    ]
+    input: Annotated[
+        FilePath | Mapping[str, Any] | StructuredArray | None,
+        Option("inputs over time: first column time (s), then inputs by name", metavar="F.csv", completer="csv_files"),
+    ]
+    log: Annotated[
+        Literal["error", "warning", "info", "all"] | None,
+        Option(
+            "FMU log messages on standard error: error (discard, error, fatal), warning too, info (all that are sent), "
+            "all (with all categories switched on)"
+        ),
+    ]
+    timeout: Annotated[
+        float | None,
+        Option(
+            "wall-clock limit of a simulation, which then ends at its next communication point with exit status 1",
+            unit="s",
+            metavar="SECONDS",
+            above=0.0,
+        ),
+    ]
+
+
+class RequireOptions(TypedDict, total=False):
+    """Requirements"""
+
+    require: Annotated[
+        Sequence[str],
+        Option("exit status 1 unless the expression is true of the result's numbers", (), metavar="EXPRESSION"),
+    ]
+
+
+class JsonFile(TypedDict, total=False):
+    """Files"""
+
+    json: Annotated[FilePath | None, Option("write the result as JSON, - for standard output", metavar="FILE")]
+
+
+class ReportFiles(JsonFile, total=False):
+    """Files"""
+
+    report: Annotated[
+        FilePath | None, Option("write a page with figures", metavar="F.html", suffixes=(".html", ".htm"))
+    ]
+
+
+SHARED = {"system options": SystemOptions, "simulation options": SimulationOptions}  # which --help-all explains

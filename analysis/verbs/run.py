@@ -1,0 +1,150 @@
+"""`perilune.simulate` and `perilune run`: a system, or an FMU alone, simulated once."""
+
+from __future__ import annotations
+
+from contextlib import chdir
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Unpack
+
+from matplotlib.figure import Figure as Plot
+
+from ..campaigns.spec.expressions import Expression
+from ..campaigns.tables import faults_line
+from ..reports.common.notebook import Grid, notebook_view, value_text
+from ..reports.figures.declaration.figures import Band, Figure, Limits
+from ..reports.figures.declaration.reading import read_figures
+from ..reports.figures.limits import limit_document, limit_rows
+from ..reports.flight.run_report import key_values, write_run_report
+from ..reports.flight.time_histories import signal_plot
+from ..reports.flight.trajectory import trajectory_plot
+from ..runtime.flight import results
+from ..runtime.flight.instances.log import Log
+from ..runtime.flight.interruptible import StuckError, fly
+from ..runtime.flight.simulation import Simulation
+from ..runtime.system.fault import Fault, faults_of
+from ..runtime.system.in_flight.series import read_series
+from ..runtime.system.options import system_options
+from ..runtime.system.prepared import PreparedSystem, prepare_system
+from .common.flight_text import flight_lines, flight_problems
+from .common.notes import note_lines
+from .common.requirements import read_requirements, requirement_problems
+from .options.flights import RUN, RunOptions
+from .options.option import FilePath
+from .options.verb import verb
+
+MOST_PLOTTED = 3  # signals of a flight without a path, in a notebook
+STUCK = "nothing is written; see its messages with `log` all, or give a longer `timeout`"
+
+
+@dataclass(repr=False, kw_only=True)
+class Result(results.Result):
+    """A simulation. ``result["plant.position"]`` is a signal over ``time``, [n] or [n, k]; see `Flight` for the rest.
+
+    ``prepared`` is the system as it was simulated, ``figures`` those that its SSD declares, which `report` plots;
+    ``faults`` were injected, ``requirements`` are those of the option ``require``.
+    """
+
+    prepared: PreparedSystem
+    figures: tuple[Figure, ...]
+    faults: tuple[Fault | str, ...] = ()
+    requirements: tuple[Expression, ...] = ()
+
+    @property
+    def system(self) -> str:
+        """The system's name."""
+        return self.prepared.archive.name
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune run --report`: one HTML file."""
+        write_run_report(self, Path(path), self.system, self.figures)
+
+    def plot(self, name: str, *more: str) -> Plot:
+        """Signals over time, a panel for each name; a vector's elements share one. Raises KeyError."""
+        return signal_plot(self, [name, *more])
+
+    def plot_trajectory(self) -> Plot:
+        """The path of whatever has a position: ground track and side view. Raises ValueError where nothing has one."""
+        plot = trajectory_plot(self)
+        if plot is None:
+            raise ValueError(f"{self.system}: no signal COMPONENT.position of three elements in m; plot others by name")
+        return plot
+
+    @property
+    def limits(self) -> list[dict[str, Any]]:
+        """What the SSD's `Limits` say of the end: name, value, unit, least, most and verdict of each.
+
+        The verdict is ``met``, ``violated`` or ``not evaluated``, with the reason why not.
+        """
+        return limit_document(self.figures, self)
+
+    def to_json(self) -> dict[str, Any]:
+        """Status, provenance, limits and final values, for other programs."""
+        final = {name: value if abs(value) < float("inf") else None for name, value in self.final().items()}
+        return self.summary() | {"limits": self.limits, "final": final}
+
+    def lines(self) -> list[str]:
+        """What `perilune run` prints."""
+        faults = [faults_line(self.faults)] if self.faults else []
+        return [*flight_lines(self.prepared, self.figures, self), *note_lines(self.prepared), *faults]
+
+    def problems(self) -> list[str]:
+        """Why the simulation did not complete, limits that it violates, requirements that are not met."""
+        problems = flight_problems(self.prepared, self.figures, self)
+        return problems + requirement_problems(self.requirements, self.last_values())
+
+    def last_values(self) -> dict[str, float]:
+        """The last values of signals and of time, on which requirements are."""
+        if not self.time.size:
+            return {}
+        return {"time": float(self.time[-1]), **{name: float(value) for name, value in self.final().items()}}
+
+    def _repr_html_(self) -> str:
+        end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
+        text = f"{self.status}{end}, {self.time.size} samples, {len(self.signals)} signals"
+        grids = [
+            Grid((figure.title, "value", "limit", "unit", ""), limit_rows(figure, self))
+            for figure in self.figures
+            if isinstance(figure, Limits)
+        ]
+        if not grids:
+            rows = [(row["label"], row["note"], value_text(row["values"], row["unit"])) for row in key_values(self)]
+            grids = [Grid(("", "", "at the end"), rows)]
+        return notebook_view(self.system, [text, self.message], grids, self._main_plot())
+
+    def _main_plot(self) -> Plot | None:
+        if not self.time.size:
+            return None
+        bands = [figure.signal.label for figure in self.figures if isinstance(figure, Band)]
+        vectors = [row["label"] for row in key_values(self) if len(row["values"]) > 1]
+        return trajectory_plot(self) or signal_plot(self, (bands or vectors or list(self.signals))[:MOST_PLOTTED])
+
+
+@verb(RUN)
+def simulate(system: FilePath, **options: Unpack[RunOptions]) -> Result:
+    """Simulate a system, or an FMU alone, once: `perilune run`.
+
+    ``system`` is a name under ssp_systems, a folder, an .ssp or .fmu; ``use`` maps components to FMUs (block names or
+    paths), ``parameters`` lists parameter sets (names of the system's, or paths), ``set`` maps ``component.variable``
+    to values in SI units, and ``component.vector`` to lists of them; ``faults`` are `Fault` or their texts; ``step``
+    and ``stop_time`` are in s. ``input`` are inputs over time: the path of a CSV file, a structured array or columns by
+    name, ``time`` (s) and unconnected inputs. ``log`` writes FMU messages from this level on to standard error;
+    ``timeout`` (s, wall clock) ends the simulation at its next communication point; ``require`` are expressions over
+    the last values, see `Result.problems`. Raises InputError, and TimeoutError where a step of an FMU does not return;
+    a simulation that fails comes back with its ``status``.
+    """
+    series = options["input"]
+    prepared = prepare_system(
+        Path(system), system_options(options), series=None if series is None else read_series(series)
+    )
+    figures, faults, level = tuple(read_figures(prepared)), faults_of(options["faults"]), options["log"]
+    log = None if level is None else Log(level)
+    with chdir(Path.cwd()), Simulation(prepared, faults=faults, log=log) as simulation:  # an FMU may change the folder
+        requirements = read_requirements(options["require"], [*simulation.signal_names, "time"])
+        try:
+            flight = fly(simulation, options["timeout"])
+        except StuckError as error:
+            raise StuckError(f"{prepared.network.file}: {error}; {STUCK}") from error
+    return Result.extending(
+        flight, prepared=prepared, figures=figures, faults=tuple(faults), requirements=tuple(requirements)
+    )
