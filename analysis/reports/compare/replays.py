@@ -7,7 +7,7 @@ from markupsafe import Markup
 
 from ...campaigns.compare.comparison import Comparison
 from ...campaigns.fly.manifest.manifest import FILE as MANIFEST
-from ...campaigns.fly.replay import stored_replay
+from ...campaigns.replay_command import stored_replay
 from ..campaign.replays import FAILURES, Replay
 
 
