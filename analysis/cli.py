@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 
 import argcomplete
 
-from .common.errors import EndedError, InputError, warn_in_one_line
+from .common.errors import EndedError, InputError, UnwrittenError, warn_in_one_line
 from .common.exit_status import ExitStatus
 from .common.process_end import leave
 from .common.streams import steady_streams
@@ -119,7 +119,7 @@ def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
     called = getattr(importlib.import_module(f".verbs.{module}", __package__), function)
     try:
         outcome = called(**arguments, **options)
-    except result.UnwrittenError as error:
+    except UnwrittenError as error:
         result.present(error.result, files, flags_of(verb))
         raise
     return result.present(outcome, files, flags_of(verb))

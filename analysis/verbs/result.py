@@ -21,14 +21,6 @@ from .options.verb import Verb
 STANDARD_OUTPUT = "-"
 
 
-class UnwrittenError(OSError):
-    """A result that could not be written to the folder of `output`; ``result`` is in memory."""
-
-    def __init__(self, error: OSError, result: Any) -> None:
-        super().__init__(error.errno, error.strerror or str(error), error.filename)
-        self.result = result
-
-
 class VerbResult(Protocol):
     """The result of a verb. It may have ``report(path)`` and ``write(path)``, for the files of its verb.
 

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from ...campaigns.tables import assumption_lines
+from ...common.errors import UnwrittenError
 from ...common.targets import check_folder
 from ...reports.studies.conditions import StudyResult, conditions_of
-from ..result import UnwrittenError
 
 Study = TypeVar("Study")
 
