@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 
 import argcomplete
 
-from .common.errors import EndedError, InputError, UnwrittenError, warn_in_one_line
+from .common.errors import EndedError, InputError, UnwrittenError, call_by_flags, warn_in_one_line
 from .common.exit_status import ExitStatus
 from .common.process_end import leave
 from .common.streams import steady_streams
@@ -89,19 +89,21 @@ def _carry_out(given: Sequence[str]) -> int:
     argcomplete.autocomplete(parser)
     options = parser.parse_args(given)
     verb = DECLARED.get(options.verb)
+    flags = flags_of(verb or DECLARED["run"])
     try:
         return _module(options.verb).run(options) if verb is None else carry_out(verb, options)
     except InputError as error:
-        print(f"perilune: {error.line(flags_of(DECLARED['run'] if verb is None else verb))}", file=sys.stderr)
+        print(f"perilune: {error.line(flags)}", file=sys.stderr)
         return ExitStatus.REFUSED
     except TimeoutError as error:
-        print(f"perilune: {error}", file=sys.stderr)
+        print(f"perilune: {call_by_flags(str(error), flags)}", file=sys.stderr)
         return ExitStatus.NOT_MET
     except EndedError as ended:
-        print(f"perilune: {ended}", file=sys.stderr)
+        print(f"perilune: {call_by_flags(str(ended), flags)}", file=sys.stderr)
         return ended.status
-    except KeyboardInterrupt:
-        print("perilune: interrupted", file=sys.stderr)
+    except KeyboardInterrupt as interrupt:
+        hint = call_by_flags("".join(getattr(interrupt, "__notes__", [])), flags)
+        print(f"perilune: interrupted{hint}", file=sys.stderr)
         return ExitStatus.NOT_MET
     except OSError as error:  # a file that cannot be read or written
         reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)

@@ -80,7 +80,7 @@ def present(result: VerbResult, files: Mapping[str, Any], flags: Mapping[str, st
         if target is not None:
             written.write(Path(target), lambda path: write_atomically(path, _json_text(result).encode()))
         else:
-            print("\n".join(result.lines()))
+            print(call_by_flags("\n".join(result.lines()), flags))
     for name, path in files.items():
         if name in WRITERS and path is not None:
             written.write(Path(path), partial(_call, result, WRITERS[name]))

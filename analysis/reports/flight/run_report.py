@@ -23,7 +23,7 @@ STATUS_WORDS = {
     "terminated": "Ended by itself: an FMU asked for the end of the simulation.",
     "nonfinite": "Broke off: a component gave a value that is not a finite number.",
     "failed": "Broke off: an FMU reported an error, or did not take a parameter.",
-    "timed_out": "Broke off: it took longer than --timeout lets it.",
+    "timed_out": "Terminated: wall-clock time limit exceeded.",
     "interrupted": "Broke off: it was interrupted from the keyboard.",
 }
 MOST_KEYS = 12  # signals of a system that has none of what one looks at first
