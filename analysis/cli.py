@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 
 import argcomplete
 
-from .common.errors import EndedError, InputError, warn_in_one_line
+from .common.errors import EndedError, InputError, UnwrittenError, call_by_flags, warn_in_one_line
 from .common.exit_status import ExitStatus
 from .common.process_end import leave
 from .common.streams import steady_streams
@@ -30,39 +30,18 @@ VERBS = {
     "list": "list systems, with parameter sets, campaigns and loops, laws and FMUs",
     "describe": "say what a system, an FMU or a slot has: connectors, parameters with their values, what fits where",
     "validate": "check systems, FMUs, parameter sets and campaigns",
-    "run": "fly a system once",
-    "batch": "fly a campaign: many trials, variants compared on the same draws",
-    "shard": "fly some shards of a campaign that perilune batch --prepare, or a batch that ended early, has left",
-    "replay": "fly a trial of a stored campaign again, of its folder alone, with all signals",
-    "merge": "put the flown shards of a campaign together: summary, page, requirements",
-    "rare": "the probability of a rare failure over a campaign's draws, and the most probable draws that make it",
-    "worst": "the draws within a campaign's box that make a number worst",
     "compare": "compare the variants of one or several stored batches on the same trials",
     "law": "print a network operator's law as a formula, or write it as parameter set or drawing",
     "synthesize": "search for a control law, every candidate flown in its system",
     "plan": "plan a transfer between hovers, or bound what a landing takes",
-    "stability": "report on the stability of a system's loops",
     "benchmark": "time a communication step against other importers",
     "new": "write a block or a system of your own to start from",
     "export": "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
 }
+VERBS |= {verb.name: verb.text for verb in DECLARED.values()}
 
-# Verbs whose files lie in rooms of their own.
-ROOMS = dict.fromkeys(("batch", "shard", "replay", "merge", "rare", "worst"), "campaigns")
-
-# What exit status 1 means in addition to an interruption, of which all verbs make it; so does docs/command_line.md.
-_CAMPAIGN = (
-    "a requirement of the campaign is not met or undecided, a --require is not met, or a flight did not reach its end"
-)
+# What exit status 1 means in addition to an interruption.
 FAILURES = {
-    "run": "a limit of the SSD is violated or not evaluated, a --require is not met, or the flight did not finish",
-    "replay": "as of run; or the trial is no success of its campaign, or is not the stored one to the last bit",
-    "batch": _CAMPAIGN,
-    "shard": "a flight did not reach its end, or workers ended again and again, or the scheduler did",
-    "merge": _CAMPAIGN,
-    "rare": "a --require is not met",
-    "worst": "a --require is not met",
-    "stability": "a requirement is not met or withheld, or something could not be studied",
     "synthesize": "no law was found with every trial a success",
     "plan": "there is no such plan, or less propellant on board than it takes",
 }
@@ -110,19 +89,21 @@ def _carry_out(given: Sequence[str]) -> int:
     argcomplete.autocomplete(parser)
     options = parser.parse_args(given)
     verb = DECLARED.get(options.verb)
+    flags = flags_of(verb or DECLARED["run"])
     try:
         return _module(options.verb).run(options) if verb is None else carry_out(verb, options)
     except InputError as error:
-        print(f"perilune: {error.line(flags_of(DECLARED['run'] if verb is None else verb))}", file=sys.stderr)
+        print(f"perilune: {error.line(flags)}", file=sys.stderr)
         return ExitStatus.REFUSED
     except TimeoutError as error:
-        print(f"perilune: {error}", file=sys.stderr)
+        print(f"perilune: {call_by_flags(str(error), flags)}", file=sys.stderr)
         return ExitStatus.NOT_MET
     except EndedError as ended:
-        print(f"perilune: {ended}", file=sys.stderr)
+        print(f"perilune: {call_by_flags(str(ended), flags)}", file=sys.stderr)
         return ended.status
-    except KeyboardInterrupt:
-        print("perilune: interrupted", file=sys.stderr)
+    except KeyboardInterrupt as interrupt:
+        hint = call_by_flags("".join(getattr(interrupt, "__notes__", [])), flags)
+        print(f"perilune: interrupted{hint}", file=sys.stderr)
         return ExitStatus.NOT_MET
     except OSError as error:  # a file that cannot be read or written
         reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)
@@ -135,14 +116,21 @@ def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
     arguments, options, files = read_parsed(verb, parsed)
     result = importlib.import_module(".verbs.result", __package__)
     result.check_files(verb, files)
+    result.report_stale(verb, arguments, options)
     module, function = verb.home
     called = getattr(importlib.import_module(f".verbs.{module}", __package__), function)
-    return result.present(called(**arguments, **options), files, flags_of(verb))
+    try:
+        outcome = called(**arguments, **options)
+    except UnwrittenError as error:
+        result.present(error.result, files, flags_of(verb))
+        raise
+    return result.present(outcome, files, flags_of(verb))
 
 
 def exit_status(verb: str) -> str:
     """What the exit statuses of a verb mean."""
-    failure = f"{FAILURES[verb]}, or interrupted" if verb in FAILURES else "interrupted"
+    not_met = DECLARED[verb].not_met if verb in DECLARED else FAILURES.get(verb)
+    failure = f"{not_met}, or interrupted" if not_met else "interrupted"
     return f"Exit status: 0: done, and all is met. 1: {failure}. 2: wrong input, or a result could not be written."
 
 
@@ -153,7 +141,9 @@ def parser_of(given: Sequence[str]) -> Parser:
     verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
     named = [*given, *os.environ.get("COMP_LINE", "").split()]  # a shell asks with the line that is being written
     for verb, words in VERBS.items():
-        examples = "".join(f"  {command}\n      {comment}\n" for command, comment in EXAMPLES[verb])
+        declared = DECLARED.get(verb)
+        given_examples = EXAMPLES[verb] if declared is None else declared.examples
+        examples = "".join(f"  {command}\n      {comment}\n" for command, comment in given_examples)
         epilog = f"Examples:\n{examples}\n{exit_status(verb)}"
         own = verbs.add_parser(verb, help=words, description=words, epilog=epilog)
         if verb in named and verb in DECLARED:
@@ -165,8 +155,7 @@ def parser_of(given: Sequence[str]) -> Parser:
 
 
 def _module(verb: str, of: str = "") -> ModuleType:
-    room = f"{ROOMS[verb]}." if verb in ROOMS else ""
-    return importlib.import_module(f".commands.{of}{room}{verb}", __package__)
+    return importlib.import_module(f".commands.{of}{verb}", __package__)
 
 
 def run() -> NoReturn:

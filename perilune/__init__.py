@@ -14,7 +14,6 @@ from .fmus_src.face import HOME_OF
 
 if TYPE_CHECKING:
     from . import modal
-    from .analysis.api.batch import BatchResult, batch, merge, shard
     from .analysis.api.comparison import Comparison, compare
     from .analysis.api.describe import describe
     from .analysis.api.export import Exported, export
@@ -23,12 +22,7 @@ if TYPE_CHECKING:
     from .analysis.api.own import new_block, new_system
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
     from .analysis.api.results.plots import plot_results
-    from .analysis.api.results.replayed import ReplayResult, replay
     from .analysis.api.results.stored import StoredResults, open_results
-    from .analysis.api.samples.rare import RareResult, rare
-    from .analysis.api.samples.sensitivity import SensitivityResult, sensitivity
-    from .analysis.api.samples.worst import WorstResult, worst
-    from .analysis.api.stability import StabilityReport, stability
     from .analysis.api.timing import benchmark
     from .analysis.api.validate import validate
     from .analysis.common.errors import InputError
@@ -38,7 +32,16 @@ if TYPE_CHECKING:
     from .analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
     from .analysis.runtime.system.fault import Fault
     from .analysis.stability.injection.bench import StudyError
+    from .analysis.verbs.batch import BatchResult, batch
+    from .analysis.verbs.merge import merge
+    from .analysis.verbs.prepare import PreparedCampaign, prepare
+    from .analysis.verbs.rare import RareResult, rare
+    from .analysis.verbs.replay import ReplayResult, replay
     from .analysis.verbs.run import Result, simulate
+    from .analysis.verbs.sensitivity import SensitivityResult, sensitivity
+    from .analysis.verbs.shard import ShardResult, shard
+    from .analysis.verbs.stability import StabilityReport, stability
+    from .analysis.verbs.worst import WorstResult, worst
     from .fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
     from .fmus_src.interfaces.allocation import Allocation
     from .fmus_src.interfaces.attitude_observer import AttitudeObserver
@@ -88,10 +91,12 @@ __all__ = [
     "Output",
     "Parameter",
     "PlanError",
+    "PreparedCampaign",
     "RareResult",
     "ReplayResult",
     "Result",
     "SensitivityResult",
+    "ShardResult",
     "StabilityReport",
     "State",
     "StoredResults",
@@ -123,6 +128,7 @@ __all__ = [
     "plan_hover_transfer",
     "plan_landing_bound",
     "plot_results",
+    "prepare",
     "rare",
     "replay",
     "sensitivity",
@@ -136,7 +142,10 @@ __all__ = [
 ]
 
 _HOMES = {
-    "analysis.api.batch": ("BatchResult", "batch", "merge", "shard"),
+    "analysis.verbs.batch": ("BatchResult", "batch"),
+    "analysis.verbs.merge": ("merge",),
+    "analysis.verbs.prepare": ("PreparedCampaign", "prepare"),
+    "analysis.verbs.shard": ("ShardResult", "shard"),
     "analysis.api.comparison": ("Comparison", "compare"),
     "analysis.api.describe": ("describe",),
     "analysis.api.export": ("Exported", "export"),
@@ -146,12 +155,12 @@ _HOMES = {
     "analysis.api.own": ("new_block", "new_system"),
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
     "analysis.api.results.plots": ("plot_results",),
-    "analysis.api.results.replayed": ("ReplayResult", "replay"),
+    "analysis.verbs.replay": ("ReplayResult", "replay"),
     "analysis.api.results.stored": ("StoredResults", "open_results"),
-    "analysis.api.samples.rare": ("RareResult", "rare"),
-    "analysis.api.samples.sensitivity": ("SensitivityResult", "sensitivity"),
-    "analysis.api.samples.worst": ("WorstResult", "worst"),
-    "analysis.api.stability": ("StabilityReport", "stability"),
+    "analysis.verbs.rare": ("RareResult", "rare"),
+    "analysis.verbs.sensitivity": ("SensitivityResult", "sensitivity"),
+    "analysis.verbs.worst": ("WorstResult", "worst"),
+    "analysis.verbs.stability": ("StabilityReport", "stability"),
     "analysis.api.timing": ("benchmark",),
     "analysis.api.validate": ("validate",),
     "analysis.common.errors": ("InputError",),

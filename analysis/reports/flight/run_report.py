@@ -23,7 +23,7 @@ ENDINGS = {
     "terminated": "Terminated by an FMU.",
     "nonfinite": "Aborted: a component returned a value that is not finite.",
     "failed": "Aborted: an FMU reported an error or rejected a parameter.",
-    "timed_out": "Aborted: exceeded the wall-clock limit (--timeout).",
+    "timed_out": "Aborted: wall-clock time limit exceeded.",
     "interrupted": "Aborted: interrupted from the keyboard.",
 }
 MOST_KEYS = 12  # final values listed where no signal has a known name

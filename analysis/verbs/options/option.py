@@ -14,6 +14,7 @@ from enum import Enum
 from functools import cache
 from typing import Annotated, Any, Literal, Protocol, Union, get_args, get_origin, get_type_hints
 
+NONE: Mapping[str, Any] = types.MappingProxyType({})  # the empty default of an option with pairs
 FilePath = str | os.PathLike[str]
 ParameterValue = float | int | bool | str
 SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
@@ -33,7 +34,8 @@ class Option:
     ``default`` holds where the option is not given; a mutable one is an empty constant. ``flag`` is the name on the
     command line where it differs: the singular of an option that may be repeated. ``above`` and ``minimum`` bound a
     number. ``completer`` names a function of `completers`. ``comma`` reads several values from one text, with commas
-    between; ``suffixes`` are those that a file may have.
+    between; ``suffixes`` are those that a file may have,
+    ``is_folder`` says that it is a folder.
     """
 
     text: str
@@ -46,6 +48,7 @@ class Option:
     completer: str = ""
     comma: bool = False
     suffixes: tuple[str, ...] = ()
+    is_folder: bool = False
     form: str = field(default="NAME=VALUE")  # of an option with pairs
 
 
@@ -123,8 +126,9 @@ def _kinds(annotation: Any) -> tuple[Kind, Kind]:
     paths = {get_origin(member) or member for member in members} & {os.PathLike}
     if paths and Sequence_ not in origins:
         return Kind.PATH, Kind.PATH
-    if _Mapping in origins:
-        return Kind.PAIRS, Kind.TEXT
+    for member in members:
+        if get_origin(member) is _Mapping:
+            return Kind.PAIRS, Kind.NUMBER if get_args(member)[1] is float else Kind.TEXT
     for member in members:
         if get_origin(member) is Sequence_:
             return Kind.LIST, _kinds(get_args(member)[0])[0]

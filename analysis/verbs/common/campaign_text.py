@@ -1,24 +1,18 @@
-"""What the commands about campaigns say of a result, and their exit status."""
+"""Text of a campaign's result: failed simulations, requirements, meanings of statuses."""
 
 from __future__ import annotations
 
-import argparse
 import math
-import sys
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from functools import partial
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from ...campaigns.fly.manifest.manifest import FILE as MANIFEST
-from ...campaigns.fly.replay import stored_replay
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.fly.workers.flyer import TrialResult
 from ...campaigns.fly.workers.status_texts import worst_statuses
-from ...campaigns.fly.workers.workers import WorkersDiedError
+from ...campaigns.replay_command import stored_replay
 from ...campaigns.requirement_verdicts import add_verdicts, unmet_lines
 from ...campaigns.rows import TrialColumns, TrialRows
 from ...campaigns.spec.campaign import Metric
@@ -26,68 +20,21 @@ from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.summary import requirement_values, summarise
 from ...campaigns.tables import aligned
-from ...common.errors import EndedError
-from ...common.targets import Results
 from ...runtime.flight.results import TIMED_OUT
 from ...runtime.system.status_words import with_meaning
-from ..common.exit_status import ExitStatus, exit_status
-from ..common.options import write_json
-from ..common.requirements import check_requirements, read_requirements
+from .requirements import read_requirements, requirement_problems
 
 
-@contextmanager
-def said_how_to_go_on(folder: Path | None) -> Iterator[None]:
-    """What ends a campaign early also says how it is gone on with, if it lies in a folder."""
-    place = None if folder is None else folder.absolute()  # an FMU may change the working folder
-    try:
-        yield
-    except KeyboardInterrupt:
-        raise EndedError(f"interrupted{_how_to_go_on(place)}", ExitStatus.NOT_MET) from None
-    except WorkersDiedError as error:
-        raise EndedError(f"{error}{_how_to_go_on(place)}", ExitStatus.NOT_MET) from error
-    except OSError as error:
-        file = f"{error.filename}: " if error.filename else ""
-        raise EndedError(
-            f"{file}{error.strerror or error}; make room{_how_to_go_on(place)}", ExitStatus.REFUSED
-        ) from error
-
-
-def _write_page(result: BatchResult, path: Path) -> None:
-    from ...reports.campaign.batch_report import write_batch_report  # and matplotlib, which takes half a second
-
-    write_batch_report(result, path, result.provenance["system"])
-
-
-def _how_to_go_on(folder: Path | None) -> str:
-    if folder is None or not (folder / MANIFEST).is_file():
-        return ""
-    return f"; what is flown lies in {folder}: the same command with --resume goes on, or perilune shard"
-
-
-def tell(result: BatchResult, options: argparse.Namespace, requirements: list[Expression], files: Results) -> int:
-    """Print a result, write its page and JSON as asked; returns the exit status."""
-    plan = result.plan
-    if not write_json(result.document(), options.json, files):
-        print(result.text())
-        for line in _meanings(plan, result):
-            print(line)
-    files.write(options.report, partial(_write_page, result))
-    if options.json != "-":
-        files.say()
-    failures = failed_flights([result.rows])
-    report_failed(failures, plan, result.folder)
-    late = timed_out(result)
-    for variant, count in late.items():
-        limit = f"{plan.watch.timeout:g} s of --timeout"
-        print(f"perilune: {variant}: {count} flights took longer than the {limit}; give them longer", file=sys.stderr)
+def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -> list[str]:
+    """A line for each variant with failed or late simulations, and for each requirement that is not met."""
+    lines = failure_lines(failed_flights([result.rows]), result.plan, result.folder)
+    limit = f"{result.plan.watch.timeout:g} s of `timeout`" if result.plan.watch.timeout is not None else ""
+    for variant, count in timed_out(result).items():
+        lines.append(f"{variant}: {count} simulations took longer than the {limit}; give a longer one")
     values = requirement_values(result.summary)
     # a status that no trial had is not in the summary: it counts 0
     values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
-    met = check_requirements(requirements, values)
-    unmet = unmet_lines(result.summary)
-    for line in unmet:
-        print(f"perilune: {line}", file=sys.stderr)
-    return exit_status(files, met, not unmet, not failures)
+    return [*lines, *requirement_problems(requirements, values), *unmet_lines(result.summary)]
 
 
 class Failures(NamedTuple):
@@ -112,12 +59,13 @@ def failed_flights(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failur
     return failures
 
 
-def report_failed(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> None:
-    """A line on standard error for each variant, with the command that flies its first failed trial again."""
-    variants = plan.campaign.variants()
+def failure_lines(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> list[str]:
+    """A line for each variant with failed simulations, with the command that replays its first failed trial."""
+    variants, lines = plan.campaign.variants(), []
     for variant, (flights, trial, message) in failures.items():
         replay = "" if folder is None else f"; see it: {stored_replay(folder, variants, variant, trial)}"
-        print(f"perilune: {variant}: {flights} flights failed; trial {trial}: {message}{replay}", file=sys.stderr)
+        lines.append(f"{variant}: {flights} simulations failed; trial {trial}: {message}{replay}")
+    return lines
 
 
 def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Iterable[Metric]) -> list[str]:
@@ -132,19 +80,19 @@ def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Itera
     return [f"{variant}: trial {trial}: {outcome.status}, {success}", *lines]
 
 
-def _meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
+def status_meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
     """What each status that a trial reported means, once, as its FMU says."""
-    found: dict[str, None] = {}
+    meanings: dict[str, None] = {}
     for variant in plan.campaign.variants():
         texts = dict.fromkeys(text for text in result.summary[variant.name]["statuses"] if worst_statuses(text))
         if texts:
             network = plan.prepare(variant).network
             seen = {item: None for text in texts for item in worst_statuses(text).items()}
-            found |= {with_meaning(network, *item): None for item in seen}
-    return list(found)
+            meanings |= {with_meaning(network, *item): None for item in seen}
+    return list(meanings)
 
 
-def asked_requirements(plan: BatchPlan, texts: list[str]) -> list[Expression]:
+def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Expression]:
     """Requirements; those on numbers that the summary will not have are refused before anything flies."""
     nothing = np.full(1, np.nan)
     metrics = {metric.name: nothing for metric in plan.campaign.metrics}

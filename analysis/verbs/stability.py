@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Unpack
 
 from matplotlib.figure import Figure as Plot
 
@@ -16,7 +16,7 @@ from ..reports.stability.page import write_stability_page
 from ..reports.stability.plots import Diagram, loop_plot
 from ..reports.stability.words import gain_margin, phase_margin, size, verdict
 from ..runtime.flight.results import require_pandas
-from ..runtime.ssp.parameter_sets import SetValue
+from ..runtime.system.options import system_options
 from ..stability.request.request import read_request
 from ..stability.results import report
 from ..stability.results.data import write_data
@@ -24,7 +24,10 @@ from ..stability.results.document import KEYS, document
 from ..stability.results.loop import LoopReport
 from ..stability.results.requirement import Verdict
 from ..stability.study import study
-from .options import FilePath, check_list, system_options
+from .common.stability_text import stability_lines, stability_problems
+from .options.option import FilePath
+from .options.stability import STABILITY, StabilityOptions
+from .options.verb import verb
 
 
 @dataclass(repr=False)
@@ -49,6 +52,18 @@ class StabilityReport(report.StabilityReport):
     def document(self) -> dict[str, Any]:
         """What `perilune stability --json` writes: dB, deg and s."""
         return document(self)
+
+    def to_json(self) -> dict[str, Any]:
+        """As `document`."""
+        return document(self)
+
+    def lines(self) -> list[str]:
+        """What `perilune stability` prints."""
+        return stability_lines(self)
+
+    def problems(self) -> list[str]:
+        """Requirements that are not met or withheld, and what could not be studied."""
+        return stability_problems(self)
 
     def to_pandas(self) -> Any:
         """Margins as a pandas.DataFrame, a row per loop and operating point, in dB, deg and s; needs pandas.
@@ -129,54 +144,26 @@ class StabilityReport(report.StabilityReport):
         return notebook_view(f"{self.system}: stability", words, [Grid(head, rows)], plot)
 
 
-def stability(
-    system: FilePath,
-    *,
-    loops: Sequence[str] = (),
-    at: float | Sequence[float] = (),
-    campaign: FilePath | None = None,
-    trials: int | None = None,
-    seed: int | None = None,
-    trial: int | None = None,
-    draws: FilePath | None = None,
-    workers: int | None = None,
-    use: Mapping[str, FilePath] | None = None,
-    parameters: Sequence[FilePath] = (),
-    set: Mapping[str, SetValue] | None = None,
-    step: float | None = None,
-    stop_time: float | None = None,
-    algorithm: Literal["sequential", "jacobi"] | None = None,
-    variant: str | None = None,
-    flavour: Literal["native", "python"] | None = None,
-    allow_unmatched: bool = False,
-    strict: bool = False,
-    open_inputs: Literal["refuse", "start"] = "refuse",
-    feedthrough: Sequence[str] = (),
-    no_feedthrough: Sequence[str] = (),
-) -> StabilityReport:
+@verb(STABILITY)
+def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> StabilityReport:
     """Margins, poles and robustness of a system's loops: `perilune stability`; see docs/stability.md.
 
     ``loops`` are names that the system declares (all of them by default), or connectors to cut as
     ``component.connector`` at the time ``at`` (s), or at several. Declared loops are studied there, too, with the
-    settings of their points. ``campaign`` disperses the margins over its trials; ``trial``
-    studies the draws of one of them instead, and ``draws`` is a file of draws to take in place of drawn ones, as
-    in `batch`. The rest is as in `simulate`. Raises InputError, and
-    StudyError where a flight that the study needs breaks off.
+    settings of their points. ``campaign`` disperses the margins over its trials; ``trial`` studies the draws of one
+    of them instead, and ``draws`` is a file of given draws, as in `batch`. The rest is as in `simulate`. Raises
+    InputError, and StudyError where a simulation that the study needs fails.
     """
-    check_list("loops", loops)
-    options = system_options(
-        use, parameters, set, feedthrough, no_feedthrough, step=step, stop_time=stop_time, algorithm=algorithm,
-        variant=variant, flavour=flavour, allow_unmatched=allow_unmatched, strict=strict, open_inputs=open_inputs,
-    )  # fmt: skip
+    at, campaign, draws = options["at"], options["campaign"], options["draws"]
     request = read_request(
         Path(system),
-        options,
-        loops=loops,
+        system_options(options),
+        loops=options["loops"],
         at=(at,) if isinstance(at, int | float) else at,
-        campaign=None if campaign is None else str(campaign),
-        trials=trials,
-        seed=seed,
-        trial=trial,
+        campaign=None if campaign is None else os.fspath(campaign),
+        trials=options["trials"],
+        seed=options["seed"],
+        trial=options["trial"],
         draws=None if draws is None else Path(draws),
     )
-    return StabilityReport(**vars(study(request, workers)))
+    return StabilityReport(**vars(study(request, options["workers"])))
