@@ -16,9 +16,7 @@ if TYPE_CHECKING:
     from . import modal
     from .analysis.api.batch import BatchResult, batch, merge, shard
     from .analysis.api.comparison import Comparison, compare
-    from .analysis.api.describe import describe
     from .analysis.api.export import Exported, export
-    from .analysis.api.inventory import inventory
     from .analysis.api.laws import Law, law, synthesize
     from .analysis.api.own import new_block, new_system
     from .analysis.api.plans import HoverPlan, LandingBound, plan_hover_transfer, plan_landing_bound
@@ -30,7 +28,6 @@ if TYPE_CHECKING:
     from .analysis.api.samples.worst import WorstResult, worst
     from .analysis.api.stability import StabilityReport, stability
     from .analysis.api.timing import benchmark
-    from .analysis.api.validate import validate
     from .analysis.common.errors import InputError
     from .analysis.design.synthesis.outcome import SynthesisResult
     from .analysis.design.trajectories.bounds import Landing
@@ -38,7 +35,10 @@ if TYPE_CHECKING:
     from .analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
     from .analysis.runtime.system.fault import Fault
     from .analysis.stability.injection.bench import StudyError
+    from .analysis.verbs.describe import describe
+    from .analysis.verbs.inventory import inventory
     from .analysis.verbs.run import Result, simulate
+    from .analysis.verbs.validate import validate
     from .fmus_src.block import Block, DeclarationError, Input, Output, Parameter, State
     from .fmus_src.interfaces.allocation import Allocation
     from .fmus_src.interfaces.attitude_observer import AttitudeObserver
@@ -138,10 +138,10 @@ __all__ = [
 _HOMES = {
     "analysis.api.batch": ("BatchResult", "batch", "merge", "shard"),
     "analysis.api.comparison": ("Comparison", "compare"),
-    "analysis.api.describe": ("describe",),
+    "analysis.verbs.describe": ("describe",),
     "analysis.api.export": ("Exported", "export"),
     "analysis.verbs.run": ("Result", "simulate"),
-    "analysis.api.inventory": ("inventory",),
+    "analysis.verbs.inventory": ("inventory",),
     "analysis.api.laws": ("Law", "law", "synthesize"),
     "analysis.api.own": ("new_block", "new_system"),
     "analysis.api.plans": ("HoverPlan", "LandingBound", "plan_hover_transfer", "plan_landing_bound"),
@@ -153,7 +153,7 @@ _HOMES = {
     "analysis.api.samples.worst": ("WorstResult", "worst"),
     "analysis.api.stability": ("StabilityReport", "stability"),
     "analysis.api.timing": ("benchmark",),
-    "analysis.api.validate": ("validate",),
+    "analysis.verbs.validate": ("validate",),
     "analysis.common.errors": ("InputError",),
     "analysis.design.trajectories.bounds": ("Landing",),
     "analysis.design.trajectories.path": ("PlanError",),

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ..common.atomic import write_atomically
-from ..common.errors import call_by_flags
+from ..common.errors import InputError, call_by_flags
 from ..common.exit_status import ExitStatus
 from ..common.targets import Results, check_file
 from .options.option import options_of
@@ -20,7 +20,11 @@ STANDARD_OUTPUT = "-"
 
 
 class VerbResult(Protocol):
-    """The result of a verb. It may have ``report(path)`` and ``write(path)``, for the files of its verb."""
+    """The result of a verb.
+
+    It may have ``report(path)``, ``write(path)`` and other methods that write the files of its verb; ``written``, the
+    paths of what the verb itself has written; and ``problem_status``, the exit status of problems where it is not 1.
+    """
 
     def lines(self) -> Sequence[str]:
         """What the terminal shows."""
@@ -32,27 +36,30 @@ class VerbResult(Protocol):
         """Requirements that are not met and simulations that did not complete: a line each, exit status 1."""
 
 
-WRITERS = {
-    "report": "report",
-    "output": "write",
-    "graph": "write_graph",
-}  # of a result, by the option that names a file
+WRITERS = {"report": "report", "output": "write"}  # of a result, by the option of a file that does not name another
 
 
-def check_files(verb: Verb, files: Mapping[str, Any]) -> None:
-    """Refuse files that cannot be written, before anything is simulated. Raises InputError."""
+def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]) -> None:
+    """Refuse files that cannot be written, and options without their file, before any work. Raises InputError."""
     declared = options_of(verb.files)
+    for name, value in options.items():
+        needed = options_of(verb.options)[name].option.needs
+        if needed and files.get(needed) is None:
+            raise InputError(
+                f"`{name}`", str(value), f"without effect unless `{needed}` is given", "give both or neither"
+            )
     for name, path in files.items():
         if path is not None and str(path) != STANDARD_OUTPUT:
             check_file(f"`{name}`", Path(path), declared[name].option.suffixes)
 
 
-def present(result: VerbResult, files: Mapping[str, Any], flags: Mapping[str, str]) -> ExitStatus:
+def present(verb: Verb, result: VerbResult, files: Mapping[str, Any], flags: Mapping[str, str]) -> ExitStatus:
     """Print a result or its JSON document, write its files, report its problems; the exit status of the command.
 
     ``flags`` are what the verb's parameters are called on the command line.
     """
-    written = Results()
+    written, declared = Results(), options_of(verb.files)
+    written.written += getattr(result, "written", ())
     target = files.get("json")
     if target == STANDARD_OUTPUT:
         sys.stdout.write(_json_text(result))
@@ -62,8 +69,9 @@ def present(result: VerbResult, files: Mapping[str, Any], flags: Mapping[str, st
         else:
             print("\n".join(result.lines()))
     for name, path in files.items():
-        if name in WRITERS and path is not None:
-            written.write(Path(path), partial(_call, result, WRITERS[name]))
+        writer = declared[name].option.writer or WRITERS.get(name)
+        if writer and path is not None:
+            written.write(Path(path), partial(_call, result, writer))
     if target != STANDARD_OUTPUT:
         written.say()
     problems = result.problems()
@@ -71,7 +79,7 @@ def present(result: VerbResult, files: Mapping[str, Any], flags: Mapping[str, st
         print(f"perilune: {call_by_flags(line, flags)}", file=sys.stderr)
     if written.failed:
         return ExitStatus.REFUSED
-    return ExitStatus.NOT_MET if problems else ExitStatus.MET
+    return getattr(result, "problem_status", ExitStatus.NOT_MET) if problems else ExitStatus.MET
 
 
 def _json_text(result: VerbResult) -> str:

@@ -31,9 +31,10 @@ class Option:
     """What is said of an option; its name is the key that it annotates.
 
     ``default`` holds where the option is not given; a mutable one is an empty constant. ``flag`` is the name on the
-    command line where it differs: the singular of an option that may be repeated. ``above`` and ``minimum`` bound a
-    number. ``completer`` names a function of `completers`. ``comma`` reads several values from one text, with commas
-    between; ``suffixes`` are those that a file may have.
+    command line where it differs: the singular of an option that may be repeated. ``above``, ``minimum`` and
+    ``maximum`` bound a number. ``completer`` names a function of `completers`. ``comma`` reads several values from one
+    text, with commas between. ``needs`` names the option of a file without which it would have no effect on the command
+    line. Of a file, ``suffixes`` are those that it may have, ``writer`` is the method of the result that writes it.
     """
 
     text: str
@@ -43,9 +44,12 @@ class Option:
     flag: str = ""
     above: float | None = None
     minimum: float | None = None
+    maximum: float | None = None
     completer: str = ""
     comma: bool = False
+    needs: str = ""
     suffixes: tuple[str, ...] = ()
+    writer: str = ""
     form: str = field(default="NAME=VALUE")  # of an option with pairs
 
 
