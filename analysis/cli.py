@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import inspect
 import os
 import sys
 from collections.abc import Mapping, Sequence
@@ -13,7 +14,7 @@ from typing import NoReturn
 
 import argcomplete
 
-from .common.errors import EndedError, InputError, warn_in_one_line
+from .common.errors import EndedError, InputError, UnwrittenError, call_by_flags, warn_in_one_line
 from .common.exit_status import ExitStatus
 from .common.process_end import leave
 from .common.streams import steady_streams
@@ -25,8 +26,6 @@ from .verbs.options.verbs import GROUPS, OLD, RENAMED, VERBS
 HELP_ALL = "--help-all"
 COMPLETING = "COMP_LINE"  # a shell's variable: the line that is being written
 USAGE = "perilune [--help] [--version] VERB ..."
-# Verbs whose files lie in rooms of their own.
-ROOMS = dict.fromkeys(("batch", "shard", "replay", "merge", "rare", "worst"), "campaigns")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -57,13 +56,14 @@ def _carry_out(given: Sequence[str]) -> int:
             print(f"perilune: {line}", file=sys.stderr)
         return ExitStatus.REFUSED
     except TimeoutError as error:
-        print(f"perilune: {error}", file=sys.stderr)
+        print(f"perilune: {call_by_flags(str(error), flags)}", file=sys.stderr)
         return ExitStatus.NOT_MET
     except EndedError as ended:
-        print(f"perilune: {ended}", file=sys.stderr)
+        print(f"perilune: {call_by_flags(str(ended), flags)}", file=sys.stderr)
         return ended.status
-    except KeyboardInterrupt:
-        print("perilune: interrupted", file=sys.stderr)
+    except KeyboardInterrupt as interrupt:
+        hint = call_by_flags("".join(getattr(interrupt, "__notes__", [])), flags)
+        print(f"perilune: interrupted{hint}", file=sys.stderr)
         return ExitStatus.NOT_MET
     except OSError as error:  # a file that cannot be read or written
         reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)
@@ -76,10 +76,17 @@ def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
     arguments, options, files = read_parsed(verb, parsed)
     result = importlib.import_module(".verbs.result", __package__)
     result.check_files(verb, options, files)
+    result.report_stale(verb, arguments, options)
     module, function = verb.home
     called = getattr(importlib.import_module(f".verbs.{module}", __package__), function)
-    several = [path for each in verb.arguments if each.many for path in arguments.pop(each.name)]
-    return result.present(verb, called(*several, **arguments, **options), files, flags_of(verb))
+    parameters = inspect.signature(called).parameters.values()
+    several = [each for one in parameters if one.kind is one.VAR_POSITIONAL for each in arguments.pop(one.name)]
+    try:
+        outcome = called(*several, **arguments, **options)
+    except UnwrittenError as error:
+        result.present(verb, error.result, files)
+        raise
+    return result.present(verb, outcome, files)
 
 
 def parser_of(given: Sequence[str]) -> Parser:
@@ -123,8 +130,7 @@ def parser_of(given: Sequence[str]) -> Parser:
 
 
 def _module(verb: str, of: str = "") -> ModuleType:
-    room = f"{ROOMS[verb]}." if verb in ROOMS else ""
-    return importlib.import_module(f".commands.{of}{room}{verb}", __package__)
+    return importlib.import_module(f".commands.{of}{verb}", __package__)
 
 
 def run() -> NoReturn:

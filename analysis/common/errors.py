@@ -7,6 +7,7 @@ import os
 import re
 import warnings
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 PARAMETER = re.compile(r"`(\w+)`")  # how a message marks the name of a parameter
 
@@ -61,6 +62,14 @@ class EndedError(RuntimeError):
 
     def __str__(self) -> str:
         return self.message
+
+
+class UnwrittenError(OSError):
+    """A result that could not be written to the folder of `output`; ``result`` is in memory."""
+
+    def __init__(self, error: OSError, result: Any) -> None:
+        super().__init__(error.errno, error.strerror or str(error), error.filename)
+        self.result = result
 
 
 def warn_in_one_line() -> None:

@@ -45,7 +45,7 @@ def check_file(option: str, path: Path | None, suffixes: Collection[str] = (), n
             raise InputError(option, str(path), problem, "give another file, or change its permissions") from error
 
 
-def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: str = "--overwrite") -> None:
+def check_folder(option: str, path: Path | None, *, overwrite: bool, otherwise: str = "`overwrite`") -> None:
     """Refuse a folder that cannot be written, or that holds results unless ``overwrite``. Raises InputError.
 
     The folder and the one that it is in may be new, but not in the root. ``otherwise`` is the option with which a

@@ -19,8 +19,8 @@ from ...fmus_src.paths import ROOT
 from ..design.poles.output.feedback import output_feedback
 from ..design.poles.place import place
 from ..design.poles.spectrum import Spectrum
-from ..reports.common.picture import svg_bytes
 from ..reports.common.style import house_style
+from ..reports.common.svg import svg_bytes
 from .modal_figures import choices_figure, free_figure, spreads_figure
 
 SYSTEMS = 20

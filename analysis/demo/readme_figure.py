@@ -7,7 +7,7 @@ from pathlib import Path
 from ...fmus_src.paths import ROOT
 from ..campaigns.spec.plan import read_plan
 from ..common.process_end import leave
-from ..reports.common.picture import svg_bytes
+from ..reports.common.svg import svg_bytes
 from ..runtime.system.options import SystemOptions
 from .landing import fly_landings, landing_figure
 

@@ -12,8 +12,11 @@ from typing import Any, Protocol
 from ..common.atomic import write_atomically
 from ..common.errors import InputError, call_by_flags
 from ..common.exit_status import ExitStatus
-from ..common.targets import Results, check_file
-from .options.option import options_of
+from ..common.targets import Results, check_file, check_folder
+from ..runtime.system.options import system_options
+from ..runtime.system.stale import stale_fmus
+from .options.option import defaults_of, options_of
+from .options.parsing import flags_of
 from .options.verb import Verb
 
 STANDARD_OUTPUT = "-"
@@ -22,8 +25,8 @@ STANDARD_OUTPUT = "-"
 class VerbResult(Protocol):
     """The result of a verb.
 
-    It may have ``report(path)``, ``write(path)`` and other methods that write the files of its verb; ``written``, the
-    paths of what the verb itself has written; and ``problem_status``, the exit status of problems where it is not 1.
+    It may have ``report(path)``, ``write(path)`` and other methods that write the files of its verb; a ``folder`` in
+    which it is stored already; and ``problem_status``, the exit status of problems where it is not 1.
     """
 
     def lines(self) -> Sequence[str]:
@@ -50,16 +53,27 @@ def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]
             )
     for name, path in files.items():
         if path is not None and str(path) != STANDARD_OUTPUT:
-            check_file(f"`{name}`", Path(path), declared[name].option.suffixes)
+            option = declared[name].option
+            if option.is_folder:
+                check_folder(f"`{name}`", Path(path), overwrite=True)
+            else:
+                check_file(f"`{name}`", Path(path), option.suffixes)
 
 
-def present(verb: Verb, result: VerbResult, files: Mapping[str, Any], flags: Mapping[str, str]) -> ExitStatus:
-    """Print a result or its JSON document, write its files, report its problems; the exit status of the command.
+def report_stale(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
+    """A line on standard error for every source file that is newer than the FMUs built of it, which are simulated."""
+    if "system" not in arguments or "use" not in options_of(verb.options):
+        return
+    compared = [fmu for fmus in options.get("compare", {}).values() for fmu in fmus]
+    complete = {**defaults_of(verb.options), **options}
+    for line in stale_fmus(arguments["system"], system_options(complete), compared):
+        print(f"perilune: {line}", file=sys.stderr)
 
-    ``flags`` are what the verb's parameters are called on the command line.
-    """
-    written, declared = Results(), options_of(verb.files)
-    written.written += getattr(result, "written", ())
+
+def present(verb: Verb, result: VerbResult, files: Mapping[str, Any]) -> ExitStatus:
+    """Print a result or its JSON document, write its files, report its problems; the exit status of the command."""
+    written, declared, flags = Results(), options_of(verb.files), flags_of(verb)
+    written.written += [folder] if (folder := getattr(result, "folder", None)) is not None else []
     target = files.get("json")
     if target == STANDARD_OUTPUT:
         sys.stdout.write(_json_text(result))
@@ -67,7 +81,7 @@ def present(verb: Verb, result: VerbResult, files: Mapping[str, Any], flags: Map
         if target is not None:
             written.write(Path(target), lambda path: write_atomically(path, _json_text(result).encode()))
         else:
-            print("\n".join(result.lines()))
+            print(call_by_flags("\n".join(result.lines()), flags))
     for name, path in files.items():
         writer = declared[name].option.writer or WRITERS.get(name)
         if writer and path is not None:

@@ -12,6 +12,8 @@ from ...common.errors import InputError, suggestion
 from ...runtime.ssp.archive import open_system, system_names
 from ...runtime.ssp.description import Component
 from ...runtime.ssp.reading import read_description
+from ...verbs.options.command import write_command
+from ...verbs.options.flights import RUN
 from ..describe.fits import slots
 from .names import check_free, check_name, class_name
 from .rendering import rendered, template_names
@@ -36,7 +38,7 @@ def new_block(name: str, slot: str | None) -> Written:
     """Write ``name``.py in the working folder. Raises InputError."""
     if slot is not None and slot not in block_slots():
         problem = "there is no block to start from for it" if slot in slots() else "no such slot"
-        raise InputError("--slot", slot, problem, suggestion(slot, block_slots()))
+        raise InputError("`slot`", slot, problem, suggestion(slot, block_slots()))
     check_name(name, (name,))
     path = Path(f"{name}.py")
     check_free(path)
@@ -45,7 +47,8 @@ def new_block(name: str, slot: str | None) -> Written:
     system, component = ("SYSTEM", "control") if slot is None else where_it_flies(slot)
     first = ["perilune new system SYSTEM", "perilune export SYSTEM/blocks.py"] if slot is None else []
     write_atomically(path, text.encode())
-    return Written([path], [f"perilune export {path}", *first, f"perilune run {system} --use {component}={name}"])
+    run = write_command(RUN, {"system": system}, {"use": {component: name}})
+    return Written([path], [f"perilune export {path}", *first, run])
 
 
 def where_it_flies(slot: str) -> tuple[str, str]:
@@ -59,6 +62,6 @@ def where_it_flies(slot: str) -> tuple[str, str]:
             if block is not None and issubclass(block, interface):
                 found.append((len(elements), name, element.name))
     if not found:
-        raise InputError("--slot", slot, f"no system's {DESCRIPTION} has it", suggestion(slot, block_slots()))
+        raise InputError("`slot`", slot, f"no system's {DESCRIPTION} has it", suggestion(slot, block_slots()))
     _, system, component = min(found)
     return system, component

@@ -8,6 +8,10 @@ import tempfile
 from pathlib import Path
 
 from ....fmus_src.catalogue import blocks_in_file
+from ...verbs.options.campaigns import BATCH
+from ...verbs.options.command import write_command
+from ...verbs.options.flights import RUN
+from ...verbs.options.stability import STABILITY
 from .block import Written
 from .connectors import part_of, units_of
 from .names import check_free, check_name, class_name
@@ -34,9 +38,9 @@ def new_system(name: str) -> Written:
         shutil.rmtree(staged, ignore_errors=True)
     commands = [
         f"perilune export {folder / BLOCKS}",
-        f"perilune run {name} --report {name}.html",
-        f"perilune batch {name} --campaign dispersed --output {name}_results",
-        f"perilune stability {name} --report {name}_stability.html",
+        write_command(RUN, {"system": name}, {"report": f"{name}.html"}),
+        write_command(BATCH, {"system": name, "campaign": "dispersed"}, {"output": f"{name}_results"}),
+        write_command(STABILITY, {"system": name}, {"report": f"{name}_stability.html"}),
     ]
     return Written([folder / entry for entry in names], commands)
 

@@ -38,7 +38,7 @@ def compare(folders: Sequence[Path], reference: str | None = None) -> Comparison
         _check_units(batches[0], batch)
     variants = list(dict.fromkeys(variant for batch in batches for variant in batch.variants))
     if reference is not None and reference not in variants:
-        raise InputError("--reference", reference, "no such variant", suggestion(reference, variants))
+        raise InputError("`reference`", reference, "no such variant", suggestion(reference, variants))
     named = dict(zip(_distinct_names(resolved), batches, strict=True))
     contenders = {}
     for index, (name, batch) in enumerate(named.items()):

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import shlex
-from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,6 +10,7 @@ from ...common.errors import InputError, suggestion
 from ...runtime.flight.results import TIMED_OUT, Result
 from ...runtime.system.prepared import PreparedSystem
 from ..spec.campaign import Variant
+from ..spec.checks import check_plan
 from ..spec.plan import BatchPlan
 from .manifest.manifest import read_manifest
 from .manifest.restore import restore
@@ -48,12 +47,6 @@ class ReplayedTrial:
         return self.outcome.status in CUT_OFF
 
 
-def stored_replay(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:
-    """The command line that flies a trial of a campaign's folder again, of one of its ``configurations``."""
-    words = ["perilune", "replay", str(folder), str(trial)]
-    return shlex.join([*words, *(["--configuration", configuration] if len(configurations) > 1 else [])])
-
-
 def replay_trial(
     folder: Path, trial: int, configuration: str | None = None, *, log: str | None = None, timeout: float | None = None
 ) -> ReplayedTrial:
@@ -64,10 +57,8 @@ def replay_trial(
     """
     folder = folder.absolute()  # FMUs may change the working folder
     campaign = open_folder(folder)
-    variant = _variant_of(campaign, configuration)
-    trials = campaign.manifest.trials
-    if not 0 <= trial < trials:
-        raise InputError(folder, f"trial {trial}", "no such trial", f"give 0 to {trials - 1}")
+    variant = _variant_of(campaign.plan, folder, configuration)
+    _check_trial(folder, trial, campaign.manifest.trials)
     manifest = read_manifest(folder)
     plan = restore(folder, manifest if timeout is None else replace(manifest, timeout=timeout), log)
     flight, outcome = Flyer(plan).replay(variant.name, trial)
@@ -85,13 +76,37 @@ def replay_trial(
     )
 
 
-def _variant_of(campaign: Campaign, name: str | None) -> Variant:
-    variants = {variant.name: variant for variant in campaign.plan.campaign.variants()}
+def replay_plan(plan: BatchPlan, trial: int, configuration: str | None = None) -> ReplayedTrial:
+    """Simulate a trial of a plan again, which no folder holds. Raises InputError and StuckError."""
+    check_plan(plan)
+    variant = _variant_of(plan, plan.campaign.file, configuration)
+    _check_trial(plan.campaign.file, trial, plan.campaign.trials)
+    flight, outcome = Flyer(plan).replay(variant.name, trial)
+    return ReplayedTrial(
+        plan=plan,
+        prepared=plan.prepare(variant),
+        configuration=variant.name,
+        trial=trial,
+        flight=flight,
+        outcome=outcome,
+        faults=tuple(str(fault) for fault in plan.faults_of(trial) if fault is not None),
+        stored=False,
+        differences=(),
+    )
+
+
+def _check_trial(file: str | Path, trial: int, trials: int) -> None:
+    if not 0 <= trial < trials:
+        raise InputError(file, f"trial {trial}", "no such trial", f"give 0 to {trials - 1}")
+
+
+def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
+    variants = {variant.name: variant for variant in plan.campaign.variants()}
     if name is None and len(variants) > 1:
         problem = f"its campaign compares {len(variants)}"
-        raise InputError(campaign.folder or "", "--configuration", problem, f"give one of {', '.join(variants)}")
+        raise InputError(file, "`configuration`", problem, f"give one of {', '.join(variants)}")
     if name is not None and name not in variants:
-        raise InputError(campaign.folder or "", f"--configuration {name}", "none of these", suggestion(name, variants))
+        raise InputError(file, f"`configuration` {name}", "none of these", suggestion(name, variants))
     return variants[name] if name is not None else next(iter(variants.values()))
 
 

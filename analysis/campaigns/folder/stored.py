@@ -126,7 +126,7 @@ def _check_there(folder: Path, name: str) -> None:
 
 
 def _how_to_end(folder: Path) -> str:
-    return "go on with it: perilune batch ... --resume" if (folder / MANIFEST).is_file() else WRITE
+    return "resume it: the batch's command with `resume`" if (folder / MANIFEST).is_file() else WRITE
 
 
 def _read_shards(folder: Path, batch: str, trials: int) -> dict[Path, pyarrow.Table]:

@@ -76,11 +76,11 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
     """Refuse options that the campaign would overrule: FMUs of a compared slot, values that are drawn."""
     for slot in plan.campaign.compare:
         if slot in plan.options.use:
-            raise InputError("--use", slot, "the campaign compares FMUs in this slot", f"give --compare {slot}=A,B")
+            raise InputError("`use`", slot, "the campaign compares FMUs in this slot", f"give `compare` {slot}=A,B")
     for name in plan.options.set:
         drawn = any(column == name or column.startswith(f"{name}[") for column in plan.campaign.drawn_names())
         if drawn or name.endswith((".seed", ".stream")):
-            raise InputError("--set", name, "the campaign draws it in every trial", "change the campaign, or --seed")
+            raise InputError("`set`", name, "the campaign draws it in every trial", "change the campaign, or `seed`")
 
 
 def _varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> Any:

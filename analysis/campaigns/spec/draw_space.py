@@ -111,7 +111,7 @@ class DrawSpace:
         names = [name for draw in campaign.draws for name in draw.names]
         for name in self.held:
             if name not in names:
-                raise InputError("--hold", name, f"{campaign.file} does not draw it", suggestion(name, names))
+                raise InputError("`hold`", name, f"{campaign.file} does not draw it", suggestion(name, names))
         found = [self._part(draw) for draw in campaign.draws]
         self._parts = [part for part in found if part is not None]
         self.size = sum(part.size for part in self._parts)
@@ -180,10 +180,10 @@ class DrawSpace:
         if given:
             if len(given) < len(draw.names):
                 lacking = ", ".join(name for name in draw.names if name not in given)
-                raise InputError("--hold", given[0], f"is drawn together with {lacking}", "hold all of them or none")
+                raise InputError("`hold`", given[0], f"is drawn together with {lacking}", "hold all of them or none")
             if "values" in arguments and self.held[draw.name] not in arguments["values"]:
                 known = ", ".join(f"{value:g}" for value in arguments["values"])
-                raise InputError("--hold", draw.name, f"{self.held[draw.name]:g} is none of its values", f"use {known}")
+                raise InputError("`hold`", draw.name, f"{self.held[draw.name]:g} is none of its values", f"use {known}")
             return None
         if draw.distribution in INTERVALS:
             return _Interval((draw.name,), arguments["low"], arguments["high"])
@@ -194,4 +194,4 @@ class DrawSpace:
             kept = values > FLAT * values[-1]
             return _Normals(draw.names, np.array(arguments["mean"]), vectors[:, kept] * np.sqrt(values[kept]))
         problem = f"a {draw.distribution} has single values, and this study goes between them"
-        raise InputError(*where, problem, f"hold it: --hold {draw.name}={arguments['values'][0]:g}, or another value")
+        raise InputError(*where, problem, f"hold it: `hold` {draw.name}={arguments['values'][0]:g}, or another value")

@@ -61,10 +61,10 @@ def failure_of(campaign: Campaign, text: str | None) -> Failure:
     """
     if text is None:
         return Failure(Expression(f"not ({campaign.success.text})", campaign.success.where))
-    found = Failure(Expression(text, ("--failure", text)))
+    found = Failure(Expression(text, ("`failure`", text)))
     known = [metric.name for metric in campaign.metrics] + campaign.drawn_names()
     for name in sorted(found.names - set(known)):
-        raise InputError("--failure", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
+        raise InputError("`failure`", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
     return found
 
 

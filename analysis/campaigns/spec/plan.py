@@ -129,7 +129,7 @@ class BatchPlan:
             return prepare_system(self.archive or self.system, options, series=self.series)
         except InputError as error:
             compared = {*variant.use, *variant.use.values(), *(f"{slot}={fmu}" for slot, fmu in variant.use.items())}
-            if error.file == "--use" and error.element in compared:
+            if error.file == "`use`" and error.element in compared:
                 raise InputError(self.compared_by or "compare", error.element, error.problem, error.remedy) from error
             raise
 
@@ -180,20 +180,20 @@ def read_plan(
     changes: dict = {}
     if trials is not None:
         if trials < 1:
-            raise InputError("--trials", str(trials), "not a positive number", "give 1 or more")
+            raise InputError("`trials`", str(trials), "not a positive number", "give 1 or more")
         changes["trials"] = trials
     if seed is not None:
         changes["seed"] = seed
     if compare is not None:
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
     if draws is not None and trials is not None:
-        raise InputError("--trials", str(trials), "the file of --draws says how many", "leave one of the two out")
+        raise InputError("`trials`", str(trials), "the file of `draws` says how many", "leave one of the two out")
     if draws is not None and sweeps:
-        raise InputError("--set", "=".join(next(iter(sweeps.items()))), "a sweep beside --draws", "leave one out")
+        raise InputError("`set`", "=".join(next(iter(sweeps.items()))), "a sweep beside `draws`", "leave one out")
     changed = with_sweeps(replace(read, **changes), sweeps or {})
     if until_decided and not changed.requirements:
         remedy = "declare what is to be decided: [requirement.NAME]"
-        raise InputError(label, "--until-decided", "the campaign has no requirement", remedy)
+        raise InputError(label, "`until_decided`", "the campaign has no requirement", remedy)
     plan = BatchPlan(
         str(system),
         changed,
@@ -202,7 +202,7 @@ def read_plan(
         faults=tuple(faults),
         series=series,
         watch=watch or UNWATCHED,
-        compared_by=f"{label}: compare" if compare is None else "--compare",
+        compared_by=f"{label}: compare" if compare is None else "`compare`",
         campaign_data=data,
         until_decided=until_decided,
     )

@@ -97,4 +97,4 @@ def _check_trials(campaign: Campaign) -> None:
         below = campaign.trials // points * points
         some = f"{below} or {below + points}" if below else f"{points}"
         problem = f"{campaign.trials} trials do not fill a grid of {points} points"
-        raise InputError(SINGLE, swept, problem, f"give a multiple of {points}: --trials {some}")
+        raise InputError(SINGLE, swept, problem, f"give a multiple of {points}: `trials` {some}")

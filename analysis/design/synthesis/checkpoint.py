@@ -38,7 +38,7 @@ def read_checkpoint(path: Path, facts: Mapping[str, Any]) -> SearchState:
                 raise InputError(path, name, "not what the search began with", f"restore it, or {REMEDY}")
         return state_of(document["state"])
     except FileNotFoundError as error:
-        raise InputError(path, "", "not found", "leave out --resume to begin") from error
+        raise InputError(path, "", "not found", "leave out `resume` to begin") from error
     except InputError:
         raise
     except (ValueError, TypeError, KeyError, IndexError, AttributeError) as error:

@@ -60,7 +60,7 @@ class SynthesisResult:
         evaluation = self.search.chosen().evaluation
         return (
             f"{self.synthesis.campaign.file}: no law found: the chosen one succeeds in {evaluation.successes} of "
-            f"{self.search.evaluator.trials} trials; give more generations, another --seed or another basic solution"
+            f"{self.search.evaluator.trials} trials; give more generations, another `seed` or another basic solution"
         )
 
     def _objectives(self, candidate: Candidate) -> dict[str, dict[str, float]]:

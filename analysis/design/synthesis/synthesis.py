@@ -45,7 +45,7 @@ def run_synthesis(
     output = None if output is None else output.absolute()  # FMUs may change the working folder
     count = worker_count(workers)
     if evaluations is not None and evaluations < 1:
-        raise InputError("--evaluations", str(evaluations), "not a positive number", "give 1 or more")
+        raise InputError("`evaluations`", str(evaluations), "not a positive number", "give 1 or more")
     checkpoint = _checkpoint(output, resume)
     plan = synthesis.plan(seed)
     prepared = _checked(synthesis, plan)
@@ -87,11 +87,11 @@ def _checkpoint(output: Path | None, resume: bool) -> Path | None:
     """The checkpoint's file; refuses to lose one, or to resume without."""
     if output is None:
         if resume:
-            raise InputError("--resume", "", "no folder to resume from", "give --output DIR")
+            raise InputError("`resume`", "", "no folder to resume from", "give `output`")
         return None
     path = output / CHECKPOINT
     if path.exists() and not resume:
-        raise InputError(path, "", "there is a search here already", "give --resume to go on, or another --output")
+        raise InputError(path, "", "there is a search here already", "give `resume` to go on, or another `output`")
     return path
 
 

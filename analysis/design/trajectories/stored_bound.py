@@ -58,7 +58,7 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
     inputs = read_inputs(prepared)
     if inputs is None:
         return None
-    remedy = f"perilune plan landing-bound {prepared.archive.name} --store"
+    remedy = f"perilune design bound {prepared.archive.name} with `store`"
     if PLACE not in prepared.archive.files:
         return MissingBound(f"no {PLACE} in the system; {remedy} writes it")
     bound = read_bound(prepared.archive.read(PLACE, PLACE), f"{prepared.archive.label}/{PLACE}")

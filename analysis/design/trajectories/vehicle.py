@@ -78,10 +78,10 @@ def check_vehicle(vehicle: Vehicle) -> Vehicle:
     """Refuse what is no vehicle."""
     if not vehicle.minimum_thrust < vehicle.maximum_thrust:
         problem = f"not below the largest thrust, {vehicle.maximum_thrust:g} N"
-        raise InputError("--minimum-thrust", f"{vehicle.minimum_thrust:g}", problem, "give less")
+        raise InputError("`minimum_thrust`", f"{vehicle.minimum_thrust:g}", problem, "give less")
     if not vehicle.dry_mass < vehicle.mass:
         problem = f"not below the mass, {vehicle.mass:g} kg"
-        raise InputError("--dry-mass", f"{vehicle.dry_mass:g}", problem, "give less")
+        raise InputError("`dry_mass`", f"{vehicle.dry_mass:g}", problem, "give less")
     return vehicle
 
 
@@ -91,9 +91,9 @@ def check_hover(planned: Vehicle, transfer: Transfer) -> None:
     full, least = f"{planned.maximum_thrust:g} N", f"{planned.minimum_thrust:g} N"
     if not planned.full > transfer.gravity:
         problem = f"{planned.full:.4g} m/s2 do not carry the mass against {transfer.gravity:g} m/s2"
-        raise InputError("--maximum-thrust", full, problem, "give more thrust, or less mass")
+        raise InputError("`maximum_thrust`", full, problem, "give more thrust, or less mass")
     if not planned.least > 0.0:
-        raise InputError("--minimum-thrust", least, "the programme's engine never stops", "give the least that it has")
+        raise InputError("`minimum_thrust`", least, "the programme's engine never stops", "give the least that it has")
     if not planned.least < transfer.gravity:
         problem = f"{planned.least:.4g} m/s2 carry the mass, against {transfer.gravity:g} m/s2: it does not sink"
-        raise InputError("--minimum-thrust", least, problem, "give less thrust, or more mass")
+        raise InputError("`minimum_thrust`", least, problem, "give less thrust, or more mass")

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import PurePosixPath
 
 import numpy as np
 from markupsafe import Markup
 
-from ...campaigns.fly.replay import stored_replay
 from ...campaigns.fly.results import BatchResult
+from ...campaigns.replay_command import replay_command, stored_replay
 from ...campaigns.rows import TrialRows
 from ...campaigns.spec.campaign import Variant
-from ...campaigns.spec.plan import BatchPlan
-from ...runtime.system.options import SystemOptions
 from ..common.page import exact
 from ..common.quantities import shown_unit
 
@@ -91,41 +87,3 @@ def command_of(result: BatchResult, variant: Variant, trial: int) -> str:
     if result.folder is None:
         return replay_command(result.plan, variant, trial)
     return stored_replay(result.folder, result.rows, variant.name, trial)
-
-
-def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
-    """The command line that flies one trial of one variant again, with the options of the batch."""
-    campaign, options = plan.campaign, plan.options
-    inside = campaign.file.partition("!")[2]  # of a system's own campaign
-    words = ["perilune", "batch", plan.system, "--campaign", PurePosixPath(inside).stem if inside else campaign.file]
-    words += ["--trials", str(campaign.trials)] if plan.given is None else ["--draws", plan.given.file]
-    words += ["--seed", str(campaign.seed)]
-    words += [word for name, fmu in variant.use.items() for word in ("--compare", f"{name}={fmu}")]
-    words += [word for name, text in campaign.sweeps.items() for word in ("--set", f"{name}={text}")]
-    words += [word for option, text in _options(options) for word in (option, text)]
-    words += [word for fault in plan.faults for word in ("--fault", str(fault))]
-    words += ["--input", plan.series.file] if plan.series is not None and plan.series.lines else []
-    words += ["--allow-unmatched"] if options.allow_unmatched else []
-    words += ["--strict"] if options.strict else []
-    return shlex.join([*words, "--replay", str(trial)])
-
-
-def _options(options: SystemOptions) -> list[tuple[str, str]]:
-    """What the user asked of the system, as options with their values; nothing that is so anyway."""
-    found = [("--use", f"{slot}={fmu}") for slot, fmu in options.use.items()]
-    found += [("--parameters", name) for name in options.parameters]
-    found += [
-        ("--set", f"{name}={str(value).lower() if isinstance(value, bool) else value}")
-        for name, value in options.set.items()
-    ]
-    found += [("--feedthrough", component) for component in options.feedthrough]
-    found += [("--no-feedthrough", component) for component in options.no_feedthrough]
-    single = {
-        "--step": None if options.step is None else repr(options.step),
-        "--stop-time": None if options.stop_time is None else repr(options.stop_time),
-        "--variant": options.variant,
-        "--flavour": options.flavour,
-        "--algorithm": options.algorithm,
-        "--open-inputs": options.open_inputs if options.open_inputs != SystemOptions.open_inputs else None,
-    }
-    return found + [(option, value) for option, value in single.items() if value is not None]

@@ -7,6 +7,7 @@ from pathlib import Path
 from ...studies.rare.outcome import RareResult
 from ..common.page import write_page
 from ..common.quantities import labelled
+from ..common.tables import Table, cell, fraction
 from .conditions import conditions_of
 from .rare_figures import (
     PERCENT,
@@ -18,7 +19,6 @@ from .rare_figures import (
     level_spans,
     limit_state_figure,
 )
-from .tables import Table, cell, fraction
 
 
 def write_rare_page(result: RareResult, path: Path, folder: Path | None = None) -> None:
@@ -112,7 +112,7 @@ def equivalent_table(result: RareResult) -> Table:
 def replays_of(result: RareResult, folder: Path | None) -> list[tuple[str, str]]:
     """Commands with what they do: the design points again where they were written, a lower bound where levels ended."""
     command = result.replay(folder, 0) if result.failures else ""
-    found = [("design point 0; --replay K flies point K", command)] if command else []
+    found = [("design point 0; trial K of the file is design point K", command)] if command else []
     if result.monte_carlo:
         found.append(("a bound ten times lower, by Monte Carlo", result.monte_carlo))
     return found

@@ -195,8 +195,8 @@ class Simulation:
                 self._times = np.empty(rows)
             except (MemoryError, ValueError) as error:  # the latter where numpy cannot even count them
                 problem = f"{rows} rows do not fit into memory"
-                remedy = "give a longer step or an earlier --stop-time"
-                raise InputError("--step", f"{prepared.step:g}", problem, remedy) from error
+                remedy = "give a longer step or an earlier `stop_time`"
+                raise InputError("`step`", f"{prepared.step:g}", problem, remedy) from error
         for instance in self.instances.values():
             instance.said.clear()
         count = self._call(self.program, *self._asked(first, last, every, reset, excitation))

@@ -134,17 +134,17 @@ class SystemArchive:
             variants = self.variants()
             if variant is None:
                 raise InputError(self.label, name, "not found", f"add it (SSDs here: {', '.join(variants) or 'none'})")
-            raise InputError(self.label, "--variant", f"no variant {variant}", suggestion(variant, variants))
+            raise InputError(self.label, "`variant`", f"no variant {variant}", suggestion(variant, variants))
         return name
 
     def parameter_set(self, name: str) -> tuple[bytes, str]:
         """A parameter set by name: the system's own, else a path."""
-        return self._named(name, (f"resources/{name}", name, f"resources/{name}.ssv"), "--parameters", ".ssv")
+        return self._named(name, (f"resources/{name}", name, f"resources/{name}.ssv"), "`parameters`", ".ssv")
 
     def campaign(self, name: str) -> tuple[bytes, str]:
         """A campaign by name: the system's own, else a path."""
         places = (f"{CAMPAIGN_FOLDER}/{name}", f"{CAMPAIGN_FOLDER}/{name}.toml")
-        return self._named(name, places, "--campaign", ".toml")
+        return self._named(name, places, "`campaign`", ".toml")
 
     def _named(self, name: str, places: tuple[str, ...], option: str, suffix: str) -> tuple[bytes, str]:
         for place in places:

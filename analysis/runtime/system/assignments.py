@@ -18,7 +18,7 @@ from .open_inputs import check_signals, settle_open_inputs
 from .options import SystemOptions
 
 SETTABLE = ("parameter", "input")
-SINGLE = "--set"  # where single values come from, unless a file says them
+SINGLE = "`set`"  # where single values come from, unless a file says them
 TEXT = "Text"  # type of a single value, which takes that of its target
 ELEMENTS = ","  # between the values of a vector
 RANGE = ":"  # between the numbers of a sweep, which is no single value
@@ -177,7 +177,7 @@ def _apply(
             ]
         name = path + prefix + assignment.name
         remedy = suggestion(name, known) if known else suggestion(name.partition(".")[0], network.fmus)
-        raise InputError(assignment.file, assignment.where, problem, f"{remedy}; --allow-unmatched lets it pass")
+        raise InputError(assignment.file, assignment.where, problem, f"{remedy}; `allow_unmatched` lets it pass")
     settings.unmatched.append(f"{assignment.file}: {assignment.where}")
 
 
@@ -189,7 +189,7 @@ def _check_driven(network: Network, assignment: Assignment) -> None:
         raise InputError(assignment.file, assignment.where, problem, "leave out the column or the value")
     if assignment.type_name == TEXT and link is not None and link.target.kind == "input":
         problem = f"is connected to {link.source.name}, which would overwrite the value"
-        remedy = f"set a parameter, or override it: --fault {assignment.name}=override:{assignment.value}@0"
+        remedy = f"set a parameter, or override it: `faults` {assignment.name}=override:{assignment.value}@0"
         raise InputError(assignment.file, assignment.where, problem, remedy)
 
 
@@ -245,7 +245,7 @@ def _parsed(assignment: Assignment, type_name: str, node: Node) -> ParameterValu
     """A single value, which is a bare number in the variable's unit."""
     if type_name in ("Real", "Integer", "Boolean") and RANGE in str(assignment.value):
         unit = f", in {node.unit.name}" if node.unit is not None else ""
-        remedy = f"give one{unit}; low:high:step, a sweep, is what perilune batch --campaign flies"
+        remedy = f"give one{unit}; low:high:step, a sweep, is for perilune batch"
         raise InputError(assignment.file, assignment.where, f"{assignment.value!r} is no single value", remedy)
     try:
         return parse_value(str(assignment.value), type_name, assignment.file, assignment.where)

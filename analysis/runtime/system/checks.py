@@ -21,7 +21,7 @@ def unfit(slot: str, fmu: str, component: Component, error: InputError) -> Input
     more = f" and {len(fits) - MOST} more" if len(fits) > MOST else ""
     remedy = f"these do: {', '.join(fits[:MOST])}{more}" if fits else "no FMU here does; build one with its connectors"
     reason = error.element.partition(" (line")[0]
-    return InputError("--use", f"{slot}={fmu}", f"it does not fit {slot}: {reason}: {error.problem}", remedy)
+    return InputError("`use`", f"{slot}={fmu}", f"it does not fit {slot}: {reason}: {error.problem}", remedy)
 
 
 def _fitting(component: Component) -> Iterator[str]:
@@ -65,5 +65,5 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
         if 0.0 < period < own * (1.0 - 1e-9):
             file = settings.origins.get((component, "sample_period"), network.file)
             problem = f"{period:g} s is shorter than the communication step of {own:g} s"
-            remedy = f"give a --step of {period:g} or a whole part of it, or a longer period"
+            remedy = f"give a `step` of {period:g} or a whole part of it, or a longer period"
             raise InputError(file, f"{component}.sample_period", problem, remedy)

@@ -51,7 +51,7 @@ def driven_inputs(network: Network, series: InputSeries, alone: str | None) -> d
         where = (series.file, f"column {column}")
         if name in network.driver:
             problem = f"is connected to {network.driver[name].source.name}, which would overwrite it"
-            raise InputError(*where, problem, "drive an input that nothing is connected to, or give a --fault")
+            raise InputError(*where, problem, "drive an input that nothing is connected to, or give a `faults`")
         if name not in types:
             known = types if alone is None else [text.removeprefix(f"{alone}.") for text in types]
             raise InputError(*where, "no such input", suggestion(column, known))

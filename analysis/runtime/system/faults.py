@@ -28,7 +28,7 @@ def connector_type(network: Network, name: str, where: tuple[str, str]) -> str:
     component, own = parted(name, network.fmus)
     variable = network.fmus[component].variables.get(own) if component else None
     if variable is not None and variable.causality == "input":
-        raise InputError(*where, "an input that nothing is connected to", f"give it a value with --set {name}=VALUE")
+        raise InputError(*where, "an input that nothing is connected to", f"give it a value with `set` {name}=VALUE")
     raise InputError(*where, "no such connector of a component", suggestion(name, known))
 
 

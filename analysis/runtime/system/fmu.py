@@ -95,7 +95,7 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     if twice:
         raise InputError(label, str(twice[0]), "two variables of this name", "mend the FMU's modelDescription.xml")
     if flaws and strict:
-        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU, or fly without --strict")
+        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU, or fly without `strict`")
     if description.coSimulation is None:
         raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export it for co-simulation")
     if fmpy.architecture == "aarch64" and fmpy.system != "darwin":

@@ -30,7 +30,7 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
     if not keep_starts:
         one = len(found) == 1
         problem = f"{'input is' if one else f'{len(found)} inputs are'} neither connected nor given a value"
-        remedy = f"connect {'it' if one else 'them'}, give a value: --set {found[0].name}=VALUE, or --open-inputs start"
+        remedy = f"connect {'it' if one else 'them'}, give a value: `set` {found[0].name}=VALUE, or `open_inputs` start"
         given = next((settings.left_out[node.name] for node in found if node.name in settings.left_out), None)
         if given is not None:
             remedy = f"map {given} too, whose mapping leaves it out; or {remedy}"

@@ -90,9 +90,9 @@ def _prepared(
     system: str | Path | SystemArchive, options: SystemOptions, loaded: dict[str, Fmu], series: InputSeries | None
 ) -> PreparedSystem:
     for name, value, known in (
-        ("--algorithm", options.algorithm, ALGORITHMS),
-        ("--flavour", options.flavour, FLAVOURS),
-        ("--open-inputs", options.open_inputs, OPEN_INPUTS),
+        ("`algorithm`", options.algorithm, ALGORITHMS),
+        ("`flavour`", options.flavour, FLAVOURS),
+        ("`open_inputs`", options.open_inputs, OPEN_INPUTS),
     ):
         if value is not None and value not in known:
             raise InputError(name, str(value), "unknown", suggestion(str(value), known))
@@ -141,7 +141,7 @@ def _prepared(
     network.notes += remarks
     for slot in options.use:
         if slot not in network.fmus:
-            raise InputError("--use", slot, "no such component", suggestion(slot, network.fmus))
+            raise InputError("`use`", slot, "no such component", suggestion(slot, network.fmus))
     _refuse_seconds(network)
     if series is not None:
         network.driven = driven_inputs(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
@@ -184,14 +184,14 @@ def _refuse_seconds(network: Network) -> None:
         first.setdefault(fmu.digest, name)
 
 
-def find_fmu(name: str, flavour: str | None, option: str = "--use") -> tuple[bytes, str]:
+def find_fmu(name: str, flavour: str | None, option: str = "`use`") -> tuple[bytes, str]:
     """An FMU named by its block or by a path: its content and its name in messages. Raises InputError."""
     read, label = locate_fmu(name, flavour, option)
     return read(), label
 
 
 def locate_fmu(
-    name: str, flavour: str | None, option: str = "--use", system: Path | None = None
+    name: str, flavour: str | None, option: str = "`use`", system: Path | None = None
 ) -> tuple[Callable[[], bytes], str]:
     """Likewise, with what reads the content; ``system`` is where one's own are looked for, too."""
     if name.endswith(".fmu") or Path(name).name != name:

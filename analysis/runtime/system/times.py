@@ -21,31 +21,31 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     ]
     if options.step is None and description.varies is not None:
         line = f"step (line {description.varies})"
-        raise InputError(network.file, line, "varies, which it does not here", "give one: --step SECONDS")
+        raise InputError(network.file, line, "varies, which it does not here", "give one: `step`")
     given = options.step if options.step is not None else _described(network)
     step = given if given is not None else min(proposed, default=None)
     if step is None:
-        raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give --step SECONDS")
+        raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give `step`")
     if not 0.0 < step < float("inf"):
-        raise InputError("--step", str(step), "not a positive number of seconds", "give a positive step")
+        raise InputError("`step`", str(step), "not a positive number of seconds", "give a positive step")
     stop = options.stop_time if options.stop_time is not None else description.stop_time
     experiment = f"{network.file}: DefaultExperiment"
     if stop is None:
-        raise InputError(experiment, "stopTime", "there is none", "give --stop-time SECONDS")
+        raise InputError(experiment, "stopTime", "there is none", "give `stop_time`")
     start = description.start_time
-    step_asked = ("--step", f"{step:g}")
-    stop_asked = ("--stop-time", f"{stop:g}") if options.stop_time is not None else (experiment, f"stopTime {stop:g}")
+    step_asked = ("`step`", f"{step:g}")
+    stop_asked = ("`stop_time`", f"{stop:g}") if options.stop_time is not None else (experiment, f"stopTime {stop:g}")
     duration = stop - start
     if duration < 0.0:
         raise InputError(*stop_asked, f"lies before the start, {start:g} s", "give a later stop time")
     if max(abs(stop), abs(start)) + step == max(abs(stop), abs(start)):
         problem = f"a step of {step:g} s does not advance a time of {stop:g} s"
         asked = step_asked if options.step is not None else stop_asked
-        raise InputError(*asked, problem, "give a longer --step or earlier times")
+        raise InputError(*asked, problem, "give a longer `step` or earlier times")
     steps = round(duration / step) if duration / step < float("inf") else -1
     if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
         problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"
-        remedy = f"for instance --stop-time {start + max(1, steps) * step:.12g}"
+        remedy = f"for instance `stop_time` {start + max(1, steps) * step:.12g}"
         raise InputError(*stop_asked, problem, remedy)
     return start, step, steps
 
@@ -64,7 +64,7 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
         period = 1 if own is None else max(1, int(own / step * (1.0 + 1e-9)))
         if period > LONGEST_PERIOD:
             problem = f"its step of {own:g} s takes more than {LONGEST_PERIOD} communication steps of {step:g} s"
-            raise InputError(network.file, f"{name} (line {component.line})", problem, "give a longer --step")
+            raise InputError(network.file, f"{name} (line {component.line})", problem, "give a longer `step`")
         if own is not None and abs(own - period * step) > 1e-9 * own:
             network.notes.append(f"{name}: steps by {period * step:g} s, not by {own:g} s as it asks")
         if period > 1:
@@ -73,7 +73,7 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
         problem = (
             f"the steps of its components come round together after more than {LONGEST_PERIOD} steps of {step:g} s"
         )
-        raise InputError(network.file, "steps", problem, "give a longer --step")
+        raise InputError(network.file, "steps", problem, "give a longer `step`")
     return found
 
 

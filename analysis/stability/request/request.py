@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 from ...campaigns.spec.checks import check_plan
@@ -15,6 +14,9 @@ from ...runtime.ssp.archive import open_system
 from ...runtime.ssp.description import Description
 from ...runtime.ssp.reading import read_description
 from ...runtime.system.options import Layer, SystemOptions
+from ...verbs.options.command import write_command
+from ...verbs.options.option import options_of
+from ...verbs.options.stability import STABILITY
 from .declaration import Declaration, Loop, Point
 from .reading import read_declaration
 
@@ -52,35 +54,11 @@ class Request:
         """The command that studies one trial of the campaign again."""
         assert self.plan is not None
         assert self.campaign is not None
-        options = self.options
-        words = ["perilune", "stability", self.system, "--campaign", self.campaign]
-        words += ["--trial", str(trial)]
-        words += ["--trials", str(self.plan.campaign.trials)] if self.draws is None else ["--draws", str(self.draws)]
-        words += ["--seed", str(self.plan.campaign.seed), "--loop", loop]
-        words += ["--at", ",".join(map(repr, self.at))] if self.at else []
-        for slot, fmu in options.use.items():
-            words += ["--use", f"{slot}={fmu}"]
-        for name in options.parameters:
-            words += ["--parameters", name]
-        for name, value in options.set.items():
-            words += ["--set", f"{name}={value}"]
-        chosen = {
-            "--step": options.step,
-            "--stop-time": options.stop_time,
-            "--variant": options.variant,
-            "--flavour": options.flavour,
-            "--algorithm": options.algorithm,
-        }
-        for option, choice in chosen.items():
-            words += [] if choice is None else [option, str(choice)]
-        for name in options.feedthrough:
-            words += ["--feedthrough", name]
-        for name in options.no_feedthrough:
-            words += ["--no-feedthrough", name]
-        words += ["--allow-unmatched"] if options.allow_unmatched else []
-        words += ["--strict"] if options.strict else []
-        words += ["--open-inputs", options.open_inputs] if options.open_inputs != SystemOptions().open_inputs else []
-        return shlex.join(words)
+        settings = {each.name: getattr(self.options, each.name) for each in fields(SystemOptions)}
+        options = {name: value for name, value in settings.items() if name in options_of(STABILITY.options)}
+        trials = {"trials": self.plan.campaign.trials} if self.draws is None else {"draws": self.draws}
+        options |= {"campaign": self.campaign, "trial": trial, **trials, "seed": self.plan.campaign.seed}
+        return write_command(STABILITY, {"system": self.system}, options | {"loops": (loop,), "at": self.at})
 
 
 def read_request(
@@ -108,9 +86,9 @@ def read_request(
     declaration = _chosen(read_description(archive, options.variant), loops, times)
     request = Request(archive.name, archive.label, str(system), options, declaration, at=times)
     if campaign is None:
-        for name, value in (("--trials", trials), ("--seed", seed), ("--trial", trial), ("--draws", draws)):
+        for name, value in (("`trials`", trials), ("`seed`", seed), ("`trial`", trial), ("`draws`", draws)):
             if value is not None:
-                raise InputError(name, str(value), "there is no campaign", "give --campaign NAME with it")
+                raise InputError(name, str(value), "there is no campaign", "give `campaign` with it")
         return request
     plan = read_plan(system, campaign, options, trials=trials, seed=seed, draws=draws)
     plan = replace(plan, campaign=replace(plan.campaign, compare={}))  # of FMUs; a study is of one system
@@ -127,15 +105,15 @@ def _chosen(description: Description, names: Sequence[str], at: Sequence[float])
     for time in at:
         if not (math.isfinite(time) and time >= description.start_time):
             remedy = f"give seconds from {description.start_time:g} on"
-            raise InputError("--at", f"{time:g}", "not a time of the flight", remedy)
+            raise InputError("`at`", f"{time:g}", "not a time of the flight", remedy)
     if not names and not declared.loops:
-        remedy = "name a loop in the SSD, or cut one with --loop COMPONENT.CONNECTOR --at SECONDS"
+        remedy = "name a loop in the SSD, or cut one with `loops` COMPONENT.CONNECTOR `at`"
         raise InputError(description.file, "", "declares no loops", remedy)
     cuts = [Point(f"t = {time:g} s", time=time) for time in at or (0.0,)]
     wanted: list[Loop] = []
     for name in dict.fromkeys(names or by_name):
         if name not in by_name and "." not in name:
-            raise InputError("--loop", name, "the SSD names no such loop", _remedy(name, by_name))
+            raise InputError("`loops`", name, "the SSD names no such loop", _remedy(name, by_name))
         wanted.append(by_name.get(name) or Loop(name, cut=name, points=tuple(point.name for point in cuts)))
     points, sweeps = (*declared.points, *cuts), declared.sweeps
     if at:
@@ -162,7 +140,7 @@ def _moved(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
             if point.until is not None and time >= point.until:
                 problem = f"point {point.name} lasts until {point.until:g} s"
                 raise InputError(
-                    "--at", f"{time:g}", problem, "give times before it, or leave its loops out with --loop"
+                    "`at`", f"{time:g}", problem, "give times before it, or leave its loops out with `loops`"
                 )
             name = _name_at(point.name, time)
             phase = f"settings of {point.name}"
@@ -195,7 +173,7 @@ def _drawn(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions
     """Options with the draws of one trial as settings, over the campaign's own and below the user's."""
     if not 0 <= trial < plan.campaign.trials:
         problem = f"the campaign has trials 0 to {plan.campaign.trials - 1}"
-        raise InputError("--trial", str(trial), problem, "give one of them")
+        raise InputError("`trial`", str(trial), problem, "give one of them")
     prepared = plan.prepare(plan.campaign.variants()[0])
     drawn = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
     return options.among(campaign=plan.campaign.layer, draws=Layer(set=drawn))

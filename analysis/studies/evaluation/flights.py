@@ -39,7 +39,7 @@ class SampleFlights:
         if len(variants) != 1:
             slot, fmus = next(iter(plan.campaign.compare.items()))
             problem = f"{len(variants)} variants, and a study like this flies one"
-            raise InputError(plan.campaign.file, "compare", problem, f"choose: --compare {slot}={fmus[0]}")
+            raise InputError(plan.campaign.file, "compare", problem, f"choose: `compare` {slot}={fmus[0]}")
         self._count = worker_count(workers)
         plain = replace(plan.campaign, record=Record(), group=None, scatters=())
         self.plan = replace(plan, campaign=plain).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))

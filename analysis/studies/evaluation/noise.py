@@ -52,7 +52,7 @@ class Noise:
 def noise_of(prepared: PreparedSystem, trial: int | None, seed: int) -> Noise:
     """The noise of a system in a study. Raises InputError where there is no such trial."""
     if trial is not None and trial < 0:
-        raise InputError("--noise-trial", str(trial), "no such trial", "give 0 or more")
+        raise InputError("`noise_trial`", str(trial), "no such trial", "give 0 or more")
     return Noise(tuple(with_streams(prepared)), trial, seed)
 
 

@@ -192,7 +192,10 @@ class RareResult:
         if self.failures:
             lines += ["", f"most probable failures{under}", *aligned(self._failure_rows(f"margin{unit}"))]
             replay = self.replay(folder, 0)
-            lines += ["", f"replay: {replay}" if replay else "replay: --output DIR writes the flights and the command"]
+            lines += [
+                "",
+                f"replay: {replay}" if replay else "replay: needs the folder of `output`",
+            ]
         return "\n".join(line.rstrip() for line in lines)
 
     def bound_text(self) -> str:

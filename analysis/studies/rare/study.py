@@ -40,9 +40,9 @@ def rare_failure(
     the points, too; ``workers`` does not change the result.
     """
     if samples < 100:
-        raise InputError("--samples", str(samples), "too few", "give 100 or more")
+        raise InputError("`samples`", str(samples), "too few", "give 100 or more")
     if not 0.0 < least < 1.0:
-        raise InputError("--least", f"{least:g}", "not a probability", "give one between 0 and 1")
+        raise InputError("`least`", f"{least:g}", "not a probability", "give one between 0 and 1")
     space = DrawSpace(plan.campaign, hold, may_be_empty=True)
     wanted = failure_of(plan.campaign, failure)
     flown = Flown()
@@ -66,7 +66,7 @@ def rare_failure(
         except StuckError as stuck:
             worth, share = stuck.args
             problem = f"{100 * share:.0f} % of a level's flights have one margin, {worth:g}, and none is nearer to it"
-            where = ("--failure", failure) if failure is not None else (plan.campaign.file, "success")
+            where = ("`failure`", failure) if failure is not None else (plan.campaign.file, "success")
             raise InputError(*where, problem, "compare numbers that come near their limits by degrees") from stuck
         units = units_of(space, flights.prepared, flights.facts)
         return RareResult(wanted, simulation, space, flown.whole(), flights.facts, noise, samples, units)

@@ -121,7 +121,10 @@ class SensitivityResult:
             lines += ["", *([f"{number}{under}"] if under else []), *aligned(rows)]
         lines += ["", *(f"{name}: no indices, {why}" for name, why in self.untold.items())] if self.untold else []
         replay = self.replay(folder, 0)
-        lines += ["", f"replay: {replay}" if replay else "replay: --output DIR writes the flights and the command"]
+        lines += [
+            "",
+            f"replay: {replay}" if replay else "replay: needs the folder of `output`",
+        ]
         return "\n".join(line.rstrip() for line in lines)
 
     def write(self, folder: Path) -> None:

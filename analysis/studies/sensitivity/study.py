@@ -39,12 +39,12 @@ def sensitivity(
     flies. The campaign's seed is that of the points; ``workers`` does not change the result. Raises InputError.
     """
     if base < 32 or base & (base - 1):
-        raise InputError("--sensitivity", str(base), "not a power of two from 32 on", "give 64, 128, 256, ...")
+        raise InputError("`base`", str(base), "not a power of two from 32 on", "give 64, 128, 256, ...")
     space = DrawSpace(plan.campaign, hold)
     if not space.independent:
         draw = next(draw for draw in plan.campaign.draws if len(draw.names) > 1 and draw.names[0] in space.names)
         problem = "jointly normal values have no indices of their own"
-        held = " ".join(f"--hold {name}=VALUE" for name in draw.names)
+        held = " ".join(f"`hold` {name}=VALUE" for name in draw.names)
         raise InputError(plan.campaign.file, f"draw.{draw.name}", problem, f"hold them: {held}")
     random = np.random.Generator(np.random.Philox(np.random.SeedSequence(plan.campaign.seed)))
     with SampleFlights(

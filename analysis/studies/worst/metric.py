@@ -41,10 +41,10 @@ def badness_of(campaign: Campaign, text: str | None) -> Badness:
     if text is None:
         failure = failure_of(campaign, None)
         return Badness(f"margin of {failure.text}", failure.margins, expression=failure.expression)
-    expression = Expression(text, ("--metric", text))
+    expression = Expression(text, ("`metric`", text))
     known = [metric.name for metric in campaign.metrics] + campaign.drawn_names()
     for name in sorted(expression.names - set(known)):
-        raise InputError("--metric", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
+        raise InputError("`metric`", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
 
     def of(values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
         found = np.broadcast_to(expression.evaluate(values), flown.shape)

@@ -147,7 +147,10 @@ class WorstResult:
             ]
         replay = self._replay(folder)
         lines += ["", *([under.removeprefix(", ")] if under else []), *aligned(rows)]
-        lines += ["", f"replay: {replay}" if replay else "replay: --output DIR writes the flights and the command"]
+        lines += [
+            "",
+            f"replay: {replay}" if replay else "replay: needs the folder of `output`",
+        ]
         return "\n".join(line.rstrip() for line in lines)
 
     def headline(self) -> list[str]:

@@ -48,23 +48,23 @@ def read_realisations(
     count: int | None, quantile: float | None, flights: int, noise_trial: int | None, *, default: int = REALISATIONS
 ) -> Realisations:
     """What is asked of the noise, for a search of so many ``flights``. Raises InputError."""
-    for option, value in (("--realisations", count), ("--quantile", quantile)):
+    for option, value in (("`realisations`", count), ("`quantile`", quantile)):
         if value is not None and noise_trial is not None:
             problem = f"all flights have the noise of trial {noise_trial}"
-            raise InputError(option, f"{value:g}", problem, "leave it or --noise-trial out")
+            raise InputError(option, f"{value:g}", problem, "leave it or `noise_trial` out")
     if count is not None and count < 1:
-        raise InputError("--realisations", str(count), "not a positive number", "give 1 or more")
+        raise InputError("`realisations`", str(count), "not a positive number", "give 1 or more")
     share = QUANTILE if quantile is None else quantile
     if not 0.0 < share <= 1.0:
-        raise InputError("--quantile", f"{share:g}", "not a share of the realisations", "give one above 0, up to 1")
+        raise InputError("`quantile`", f"{share:g}", "not a share of the realisations", "give one above 0, up to 1")
     found = Realisations(max(1, min(default, flights // LEAST)) if count is None else count, share)
     if count is not None and LEAST <= flights < count * LEAST:
         problem = f"{flights} flights are too few: a search has {LEAST} points or more"
-        raise InputError("--realisations", str(count), problem, f"give --flights {count * LEAST} or more")
+        raise InputError("`realisations`", str(count), problem, f"give `flights` {count * LEAST} or more")
     least = 1 if share == 1.0 else math.ceil(1.0 / (1.0 - share) - 1e-9)
     if quantile is not None and found.count < least:
         problem = f"{found.count} realisations have no such quantile below their largest"
-        raise InputError("--quantile", f"{share:g}", problem, f"give --realisations {least} or more, or --quantile 1")
+        raise InputError("`quantile`", f"{share:g}", problem, f"give `realisations` {least} or more, or `quantile` 1")
     return found
 
 

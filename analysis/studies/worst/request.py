@@ -19,8 +19,8 @@ from ...stability.variation.dispersion import varied
 OF_A_LOOP = ("margin", "point", "at")
 OF_FLIGHTS = {  # and what to do where a margin is looked for
     "metric": "give one of them",
-    "compare": "choose by --use SLOT=FMU",
-    "fault": "margins are of a system without faults",
+    "compare": "choose by `use`",
+    "faults": "margins are of a system without faults",
     "input": "margins are of a system without inputs over time",
     "log": "ask perilune run for it",
     "timeout": "leave it out",
@@ -54,10 +54,10 @@ def check_options(loop: str | None, options: Mapping[str, Any]) -> None:
     """Refuse options, by name, that do not go with a loop, or go with one only. Raises InputError."""
     for name in OF_A_LOOP if loop is None else ():
         if options[name] is not None:
-            raise InputError(f"--{name}", str(options[name]), "there is no loop", "give --loop NAME with it")
+            raise InputError(f"`{name}`", str(options[name]), "there is no loop", "give `loop` with it")
     for name, remedy in OF_FLIGHTS.items() if loop is not None else ():
         if options[name]:
-            raise InputError(f"--{name}", "", "does not go with --loop", remedy)
+            raise InputError(f"`{name}`", "", "does not go with `loop`", remedy)
 
 
 def margin_asked(
@@ -78,7 +78,7 @@ def margin_asked(
     (found,) = request.declaration.loops
     if point is None and len(found.points) > 1:
         problem = f"is studied at {len(found.points)} points, and a search has one"
-        raise InputError("--loop", loop, problem, f"choose: {' or '.join(f'--point {name}' for name in found.points)}")
+        raise InputError("`loop`", loop, problem, f"choose: {' or '.join(f'`point` {name}' for name in found.points)}")
     if point is not None and point not in found.points:
-        raise InputError("--point", point, f"{loop} has no such point", f"give {' or '.join(found.points)}")
+        raise InputError("`point`", point, f"{loop} has no such point", f"give {' or '.join(found.points)}")
     return MarginAsked(request, found, request.point(point or found.points[0]))

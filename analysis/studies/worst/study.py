@@ -99,7 +99,7 @@ def worst_margin(
     moves a loop's margin only by where it has brought the flight to. Raises InputError.
     """
     if margin not in SIZES:
-        raise InputError("--margin", margin, "no such margin", f"give {', '.join(SIZES)}")
+        raise InputError("`margin`", margin, "no such margin", f"give {', '.join(SIZES)}")
     over = read_realisations(realisations, quantile, flights, noise_trial, default=1)
     box = _Box(asked.plan, sigmas, flights, hold)
     with MarginStudies(asked, box.middle, noise_trial=noise_trial, workers=workers) as studies:
@@ -113,9 +113,9 @@ class _Box:
 
     def __init__(self, plan: BatchPlan, sigmas: float, flights: int, hold: Mapping[str, float] | None) -> None:
         if flights < LEAST:
-            raise InputError("--flights", str(flights), "too few", f"give {LEAST} or more")
+            raise InputError("`flights`", str(flights), "too few", f"give {LEAST} or more")
         if not 0.0 < sigmas < 20.0:
-            raise InputError("--sigmas", f"{sigmas:g}", "no such box", "give a number above 0, such as 3")
+            raise InputError("`sigmas`", f"{sigmas:g}", "no such box", "give a number above 0, such as 3")
         self._space = DrawSpace(plan.campaign, hold)
         self._sigmas, self._flights, self._seed = sigmas, flights, plan.campaign.seed
 
@@ -135,7 +135,7 @@ class _Box:
         inside = np.all((places >= 0.0) & (places <= 1.0), axis=1)
         if not inside.any():
             problem = f"none of {len(values)} random trials is within {sigmas:g} sigmas in all draws"
-            raise InputError("--sigmas", f"{sigmas:g}", problem, "give more")
+            raise InputError("`sigmas`", f"{sigmas:g}", problem, "give more")
         left = budget - points.flights
         points.leave_out_noise_without_effect()
         place, value, phases = largest(

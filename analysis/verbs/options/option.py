@@ -14,6 +14,7 @@ from enum import Enum
 from functools import cache
 from typing import Annotated, Any, Literal, Protocol, Union, get_args, get_origin, get_type_hints
 
+NONE: Mapping[str, Any] = types.MappingProxyType({})  # the empty default of an option with pairs
 FilePath = str | os.PathLike[str]
 ParameterValue = float | int | bool | str
 SetValue = ParameterValue | Sequence[ParameterValue]  # of a variable, or of all elements of a vector
@@ -34,7 +35,8 @@ class Option:
     command line where it differs: the singular of an option that may be repeated. ``above``, ``minimum`` and
     ``maximum`` bound a number. ``completer`` names a function of `completers`. ``comma`` reads several values from one
     text, with commas between. ``needs`` names the option of a file without which it would have no effect on the command
-    line. Of a file, ``suffixes`` are those that it may have, ``writer`` is the method of the result that writes it.
+    line. Of a file, ``suffixes`` are those that it may have, ``is_folder`` says that it is a folder, and ``writer`` is
+    the method of the result that writes it.
     """
 
     text: str
@@ -50,6 +52,7 @@ class Option:
     needs: str = ""
     suffixes: tuple[str, ...] = ()
     writer: str = ""
+    is_folder: bool = False
     form: str = field(default="NAME=VALUE")  # of an option with pairs
 
 
@@ -127,8 +130,9 @@ def _kinds(annotation: Any) -> tuple[Kind, Kind]:
     paths = {get_origin(member) or member for member in members} & {os.PathLike}
     if paths and Sequence_ not in origins:
         return Kind.PATH, Kind.PATH
-    if _Mapping in origins:
-        return Kind.PAIRS, Kind.TEXT
+    for member in members:
+        if get_origin(member) is _Mapping:
+            return Kind.PAIRS, Kind.NUMBER if get_args(member)[1] is float else Kind.TEXT
     for member in members:
         if get_origin(member) is Sequence_:
             return Kind.LIST, _kinds(get_args(member)[0])[0]

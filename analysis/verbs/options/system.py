@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
 from typing import Annotated, Any, Literal, TypedDict
 
 from ...runtime.system.fault import Fault
-from .option import FilePath, Option, SetValue, StructuredArray
-
-NONE: Mapping[str, Any] = MappingProxyType({})
+from .option import NONE, FilePath, Option, SetValue, StructuredArray
 
 
 class SystemOptions(TypedDict, total=False):

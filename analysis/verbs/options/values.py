@@ -27,12 +27,13 @@ def _read_single(declared: Declared, kind: Kind, text: str) -> Any:
     return text
 
 
-def _parse_number(declared: Declared, kind: Kind, text: str) -> float | int:
+def _parse_number(declared: Declared, kind: Kind, text: str, name: str = "") -> float | int:
     try:
         return int(text) if kind is Kind.INTEGER else float(text)
     except ValueError:
         whole = "a whole number" if kind is Kind.INTEGER else f"a finite number{_of_unit(declared)}"
-        raise InputError(f"`{declared.name}`", repr(text), f"not {whole}", "give one") from None
+        element = ": ".join(part for part in (name, repr(text)) if part)
+        raise InputError(f"`{declared.name}`", element, f"not {whole}", "give one") from None
 
 
 def check_number(declared: Declared, value: float | int, text: str = "") -> float | int:
@@ -63,8 +64,11 @@ def _read_pairs(declared: Declared, texts: Sequence[str]) -> dict[str, Any]:
             raise InputError(f"`{declared.name}`", text, f"not of the form {form}", "write it so")
         if name.strip() in pairs:
             raise InputError(f"`{declared.name}`", text, f"{name.strip()} is given twice", "give it once")
-        several = [part.strip() for part in value.split(",")]
-        pairs[name.strip()] = several if declared.option.comma else value.strip()
+        if declared.element is Kind.NUMBER:
+            pairs[name.strip()] = _parse_number(declared, Kind.NUMBER, value.strip(), name.strip())
+        else:
+            several = [part.strip() for part in value.split(",")]
+            pairs[name.strip()] = several if declared.option.comma else value.strip()
     return pairs
 
 

@@ -12,7 +12,7 @@ from ....common.errors import InputError
 from .flights import Cluster
 from .identity import identity, refuse_others
 
-OPTION = "--scheduler"
+OPTION = "`scheduler`"
 ANSWER = 10.0  # s that a scheduler has to answer
 FIRST_WORKER = 30.0  # s that a first worker has to come
 LOGS = ("distributed", "distributed.client")  # which have levels of their own
@@ -29,7 +29,7 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
     if address is None:
         yield None
         return
-    for option, value in (("--workers", workers), ("--engine", engine)):
+    for option, value in (("`workers`", workers), ("`engine`", engine)):
         if value is not None:
             problem = "the cluster's own workers fly, in as many threads as they have"
             raise InputError(option, str(value), problem, f"leave it or {OPTION} out")

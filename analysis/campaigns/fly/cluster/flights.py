@@ -82,7 +82,7 @@ class Cluster:
                             yield piece.shard, whole
         except ImportError as error:
             problem = f"a worker cannot load perilune: {error}"
-            raise InputError("--scheduler", "", problem, "install the same in its environment") from error
+            raise InputError("`scheduler`", "", problem, "install the same in its environment") from error
         except (CancelledError, OSError) as error:
             if client.status == "running" and not isinstance(error, (CancelledError, CommClosedError)):
                 raise  # a worker's disk is full, say

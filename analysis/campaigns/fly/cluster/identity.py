@@ -35,4 +35,4 @@ def refuse_others(ours: Identity, theirs: Any, worker: str) -> None:
         problem = f"worker {worker} has other sources of perilune {ours[0]}"
     else:
         return
-    raise InputError("--scheduler", "", problem, "install the same in its environment, then start it again")
+    raise InputError("`scheduler`", "", problem, "install the same in its environment, then start it again")

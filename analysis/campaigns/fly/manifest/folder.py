@@ -34,10 +34,10 @@ def go_on(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: Ba
     found = differences(held, manifest)
     if found:
         problem = f"another campaign than the one asked for: {found}"
-        raise InputError(folder / FILE, "", problem, "resume with what it began with, or give another --output")
+        raise InputError(folder / FILE, "", problem, "resume with what it began with, or give another `output`")
     if manifest.trials < held.trials:
         problem = f"holds a campaign of {held.trials} trials, {manifest.trials} are asked for"
-        raise InputError(folder / FILE, "trials", problem, f"give --trials {held.trials} or more")
+        raise InputError(folder / FILE, "trials", problem, f"give `trials` {held.trials} or more")
     if not plan.is_counted:
         _check_draws(folder, held, plan)
     if manifest.trials > held.trials:
@@ -55,7 +55,7 @@ def _check_draws(folder: Path, held: Manifest, plan: BatchPlan) -> None:
         for name in names:
             if not np.array_equal(known.columns[name], part.columns[name][: known.trials], equal_nan=True):
                 problem = f"{plan.campaign.trials} trials draw other values of {name} in the first {held.trials}"
-                raise InputError(folder / DRAWS, name, f"{problem}, as designs do", "fly them into another --output")
+                raise InputError(folder / DRAWS, name, f"{problem}, as designs do", "fly them into another `output`")
         first += part.trials
         if first >= held.trials:
             return

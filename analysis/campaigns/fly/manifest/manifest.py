@@ -15,7 +15,7 @@ from ....common.errors import InputError
 FILE = "manifest.json"
 CONTENTS = "files"  # the folder beside it
 MOST_DIFFERENCES = 3  # named in one line
-WRITE = "give a folder that perilune batch --output wrote"
+WRITE = "give a folder that perilune batch or prepare wrote"
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,8 @@ def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
     if engine is None:
         return can
     if engine not in ENGINES:
-        raise InputError("--engine", engine, "unknown", suggestion(engine, ENGINES))
+        raise InputError("`engine`", engine, "unknown", suggestion(engine, ENGINES))
     if engine == "threads" and not can:
         problem = "Python FMUs, and those of which a process can hold one instance, do not fly in threads"
-        raise InputError("--engine", engine, problem, "use processes, or native FMUs")
+        raise InputError("`engine`", engine, problem, "use processes, or native FMUs")
     return engine == "threads"

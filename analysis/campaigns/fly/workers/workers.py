@@ -43,7 +43,7 @@ def worker_count(workers: int | None) -> int:
     """The number of parallel flights: as asked for, or one per processor. Raises InputError."""
     count = workers if workers is not None else cpu_count()
     if count < 1:
-        raise InputError("--workers", str(count), "not a positive number", "give 1 or more")
+        raise InputError("`workers`", str(count), "not a positive number", "give 1 or more")
     return count
 
 

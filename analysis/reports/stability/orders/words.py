@@ -44,7 +44,7 @@ def withheld_line(report: StabilityReport, subject: LoopReport | JointReport, it
     assert report.orders is not None
     assert item.as_feedthrough is not None
     names = report.orders.direct
-    options = " or ".join(f"{option} {name}" for name in names for option in ("--feedthrough", "--no-feedthrough"))
+    options = " or ".join(f"{option} {name}" for name in names for option in ("`feedthrough`", "`no_feedthrough`"))
     return (
         f"loop {subject.name} at {subject.point}: {item.title} withheld: {_value(item)} without feedthrough of "
         f"{report.orders.fmus}, {_value(item.as_feedthrough)} with it, limit {item.limit:g}{_unit(item)}; "

@@ -24,9 +24,9 @@ class Watch:
 
     def __post_init__(self) -> None:
         if self.timeout is not None and not 0.0 < self.timeout < math.inf:
-            raise InputError("--timeout", str(self.timeout), "not a positive number of seconds", "give more than 0")
+            raise InputError("`timeout`", str(self.timeout), "not a positive number of seconds", "give more than 0")
         if self.log is not None and self.log not in LOG_LEVELS:
-            raise InputError("--log", self.log, "no such level", suggestion(self.log, LOG_LEVELS))
+            raise InputError("`log`", self.log, "no such level", suggestion(self.log, LOG_LEVELS))
 
 
 UNWATCHED = Watch()

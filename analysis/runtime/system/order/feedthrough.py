@@ -11,7 +11,7 @@ from ..network import Network
 from ..options import SystemOptions
 
 Dependencies = dict[str, dict[str, set[str]]]  # component -> output -> inputs that it depends on directly
-OPTIONS = ("--feedthrough", "--no-feedthrough")
+OPTIONS = ("`feedthrough`", "`no_feedthrough`")
 
 
 class Origin(StrEnum):

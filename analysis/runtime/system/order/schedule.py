@@ -138,8 +138,8 @@ def _check_loops(network: Network, direct: Dependencies) -> None:
             network.file,
             "algebraic loop",
             " -> ".join(error.args[1]),
-            "break it with an FMU whose output does not depend directly on its input (or --no-feedthrough COMPONENT), "
-            "or fly it a step late, --algorithm jacobi",
+            "break it with an FMU whose output does not depend directly on its input (or `no_feedthrough` COMPONENT), "
+            "or fly it a step late, `algorithm` jacobi",
         ) from None
 
 

@@ -1,1 +1,0 @@
-"""Studies that choose a campaign's draws themselves, from Python."""

@@ -1,0 +1,53 @@
+"""Commands that simulate a campaign or one of its trials again, with the options that made its plan."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import fields
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from ..runtime.system.options import SystemOptions
+from ..verbs.options.campaigns import BATCH, REPLAY
+from ..verbs.options.command import write_command
+from .spec.campaign import Variant
+from .spec.plan import BatchPlan
+
+
+def replay_command(plan: BatchPlan, variant: Variant, trial: int) -> str:
+    """The command that simulates one trial of one variant of a plan again."""
+    options = {"campaign": _campaign_name(plan), **_options(plan, variant)}
+    return write_command(REPLAY, {"source": plan.system, "trial": trial}, options)
+
+
+def campaign_command(plan: BatchPlan, variant: Variant) -> str:
+    """The command that simulates a plan with one of its variants."""
+    return write_command(BATCH, {"system": plan.system, "campaign": _campaign_name(plan)}, _options(plan, variant))
+
+
+def stored_replay(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:
+    """The command that simulates a trial of a campaign's folder again, of one of its ``configurations``."""
+    options = {"configuration": configuration if len(configurations) > 1 else None}
+    return write_command(REPLAY, {"source": folder, "trial": trial}, options)
+
+
+def _campaign_name(plan: BatchPlan) -> str:
+    inside = plan.campaign.file.partition("!")[2]  # of a system's own campaign
+    return PurePosixPath(inside).stem if inside else plan.campaign.file
+
+
+def _options(plan: BatchPlan, variant: Variant) -> dict[str, Any]:
+    """The options of a plan by name; arrays of inputs have no text, and are left out."""
+    campaign, settings = plan.campaign, {each.name: getattr(plan.options, each.name) for each in fields(SystemOptions)}
+    trials = {"trials": campaign.trials} if plan.given is None else {"draws": plan.given.file}
+    file = plan.series.file if plan.series is not None and plan.series.lines else None
+    return {
+        **trials,
+        "seed": campaign.seed,
+        "compare": {name: [fmu] for name, fmu in variant.use.items()},
+        **{name: value for name, value in settings.items() if name not in ("set", "places", "folder")},
+        "set": {**campaign.sweeps, **plan.options.set},
+        "faults": [str(fault) for fault in plan.faults],
+        "input": file,
+        "timeout": plan.watch.timeout,
+    }

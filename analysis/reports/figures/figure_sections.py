@@ -1,0 +1,62 @@
+"""The figures that a system asks for in its SSD, drawn from a flight."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from markupsafe import Markup
+
+from ...runtime.flight.results import Result
+from .band_figure import band_section, inside, since
+from .curve_figure import curve_section
+from .declaration.figures import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses
+from .error_figure import error_section
+from .path_figure import path_section
+from .phase_figure import phase_section
+from .pulse_figure import pulse_section
+from .section import Section, sentence
+from .tables import budget_section, limit_section
+
+
+def figure_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
+    """A section for each figure in the order of the SSD; a run without rows has none."""
+    return [_section(figure, result, f"own{index}") for index, figure in enumerate(figures) if result.time.size]
+
+
+def _section(figure: Figure, result: Result, name: str) -> Section:
+    match figure:
+        case Band():
+            return band_section(figure, result, name)
+        case Pulses():
+            return pulse_section(figure, result, name)
+        case Error():
+            return error_section(figure, result, name)
+        case Curve():
+            return curve_section(figure, result, name)
+        case Path():
+            return path_section(figure, result, name)
+        case Phases():
+            return phase_section(figure, result, name)
+        case Limits():
+            return limit_section(figure, result)
+        case Budget():
+            return budget_section(figure, result)
+    return Section(title=figure.title, notes=[Markup("Not drawn: {}.").format(note) for note in figure.notes])
+
+
+def joint_findings(figures: Sequence[Figure], result: Result) -> list[Markup]:
+    """From when on all bands of one name hold together, where there are several of it."""
+    found: dict[str, list[np.ndarray]] = {}
+    for band in figures:
+        if isinstance(band, Band) and result.time.size:
+            found.setdefault(band.name, []).append(np.logical_and.reduce(inside(band, result)))
+    return [
+        sentence(Markup("{}: {}").format(_together(len(held)), since(name, result.time, np.logical_and.reduce(held))))
+        for name, held in found.items()
+        if len(held) > 1
+    ]
+
+
+def _together(bands: int) -> str:
+    return "both bands together" if bands == 2 else f"all {bands} bands together"

@@ -1,0 +1,104 @@
+"""Limits on values at the end of a run: verdicts, and rows of the tables that show them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import StrEnum
+from math import isfinite
+from typing import Any
+
+from markupsafe import Markup
+
+from ...runtime.flight.results import Flight
+from ..common.page import exact
+from ..common.quantities import NONE, shown_unit
+from .declaration.figures import Figure, Limit, Limits
+from .declaration.values import Undrawn
+
+
+class Verdict(StrEnum):
+    """Whether a run meets a limit."""
+
+    MET = "met"
+    VIOLATED = "violated"
+    NOT_EVALUATED = "not evaluated"
+
+
+LABELS = {Verdict.MET: "PASS", Verdict.VIOLATED: "FAIL", Verdict.NOT_EVALUATED: "not evaluated"}
+CLASSES = {Verdict.MET: "pass", Verdict.VIOLATED: "fail", Verdict.NOT_EVALUATED: "not-applicable"}
+
+
+def evaluate(limits: Limits, result: Flight) -> list[tuple[Limit, Verdict]]:
+    """The limits in their order, each with its verdict."""
+    if limits.obstacle(result):
+        return [(limit, Verdict.NOT_EVALUATED) for limit in limits.limits]
+    return [(limit, Verdict.MET if is_met(limit, result) else Verdict.VIOLATED) for limit in limits.limits]
+
+
+def is_met(limit: Limit, result: Flight) -> bool:
+    """Whether the final value is finite and within a limit, the limit included."""
+    value = limit.value(result)
+    above = limit.least is None or value >= limit.least
+    below = limit.most is None or value <= limit.most
+    return above and below and abs(value) < float("inf")
+
+
+def limit_lines(limits: Limits, result: Flight) -> list[str]:
+    """A line for each limit, for a terminal; angles in deg."""
+    obstacle = limits.obstacle(result)
+    form = Markup("{0} ({2} {3}): {4}, {5}" if obstacle else "{0} {1} {3} ({2} {3}): {4}")
+    lines = (form.format(*row, obstacle).striptags() for row in limit_rows(limits, result))
+    return [" ".join(line.replace(" )", ")").split()) for line in lines]
+
+
+def limit_rows(limits: Limits, result: Flight) -> list[tuple[Markup | str, ...]]:
+    """A row for each limit: its name, the final value, the limit, their unit, the verdict."""
+    return [_row(limit, verdict, result) for limit, verdict in evaluate(limits, result)]
+
+
+def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, Any]]:
+    """All limits that a system declares as JSON, an object each."""
+    document: list[dict[str, Any]] = []
+    for figure in figures:
+        if isinstance(figure, Limits):
+            document += limit_entries(figure, result)
+        elif isinstance(figure, Undrawn) and figure.has_limits:
+            document += [
+                {"name": figure.title, "verdict": Verdict.NOT_EVALUATED, "reason": note} for note in figure.notes
+            ]
+    return document
+
+
+def limit_entries(limits: Limits, result: Flight) -> list[dict[str, Any]]:
+    """Limits as JSON: values in ``unit``, None where there is none, and the reason where one is not evaluated."""
+    obstacle = limits.obstacle(result)
+    return [
+        {
+            "name": limit.name,
+            "value": None if obstacle or not isfinite(limit.value(result)) else limit.value(result),
+            "unit": limit.signal.unit_name,
+            "least": limit.least,
+            "most": limit.most,
+            "verdict": verdict,
+            **({"reason": obstacle} if obstacle else {}),
+        }
+        for limit, verdict in evaluate(limits, result)
+    ]
+
+
+def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Markup | str, ...]:
+    unit = limit.signal.unit_name
+    return (
+        limit.name,
+        NONE if verdict is Verdict.NOT_EVALUATED else exact(limit.value(result), unit),
+        _limit(limit, unit),
+        shown_unit(unit),
+        Markup('<span class="verdict {}">{}</span>').format(CLASSES[verdict], LABELS[verdict]),
+    )
+
+
+def _limit(limit: Limit, unit: str | None) -> Markup:
+    if limit.least is None or limit.most is None:
+        word, value = ("at most", limit.most) if limit.least is None else ("at least", limit.least)
+        return Markup("{} {}").format(word, exact(value, unit))
+    return Markup("{} to {}").format(exact(limit.least, unit), exact(limit.most, unit))

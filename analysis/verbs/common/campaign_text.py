@@ -1,0 +1,117 @@
+"""Text of a campaign's result: failed simulations, requirements, meanings of statuses."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ...campaigns.fly.results import BatchResult
+from ...campaigns.fly.workers.flyer import TrialResult
+from ...campaigns.fly.workers.status_texts import worst_statuses
+from ...campaigns.replay_command import stored_replay
+from ...campaigns.requirement_verdicts import add_verdicts, unmet_lines
+from ...campaigns.rows import TrialColumns, TrialRows
+from ...campaigns.spec.campaign import Metric
+from ...campaigns.spec.expressions import Expression
+from ...campaigns.spec.plan import BatchPlan
+from ...campaigns.summary import requirement_values, summarise
+from ...campaigns.tables import aligned
+from ...runtime.flight.results import TIMED_OUT
+from ...runtime.system.status_words import with_meaning
+from .requirements import read_requirements, requirement_problems
+
+
+def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -> list[str]:
+    """A line for each variant with failed or late simulations, and for each requirement that is not met."""
+    lines = failure_lines(failed_flights([result.rows]), result.plan, result.folder)
+    limit = f"{result.plan.watch.timeout:g} s of `timeout`" if result.plan.watch.timeout is not None else ""
+    for variant, count in timed_out(result).items():
+        lines.append(f"{variant}: {count} simulations took longer than the {limit}; give a longer one")
+    values = requirement_values(result.summary)
+    # a status that no trial had is not in the summary: it counts 0
+    values |= {name: 0.0 for requirement in requirements for name in requirement.names - set(values)}
+    return [*lines, *requirement_problems(requirements, values), *unmet_lines(result.summary)]
+
+
+class Failures(NamedTuple):
+    """Flights of a variant that did not reach their end: how many, the first one's trial and message."""
+
+    flights: int
+    trial: int
+    message: str
+
+
+def failed_flights(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failures]:
+    """Of each variant that has any; ``parts`` are trials by variant, in order of trial."""
+    failures: dict[str, Failures] = {}
+    for rows in parts:
+        for variant, own in rows.items():
+            for columns in own.parts("trial", "message"):
+                failed = np.flatnonzero(columns["message"] != "")
+                if failed.size:
+                    first = Failures(0, int(columns["trial"][failed[0]]), str(columns["message"][failed[0]]))
+                    before = failures.get(variant, first)
+                    failures[variant] = before._replace(flights=before.flights + failed.size)
+    return failures
+
+
+def failure_lines(failures: Mapping[str, Failures], plan: BatchPlan, folder: Path | None) -> list[str]:
+    """A line for each variant with failed simulations, with the command that replays its first failed trial."""
+    variants, lines = plan.campaign.variants(), []
+    for variant, (flights, trial, message) in failures.items():
+        replay = "" if folder is None else f"; see it: {stored_replay(folder, variants, variant, trial)}"
+        lines.append(f"{variant}: {flights} simulations failed; trial {trial}: {message}{replay}")
+    return lines
+
+
+def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Iterable[Metric]) -> list[str]:
+    """What one trial of a variant came to: its status, whether it is a success, its metrics."""
+    success = "success" if outcome.success else "no success"
+    cells = []
+    for metric in metrics:
+        value = outcome.metrics[metric.name]
+        text = "none" if math.isnan(value) else f"{value:.6g}"
+        cells.append([f"  {metric.name}", text, "" if metric.unit == "1" else metric.unit])
+    lines = [line.rstrip() for line in aligned(cells)] if cells else []
+    return [f"{variant}: trial {trial}: {outcome.status}, {success}", *lines]
+
+
+def status_meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
+    """What each status that a trial reported means, once, as its FMU says."""
+    meanings: dict[str, None] = {}
+    for variant in plan.campaign.variants():
+        texts = dict.fromkeys(text for text in result.summary[variant.name]["statuses"] if worst_statuses(text))
+        if texts:
+            network = plan.prepare(variant).network
+            seen = {item: None for text in texts for item in worst_statuses(text).items()}
+            meanings |= {with_meaning(network, *item): None for item in seen}
+    return list(meanings)
+
+
+def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Expression]:
+    """Requirements; those on numbers that the summary will not have are refused before anything flies."""
+    nothing = np.full(1, np.nan)
+    metrics = {metric.name: nothing for metric in plan.campaign.metrics}
+    blank = TrialColumns([""], np.zeros(1, dtype=bool), metrics)
+    variants = [variant.name for variant in plan.campaign.variants()]
+    columns = dict.fromkeys(variants, blank)
+    summary = summarise(columns, plan.campaign.metrics)
+    for name in variants if plan.groups else ():
+        summary[name]["groups"] = {group.label: {**summary[name], "value": group.value} for group in plan.groups}
+    add_verdicts(summary, plan.campaign.requirements, columns)
+    known = requirement_values(summary)
+    statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
+    return read_requirements(texts, known, statuses)
+
+
+def timed_out(result: BatchResult) -> dict[str, int]:
+    """How many flights of each variant took longer than they may; those without any are left out."""
+    counts = {
+        variant: sum(count for status, count in entry["statuses"].items() if status.startswith(TIMED_OUT))
+        for variant, entry in result.summary.items()
+    }
+    return {variant: count for variant, count in counts.items() if count}

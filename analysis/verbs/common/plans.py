@@ -1,0 +1,98 @@
+"""The plan of a campaign from the options of a verb, and the commands that simulate its trials again."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...campaigns.draws.given import ALL, GivenDraws
+from ...campaigns.fly.manifest.manifest import FILE as MANIFEST
+from ...campaigns.fly.workers.workers import WorkersDiedError
+from ...campaigns.replay_command import campaign_command, replay_command
+from ...campaigns.spec.plan import BatchPlan, read_plan
+from ...campaigns.spec.sweeps import part_sweeps
+from ...common.errors import EndedError, InputError
+from ...common.exit_status import ExitStatus
+from ...runtime.system.fault import faults_of
+from ...runtime.system.in_flight.series import read_series
+from ...runtime.system.in_flight.watch import Watch
+from ...runtime.system.options import system_options
+from ...studies.evaluation.commands import Commands
+from ..options.option import FilePath
+
+
+def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, Any]) -> BatchPlan:
+    """The plan of a campaign with the options of a verb. Raises InputError."""
+    settings, sweeps = part_sweeps(system_options(options))
+    if sweeps and "trials" not in options:  # of a study, which samples the campaign itself
+        name, text = next(iter(sweeps.items()))
+        raise InputError("`set`", f"{name}={text}", "a study has no sweeps", "give one value")
+    series, draws = options["input"], options.get("draws")
+    return read_plan(
+        Path(system),
+        os.fspath(campaign),
+        settings,
+        trials=options.get("trials"),
+        seed=options["seed"],
+        compare=_compared(options["compare"]),
+        faults=faults_of(options["faults"]),
+        series=None if series is None else read_series(series),
+        watch=Watch(options["timeout"], options["log"]),
+        until_decided=options.get("until_decided", False),
+        draws=None if draws is None else Path(draws),
+        sweeps=sweeps,
+    )
+
+
+def _compared(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[str, list[str]] | None:
+    """The FMUs of each slot that is compared, names or paths; one alone stands for a list of one."""
+    if not compare:
+        return None
+    return {
+        slot: [os.fspath(fmus)] if isinstance(fmus, str | os.PathLike) else [os.fspath(fmu) for fmu in fmus]
+        for slot, fmus in compare.items()
+    }
+
+
+def commands_of(plan: BatchPlan) -> Commands:
+    """Commands for the simulations of a study's plan."""
+    (variant,) = plan.campaign.variants()
+
+    def replay(draws: Path, trial: int) -> str:
+        given = GivenDraws({}, {ALL: np.zeros(trial + 1, dtype=np.int64)}, str(draws))
+        return replay_command(plan.of_samples(given), variant, trial)
+
+    def monte_carlo(trials: int) -> str:
+        return campaign_command(replace(plan, campaign=replace(plan.campaign, trials=trials)), variant)
+
+    return Commands(replay, monte_carlo)
+
+
+@contextmanager
+def resume_hint(folder: Path | None) -> Iterator[None]:
+    """What ends a campaign early names its folder, and how it is resumed. Raises EndedError."""
+    home = None if folder is None else folder.absolute()  # an FMU may change the working folder
+    try:
+        yield
+    except WorkersDiedError as error:
+        raise EndedError(f"{error}{_hint(home)}", ExitStatus.NOT_MET) from error
+    except KeyboardInterrupt as interrupt:
+        if hint := _hint(home):
+            interrupt.add_note(hint)
+        raise
+    except OSError as error:
+        file = f"{error.filename}: " if error.filename else ""
+        text = f"{file}{error.strerror or error}; free some space{_hint(home)}"
+        raise EndedError(text, ExitStatus.REFUSED) from error
+
+
+def _hint(folder: Path | None) -> str:
+    if folder is None or not (folder / MANIFEST).is_file():
+        return ""
+    return f"; completed trials are stored in {folder}: resume with the same command and `resume`, or with shard"

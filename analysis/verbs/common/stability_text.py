@@ -1,0 +1,102 @@
+"""Text of a study of stability: a line for each loop, and one for each requirement that is not met."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from ...reports.stability.orders.words import order_loops, order_sentences, withheld_line
+from ...stability.loops.margin_values import MARGINS, UNLIMITED, Quantity
+from ...stability.results.loop import JointReport, LoopReport
+from ...stability.results.report import StabilityReport
+from ...stability.results.requirement import Requirement, Verdict
+from ...stability.results.varied import SweepCrossing, SweepReport
+
+
+def stability_lines(report: StabilityReport) -> list[str]:
+    """A study in lines of text: loops, notes on feedthrough, sweeps, the verdict."""
+    lines, others = list[str](), {(loop.name, loop.point): loop for loop in order_loops(report)}
+    for loop in report.loops:
+        lines += _lines(loop)
+        if (other := others.get((loop.name, loop.point))) is not None:
+            lines.append(f"  as feedthrough: {_margins(other)}")
+    lines += [f"note: {sentence}" for sentence in order_sentences(report)]
+    lines += [_crossing_line(sweep, crossing) for sweep in report.sweeps for crossing in sweep.crossings]
+    return [*lines, f"{report.system}: {report.verdict}, {report.seconds:.1f} s"]
+
+
+def stability_problems(report: StabilityReport) -> list[str]:
+    """A line for each requirement that is not met or withheld, and for everything that could not be studied."""
+    judged = report.judged()
+    failures = [item for item in judged if item.requirement.verdict is Verdict.FAIL]
+    lines = [
+        _failure_line(subject, requirement)
+        for subject, requirement in failures
+        if not requirement.unstable or isinstance(subject, JointReport)  # else that it is unstable has a line already
+    ]
+    withheld = [item for item in judged if item.requirement.verdict is Verdict.WITHHELD]
+    lines += [withheld_line(report, subject, requirement) for subject, requirement in withheld]
+    for loop in report.loops:
+        if loop.doubted and loop.verdict is Verdict.NOT_APPLICABLE:
+            why = f"the routes differ, {loop.not_applicable['agreement']}"
+            lines.append(f"loop {loop.name} at {loop.point}: not passed: {why}")
+    lines += [f"{lost.what} {lost.name} at {lost.point}: not studied: {lost.reason}" for lost in report.unstudied]
+    if not lines and report.verdict is not Verdict.PASS:
+        lines.append(f"{report.system}: {report.verdict}")
+    return lines
+
+
+def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:
+    where = f"{'loops' if isinstance(subject, JointReport) else 'loop'} {subject.name} at {subject.point}"
+    found = "of an unstable loop" if item.unstable else f"{item.value:.4g} {_unit(item)}".strip()
+    note = f": {item.note}" if item.note else ""
+    return f"{where}: {item.title} {found} misses the limit {item.limit:g} {_unit(item)}".strip() + note
+
+
+def _unit(item: Requirement) -> str:
+    return "" if item.unit == "1" else item.unit
+
+
+def _words(sizes: Mapping[Quantity, float], sides: Mapping[Quantity, str] | None = None) -> str:
+    """Sizes of margins: ``12.39 dB, 44.28 deg, modulus 0.597, disk 0.761``, with words for those that are one-sided."""
+    words = []
+    for quantity, size in sizes.items():
+        name = quantity.split()[0]
+        if size == UNLIMITED:
+            words.append(f"no {name} crossing")
+        else:
+            found = f"{name} {size:.3f}" if quantity.unit == "1" else f"{size:.2f} {quantity.unit}"
+            words.append(f"{found} {(sides or {}).get(quantity, '')}".strip())
+    return ", ".join(words)
+
+
+def _margins(loop: LoopReport) -> str:
+    margins = loop.margins
+    sizes = {quantity: margins.size(quantity) for quantity in MARGINS}
+    sides = {Quantity.GAIN: "down" if margins.gain < 1.0 else "", Quantity.PHASE: "lead" if margins.phase < 0.0 else ""}
+    return f"unstable, spectral radius {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
+
+
+def _lines(loop: LoopReport) -> Iterator[str]:
+    """A loop's line, and below it one for each thing that could not be had, and one for the campaign."""
+    words = _margins(loop)
+    if loop.agreement is not None:
+        words += ", routes agree" if loop.agreement.agrees else ", routes differ"
+    yield f"{loop.name} at {loop.point}: {words}: {loop.verdict}"
+    for name, reason in loop.not_applicable.items():
+        if name != "agreement":  # which has a line of its own
+            yield f"  {name}: {reason}"
+    if (spread := loop.dispersion) is not None:
+        if spread.unstable:
+            again = f"the worst, trial {spread.worst}, again: {spread.replay}"
+            found = f"{spread.unstable} of {spread.trials} trials unstable; {again}"
+        else:
+            least = {quantity: spread.levels(quantity)["least"] for quantity in MARGINS}
+            found = f"{spread.trials} trials stable, least {_words(least)}"
+        yield f"  over {Path(spread.campaign).name}: {found}"
+
+
+def _crossing_line(sweep: SweepReport, crossing: SweepCrossing) -> str:
+    side = "below" if crossing.below else "above"
+    what = "unstable" if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit"
+    return f"{sweep.name}: {what} {side} {sweep.parameter} = {crossing.value:.4g}"

@@ -1,0 +1,159 @@
+"""The verbs of campaigns: batch, prepare, shard, merge, replay."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Literal, TypedDict
+
+from .flights import SYSTEM, FlightFiles
+from .option import NONE, FilePath, Option
+from .system import JsonFile, ReportFiles, RequireOptions, SimulationOptions, SystemOptions
+from .verb import Argument, Verb
+
+CAMPAIGN = Argument(
+    "campaign", "NAME", "a campaign of the system, or a .toml file", completer="campaigns", is_option=True
+)
+FOLDER = Argument("folder", "DIR", "the folder of a campaign, of batch or prepare")
+OF_CAMPAIGN = "a requirement of the campaign is not met or undecided, a --require is not met, or a simulation failed"
+
+
+class CampaignOptions(SystemOptions, SimulationOptions, total=False):
+    """Options of everything that simulates a campaign"""
+
+    seed: Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
+    compare: Annotated[
+        Mapping[str, FilePath | Sequence[FilePath]],
+        Option("compare these FMUs in a slot on the same draws", NONE, metavar="SLOT=A,B,C", comma=True),
+    ]
+
+
+class TrialsOptions(TypedDict, total=False):
+    """Which trials a campaign has"""
+
+    trials: Annotated[int | None, Option("instead of the campaign's number of trials", metavar="N")]
+    draws: Annotated[
+        FilePath | None,
+        Option("given draws, one row a trial, instead of sampled ones", metavar="F.parquet", completer="parquet_files"),
+    ]
+
+
+class ExecutionOptions(TypedDict, total=False):
+    """Where simulations run"""
+
+    workers: Annotated[int | None, Option("simulations in parallel; default: one per processor", metavar="N")]
+    engine: Annotated[
+        Literal["threads", "processes"] | None, Option("parallel threads or processes; default: threads where FMUs can")
+    ]
+    scheduler: Annotated[str | None, Option("run on the workers of this dask scheduler instead", metavar="ADDRESS")]
+
+
+class BatchOptions(CampaignOptions, TrialsOptions, ExecutionOptions, RequireOptions, total=False):
+    """Options of batch"""
+
+    output: Annotated[FilePath | None, Option("write trials, draws and summary to a folder", metavar="DIR")]
+    overwrite: Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
+    resume: Annotated[bool, Option("continue or extend the campaign in the folder of --output", False)]
+    until_decided: Annotated[bool, Option("stop as soon as the campaign's requirements are met, or are not", False)]
+
+
+class PrepareOptions(CampaignOptions, TrialsOptions, total=False):
+    """Options of prepare"""
+
+    overwrite: Annotated[bool, Option("overwrite existing results in the folder", False)]
+    resume: Annotated[bool, Option("continue or extend the campaign in the folder", False)]
+    until_decided: Annotated[bool, Option("stop as soon as the campaign's requirements are met, or are not", False)]
+
+
+class ReplayOptions(CampaignOptions, TrialsOptions, RequireOptions, total=False):
+    """Options of replay"""
+
+    campaign: Annotated[
+        FilePath | None,
+        Option(
+            "replay a trial of this campaign of the system SOURCE, without a folder",
+            metavar="NAME",
+            completer="campaigns",
+        ),
+    ]
+    configuration: Annotated[
+        str | None, Option("the variant, required where the campaign compares several", metavar="NAME")
+    ]
+
+
+BATCH = Verb(
+    "batch",
+    "Simulate",
+    "simulate a campaign: many trials, variants compared on the same draws",
+    ("batch", "batch"),
+    (SYSTEM, CAMPAIGN),
+    BatchOptions,
+    ReportFiles,
+    (
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results --report batch.html",
+            "three guidance laws on the same fifty draws",
+        ),
+    ),
+    OF_CAMPAIGN,
+)
+PREPARE = Verb(
+    "prepare",
+    "Share",
+    "write a campaign to a folder without simulating it, for shard",
+    ("prepare", "prepare"),
+    (SYSTEM, CAMPAIGN, Argument("output", "DIR", "the folder to write", is_option=True)),
+    PrepareOptions,
+    JsonFile,
+    (
+        (
+            "perilune prepare lunar_terminal_guidance --campaign paper --trials 100 --output parts",
+            "the campaign in a folder",
+        ),
+    ),
+)
+SHARD = Verb(
+    "shard",
+    "Share",
+    "simulate some shards of a campaign that prepare wrote, or that batch left unfinished",
+    ("shard", "shard"),
+    (FOLDER, Argument("numbers", "K", "numbers of shards, the first is 0; A-B: from A to B", many=True)),
+    ExecutionOptions,
+    JsonFile,
+    (("perilune shard parts 0-1", "its first shards, on any machine that has the folder"),),
+    "a simulation failed, or workers or the scheduler ended repeatedly",
+)
+MERGE = Verb(
+    "merge",
+    "Share",
+    "merge the shards of a campaign: summary, page, requirements",
+    ("merge", "merge"),
+    (FOLDER,),
+    RequireOptions,
+    ReportFiles,
+    (("perilune merge parts --report parts.html", "what batch would have written"),),
+    OF_CAMPAIGN,
+)
+REPLAY = Verb(
+    "replay",
+    "Simulate",
+    "simulate a trial of a campaign again, with all signals",
+    ("replay", "replay"),
+    (
+        Argument("source", "SOURCE", "the folder of a campaign; or a system, with --campaign", completer="systems"),
+        Argument("trial", "TRIAL", "its number, the first is 0", read=int),
+    ),
+    ReplayOptions,
+    FlightFiles,
+    (
+        (
+            "perilune replay results 7 --configuration analytic_guidance --report trial.html",
+            "a trial of a stored campaign, from its folder alone",
+        ),
+        (
+            "perilune replay lunar_terminal_guidance 7 --campaign paper --compare guidance=astar_guidance "
+            "--output replay.csv",
+            "a trial of a campaign that is not stored",
+        ),
+    ),
+    "as of run; or the trial is no success, or differs from the stored one",
+)

@@ -1,0 +1,117 @@
+"""The verbs of studies over a campaign's dispersions: rare, worst, sensitivity."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Literal, TypedDict
+
+from .campaigns import CAMPAIGN, CampaignOptions
+from .flights import SYSTEM
+from .option import NONE, FilePath, Option
+from .system import ReportFiles, RequireOptions
+from .verb import Argument, Verb
+
+
+class ConditionOptions(TypedDict, total=False):
+    """What a study keeps constant, and where it writes"""
+
+    hold: Annotated[
+        Mapping[str, float], Option("fix a dispersed input (required for discrete inputs)", NONE, metavar="NAME=VALUE")
+    ]
+    noise_trial: Annotated[
+        int | None,
+        Option("use the noise realisation of trial K in all simulations; default: random noise", metavar="K"),
+    ]
+    workers: Annotated[int | None, Option("simulations in parallel; default: one per processor", metavar="N")]
+    output: Annotated[FilePath | None, Option("write the results to a folder", metavar="DIR")]
+    overwrite: Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
+
+
+class RareOptions(CampaignOptions, ConditionOptions, RequireOptions, total=False):
+    """Options of rare"""
+
+    failure: Annotated[
+        str | None,
+        Option("failure condition over metrics and draws; default: the trial is no success", metavar="EXPRESSION"),
+    ]
+    samples: Annotated[int, Option("simulations per level", 4500, metavar="N", minimum=100)]
+    least: Annotated[float, Option("smallest probability of interest", 1e-9, metavar="P", above=0.0)]
+
+
+class WorstOptions(CampaignOptions, ConditionOptions, RequireOptions, total=False):
+    """Options of worst"""
+
+    metric: Annotated[
+        str | None,
+        Option(
+            "objective over metrics and draws, the larger the worse; default: the margin to the success condition",
+            metavar="EXPRESSION",
+        ),
+    ]
+    loop: Annotated[
+        str | None,
+        Option("minimise a stability margin of this loop instead; or of COMPONENT.CONNECTOR to cut", metavar="NAME"),
+    ]
+    margin: Annotated[
+        Literal["disk", "modulus", "gain", "phase", "delay"] | None, Option("which margin; default: disk")
+    ]
+    point: Annotated[str | None, Option("operating point of the loop; default: its only one", metavar="NAME")]
+    at: Annotated[float | None, Option("time of the operating point of a cut; default: 0", unit="s", metavar="T")]
+    sigmas: Annotated[float, Option("search box of normal inputs, in standard deviations", 3.0, metavar="K", above=0.0)]
+    flights: Annotated[int | None, Option("number of simulations; default: 2000, for a margin 500", metavar="N")]
+    realisations: Annotated[
+        int | None,
+        Option(
+            "noise realisations per point; default: 5, for a margin 1; the worst point gets 10 K new ones", metavar="K"
+        ),
+    ]
+    quantile: Annotated[
+        float | None,
+        Option("of the realisations, best to worst: 0.5 the median, 1 the worst; default: 0.5", metavar="Q"),
+    ]
+
+
+class SensitivityOptions(CampaignOptions, ConditionOptions, total=False):
+    """Options of sensitivity"""
+
+
+RARE = Verb(
+    "rare",
+    "Study",
+    "estimate the probability of a rare failure, and its most probable failure points",
+    ("rare", "rare"),
+    (SYSTEM, CAMPAIGN),
+    RareOptions,
+    ReportFiles,
+    not_met="a --require is not met",
+)
+WORST = Verb(
+    "worst",
+    "Study",
+    "search a campaign's dispersions for the worst value of a metric or of a stability margin",
+    ("worst", "worst"),
+    (SYSTEM, CAMPAIGN),
+    WorstOptions,
+    ReportFiles,
+    not_met="a --require is not met",
+)
+SENSITIVITY = Verb(
+    "sensitivity",
+    "Study",
+    "compute Sobol' indices: which dispersed inputs drive the metrics",
+    ("sensitivity", "sensitivity"),
+    (
+        SYSTEM,
+        CAMPAIGN,
+        Argument("base", "N", "N (inputs + 2) simulations, + 3 with noise; a power of two", is_option=True, read=int),
+    ),
+    SensitivityOptions,
+    ReportFiles,
+    (
+        (
+            "perilune sensitivity lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--base 64",
+            "which dispersed inputs drive the metrics",
+        ),
+    ),
+)

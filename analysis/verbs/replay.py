@@ -1,0 +1,144 @@
+"""`perilune.replay`: a trial of a campaign again, with all signals, from the campaign's folder or from its system."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import chdir
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Unpack
+
+from ..campaigns.fly.replay import ReplayedTrial, replay_plan, replay_trial
+from ..campaigns.tables import faults_line
+from ..common.errors import InputError
+from ..reports.figures.declaration.reading import read_figures
+from ..reports.flight.run_report import write_run_report
+from ..runtime.flight.interruptible import StuckError
+from .common.campaign_text import outcome_lines
+from .common.plans import read_campaign
+from .common.requirements import read_requirements
+from .options.campaigns import REPLAY, ReplayOptions
+from .options.command import record_options
+from .options.option import FilePath
+from .options.verb import verb
+from .run import STUCK, Result
+
+METRIC = "metric."
+OF_A_FOLDER = {"configuration", "log", "timeout", "require"}  # options that go with a campaign's folder
+
+
+@dataclass(repr=False, kw_only=True)
+class ReplayResult(Result):
+    """A trial of a campaign as a simulation with every signal; see `Result` for what it has, plots and page.
+
+    ``replayed`` is the trial in its campaign: its ``configuration``, outcome and faults, and how it differs from the
+    stored one: not at all on the machine that simulated the campaign.
+    """
+
+    replayed: ReplayedTrial
+    source: str
+
+    @property
+    def configuration(self) -> str:
+        """The campaign's variant."""
+        return self.replayed.configuration
+
+    @property
+    def trial(self) -> int:
+        """The number of the trial."""
+        return self.replayed.trial
+
+    @property
+    def success(self) -> bool:
+        """Whether the trial is a success of its campaign."""
+        return self.replayed.outcome.success
+
+    @property
+    def metrics(self) -> dict[str, float]:
+        """The campaign's metrics of the trial."""
+        return self.replayed.outcome.metrics
+
+    @property
+    def stored(self) -> bool:
+        """Whether the folder has the trial."""
+        return self.replayed.stored
+
+    @property
+    def differences(self) -> tuple[str, ...]:
+        """How the simulation differs from the stored trial."""
+        return self.replayed.differences
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune replay --report`: one HTML file."""
+        title = f"{self.system}, {self.configuration}, trial {self.trial}"
+        write_run_report(self, Path(path), title, self.figures)
+
+    def to_json(self) -> dict[str, Any]:
+        """As of `Result`, with the campaign, the trial's success and metrics, and differences from the stored one."""
+        metrics = {name: value if abs(value) < float("inf") else None for name, value in self.metrics.items()}
+        return super().to_json() | {
+            "campaign": self.replayed.plan.campaign.file,
+            "trial": self.trial,
+            "configuration": self.configuration,
+            "success": self.success,
+            "metrics": metrics,
+            "stored": self.stored,
+            "differences": list(self.differences),
+        }
+
+    def lines(self) -> list[str]:
+        """What `perilune replay` prints."""
+        metrics = self.replayed.plan.campaign.metrics
+        lines = super().lines() + outcome_lines(self.configuration, self.trial, self.replayed.outcome, metrics)
+        lines += [faults_line(self.replayed.faults)] if self.replayed.faults else []
+        if self.stored and not self.differences:
+            lines.append("identical to the stored trial, bit for bit")
+        return lines
+
+    def problems(self) -> list[str]:
+        """As of `Result`; that the trial is no success, and how it differs from the stored one."""
+        name, lines = f"{self.source}: trial {self.trial}", super().problems()
+        if self.complete and not self.success:
+            lines.append(f"{name}: no success: {self.replayed.plan.campaign.success.text} is not met")
+        remedy = "; the campaign ran on another machine, C library or version of Perilune"
+        return lines + [f"{name}: {each}{'' if self.replayed.is_cut_off else remedy}" for each in self.differences]
+
+    def last_values(self) -> dict[str, float]:
+        """The last values of signals and of time, and the metrics, on which requirements are."""
+        return super().last_values() | {METRIC + name: value for name, value in self.metrics.items()}
+
+
+@verb(REPLAY)
+def replay(source: FilePath, trial: int, **options: Unpack[ReplayOptions]) -> ReplayResult:
+    """Simulate a trial of a campaign again, with all signals, to the last bit: `perilune replay`.
+
+    ``source`` is a folder of `batch`, or with ``campaign`` a system; ``configuration`` names the variant where the
+    campaign compares several. ``log`` writes FMU messages to standard error; ``timeout`` (s, wall clock) takes the
+    place of the campaign's own. The rest is as in `batch`, and goes with a system only: a folder has its own. Raises
+    InputError, and TimeoutError where a step of an FMU does not return.
+    """
+    with chdir(Path.cwd()):  # an FMU may change the folder
+        try:
+            replayed = _replay(source, trial, options)
+        except StuckError as error:
+            raise StuckError(f"{source}: trial {trial}: {error}; {STUCK}") from error
+    result = ReplayResult.extending(
+        replayed.flight,
+        prepared=replayed.prepared,
+        figures=tuple(read_figures(replayed.prepared)),
+        replayed=replayed,
+        source=str(source),
+    )
+    result.requirements = tuple(read_requirements(options["require"], result.last_values()))
+    return result
+
+
+def _replay(source: FilePath, trial: int, options: Mapping[str, Any]) -> ReplayedTrial:
+    if options["campaign"] is not None:
+        plan = read_campaign(source, options["campaign"], options)
+        return replay_plan(plan, trial, options["configuration"])
+    for name in record_options(ReplayOptions, options):
+        if name not in OF_A_FOLDER:
+            problem = "a campaign's folder has its own"
+            raise InputError(f"`{name}`", "", problem, "leave it out, or give a system and `campaign`")
+    return replay_trial(Path(source), trial, options["configuration"], log=options["log"], timeout=options["timeout"])

@@ -1,0 +1,96 @@
+"""`perilune.sensitivity`: which dispersed inputs drive a campaign's metrics."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import chdir
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Unpack
+
+from matplotlib.figure import Figure as Plot
+
+from ..common.errors import suggestion
+from ..reports.common.notebook import Grid, notebook_view
+from ..reports.studies.plots import sensitivity_plot
+from ..reports.studies.sensitivity_page import driver_table, rank_table, write_sensitivity_page
+from ..studies.sensitivity import outcome, study
+from .common.plans import commands_of, read_campaign
+from .common.studies import condition_lines, conditions, extend_result, results_folder, write_results
+from .options.option import FilePath
+from .options.studies import SENSITIVITY, SensitivityOptions
+from .options.verb import verb
+
+MOST_PLOTTED = 4  # metrics, in a notebook
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SensitivityResult(outcome.SensitivityResult):
+    """Sobol' indices of metrics and success: `of` gives those of one, ``ranks`` the rank correlations."""
+
+    folder: Path | None = None
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.facts['system']}, {self.flights} simulations: {', '.join(self.told)})"
+
+    def to_json(self) -> dict[str, Any]:
+        """The result for other programs."""
+        return self.document(self.folder)
+
+    def lines(self) -> list[str]:
+        """What `perilune sensitivity` prints."""
+        return [self.text(self.folder)]
+
+    def problems(self) -> list[str]:
+        """None."""
+        return []
+
+    def write(self, folder: FilePath) -> None:
+        """Write sensitivity.json, flights.parquet and draws.parquet."""
+        super().write(Path(folder))
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune sensitivity --report`: one HTML file."""
+        write_sensitivity_page(self, Path(path), self.folder)
+
+    def plot(self, *metrics: str) -> Plot:
+        """Total and first-order indices with their intervals, a panel for each metric; by default of all.
+
+        Raises KeyError for a metric that has no indices, ValueError where none has any.
+        """
+        for name in metrics:
+            if name not in self.told:
+                raise KeyError(f"no indices of {name}; {suggestion(name, self.told)}")
+        if not self.told:
+            raise ValueError("no metric has indices")
+        return sensitivity_plot(self, list(metrics or self.told))
+
+    def _repr_html_(self) -> str:
+        grids = [Grid(table.heads, table.rows) for table in (driver_table(self), rank_table(self))]
+        text = [f"{self.flights} simulations", *condition_lines(self)]
+        plot = self.plot(*self.told[:MOST_PLOTTED]) if self.told else None
+        return notebook_view(f"{self.facts['system']}: sensitivity", text, grids, plot)
+
+
+@verb(SENSITIVITY)
+def sensitivity(
+    system: FilePath, campaign: FilePath, base: int, **options: Unpack[SensitivityOptions]
+) -> SensitivityResult:
+    """Sobol' indices of a campaign's metrics and of its success: `perilune sensitivity`.
+
+    ``base`` is a power of two, 32 or more: that many times the number of dispersed inputs and 3 are simulated, or the
+    number and 2 where no noise is random. The noise of all components is one input in addition to the dispersed ones.
+    Jointly normal draws are refused. ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder
+    for sensitivity.json, flights.parquet and draws.parquet. The rest is as in `batch`. Raises InputError.
+    """
+    folder = results_folder(options)
+    plan = read_campaign(system, campaign, options)
+    with chdir(Path.cwd()):  # an FMU may change the folder
+        result = study.sensitivity(plan, base, **conditions(options), tell=_announce)
+    complete = extend_result(SensitivityResult, replace(result, commands=commands_of(plan)), folder=folder)
+    write_results(complete, folder)
+    return complete
+
+
+def _announce(cost: str) -> None:
+    print(f"perilune: {cost}", file=sys.stderr)

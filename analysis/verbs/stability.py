@@ -1,0 +1,169 @@
+"""A study of stability from Python: `stability`, and its result with page, diagrams and tables."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Unpack
+
+from matplotlib.figure import Figure as Plot
+
+from ..common.errors import suggestion
+from ..reports.common.notebook import Grid, notebook_view
+from ..reports.stability.orders.words import order_sentences
+from ..reports.stability.page import write_stability_page
+from ..reports.stability.plots import Diagram, loop_plot
+from ..reports.stability.words import gain_margin, phase_margin, size, verdict
+from ..runtime.flight.results import require_pandas
+from ..runtime.system.options import system_options
+from ..stability.request.request import read_request
+from ..stability.results import report
+from ..stability.results.data import write_data
+from ..stability.results.document import KEYS, document
+from ..stability.results.loop import LoopReport
+from ..stability.results.requirement import Verdict
+from ..stability.study import study
+from .common.stability_text import stability_lines, stability_problems
+from .options.option import FilePath
+from .options.stability import STABILITY, StabilityOptions
+from .options.verb import verb
+
+
+@dataclass(repr=False)
+class StabilityReport(report.StabilityReport):
+    """A study: ``loops``, ``points``, ``sweeps``, ``joint`` and a ``verdict``; gains as factors, angles in rad."""
+
+    def __repr__(self) -> str:
+        verdicts = ", ".join(f"{loop.name} at {loop.point}: {loop.verdict}" for loop in self.loops)
+        return f"{type(self).__name__}({self.system}: {self.verdict}; {verdicts})"
+
+    def loop(self, name: str, point: str | None = None) -> LoopReport:
+        """A loop by its name and, where it is studied at several, its operating point. Raises KeyError."""
+        named = {loop.point: loop for loop in self.loops if loop.name == name}
+        if not named:
+            raise KeyError(f"no loop {name}; {suggestion(name, {loop.name for loop in self.loops})}")
+        if point is None and len(named) > 1:
+            raise KeyError(f"{name} is studied at several points; {suggestion('', named)}")
+        if point is not None and point not in named:
+            raise KeyError(f"{name} is not studied at {point}; {suggestion(point, named)}")
+        return next(iter(named.values())) if point is None else named[point]
+
+    def document(self) -> dict[str, Any]:
+        """What `perilune stability --json` writes: dB, deg and s."""
+        return document(self)
+
+    def to_json(self) -> dict[str, Any]:
+        """As `document`."""
+        return document(self)
+
+    def lines(self) -> list[str]:
+        """What `perilune stability` prints."""
+        return stability_lines(self)
+
+    def problems(self) -> list[str]:
+        """Requirements that are not met or withheld, and what could not be studied."""
+        return stability_problems(self)
+
+    def to_pandas(self) -> Any:
+        """Margins as a pandas.DataFrame, a row per loop and operating point, in dB, deg and s; needs pandas.
+
+        An unstable loop has no margins: nan; one without a crossing has inf.
+        """
+        require_pandas()
+        from pandas import DataFrame
+
+        rows = [
+            {"loop": loop.name, "point": loop.point, "stable": loop.stable, "verdict": str(loop.verdict)}
+            | {key: float("nan") if loop.margins.unstable else loop.margins.size(kind) for key, kind in KEYS.items()}
+            | {"delay_margin_s": float("nan") if loop.margins.unstable else loop.classical.delay_margin}
+            for loop in self.loops
+        ]
+        return DataFrame(rows).set_index(["loop", "point"])
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune stability --report`: one HTML file."""
+        write_stability_page(self, Path(path))
+
+    def write_data(self, folder: FilePath) -> None:
+        """Write the files of `perilune stability --data`: responses and A, B, C, D for python-control and MATLAB."""
+        write_data(self, Path(folder))
+
+    def plot_bode(self, loop: str | None = None, point: str | None = None) -> Plot:
+        """Gain and phase of a loop, by default of the first that fails, else of the first.
+
+        This and the other diagrams raise KeyError for an unknown loop, ValueError where the study lacks what one takes.
+        """
+        return self._plot(Diagram.BODE, loop, point)
+
+    def plot_nyquist(self, loop: str | None = None, point: str | None = None) -> Plot:
+        """The response in the complex plane, with the zone that it is to stay out of."""
+        return self._plot(Diagram.NYQUIST, loop, point)
+
+    def plot_nichols(self, loop: str | None = None, point: str | None = None) -> Plot:
+        """Gain over phase, with the zone that it is to stay out of."""
+        return self._plot(Diagram.NICHOLS, loop, point)
+
+    def plot_sensitivity(self, loop: str | None = None, point: str | None = None) -> Plot:
+        """Sensitivity and complementary sensitivity, with their peaks."""
+        return self._plot(Diagram.SENSITIVITY, loop, point)
+
+    def plot_poles(self, loop: str | None = None, point: str | None = None) -> Plot:
+        """Poles of the closed loop in the z plane."""
+        return self._plot(Diagram.POLES, loop, point)
+
+    def plot_step(self, loop: str | None = None, point: str | None = None) -> Plot:
+        """The closed loop's response to a step at the cut."""
+        return self._plot(Diagram.STEP, loop, point)
+
+    def _plot(self, diagram: Diagram, name: str | None, point: str | None) -> Plot:
+        return loop_plot(self._decisive() if name is None else self.loop(name, point), diagram)
+
+    def _decisive(self) -> LoopReport:
+        return next((loop for loop in self.loops if loop.verdict is Verdict.FAIL), self.loops[0])
+
+    def _repr_html_(self) -> str:
+        head = ("loop", "operating point", "gain margin, dB", "phase margin, deg", "modulus", "disk", "")
+        rows = [
+            (
+                loop.name,
+                loop.point,
+                gain_margin(loop.margins),
+                phase_margin(loop.margins),
+                *(size(loop.margins.size(KEYS[key])) for key in ("modulus_margin", "disk_margin")),
+                verdict(loop.verdict),
+            )
+            for loop in self.loops
+        ]
+        words = [
+            str(self.verdict),
+            *order_sentences(self),
+            *(f"{item.name} at {item.point} not studied" for item in self.unstudied),
+        ]
+        plot = loop_plot(self._decisive(), Diagram.BODE) if self.loops else None
+        return notebook_view(f"{self.system}: stability", words, [Grid(head, rows)], plot)
+
+
+@verb(STABILITY)
+def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> StabilityReport:
+    """Margins, poles and robustness of a system's loops: `perilune stability`; see docs/stability.md.
+
+    ``loops`` are names that the system declares (all of them by default), or connectors to cut as
+    ``component.connector`` at the time ``at`` (s), or at several. Declared loops are studied there, too, with the
+    settings of their points. ``campaign`` disperses the margins over its trials; ``trial`` studies the draws of one
+    of them instead, and ``draws`` is a file of given draws, as in `batch`. The rest is as in `simulate`. Raises
+    InputError, and StudyError where a simulation that the study needs fails.
+    """
+    at, campaign, draws = options["at"], options["campaign"], options["draws"]
+    request = read_request(
+        Path(system),
+        system_options(options),
+        loops=options["loops"],
+        at=(at,) if isinstance(at, int | float) else at,
+        campaign=None if campaign is None else os.fspath(campaign),
+        trials=options["trials"],
+        seed=options["seed"],
+        trial=options["trial"],
+        draws=None if draws is None else Path(draws),
+    )
+    return StabilityReport(**vars(study(request, options["workers"])))

@@ -1,0 +1,125 @@
+"""`perilune.worst`: the worst case of a metric or of a stability margin within a campaign's dispersions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import chdir
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Unpack
+
+from matplotlib.figure import Figure as Plot
+
+from ..campaigns.spec.expressions import Expression
+from ..campaigns.spec.plan import BatchPlan
+from ..reports.common.notebook import Grid, notebook_view
+from ..reports.studies.plots import worst_plot
+from ..reports.studies.worst_flight import worst_flight
+from ..reports.studies.worst_page import metric_table, parameter_table, write_worst_page
+from ..runtime.system.options import system_options
+from ..studies.worst import outcome
+from ..studies.worst.request import check_options, margin_asked
+from ..studies.worst.study import MARGIN, worst_case, worst_margin
+from .common.plans import commands_of, read_campaign
+from .common.requirements import read_requirements, requirement_problems
+from .common.studies import condition_lines, conditions, extend_result, results_folder, write_results
+from .options.option import FilePath
+from .options.studies import WORST, WorstOptions
+from .options.verb import verb
+
+NUMBERS = ("worst", "random", "fresh_worst", "fresh_quantile", "flights")  # on which requirements are
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WorstResult(outcome.WorstResult):
+    """A worst case: ``worst`` and ``worst_random`` with their draws and metrics, and every simulation in ``flown``.
+
+    ``plan`` is what was simulated; None for a stability margin. ``folder`` is where the result is stored, if it is.
+    """
+
+    plan: BatchPlan | None = None
+    folder: Path | None = None
+    requirements: Sequence[Expression] = ()
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.facts['system']}, {self.headline()[0]})"
+
+    def to_json(self) -> dict[str, Any]:
+        """The result for other programs."""
+        return self.document(self.folder)
+
+    def lines(self) -> list[str]:
+        """What `perilune worst` prints."""
+        return [self.text(self.folder)]
+
+    def problems(self) -> list[str]:
+        """Requirements that are not met."""
+        return requirement_problems(self.requirements, self.values())
+
+    def write(self, folder: FilePath) -> None:
+        """Write worst.json, flights.parquet and worst.parquet."""
+        super().write(Path(folder))
+
+    def report(self, path: FilePath) -> None:
+        """Write the page of `perilune worst --report`: one HTML file. It simulates the worst case once more."""
+        with chdir(Path.cwd()):  # an FMU may change the folder
+            target = Path(path).absolute()
+            flight, figures = (None, []) if self.plan is None else worst_flight(self, self.plan)
+        write_worst_page(self, target, flight, figures, self.folder)
+
+    def plot(self) -> Plot:
+        """The search over simulations, and the random trials with the worst case."""
+        return worst_plot(self)
+
+    def _repr_html_(self) -> str:
+        grids = [Grid(table.heads, table.rows) for table in (parameter_table(self), metric_table(self))]
+        text = [*self.headline(), *condition_lines(self)]
+        return notebook_view(f"{self.facts['system']}: worst case", text, grids, self.plot())
+
+
+@verb(WORST)
+def worst(system: FilePath, campaign: FilePath, **options: Unpack[WorstOptions]) -> WorstResult:
+    """The worst case of a metric within a box of a campaign's dispersions: `perilune worst`.
+
+    ``metric`` is an expression over metrics and draws, the larger the worse, by default the margin to the success
+    condition. With ``loop`` it is the smallest stability ``margin`` instead, by default the disk margin: of a loop that
+    the system names, at an operating ``point`` of it, or of a connector to cut at the time ``at`` (s); an unstable loop
+    is worse than any margin, and ``compare``, ``faults``, ``input``, ``log`` and ``timeout`` do not go with one.
+
+    ``sigmas`` bounds normal draws, others have their full range; ``flights`` are by default 2000, for a margin 500.
+    Where components have noise, every point has the same ``realisations`` of it, by default 5, for a margin 1, whose
+    ``quantile`` is made largest, by default 0.5, the median; the worst point gets ten times as many new ones.
+    ``hold``, ``noise_trial`` and ``compare`` are as in `rare`; ``output`` is a folder for worst.json, flights.parquet
+    and worst.parquet; ``require`` are expressions over worst, random, fresh_worst, fresh_quantile and flights. The
+    rest is as in `batch`. Raises InputError.
+    """
+    folder = results_folder(options)
+    loop = options["loop"]
+    check_options(loop, options)
+    requirements = read_requirements(options["require"], NUMBERS)
+    search = conditions(options) | {name: options[name] for name in ("sigmas", "realisations", "quantile")}  # type: ignore[literal-required]
+    search |= {} if options["flights"] is None else {"flights": options["flights"]}
+    plan = None if loop is not None else read_campaign(system, campaign, options)
+    with chdir(Path.cwd()):  # an FMU may change the folder
+        if plan is None:
+            result = _worst_margin(system, campaign, options, search)
+        else:
+            result = replace(worst_case(plan, options["metric"], **search), again=commands_of(plan).replay)
+    complete = extend_result(WorstResult, result, plan=plan, folder=folder, requirements=requirements)
+    write_results(complete, folder)
+    return complete
+
+
+def _worst_margin(
+    system: FilePath, campaign: FilePath, options: Mapping[str, Any], search: Mapping[str, Any]
+) -> outcome.WorstResult:
+    request = margin_asked(
+        Path(system),
+        system_options(options),
+        campaign=str(campaign),
+        loop=options["loop"],
+        point=options["point"],
+        at=options["at"],
+        seed=options["seed"],
+    )
+    return worst_margin(request, options["margin"] or MARGIN, **search)
