@@ -11,11 +11,11 @@ from dataclasses import fields
 from typing import get_type_hints
 
 import pytest
+from perilune.analysis.commands.asked.campaigns import batch, rare, replay, shard, worst
 
 import perilune
 from perilune.analysis.cli import VERBS
 from perilune.analysis.commands.asked import describe, export, run, stability, synthesize
-from perilune.analysis.commands.asked.campaigns import batch, rare, replay, shard, worst
 from perilune.analysis.runtime.system.options import SystemOptions
 
 FUNCTIONS = {

@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from ..cli import VERBS, exit_status, parser_of
-from ..examples import EXAMPLES
+from perilune.analysis.cli import VERBS, exit_status, parser_of
+from perilune.analysis.examples import EXAMPLES
+
 from .markdown import escaped, table
 
 
