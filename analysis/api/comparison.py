@@ -17,8 +17,8 @@ from ..campaigns.tables import who_cells, who_heads
 from ..common.errors import InputError, suggestion
 from ..common.percent import short_percent
 from ..reports.common.notebook import Grid, metric_grid, notebook_view
+from ..reports.compare.metrics import metric_plot, varying_metrics
 from ..reports.compare.page import write_comparison_page
-from ..reports.compare.plots import metric_plot, varying_metrics
 from ..runtime.flight.results import require_pandas
 from .options import FilePath, path_list
 

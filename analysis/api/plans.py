@@ -19,8 +19,7 @@ from ..design.trajectories.vehicle import (
     check_hover,
     check_vehicle,
 )
-from ..reports.plan.hover_page import write_hover_page
-from ..reports.plan.landing_page import write_landing_page
+from ..reports.plan.pages import write_hover_page, write_landing_page
 from .options import FilePath
 
 

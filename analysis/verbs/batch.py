@@ -19,8 +19,7 @@ from ..common.errors import InputError, suggestion
 from ..common.percent import short_percent
 from ..common.targets import check_folder
 from ..reports.campaign.batch_report import write_batch_report
-from ..reports.campaign.distributions import sort_metrics
-from ..reports.campaign.plots import metric_plot
+from ..reports.campaign.distributions import metric_plot, sort_metrics
 from ..reports.common.notebook import Grid, metric_grid, notebook_view
 from ..runtime.flight.results import require_pandas
 from ..studies.sensitivity.ranks import rank_correlations

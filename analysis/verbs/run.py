@@ -12,13 +12,11 @@ from matplotlib.figure import Figure as Plot
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.tables import faults_line
 from ..reports.common.notebook import Grid, notebook_view, value_text
-from ..reports.figures.declaration.declared import Figure
-from ..reports.figures.declaration.histories import Band
+from ..reports.figures.declaration.figures import Band, Figure, Limits
 from ..reports.figures.declaration.reading import read_figures
-from ..reports.figures.declaration.stages import Limits
-from ..reports.figures.limit_table import limit_document, limit_rows
-from ..reports.flight.plots import signal_plot
+from ..reports.figures.limits import limit_document, limit_rows
 from ..reports.flight.run_report import key_values, write_run_report
+from ..reports.flight.time_histories import signal_plot
 from ..reports.flight.trajectory import trajectory_plot
 from ..runtime.flight import results
 from ..runtime.flight.instances.log import Log
@@ -76,7 +74,7 @@ class Result(results.Result):
     def limits(self) -> list[dict[str, Any]]:
         """What the SSD's `Limits` say of the end: name, value, unit, least, most and verdict of each.
 
-        The verdict is ``kept``, ``not kept`` or ``not evaluated``, with the reason why not.
+        The verdict is ``met``, ``violated`` or ``not evaluated``, with the reason why not.
         """
         return limit_document(self.figures, self)
 

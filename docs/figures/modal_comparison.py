@@ -18,8 +18,8 @@ from tqdm import tqdm
 from perilune.analysis.design.poles.output.feedback import output_feedback
 from perilune.analysis.design.poles.place import place
 from perilune.analysis.design.poles.spectrum import Spectrum
-from perilune.analysis.reports.common.picture import svg_bytes
 from perilune.analysis.reports.common.style import house_style
+from perilune.analysis.reports.common.svg import svg_bytes
 from perilune.fmus_src.paths import ROOT
 
 from .modal_figures import choices_figure, free_figure, spreads_figure

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.common.process_end import leave
-from perilune.analysis.reports.common.picture import svg_bytes
+from perilune.analysis.reports.common.svg import svg_bytes
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.fmus_src.paths import ROOT
 

@@ -65,7 +65,7 @@ def test_a_notebook_shows_a_table_and_a_figure(flight):
     page = html.fromstring(text)
     assert "stop_time at t = 60 s, 601 rows" in page.text_content()
     rows = {row.xpath("td[1]")[0].text_content(): row for row in page.xpath("//tbody/tr")}
-    assert "not kept" in rows["distance from the target"].text_content()
+    assert "FAIL" in rows["distance from the target"].text_content()
     assert len(pictures(text)) == 1
     assert not page.xpath("//*[@id]")  # nothing that another cell could hold too
     assert "<script" not in text

@@ -38,15 +38,15 @@ def test_says_how_it_ended(capsys):
     captured = capsys.readouterr()
     lines = captured.out.splitlines()
     assert lines[0] == f"{SYSTEM}: finished at t = 207.2 s, 2073 rows"
-    assert [line.rpartition(": ")[2] for line in lines[1:]] == ["kept", "kept"]
+    assert [line.rpartition(": ")[2] for line in lines[1:]] == ["PASS", "PASS"]
     assert captured.err == ""
     assert main(["run", SYSTEM, "--stop-time", "2"]) == 1
     captured = capsys.readouterr()
     lines = captured.out.splitlines()
-    words = "limits not kept: distance from the target, velocity error"
+    words = "limits violated: distance from the target, velocity error"
     assert captured.err == f"perilune: ssp_systems/{SYSTEM}/SystemStructure.ssd: {words}\n"
     assert lines[0] == f"{SYSTEM}: stop_time at t = 2 s, 21 rows"
-    assert [line.rpartition(": ")[2] for line in lines[1:]] == ["not kept", "not kept"]
+    assert [line.rpartition(": ")[2] for line in lines[1:]] == ["FAIL", "FAIL"]
 
 
 def test_json_to_a_file_and_talk_to_the_terminal(tmp_path, capsys):

@@ -17,7 +17,7 @@ from ...campaigns.rows import whole_column
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
 from ...common.errors import InputError, suggestion
-from ...reports.campaign.plots import distribution_plot
+from ...reports.campaign.distributions import distribution_plot
 from ...reports.common.style import look
 from ..options import FilePath
 

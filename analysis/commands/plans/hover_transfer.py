@@ -19,7 +19,7 @@ from ...design.trajectories.vehicle import (
     check_hover,
     check_vehicle,
 )
-from ...reports.plan.hover_page import write_hover_page
+from ...reports.plan.pages import write_hover_page
 from ..common.exit_status import exit_status
 from ..common.options import check_json, write_json
 from ..common.vehicle import burns_text, enough, given

@@ -14,7 +14,7 @@ from ...design.trajectories.declared_bound import ANNOTATION, Inputs, landing_of
 from ...design.trajectories.landing_study import LandingStudy, landing_study
 from ...design.trajectories.stored_bound import PLACE, write_bound
 from ...design.trajectories.vehicle import LANDING_VEHICLE, check_vehicle
-from ...reports.plan.landing_page import write_landing_page
+from ...reports.plan.pages import write_landing_page
 from ...runtime.system.options import SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 from ..asked.plans.landing_bound import PLACES

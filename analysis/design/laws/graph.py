@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.path import Path
 
-from ...reports.common.picture import svg_bytes
 from ...reports.common.quantities import MINUS
 from ...reports.common.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure
+from ...reports.common.svg import svg_bytes
 from .expression_tree import OUTPUT_NUMBERS, Node, expression_tree, nodes_of
 from .law import Law
 from .layers import Edge, Layout

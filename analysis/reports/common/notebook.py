@@ -14,8 +14,8 @@ from ...campaigns.statistics import STATISTICS
 from ...campaigns.summary import SummaryRow
 from ...campaigns.tables import who_cells, who_heads
 from .page import render_page
-from .picture import svg_bytes
 from .quantities import in_shown_unit, number, shown_unit
+from .svg import svg_bytes
 
 TEMPLATE = Path(__file__).with_name("notebook.html")
 MOST_ROWS = 12

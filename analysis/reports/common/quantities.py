@@ -1,4 +1,4 @@
-"""How numbers and units look on a page: SI inside, degrees and superscripts on screen."""
+"""Numbers and units as pages show them: SI inside, degrees and superscripts on screen."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ POWER = re.compile(r"(?<=[A-Za-z])(-?\d)")
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS = "\N{MINUS SIGN}"
 NONE = "\N{EN DASH}"
+PLAIN_DIGITS = 6  # before the point; larger numbers have an exponent
 
 
 def shown_unit(unit: str | None) -> str:
@@ -34,7 +35,7 @@ def labelled(name: str, unit: str | None) -> str:
 
 
 def number(value: Any, digits: int = 4) -> str:
-    """A number with so many significant digits; None, which could not be had, is a dash."""
+    """A number rounded to so many significant digits, with an exponent from a million on; None is a dash."""
     if value is None:
         return NONE
     if isinstance(value, bool | str):
@@ -46,9 +47,9 @@ def number(value: Any, digits: int = 4) -> str:
     text = f"{value + 0.0:.{digits}g}"
     if "e" in text:
         mantissa, exponent = text.split("e")
-        if mantissa == "1":
-            return f"10{str(int(exponent)).translate(SUPERSCRIPTS)}"
-        return f"{mantissa}·10{str(int(exponent)).translate(SUPERSCRIPTS)}".replace("-", MINUS)
+        if 0 < int(exponent) < PLAIN_DIGITS:
+            return f"{float(text):.0f}".replace("-", MINUS)
+        return f"{mantissa.replace('-', MINUS)}e{int(exponent)}"
     return text.replace("-", MINUS)
 
 

@@ -1,14 +1,55 @@
-"""Figures as SVG elements inside a page, the same bytes every time."""
+"""Figures as SVG, the same bytes every time: documents for files and notebooks, and elements inside a page."""
 
 from __future__ import annotations
 
+import io
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
 
+import matplotlib
 from lxml import etree
 from markupsafe import Markup
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from .picture import svg_bytes
+IMAGE_DPI = 200  # of what is no vector
+
+
+class Picture(Figure):
+    """matplotlib's figure, which a notebook shows where it stands as a cell's result."""
+
+    def _repr_svg_(self) -> str:
+        return svg_bytes(self, "notebook", text_as_paths=True).decode()
+
+
+def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
+    """A figure as an SVG document without date or version; ``name`` salts its identifiers."""
+    buffer = io.BytesIO()
+    settings: Any = {"svg.hashsalt": name, "svg.fonttype": "path" if text_as_paths else "none"}
+    with matplotlib.rc_context(settings), _laid_out(figure) as canvas:
+        canvas.print_svg(buffer, metadata={"Date": None, "Creator": None})
+    return buffer.getvalue()
+
+
+@contextmanager
+def _laid_out(figure: Figure) -> Iterator[FigureCanvasSVG]:
+    """The figure's SVG, with its layout made: savefig would draw the whole once more to have it made."""
+    before, dpi, engine = figure.canvas, figure.dpi, figure.get_layout_engine()
+    canvas = FigureCanvasSVG(figure)  # whose text the layout measures
+    try:
+        if engine is not None:
+            engine.execute(figure)
+            figure.set_layout_engine("none")
+        figure.dpi = IMAGE_DPI
+        yield canvas
+    finally:
+        if engine is not None:
+            figure.set_layout_engine(engine)
+        figure.set_canvas(before)
+        figure.dpi = dpi
+
 
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK_HREF = "{http://www.w3.org/1999/xlink}href"

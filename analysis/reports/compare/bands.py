@@ -13,7 +13,7 @@ from ...campaigns.verdicts.quantiles import quantiles
 from ..common.panels import Panel, far, panel
 from ..common.quantities import number, shown_factor, shown_unit
 from ..common.style import FAILED, FAINT, Look, plain_ticks
-from .recorded import RATIO, Flight, Quantity, doubling
+from .recorded import ALL, RATIO, Flight, Quantity, doubling
 
 LEVELS = (5.0, 25.0, 50.0, 75.0, 95.0)  # %
 MOST_TIMES = 300  # of a band
@@ -22,6 +22,7 @@ SINGLES, FAILURES = 4, 2  # successful and failed flights drawn one by one
 STATES = 6  # of the filter whose normalised error square is monitored: position and velocity
 REACH = 1.0  # widths of the expected band that are shown on either side of it at most
 HEIGHT = 2.1  # in
+FAINT_BAND = 0.09  # opacity of the 90 % bands where those of all variants overlap
 History = tuple[np.ndarray, np.ndarray]  # times (s) and values
 
 
@@ -140,10 +141,9 @@ def band_panels(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[s
             _draw(axes, found, frame.factor, colour, quantity.held)
             frame.dress(axes)
             ends = (found.shown().min(), found.shown().max())
-            beyond = [value for value in ends if not frame.low <= value <= frame.high]
-            if beyond:
-                words = f"goes on to {' and '.join(number(frame.factor * float(value), 3) for value in beyond)}"
-                axes.set_title(words, loc="right", fontsize=8.0, color=FAINT)
+            if not all(frame.low <= value <= frame.high for value in ends):
+                low, high = (number(frame.factor * float(value), 3) for value in ends)
+                axes.set_title(f"clipped; full range {low} to {high}", loc="right", fontsize=8.0, color=FAINT)
 
         description = f"{quantity.label} of {label} over time: percentiles over {found.flights} flights"
         panels.append(panel(label, f"{name}-{index}", description, draw, HEIGHT))
@@ -172,3 +172,29 @@ def expectation(quantity: Quantity) -> tuple[float, ...]:
     if variable.endswith(RATIO):
         return tuple(float(norm.ppf(level / 100.0)) for level in LEVELS[::2])
     return ()
+
+
+def overlaid_bands(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[str, Look], name: str) -> list[Panel]:
+    """Medians with the bands of nine tenths, to the scale of the contenders' own panels; none of a single one.
+
+    Bands of errors over sigma would hide each other, since all are to be the same.
+    """
+    if len(bands) < 2:
+        return []
+    frame = frame_of(quantity, bands)
+    shaded = bands if quantity.kind != "consistency" else {}
+
+    def draw(axes: Axes) -> None:
+        for label, found in shaded.items():
+            rows, style = frame.factor * found.percentiles, looks[label]
+            axes.fill_between(
+                found.time, rows[0], rows[-1], color=style.colour, alpha=FAINT_BAND, linewidth=0.0,
+                step="post" if quantity.held else None,
+            )  # fmt: skip
+        for label, found in bands.items():
+            median, style = frame.factor * found.percentiles[2], looks[label]
+            steps = "steps-post" if quantity.held else "default"
+            axes.plot(found.time, median, color=style.colour, linestyle=style.dashes, drawstyle=steps)
+        frame.dress(axes)
+
+    return [panel(f"{quantity.label}, {ALL}", name, f"Medians of {quantity.label} over time, {ALL}", draw, HEIGHT)]

@@ -1,4 +1,4 @@
-"""How far flights end from their target: scatter with covariance ellipses, a panel per contender, and a table."""
+"""Miss distances at the end: final values less their targets, with covariance ellipses, and their statistics."""
 
 from __future__ import annotations
 
@@ -8,11 +8,62 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
+from ...campaigns.compare.comparison import Contender
 from ...campaigns.verdicts.quantiles import quantiles
 from ..common.panels import Panel, far, panel
 from ..common.style import FAINT, INK, Look, plain_ticks
-from .bundles import TARGET
-from .targets import Ends
+from .recorded import ALL, find_vector, vectors
+
+TARGET: dict = {
+    "linestyle": "", "marker": "o", "markersize": 6, "markerfacecolor": "white", "markeredgecolor": INK,
+    "markeredgewidth": 1.3, "zorder": 4,
+}  # fmt: skip
+UNITS = {"position": "m", "velocity": "m/s"}
+
+
+@dataclass(frozen=True)
+class Target:
+    """A vector per trial; ``name`` is the parameter that says so, empty where none does and it is zero."""
+
+    name: str
+    values: np.ndarray
+
+
+@dataclass(frozen=True)
+class Ends:
+    """What a contender's flights missed by at the end: final less target, trials by elements, SI."""
+
+    signal: str
+    variable: str
+    target: str
+    errors: np.ndarray
+    success: np.ndarray
+
+
+def target_of(contender: Contender, variable: str) -> Target:
+    """The parameter target_VARIABLE of some component, as drawn where it is drawn; zeros where there is none."""
+    count = len(contender.trials.trial)
+    known = {
+        name: value
+        for name, value in contender.stored.document.get("targets", {}).get(contender.name, {}).items()
+        if contender.stored.parted(name)[1].startswith(f"target_{variable}[")
+    }
+    for base, elements in vectors(known).items():
+        drawn = contender.stored.draws
+        columns = [drawn.get(name, np.full(count, known[name])) for name in elements]
+        return Target(base, np.stack(columns, axis=1).astype(float))
+    return Target("", np.zeros((count, 3)))
+
+
+def ends_of(contender: Contender, variable: str) -> Ends | None:
+    """Final position or velocity less its target; None where the batch does not keep the final values."""
+    found = find_vector(contender.stored, contender.trials.final, variable, UNITS[variable])
+    if found is None:
+        return None
+    target = target_of(contender, variable)
+    finals = np.stack([contender.trials.final[name] for name in found], axis=1)
+    return Ends(found[0].removesuffix("[1]"), variable, target.name, finals - target.values, contender.trials.success)
+
 
 SIGMAS = (1.0, 2.0, 3.0)
 RADII = (0.5, 0.99)  # fractions of the trials that end within the distances shown
@@ -136,3 +187,30 @@ def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: s
 
     what = ends.variable
     return panel(label, name, f"Final {what} of {label} about the target, with covariance ellipses", draw, HEIGHT)
+
+
+def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str, name: str) -> list[Panel]:
+    """Mean and 3-sigma ellipse of each contender about the target; none of a single one."""
+    if len(ends) < 2:
+        return []
+    reach = max(map(reach_of, ends.values()))
+    factor, shown = far(np.array([reach])) if unit == "m" else (1.0, unit)
+
+    def draw(axes: Axes) -> None:
+        for label, found in ends.items():
+            good, style = factor * shown_ends(found)[0], looks[label]
+            if len(good) > 1:
+                axes.plot(*ellipse(good, SIGMAS[-1]), color=style.colour, linestyle=style.dashes)
+                axes.plot(*good[:, :2].mean(axis=0), "+", color=style.colour, markersize=8, markeredgewidth=1.4)
+        axes.plot(0.0, 0.0, **TARGET)
+        axes.set_xlim(-factor * reach, factor * reach)
+        axes.set_ylim(-factor * reach, factor * reach)
+        axes.set_box_aspect(1.0)
+        axes.set_xlabel(f"x, {shown}")
+        axes.set_title(f"y, {shown}", loc="left", fontsize=8.5)
+        plain_ticks(axes, x=4, y=4)
+
+    what = next(iter(ends.values())).variable
+    return [
+        panel(f"final {what}, {ALL}", name, f"Final {what} about the target: 3-sigma ellipses, {ALL}", draw, HEIGHT)
+    ]

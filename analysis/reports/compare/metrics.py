@@ -1,19 +1,20 @@
-"""Metrics of a comparison: which are worth a panel, and their distributions, contender over contender."""
+"""Metrics of a comparison: which of them vary, and their distributions, one line per variant."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from scipy.stats import norm
 
 from ...campaigns.compare.comparison import Comparison
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
-from ..campaign.distributions import draw_distribution
+from ..campaign.distributions import distribution_plot, draw_distribution
 from ..common.panels import Panel, panel
-from ..common.style import FAILED, Look
+from ..common.style import COLOURS, DASHES, FAILED, MARKERS, Look, look
 from .consistency import is_over_sigma
 from .recorded import variable_of
 
@@ -92,3 +93,27 @@ def distribution_panel(metric: Metric, values: dict[str, np.ndarray], looks: Map
 
     slug = "".join(letter if letter.isalnum() else "-" for letter in metric.name)
     return panel(metric.name, f"distribution-{slug}", f"Distributions of {metric.name}", draw)
+
+
+def varying_metrics(comparison: Comparison) -> list[Metric]:
+    """Metrics that are finite somewhere and not the same everywhere."""
+    return sort_metrics(distributed(comparison))[0]
+
+
+def metric_plot(comparison: Comparison, metrics: Sequence[Metric]) -> Figure:
+    """Empirical distributions over the successful trials, a panel per metric, a line per contender."""
+    shown = distributed(comparison)
+    return distribution_plot({metric: shown[metric] for metric in metrics}, looks_of(comparison))
+
+
+def looks_of(comparison: Comparison) -> dict[str, Look]:
+    """One look per contender. Of several batches a variant has one colour, and a batch one kind of dashes."""
+    if len(comparison.batches) == 1:
+        return {label: look(contender.variant) for label, contender in comparison.contenders.items()}
+    several = len({contender.variant for contender in comparison.contenders.values()}) > 1
+    found = {}
+    for label, contender in comparison.contenders.items():
+        hue = contender.variant if several else contender.batch
+        marker = MARKERS[contender.batch % len(MARKERS)]
+        found[label] = Look(COLOURS[hue % len(COLOURS)], DASHES[contender.batch % len(DASHES)], marker)
+    return found

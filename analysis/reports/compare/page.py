@@ -11,22 +11,18 @@ import numpy as np
 
 from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.summary import SummaryRow
-from ..campaign.batch_report import fmu_rows
-from ..campaign.rows import HEADINGS, group_rows, variant_rows
+from ..campaign.tables import HEADINGS, fmu_rows, group_rows, variant_rows
 from ..common.page import write_page
 from ..common.panels import Panel, swatch
-from ..common.style import COLOURS, DASHES, MARKERS, Look, look
-from .bands import Bands, band_panels, bands_of, expectation
-from .bundles import DRAWN, bundle_of, plan_panels, side_panels
+from ..common.style import Look
+from .bands import Bands, band_panels, bands_of, expectation, overlaid_bands
 from .consistency import LIMITS, NORMAL, is_over_sigma, sigma_rows
-from .dispersions import Dispersion, dispersion, dispersion_panels
-from .gaps import is_biased, missing_parts
-from .metrics import all_values, distributed, distribution_panel, sort_metrics
-from .overlays import overlaid_bands, overlaid_ends
+from .dispersions import UNITS, Dispersion, dispersion, dispersion_panels, ends_of, overlaid_ends
+from .metrics import all_values, distributed, distribution_panel, looks_of, sort_metrics
+from .missing_data import is_biased, missing_parts
 from .recorded import Flight, Quantity, kept_names, quantities, read_flights, sampled_trials
-from .replays import failures_to_replay
-from .tables import draw_ranges, metric_pairs, rate_pairs
-from .targets import UNITS, ends_of
+from .tables import draw_ranges, failures_to_replay, metric_pairs, rate_pairs
+from .trajectories import DRAWN, bundle_of, plan_panels, side_panels
 
 KINDS = ("commands", "motion", "consistency", "other")
 
@@ -118,19 +114,6 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         draws=draw_ranges(comparison),
         fmus=[fmu_rows(batch.document["fmus"]) for batch in comparison.batches.values()],
     )
-
-
-def looks_of(comparison: Comparison) -> dict[str, Look]:
-    """One look per contender. Of several batches a variant has one colour, and a batch one kind of dashes."""
-    if len(comparison.batches) == 1:
-        return {label: look(contender.variant) for label, contender in comparison.contenders.items()}
-    several = len({contender.variant for contender in comparison.contenders.values()}) > 1
-    found = {}
-    for label, contender in comparison.contenders.items():
-        hue = contender.variant if several else contender.batch
-        marker = MARKERS[contender.batch % len(MARKERS)]
-        found[label] = Look(COLOURS[hue % len(COLOURS)], DASHES[contender.batch % len(DASHES)], marker)
-    return found
 
 
 def _axis_start(rows: Iterable[SummaryRow], rate: str) -> float:

@@ -19,6 +19,7 @@ MOTION = ("altitude", "speed", "path_angle", "mass")
 CONSISTENCY = ("normalised_error_square",)
 RATIO = "_error_ratio"
 KNOWN = (*COMMANDS, *DIRECTIONS, *MOTION, *CONSISTENCY, "position", "velocity", "central_angle")
+ALL = "all variants"
 MOST_FLIGHTS = 300  # of a contender that are read: bands do not change visibly with more
 MOST_ROWS = 500  # of a flight that are kept
 

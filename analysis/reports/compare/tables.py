@@ -1,4 +1,4 @@
-"""Rows of the comparison's tables: pairs of contenders on the same trials, and what was drawn."""
+"""Rows of the comparison's tables: pairs of variants on the same trials, dispersed parameters, replays of failures."""
 
 from __future__ import annotations
 
@@ -6,9 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+import numpy as np
+from markupsafe import Markup
+
 from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.compare.paired import PairedRates, PairedValues
+from ...campaigns.fly.manifest.manifest import FILE as MANIFEST
+from ...campaigns.replay_command import stored_replay
 from ...campaigns.spec.campaign import Metric
+from ..campaign.replays import FAILURES, Replay
 
 T = TypeVar("T", PairedRates, PairedValues)
 
@@ -78,3 +84,22 @@ def draw_ranges(comparison: Comparison) -> list[tuple[str, float, float, float]]
     """Name, least, mean and largest value of everything drawn or derived; the same in all batches."""
     columns = comparison.first.draws
     return [(name, float(values.min()), float(values.mean()), float(values.max())) for name, values in columns.items()]
+
+
+def failures_to_replay(comparison: Comparison) -> list[Replay]:
+    """The first failures of each contender, and how many of the others succeed in that trial."""
+    found: list[Replay] = []
+    for label, contender in comparison.contenders.items():
+        stored, trials = contender.stored, contender.trials
+        if not (stored.folder / MANIFEST).is_file():
+            continue
+        others = [other.trials.success for name, other in comparison.contenders.items() if name != label]
+        for row in np.flatnonzero(~trials.success)[:FAILURES]:
+            trial = int(trials.trial[row])
+            reasons = [Markup("{}").format(trials.statuses[row])]
+            if others:
+                count = sum(bool(success[row]) for success in others)
+                reasons.append(Markup("{} of {} others succeed").format(count, len(others)))
+            command = stored_replay(stored.folder, stored.variants, contender.name, trial)
+            found.append(Replay(label, trial, reasons, command))
+    return found

@@ -12,7 +12,7 @@ from ..common.page import exact
 from ..common.panels import HALF_WIDTH, Panel, panel
 from ..common.quantities import shown_factor, shown_unit
 from ..common.style import FAINT, GREEN, INK, look
-from .declaration.histories import Band
+from .declaration.figures import Band
 from .declaration.values import Signal
 from .section import HEIGHT, Section, history_panel, legend_of, seconds, sentence
 

@@ -10,7 +10,7 @@ from ...runtime.flight.results import Result
 from ..common.page import exact
 from ..common.quantities import shown_factor, shown_unit
 from ..common.style import FAINT, look
-from .declaration.histories import Curve
+from .declaration.figures import Curve
 from .section import (
     Section,
     choice,

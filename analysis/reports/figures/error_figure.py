@@ -12,7 +12,7 @@ from ...runtime.flight.results import Result
 from ..common.panels import Panel
 from ..common.quantities import shown_unit
 from ..common.style import BLUE, FAINT, ORANGE
-from .declaration.histories import Error
+from .declaration.figures import Error
 from .section import Section, capital, choice, chosen_rows, history_panel, nothing_chosen, seconds, sentence, trimmed
 
 SIGMAS = (3.0, 1.0)

@@ -11,7 +11,7 @@ from ...runtime.flight.results import Result
 from ..common.panels import both_widths, far, is_slim
 from ..common.quantities import labelled, shown_unit
 from ..common.style import BLUE, INK, look, plain_ticks
-from .declaration.histories import Path, Point
+from .declaration.figures import Path, Point
 from .declaration.values import Arc, Signal
 from .section import Section, choice, chosen_rows, nothing_chosen, sentence, trimmed
 

@@ -14,7 +14,7 @@ from ..common.page import exact
 from ..common.panels import Widths, both_widths, is_slim
 from ..common.quantities import labelled, number
 from ..common.style import BLUE, FAINT, VERMILION, plain_ticks
-from .declaration.histories import Pulses
+from .declaration.figures import Pulses
 from .section import Section, sentence
 
 LANE = 0.85  # in

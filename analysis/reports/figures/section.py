@@ -16,18 +16,10 @@ from ..common.page import exact
 from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel, swatch
 from ..common.quantities import MINUS, in_shown_unit
 from ..common.style import look, plain_ticks
+from ..common.tables import Table
 from .declaration.values import Rows
 
 HEIGHT = 2.6  # in
-
-
-@dataclass(frozen=True)
-class Table:
-    """Headings and rows of cells; the columns ``numbers`` are set to the right."""
-
-    heads: Sequence[str]
-    rows: Sequence[Sequence[Markup | str]]
-    numbers: tuple[int, ...]
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,8 @@
-"""The page of one run: how it ended, where it went, what its system asks for, every signal, what it was made of."""
+"""The page of one run: termination, final values, system-specific plots, trajectory, all signals, provenance."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,65 +11,68 @@ import numpy as np
 from ...runtime.flight.results import Result
 from ..common.page import write_page
 from ..common.signals import SignalGroup, distinct, signal_groups
-from ..figures.declaration.declared import Figure
-from ..figures.limit_table import Verdict, limit_document
-from ..figures.own_figures import joint_findings, own_sections
+from ..figures.declaration.figures import Figure
+from ..figures.figure_sections import figure_sections, joint_findings
+from ..figures.limits import Verdict, limit_document
 from .time_histories import time_histories
 from .trajectory import trajectory_panels, trajectory_reading
 
-STATUS_WORDS = {
-    "finished": "Ended by itself: the system reported that it is finished.",
-    "stop_time": "Ran to its stop time; the system did not end by itself.",
-    "terminated": "Ended by itself: an FMU asked for the end of the simulation.",
-    "nonfinite": "Broke off: a component gave a value that is not a finite number.",
-    "failed": "Broke off: an FMU reported an error, or did not take a parameter.",
-    "timed_out": "Terminated: wall-clock time limit exceeded.",
-    "interrupted": "Broke off: it was interrupted from the keyboard.",
+ENDINGS = {
+    "finished": "Nominal termination: end-of-run flag raised.",
+    "stop_time": "Reached stop time; no end condition triggered.",
+    "terminated": "Terminated by an FMU.",
+    "nonfinite": "Aborted: a component returned a value that is not finite.",
+    "failed": "Aborted: an FMU reported an error or rejected a parameter.",
+    "timed_out": "Aborted: wall-clock time limit exceeded.",
+    "interrupted": "Aborted: interrupted from the keyboard.",
 }
-MOST_KEYS = 12  # signals of a system that has none of what one looks at first
+MOST_KEYS = 12  # final values listed where no signal has a known name
 KEY_VECTORS = ("position", "velocity")
 
 
 def write_run_report(result: Result, path: Path, title: str, figures: Sequence[Figure] = ()) -> None:
     """Write one self-contained HTML page about a run; the same result gives the same bytes.
 
-    ``figures`` are those that the system asks for, see own/asked/reading.py.
+    ``figures`` are those that the SSD declares, see figures/declaration/reading.py.
     """
+    limits = limits_by_verdict(figures, result)
     write_page(
         path,
         Path(__file__).with_name("run_report.html"),
         title=title,
         result=result,
-        words=STATUS_WORDS[result.status],
-        limits=limits_by_verdict(figures, result),
+        ending=ENDINGS[result.status],
+        limits=limits,
+        limit_count=sum(map(len, limits.values())),
         end_time=float(result.time[-1]) if result.time.size else None,
         provenance=result.provenance,
         key_values=key_values(result),
         trajectory=trajectory_panels(result),
         trajectory_reading=trajectory_reading(result),
         joint=joint_findings(figures, result),
-        own=own_sections(figures, result),
+        sections=figure_sections(figures, result),
         histories=time_histories(result),
         signals=signal_table(result),
+        components=component_rows(result.provenance),
     )
 
 
 def limits_by_verdict(figures: Sequence[Figure], result: Result) -> dict[str, list[str]]:
-    """The names of the system's limits by verdict, those that are not kept first; verdicts of none are left out."""
+    """The names of the system's limits by verdict, violated ones first; verdicts without a limit are left out."""
     limits = limit_document(figures, result)
     named = {
         str(verdict): [limit["name"] for limit in limits if limit["verdict"] is verdict]
-        for verdict in (Verdict.NOT_KEPT, Verdict.NOT_EVALUATED, Verdict.KEPT)
+        for verdict in (Verdict.VIOLATED, Verdict.NOT_EVALUATED, Verdict.MET)
     }
     return {verdict: names for verdict, names in named.items() if names}
 
 
 def key_values(result: Result) -> list[dict[str, Any]]:
-    """What one looks at first, at the end of the run.
+    """Final values of the most important signals.
 
-    The system's own connectors, positions and velocities with their magnitudes (each once,
-    however many inputs repeat it) and the worst status of every component; of a system without any of these all
-    signals, as far as they are few.
+    These are the system's connectors, positions and velocities with their magnitudes (inputs that repeat them are
+    left out), and the highest status of each component. A system without any of these has all its signals here, if
+    they are at most `MOST_KEYS`.
     """
     if not result.time.size:
         return []
@@ -86,7 +89,7 @@ def key_values(result: Result) -> list[dict[str, Any]]:
             if len(values) > 1:
                 rows.append(_key_row(group.label, "magnitude", [float(np.linalg.norm(values))], group))
         elif group.variable == "status" and group.type == "Integer":
-            rows.append(_key_row(group.label, "worst of the run", [int(group.values(result).max())], group))
+            rows.append(_key_row(group.label, "maximum over run", [int(group.values(result).max())], group))
     others = [group for group in groups if originals[group] == group]
     if not rows and len(others) <= MOST_KEYS:
         rows = [_key_row(group.label, "", [final[name] for name in group.names], group) for group in others]
@@ -98,7 +101,7 @@ def _key_row(label: str, note: str, values: list, group: SignalGroup) -> dict[st
 
 
 def signal_table(result: Result) -> list[dict[str, Any]]:
-    """First, least, largest and last value of every signal."""
+    """Initial, minimum, maximum and final value of every signal."""
     if not result.time.size:
         return []
     convert = {"Integer": int, "Enumeration": int, "Boolean": bool}
@@ -108,3 +111,9 @@ def signal_table(result: Result) -> list[dict[str, Any]]:
         numbers = [kind(value) for value in (values[0], np.min(values), np.max(values), values[-1])]
         rows.append({"name": name, "type": result.types[name], "unit": result.units[name], "values": numbers})
     return rows
+
+
+def component_rows(provenance: Mapping[str, Any]) -> list[tuple[str, str, str]]:
+    """Name, FMU and SHA-256 of every component, after those of the system."""
+    system = ("system", provenance["system"], provenance["system_sha256"])
+    return [system, *((name, fmu["fmu"], fmu["sha256"]) for name, fmu in provenance["fmus"].items())]

@@ -1,24 +1,27 @@
-"""Every signal of a run over time: a panel each, by component; states and commands first, the rest folded away."""
+"""Signals of a run over time: on its page a panel for each, states and commands first; or those chosen by name."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from ...campaigns.verdicts.quantiles import quantiles
 from ...runtime.flight.results import Result
+from ...runtime.system.names import elements
 from ..common.panels import Panel, panel, swatch
 from ..common.quantities import labelled, number, shown_factor
 from ..common.signals import SignalGroup, distinct, signal_groups, states_and_commands
-from ..common.style import FAINT, look, plain_ticks
+from ..common.style import FAINT, house_style, look, new_figure, plain_ticks
 
-HEIGHT = 1.9  # in
+HEIGHT = 1.9  # in, of a panel on the page
+PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a figure of its own
 MOST = 12  # panels that are open where no name says which are states and commands
-SPIKE = 8.0  # a range so many times wider than the middle 98 % of the values is cut, and the panel says so
+SPIKE = 8.0  # a range so many times that of the middle 98 % of the values is clipped
 
 
 @dataclass(frozen=True)
@@ -146,7 +149,7 @@ def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
 
 
 def _cut_spikes(axes: Axes, values: np.ndarray) -> None:
-    """Keep a few extreme values from flattening the rest; say in the panel how far they go."""
+    """Clip the ordinate where a few extreme values would flatten the rest; a note gives the full range."""
     finite = values[np.isfinite(values)]
     if not finite.size:
         axes.text(0.5, 0.5, "no finite value", transform=axes.transAxes, ha="center", va="center", color=FAINT)
@@ -157,10 +160,39 @@ def _cut_spikes(axes: Axes, values: np.ndarray) -> None:
         return
     margin = 0.15 * (high - low)
     axes.set_ylim(low - margin, high + 3.0 * margin)  # room for the note
-    beyond = [number(value, 3) for value in (least, most) if not low - margin <= value <= high + 3.0 * margin]
     outside = np.flatnonzero(np.any((values < low - margin) | (values > high + 3.0 * margin), axis=0))
     early = float(np.mean(outside)) < values.shape[1] / 2
     axes.text(
-        0.98 if early else 0.02, 0.98, f"goes on to {' and '.join(beyond)}", transform=axes.transAxes,
+        0.98 if early else 0.02, 0.98, f"clipped; full range {number(least, 3)} to {number(most, 3)}",
+        transform=axes.transAxes,
         ha="right" if early else "left", va="top", fontsize=8.0, color=FAINT,
     )  # fmt: skip
+
+
+def signal_plot(result: Result, names: Sequence[str]) -> Figure:
+    """A panel for each signal or vector, below each other over the same time. Raises KeyError for an unknown name."""
+    values = [result[name] for name in names]
+    with house_style():
+        figure = new_figure(0.3 + PLOT_HEIGHT * len(names), PLOT_WIDTH)
+        panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
+        for axes, name, columns in zip(panels, names, values, strict=True):
+            parts = elements(name, result.signals)
+            unit = result.units[parts[0]]
+            drawn = shown_factor(unit) * columns.reshape(result.time.size, -1)
+            for index, part in enumerate(parts):
+                style = look(index)
+                is_real = result.types[part] == "Real"
+                axes.plot(
+                    result.time,
+                    drawn[:, index],
+                    color=style.colour,
+                    linestyle=style.dashes,
+                    label=part.removeprefix(name),
+                    drawstyle="default" if is_real else "steps-post",
+                )
+            plain_ticks(axes, x=8, y=5)
+            axes.set_title(labelled(name, unit), loc="left")
+            if len(parts) > 1:
+                axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(parts), borderaxespad=0.0)
+        panels[-1].set_xlabel("time, s")
+    return figure

@@ -11,7 +11,7 @@ from ...studies.evaluation.noise import Noise
 from ...studies.rare.outcome import RareResult
 from ...studies.sensitivity.outcome import SensitivityResult
 from ...studies.worst.outcome import WorstResult
-from ..campaign.batch_report import draw_rows, fmu_rows
+from ..campaign.tables import draw_rows, fmu_rows
 
 DEFAULT = "default"  # the name of a campaign's only variant
 StudyResult = RareResult | WorstResult | SensitivityResult

@@ -7,6 +7,7 @@ from pathlib import Path
 from ...studies.rare.outcome import RareResult
 from ..common.page import write_page
 from ..common.quantities import labelled
+from ..common.tables import Table, cell, fraction
 from .conditions import conditions_of
 from .rare_figures import (
     PERCENT,
@@ -18,7 +19,6 @@ from .rare_figures import (
     level_spans,
     limit_state_figure,
 )
-from .tables import Table, cell, fraction
 
 
 def write_rare_page(result: RareResult, path: Path, folder: Path | None = None) -> None:

@@ -7,9 +7,9 @@ from pathlib import Path
 from ...studies.sensitivity.outcome import SensitivityResult
 from ...studies.sensitivity.sobol import CONFIDENCE
 from ..common.page import write_page
+from ..common.tables import Table, fraction, fractions
 from .conditions import conditions_of
 from .sensitivity_figures import MOST, bars_of, index_panels
-from .tables import Table, fraction, fractions
 
 WIDE = 0.3  # of an interval of a total index, from which on a larger base is advised
 

@@ -11,7 +11,7 @@ from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.plan import BatchPlan
 from ...runtime.flight.results import Result
 from ...studies.worst.outcome import WorstResult
-from ..figures.declaration.declared import Figure
+from ..figures.declaration.figures import Figure
 from ..figures.declaration.reading import read_figures
 
 

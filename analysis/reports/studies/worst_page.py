@@ -13,13 +13,13 @@ from ...studies.worst.outcome import WorstResult
 from ..common.page import write_page
 from ..common.panels import Panel
 from ..common.quantities import labelled, shown_unit
-from ..figures.declaration.declared import Figure
-from ..figures.own_figures import joint_findings, own_sections
+from ..common.tables import Table, cell, fraction
+from ..figures.declaration.figures import Figure
+from ..figures.figure_sections import figure_sections, joint_findings
 from ..figures.section import Section
 from ..flight.time_histories import Histories, time_histories
 from ..flight.trajectory import trajectory_panels, trajectory_reading
 from .conditions import conditions_of
-from .tables import Table, cell, fraction
 from .worst_figures import box_figure, box_lanes, fresh_panel, objective_of, search_figure, trials_panel
 
 
@@ -159,6 +159,6 @@ def flight_part(flight: Result, figures: Sequence[Figure]) -> FlightPart:
         trajectory=trajectory_panels(flight),
         reading=trajectory_reading(flight),
         joint=joint_findings(figures, flight),
-        own=own_sections(figures, flight),
+        own=figure_sections(figures, flight),
         histories=time_histories(flight),
     )

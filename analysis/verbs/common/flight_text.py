@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...reports.figures.declaration.declared import Figure
-from ...reports.figures.declaration.stages import Limits
+from ...reports.figures.declaration.figures import Figure, Limits
 from ...reports.figures.declaration.values import Undrawn
-from ...reports.figures.limit_table import Verdict, evaluate, limit_lines
+from ...reports.figures.limits import Verdict, evaluate, limit_lines
 from ...runtime.flight.results import Flight, Result
 from ...runtime.flight.statuses import status_lines
 from ...runtime.system.prepared import PreparedSystem
@@ -46,8 +45,8 @@ def flight_problems(prepared: PreparedSystem, figures: Sequence[Figure], result:
                 verdict: [limit.name for limit, each in evaluate(figure, result) if each is verdict]
                 for verdict in Verdict
             }
-            if named[Verdict.NOT_KEPT]:
-                lines.append(f"limits not kept: {', '.join(named[Verdict.NOT_KEPT])}")
+            if named[Verdict.VIOLATED]:
+                lines.append(f"limits violated: {', '.join(named[Verdict.VIOLATED])}")
             if named[Verdict.NOT_EVALUATED]:
                 names = ", ".join(named[Verdict.NOT_EVALUATED])
                 lines.append(f"limits not evaluated: {names}: {figure.obstacle(result)}")

@@ -12,7 +12,7 @@ from lxml import etree
 
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.campaign.scatters import scatter_figures
-from perilune.analysis.reports.campaign.seen_statuses import seen_statuses
+from perilune.analysis.reports.campaign.tables import seen_statuses
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 from tests.support.pages.samples import DRAWS, batch_result
 

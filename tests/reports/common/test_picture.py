@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from perilune.analysis.reports.common.picture import svg_bytes
 from perilune.analysis.reports.common.style import house_style, look, new_figure
+from perilune.analysis.reports.common.svg import svg_bytes
 
 
 def lines(figure):

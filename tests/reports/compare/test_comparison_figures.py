@@ -18,8 +18,7 @@ from perilune.analysis.campaigns.compare.side_by_side import compare
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.reports.common.style import Look
 from perilune.analysis.reports.compare.bands import LEVELS, band_panels, bands_of
-from perilune.analysis.reports.compare.bundles import bundle_of
-from perilune.analysis.reports.compare.dispersions import dispersion, ellipse
+from perilune.analysis.reports.compare.dispersions import Ends, dispersion, ellipse, ends_of, target_of
 from perilune.analysis.reports.compare.recorded import (
     Flight,
     Quantity,
@@ -30,7 +29,7 @@ from perilune.analysis.reports.compare.recorded import (
     sampled_trials,
     vectors,
 )
-from perilune.analysis.reports.compare.targets import Ends, ends_of, target_of
+from perilune.analysis.reports.compare.trajectories import bundle_of
 from tests.support.pages.comparison_samples import DIRECTION, POSITION, SIGNALS, TARGET, VELOCITY, write_sample
 
 
@@ -298,7 +297,7 @@ def test_errors_far_beyond_expectation_leave_the_frame_and_the_panel_says_so():
     calm = bands_of(quantity, [Flight(0, True, np.arange(4.0), {name: np.minimum(values, 9.0)}, False)])
     plain = Look("#000000", "-", "o")
     panels = band_panels(quantity, {"wild": wild, "calm": calm}, {"wild": plain, "calm": plain}, "x")
-    assert "goes on to 1.3·10³" in panels[0].figure
+    assert "clipped; full range 5 to 1300" in panels[0].figure
     assert "goes on to" not in panels[1].figure
     ticks = [float(text) for text in re.findall(r">(\d+)</text>", panels[1].figure)]
     assert max(ticks) <= 25.0  # chi-square of six: nine tenths lie between 1.6 and 12.6

@@ -14,7 +14,8 @@ import pytest
 import scipy.stats
 
 from perilune.analysis.campaigns.compare.side_by_side import compare
-from perilune.analysis.reports.compare.page import looks_of, write_comparison_page
+from perilune.analysis.reports.compare.metrics import looks_of
+from perilune.analysis.reports.compare.page import write_comparison_page
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.comparison_samples import CAMPAIGN, DIGEST, POSITION, TARGET, VELOCITY, write_sample
 from tests.support.pages.written import COMMAND

@@ -11,7 +11,7 @@ import pytest
 
 from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.reports.figures.declaration.histories import Band, Error, Pulses
+from perilune.analysis.reports.figures.declaration.figures import Band, Error, Pulses
 from perilune.analysis.reports.figures.declaration.reading import read_figures
 from perilune.analysis.reports.figures.declaration.values import Undrawn
 from perilune.analysis.runtime.flight.program import layout_of

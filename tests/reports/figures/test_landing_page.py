@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import perilune
-from perilune.analysis.reports.figures.budget_table import amount, spent_by_phase
+from perilune.analysis.reports.figures.declaration.figures import Budget, Limits, Phases
 from perilune.analysis.reports.figures.declaration.reading import read_figures
-from perilune.analysis.reports.figures.declaration.stages import Budget, Limits, Phases
-from perilune.analysis.reports.figures.limit_table import is_kept
-from perilune.analysis.reports.figures.own_figures import own_sections
-from perilune.analysis.reports.figures.phase_spans import spans_of, statuses_of
+from perilune.analysis.reports.figures.figure_sections import figure_sections
+from perilune.analysis.reports.figures.limits import is_met
+from perilune.analysis.reports.figures.phase_figure import spans_of, statuses_of
+from perilune.analysis.reports.figures.tables import amount, spent_by_phase
 from perilune.analysis.runtime.system.prepared import prepare_system
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -60,7 +60,7 @@ def test_the_budget_is_what_was_flown_over_its_bound(figures, result):
     mass = result["plant.mass"]
     assert sum(amounts) == pytest.approx(mass[0] - mass[-1], abs=1e-9)
     assert min(amounts) > 0.0  # no flight beats its bound
-    section = own_sections([budget], result)[0]
+    section = figure_sections([budget], result)[0]
     exact = [float(re.search(r'value="([^"]+)"', row[1])[1]) for row in section.table.rows]
     np.testing.assert_allclose(exact, [*amounts, sum(amounts), mass[0] - mass[-1]], atol=1e-9)
 
@@ -68,14 +68,14 @@ def test_the_budget_is_what_was_flown_over_its_bound(figures, result):
 def test_limits_are_kept_where_the_monitor_says_so(figures, result):
     limits = one(figures, Limits)
     assert result.final()["touchdown.within_limits"]
-    assert all(is_kept(limit, result) for limit in limits.limits)
+    assert all(is_met(limit, result) for limit in limits.limits)
     hard = perilune.simulate("landing_mission", parameters=["start_9.ssv"], set={"plant.initial_velocity[3]": -6.0})
     assert not hard.final()["touchdown.within_limits"]
-    assert [limit.name for limit in limits.limits if not is_kept(limit, hard)] == ["vertical speed"]
+    assert [limit.name for limit in limits.limits if not is_met(limit, hard)] == ["vertical speed"]
 
 
 def test_all_figures_are_drawn(figures, result):
-    sections = own_sections(figures, result)
+    sections = figure_sections(figures, result)
     assert len(sections) == len(figures) > 10
     assert not any(
         "Not drawn" in words for section in sections for words in section.notes if "coast" not in section.title

@@ -12,10 +12,10 @@ import pytest
 from lxml import etree, html
 
 import perilune
-from perilune.analysis.reports.figures.declaration.histories import Pulses
+from perilune.analysis.reports.figures.declaration.figures import Pulses
 from perilune.analysis.reports.figures.declaration.reading import read_figures
 from perilune.analysis.reports.figures.declaration.values import Signal, Undrawn
-from perilune.analysis.reports.figures.own_figures import joint_findings, own_sections
+from perilune.analysis.reports.figures.figure_sections import figure_sections, joint_findings
 from perilune.analysis.reports.flight.run_report import write_run_report
 from perilune.analysis.runtime.system.prepared import prepare_system
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
@@ -87,13 +87,13 @@ def count_of(figure):
 
 
 def one(figure, result):
-    (section,) = own_sections([figure], result)
+    (section,) = figure_sections([figure], result)
     return section
 
 
 def test_a_page_without_figures_has_no_such_section(tmp_path):
-    assert "Figures of this system" not in page_of(run_result(), tmp_path)
-    assert "Figures of this system" not in page_of(run_result(rows=0, status="failed"), tmp_path, ANGLES)
+    assert "System-specific plots" not in page_of(run_result(), tmp_path)
+    assert "System-specific plots" not in page_of(run_result(rows=0, status="failed"), tmp_path, ANGLES)
 
 
 def test_they_are_on_the_page_above_the_time_histories(tmp_path):
@@ -101,7 +101,7 @@ def test_they_are_on_the_page_above_the_time_histories(tmp_path):
     page = page_of(flown(angles=angles(), **pulses(), **errors()), tmp_path, *figures)
     assert_self_contained(page)
     headings = [part.text for part in parse(page).xpath("//h2 | //h3")]
-    begin = headings.index("Figures of this system")
+    begin = headings.index("System-specific plots")
     assert headings[begin + 1 : begin + 6] == ["Angles", "Jets", "Error", "Jets & more", "States and commands"]
     for words in ("Settled from 97.5 s on: roll", "20 pulses", "within sigma", "Not drawn: lengths: no such signal."):
         assert words in text_of(page)
@@ -238,7 +238,7 @@ def test_short_runs(rows):
     result = flown(**{name: np.atleast_2d(found)[:, :rows] for name, found in values.items()})
     result["ship.estimate"][-1] = np.inf
     result["ship.lengths[1]"][-1] = np.nan
-    assert len(own_sections([ANGLES, PULSES, ERROR], result)) == 3
+    assert len(figure_sections([ANGLES, PULSES, ERROR], result)) == 3
 
 
 def settled(time, *conditions):
@@ -262,7 +262,7 @@ def settled(time, *conditions):
 def test_a_flight_of_the_orbital_attitude(use, parameters):
     result = perilune.simulate("orbital_attitude", use=use, parameters=parameters)
     figures = read_figures(prepare_system("orbital_attitude"))
-    sections = own_sections(figures, result)
+    sections = figure_sections(figures, result)
     shown = [*joint_findings(figures, result), *(words for section in sections for words in section.findings)]
     time, values = result.time, values_in(*shown)
     angles = [np.abs(result[f"plant.angles[{k}]"]) <= 0.5 * DEGREE for k in (1, 2, 3)]
@@ -299,7 +299,7 @@ def test_a_band_less_a_signal_shaded_and_against_another():
     result = flown(
         roll=roll + 0.3, target=np.full(ROWS, 0.3), clock=TIME, pressure=np.exp(0.1 * TIME), height=1e5 - TIME
     )
-    (section,) = own_sections([band], result)
+    (section,) = figure_sections([band], result)
     assert 'from <data value="50.0">50</data> s on' in str(section.findings[0])
     assert [panel.label for panel in section.panels][-2:] == ["Against pressure", "Against height"]
     words = " ".join(map(str, section.notes))

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from lxml import etree, html
 
-from perilune.analysis.reports.figures.declaration.stages import BoundValues
+from perilune.analysis.reports.figures.declaration.figures import BoundValues
 from perilune.analysis.reports.figures.declaration.values import Arc, Rows
-from perilune.analysis.reports.figures.limit_table import limit_facts, limit_lines
-from perilune.analysis.reports.figures.own_figures import own_sections
-from perilune.analysis.reports.figures.phase_spans import spans_of, statuses_of
+from perilune.analysis.reports.figures.figure_sections import figure_sections
+from perilune.analysis.reports.figures.limits import limit_entries, limit_lines
+from perilune.analysis.reports.figures.phase_figure import spans_of, statuses_of
 from perilune.analysis.reports.figures.section import evenly
 from perilune.analysis.reports.flight.run_report import write_run_report
 from tests.support.pages.checks import assert_self_contained, parse
@@ -41,7 +41,7 @@ def plain(markup):
 
 
 def one(figure, result):
-    (section,) = own_sections([figure], result)
+    (section,) = figure_sections([figure], result)
     return section
 
 
@@ -65,9 +65,9 @@ def test_all_of_them_are_on_a_page(tmp_path):
     write_run_report(mission(), tmp_path / "run.html", "Mission", FIGURES)
     page = (tmp_path / "run.html").read_text(encoding="utf-8")
     assert_self_contained(page)
-    titles = [part.text for part in parse(page).xpath("//h2[text()='Figures of this system']/following-sibling::h3")]
+    titles = [part.text for part in parse(page).xpath("//h2[text()='System-specific plots']/following-sibling::h3")]
     assert titles == ["Phases", "Budget", "Contact", "Plan view", "Tilt"]
-    tables = parse(page).xpath("//h2[text()='Figures of this system']/following-sibling::div/table")
+    tables = parse(page).xpath("//h2[text()='System-specific plots']/following-sibling::div/table")
     assert [len(table.xpath("tbody/tr")) for table in tables] == [6, 5, 3]
     assert tables[0].xpath("thead/tr/th/text()") == ["phase", "begins, s", "takes, s", "uses up, kg"]
 
@@ -170,14 +170,15 @@ def test_a_budget_without_bound_and_of_phases_that_were_not_flown():
 
 def test_limits_at_the_end():
     section = one(LIMITS, mission())
-    assert findings(section) == ["Not kept: tilt, mass."]
+    assert findings(section) == ["1 of 3 limits met; violated: tilt, mass."]
     assert cells(section) == [
-        ["tilt", "7.5", "at most 5", "deg", "not kept"],
-        ["mass", "76", "at least 80", "kg", "not kept"],
-        ["east", "8", f"{MINUS}10 to 10", "m", "kept"],
+        ["tilt", "7.5", "at most 5", "deg", "FAIL"],
+        ["mass", "76", "at least 80", "kg", "FAIL"],
+        ["east", "8", f"{MINUS}10 to 10", "m", "PASS"],
     ]
-    assert findings(one(replace(LIMITS, limits=LIMITS.limits[2:]), mission())) == ["All 1 kept."]
-    assert findings(one(LIMITS, mission(x=np.full(TIME.size, np.nan)))) == ["Not kept: tilt, mass, east."]
+    assert findings(one(replace(LIMITS, limits=LIMITS.limits[2:]), mission())) == ["1 of 1 limits met."]
+    lost = one(LIMITS, mission(x=np.full(TIME.size, np.nan)))
+    assert findings(lost) == ["0 of 3 limits met; violated: tilt, mass, east."]
 
 
 @pytest.mark.parametrize(
@@ -195,11 +196,11 @@ def test_limits_that_are_not_evaluated(changed, ended, why):
     section = one(asked, flight)
     assert findings(section) == [f"Not evaluated: {why}."]
     assert [(row[1], row[4]) for row in cells(section)] == [("\N{EN DASH}", "not evaluated")] * 3
-    assert limit_lines(asked, flight)[0] == f"tilt: at most 5 deg: not evaluated, {why}"
-    facts = limit_facts(asked, flight)
+    assert limit_lines(asked, flight)[0] == f"tilt (at most 5 deg): not evaluated, {why}"
+    facts = limit_entries(asked, flight)
     assert [(fact["value"], fact["verdict"], fact["reason"]) for fact in facts] == [(None, "not evaluated", why)] * 3
     landed = one(asked, mission(done=TIME > 1.0))
-    assert findings(landed) == ["Not kept: tilt, mass."]
+    assert findings(landed) == ["1 of 3 limits met; violated: tilt, mass."]
 
 
 def lines_of(figure, colour):
@@ -296,7 +297,7 @@ def test_short_runs(rows):
     short = {name: values[:rows] for name, values in mission().signals.items()}
     figures = [replace(figure, rows=None) if hasattr(figure, "rows") else figure for figure in FIGURES]
     result = replace(mission(), time=TIME[:rows], signals=short)
-    assert len(own_sections(figures, result)) == len(figures)
+    assert len(figure_sections(figures, result)) == len(figures)
 
 
 def test_columns_have_the_decimals_of_their_largest():

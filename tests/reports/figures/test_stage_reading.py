@@ -14,9 +14,8 @@ from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.design.trajectories.stored_bound import MissingBound, StoredBound
 from perilune.analysis.reports.figures.declaration import stage_readers
-from perilune.analysis.reports.figures.declaration.histories import Curve, Path
+from perilune.analysis.reports.figures.declaration.figures import BoundValues, Budget, Curve, Item, Limits, Path, Phases
 from perilune.analysis.reports.figures.declaration.reading import read_figures
-from perilune.analysis.reports.figures.declaration.stages import BoundValues, Budget, Item, Limits, Phases
 from perilune.analysis.reports.figures.declaration.values import Arc, Undrawn
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -350,7 +349,7 @@ def test_limits_of_an_fmu_that_is_put_in_and_lacks_them_are_not_evaluated(tiny_f
     use = ["--use", f"ramp={tiny / 'gain.fmu'}", "--open-inputs", "start"]
     flight = perilune.simulate(path, use={"ramp": tiny / "gain.fmu"}, open_inputs="start")
     assert [limit["verdict"] for limit in flight.limits] == ["not evaluated"]
-    assert [limit["verdict"] for limit in perilune.simulate(path).limits] == ["kept"]
+    assert [limit["verdict"] for limit in perilune.simulate(path).limits] == ["met"]
     assert main(["run", path, *use]) == 1
     captured = capsys.readouterr()
     why = "signal ramp.count: no such signal, with gain as ramp"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.reports.common.style import new_figure
-from perilune.analysis.reports.flight.run_report import STATUS_WORDS, write_run_report
+from perilune.analysis.reports.flight.run_report import ENDINGS, write_run_report
 from perilune.analysis.reports.flight.trajectory import _views
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
 from tests.support.pages.samples import DIGEST, run_result
@@ -31,7 +31,7 @@ def test_same_result_same_bytes(page, tmp_path):
 
 def test_header(page):
     text = text_of(page)
-    for words in ("A voyage & more", STATUS_WORDS["finished"], "99.5 s", "0.5 s", "sequential", "0.0.1"):
+    for words in ("A voyage & more", ENDINGS["finished"], "99.5 s", "0.5 s", "sequential", "0.0.1"):
         assert words in text
 
 
@@ -66,7 +66,7 @@ def test_key_values(page):
     rows = [" ".join(row.xpath(".//text()[normalize-space()]")) for row in parse(page).xpath("//section[1]//tbody/tr")]
     assert rows[0] == "finished true"
     assert any("".join(row.split()).startswith("ship.position\N{MINUS SIGN}990,4950.12,149.5m") for row in rows)
-    assert "ship.status worst of the run 2" in rows
+    assert "ship.status maximum over run 2" in rows
     assert not any(row.startswith("crew.cook.position") for row in rows)  # the same values again
 
 
@@ -81,7 +81,7 @@ def test_constants_copies_and_spikes_are_said(page):
     text = text_of(page)
     assert "ship.mass = 12.5 kg" in text
     assert "crew.cook.position = ship.position" in text
-    assert "goes on to 10⁶" in text
+    assert "clipped; full range −1 to 1e6"  # noqa: RUF001 in text
 
 
 def test_figures_are_labelled(page):
@@ -98,7 +98,7 @@ def test_a_run_that_broke_off_says_why(status, tmp_path):
     result["crew.cook.spike"][:] = np.nan
     page = write(result, tmp_path / "run.html")
     assert_self_contained(page)
-    assert STATUS_WORDS[status] in text_of(page)
+    assert ENDINGS[status] in text_of(page)
     assert result.message in text_of(page)
     assert "not a number" in text_of(page)
 
@@ -107,7 +107,7 @@ def test_a_run_that_broke_off_says_why(status, tmp_path):
 def test_short_runs(rows, tmp_path):
     page = write(run_result(rows=rows, status="failed", message="at once"), tmp_path / "run.html")
     assert_self_contained(page)
-    assert ("The run ended before its first row" in text_of(page)) == (rows == 0)
+    assert ("The run ended before its first sample" in text_of(page)) == (rows == 0)
 
 
 def test_no_position_no_trajectory(page, tmp_path):
@@ -128,9 +128,9 @@ def test_a_system_without_any_of_what_one_looks_at_first(many, tmp_path):
         name = f"ship.extra_{place}"
         result.signals[name], result.units[name], result.types[name] = result.time + place, None, "Real"
     page = write(result, tmp_path / "run.html")
-    (section,) = parse(page).xpath("//section[h2='At the end']")
+    (section,) = parse(page).xpath("//section[h2='Final values']")
     words = " ".join(section.text_content().split())
-    assert "before its first row" not in text_of(page)
+    assert "before its first sample" not in text_of(page)
     assert ("ship.tilt" in words) != many
     assert ("No position, velocity or status" in words) == many
     if not many:
@@ -155,7 +155,7 @@ def test_states_and_commands_come_first_and_the_rest_is_folded(page):
     assert "ship.mass" not in " ".join(shown)  # constant: said, not drawn
     assert "<script" not in page
     headings = [heading.text for heading in parse(page).xpath("//h2")]
-    assert headings[:4] == ["At the end", "Trajectory", "States and commands", "All signals"]
+    assert headings[:4] == ["Final values", "Trajectory", "States and commands", "All signals"]
 
 
 def test_where_no_name_says_what_is_a_state_the_first_panels_are_open(tmp_path):

@@ -14,8 +14,7 @@ from perilune.analysis.design.trajectories.bounds import Landing
 from perilune.analysis.design.trajectories.hover_study import hover_study
 from perilune.analysis.design.trajectories.landing_study import landing_study
 from perilune.analysis.design.trajectories.vehicle import Margins, Transfer, Vehicle
-from perilune.analysis.reports.plan.hover_page import write_hover_page
-from perilune.analysis.reports.plan.landing_page import write_landing_page
+from perilune.analysis.reports.plan.pages import write_hover_page, write_landing_page
 from tests.support.lengths import either
 from tests.support.pages.browser import start
 from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of

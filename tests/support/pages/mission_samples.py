@@ -5,8 +5,18 @@ Rows are half a second apart, 401 of them. Phase 1 to 20 s, 2 to 150 s, 4 to 180
 
 import numpy as np
 
-from perilune.analysis.reports.figures.declaration.histories import Curve, Path, Point
-from perilune.analysis.reports.figures.declaration.stages import BoundValues, Budget, Item, Limit, Limits, Phase, Phases
+from perilune.analysis.reports.figures.declaration.figures import (
+    BoundValues,
+    Budget,
+    Curve,
+    Item,
+    Limit,
+    Limits,
+    Path,
+    Phase,
+    Phases,
+    Point,
+)
 from perilune.analysis.reports.figures.declaration.values import Rows
 from perilune.analysis.runtime.ssp.units import Unit
 from tests.support.pages.own_samples import DEG, DEGREE, TIME, flown, scalar

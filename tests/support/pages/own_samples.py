@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from perilune.analysis.reports.figures.declaration.histories import Band, Error, Pulses
+from perilune.analysis.reports.figures.declaration.figures import Band, Error, Pulses
 from perilune.analysis.reports.figures.declaration.values import Signal
 from perilune.analysis.runtime.ssp.units import Unit
 from tests.support.pages.samples import run_result

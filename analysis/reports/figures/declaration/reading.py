@@ -8,7 +8,7 @@ from lxml import etree
 
 from ....runtime.ssp.documents import tag
 from ....runtime.system.prepared import PreparedSystem
-from .declared import Figure
+from .figures import Figure
 from .history_readers import read_band, read_curve, read_error, read_path, read_pulses
 from .signal_reader import LackingError, SignalReader
 from .stage_readers import read_budget, read_limits, read_phases

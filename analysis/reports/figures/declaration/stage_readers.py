@@ -11,10 +11,9 @@ from ....design.trajectories.declared_bound import read_inputs
 from ....design.trajectories.stored_bound import MissingBound, find_bound
 from ....runtime.ssp.documents import tag
 from ....runtime.system.prepared import PreparedSystem
-from .declared import Figure
+from .figures import LANDING, MEASURES, BoundValues, Budget, Figure, Item, Limit, Limits, Phase, Phases
 from .history_readers import SECOND
 from .signal_reader import NUMBERS, LackingError, SignalReader
-from .stages import LANDING, MEASURES, BoundValues, Budget, Item, Limit, Limits, Phase, Phases
 
 
 def bound_values(prepared: PreparedSystem) -> BoundValues | None:

@@ -12,8 +12,8 @@ from ...campaigns.compare.comparison import Contender
 from ..common.panels import Panel, far, panel
 from ..common.round_body import radius_of, track_angles
 from ..common.style import FAILED, FAINT, GRID, INK, Look, plain_ticks
+from .dispersions import TARGET, target_of
 from .recorded import Flight, find_vector, kept_names, variable_of
-from .targets import target_of
 
 DRAWN = 40  # flights of a panel
 SHAPE = 1.45  # width over height of a panel's axes
@@ -156,12 +156,6 @@ def plan_panels(bundles: Mapping[str, Bundle], looks: Mapping[str, Look]) -> lis
 
         panels.append(panel(label, f"plan-{index}", f"Plan view of {len(bundle.paths)} flights of {label}", draw))
     return panels
-
-
-TARGET: dict = {
-    "linestyle": "", "marker": "o", "markersize": 6, "markerfacecolor": "white", "markeredgecolor": INK,
-    "markeredgewidth": 1.3, "zorder": 4,
-}  # fmt: skip
 
 
 def _line(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str, success: bool) -> None:

@@ -6,9 +6,9 @@ from collections.abc import Collection, Mapping
 
 from ...campaigns.compare.comparison import Comparison
 from .consistency import is_over_sigma
+from .dispersions import UNITS
 from .metrics import MASS
 from .recorded import CONSISTENCY, DIRECTIONS, KNOWN, Flight, variable_of
-from .targets import UNITS
 
 PATH = frozenset(KNOWN) - {*DIRECTIONS, *CONSISTENCY}  # what tells that something is under way
 

@@ -1,4 +1,4 @@
-"""What phases used up beside a bound that was computed before: item by item, and together."""
+"""Sections that are a table: limits at the end of a run, and a propellant budget."""
 
 from __future__ import annotations
 
@@ -9,9 +9,31 @@ from markupsafe import Markup
 
 from ...runtime.flight.results import Result
 from ..common.quantities import shown_unit
-from .declaration.stages import BoundValues, Budget, Item
-from .phase_spans import spans_of
-from .section import Section, Table, evenly
+from ..common.tables import Table
+from .declaration.figures import BoundValues, Budget, Item, Limits
+from .limits import Verdict, evaluate, limit_rows
+from .phase_figure import spans_of
+from .section import Section, evenly, sentence
+
+
+def limit_section(limits: Limits, result: Result) -> Section:
+    """The table of limits, with how many are met and which are violated, or why none is evaluated."""
+    violated = [limit.name for limit, verdict in evaluate(limits, result) if verdict is Verdict.VIOLATED]
+    obstacle = limits.obstacle(result)
+    total = len(limits.limits)
+    verdicts = Markup("{} of {} limits met").format(total - len(violated), total)
+    if violated:
+        verdicts = Markup("{}; violated: {}").format(verdicts, ", ".join(violated))
+    return Section(
+        title=limits.title,
+        table=Table(
+            heads=("", "final value", "limit", "unit", ""),
+            rows=limit_rows(limits, result),
+            numbers=(1, 2),
+        ),
+        findings=[sentence(Markup("not evaluated: {}").format(obstacle) if obstacle else verdicts)],
+        notes=[Markup("{}").format(note) for note in limits.notes],
+    )
 
 
 def spent_by_phase(budget: Budget, result: Result) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""What was at the end of the run against its limits."""
+"""Limits on values at the end of a run: verdicts, and rows of the tables that show them."""
 
 from __future__ import annotations
 
@@ -11,33 +11,32 @@ from markupsafe import Markup
 
 from ...runtime.flight.results import Flight
 from ..common.page import exact
-from ..common.quantities import shown_unit
-from .declaration.declared import Figure
-from .declaration.stages import Limit, Limits
+from ..common.quantities import NONE, shown_unit
+from .declaration.figures import Figure, Limit, Limits
 from .declaration.values import Undrawn
 
 
 class Verdict(StrEnum):
-    """How a run stands to a limit."""
+    """Whether a run meets a limit."""
 
-    KEPT = "kept"
-    NOT_KEPT = "not kept"
+    MET = "met"
+    VIOLATED = "violated"
     NOT_EVALUATED = "not evaluated"
 
 
-LOOKS = {Verdict.KEPT: "pass", Verdict.NOT_KEPT: "fail", Verdict.NOT_EVALUATED: "not-applicable"}
-NONE = "\N{EN DASH}"  # in a number's place
+LABELS = {Verdict.MET: "PASS", Verdict.VIOLATED: "FAIL", Verdict.NOT_EVALUATED: "not evaluated"}
+CLASSES = {Verdict.MET: "pass", Verdict.VIOLATED: "fail", Verdict.NOT_EVALUATED: "not-applicable"}
 
 
 def evaluate(limits: Limits, result: Flight) -> list[tuple[Limit, Verdict]]:
     """The limits in their order, each with its verdict."""
     if limits.obstacle(result):
         return [(limit, Verdict.NOT_EVALUATED) for limit in limits.limits]
-    return [(limit, Verdict.KEPT if is_kept(limit, result) else Verdict.NOT_KEPT) for limit in limits.limits]
+    return [(limit, Verdict.MET if is_met(limit, result) else Verdict.VIOLATED) for limit in limits.limits]
 
 
-def is_kept(limit: Limit, result: Flight) -> bool:
-    """Whether the last row keeps a limit, the limit itself included; what is not finite does not."""
+def is_met(limit: Limit, result: Flight) -> bool:
+    """Whether the final value is finite and within a limit, the limit included."""
     value = limit.value(result)
     above = limit.least is None or value >= limit.least
     below = limit.most is None or value <= limit.most
@@ -45,30 +44,33 @@ def is_kept(limit: Limit, result: Flight) -> bool:
 
 
 def limit_lines(limits: Limits, result: Flight) -> list[str]:
-    """For a terminal: a line for each limit, angles in deg."""
+    """A line for each limit, for a terminal; angles in deg."""
     obstacle = limits.obstacle(result)
-    form = Markup("{0}: {2} {3}: {4}, {5}" if obstacle else "{0}: {1} {3}, {2}: {4}")
-    return [" ".join(form.format(*row, obstacle).striptags().split()) for row in limit_rows(limits, result)]
+    form = Markup("{0} ({2} {3}): {4}, {5}" if obstacle else "{0} {1} {3} ({2} {3}): {4}")
+    lines = (form.format(*row, obstacle).striptags() for row in limit_rows(limits, result))
+    return [" ".join(line.replace(" )", ")").split()) for line in lines]
 
 
 def limit_rows(limits: Limits, result: Flight) -> list[tuple[Markup | str, ...]]:
-    """A row for each limit: its name, the value at the end, the limit, their unit, the verdict."""
+    """A row for each limit: its name, the final value, the limit, their unit, the verdict."""
     return [_row(limit, verdict, result) for limit, verdict in evaluate(limits, result)]
 
 
 def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, Any]]:
-    """All limits that a system asks for, for other programs, a dictionary each."""
-    found: list[dict[str, Any]] = []
+    """All limits that a system declares as JSON, an object each."""
+    document: list[dict[str, Any]] = []
     for figure in figures:
         if isinstance(figure, Limits):
-            found += limit_facts(figure, result)
+            document += limit_entries(figure, result)
         elif isinstance(figure, Undrawn) and figure.has_limits:
-            found += [{"name": figure.title, "verdict": Verdict.NOT_EVALUATED, "reason": note} for note in figure.notes]
-    return found
+            document += [
+                {"name": figure.title, "verdict": Verdict.NOT_EVALUATED, "reason": note} for note in figure.notes
+            ]
+    return document
 
 
-def limit_facts(limits: Limits, result: Flight) -> list[dict[str, Any]]:
-    """The same for other programs: values in ``unit``, None where there is none, and why one is not evaluated."""
+def limit_entries(limits: Limits, result: Flight) -> list[dict[str, Any]]:
+    """Limits as JSON: values in ``unit``, None where there is none, and the reason where one is not evaluated."""
     obstacle = limits.obstacle(result)
     return [
         {
@@ -91,7 +93,7 @@ def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Markup | str, 
         NONE if verdict is Verdict.NOT_EVALUATED else exact(limit.value(result), unit),
         _limit(limit, unit),
         shown_unit(unit),
-        Markup('<span class="verdict {}">{}</span>').format(LOOKS[verdict], verdict),
+        Markup('<span class="verdict {}">{}</span>').format(CLASSES[verdict], LABELS[verdict]),
     )
 
 

@@ -9,20 +9,17 @@ from markupsafe import Markup
 
 from ...runtime.flight.results import Result
 from .band_figure import band_section, inside, since
-from .budget_table import budget_section
 from .curve_figure import curve_section
-from .declaration.declared import Figure
-from .declaration.histories import Band, Curve, Error, Path, Pulses
-from .declaration.stages import Budget, Limits, Phases
+from .declaration.figures import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses
 from .error_figure import error_section
-from .limit_section import limit_section
 from .path_figure import path_section
 from .phase_figure import phase_section
 from .pulse_figure import pulse_section
 from .section import Section, sentence
+from .tables import budget_section, limit_section
 
 
-def own_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
+def figure_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
     """A section for each figure in the order of the SSD; a run without rows has none."""
     return [_section(figure, result, f"own{index}") for index, figure in enumerate(figures) if result.time.size]
 

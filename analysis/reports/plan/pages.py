@@ -1,4 +1,4 @@
-"""The page of a hover transfer: what is planned, what it takes, what it is held against, how it goes."""
+"""The pages of planned trajectories: a hover transfer, and the propellant bound of a landing."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from ...design.trajectories.hover_study import HoverStudy
+from ...design.trajectories.landing_study import LandingStudy
 from ..common.page import write_page
 from ..common.panels import swatch
 from ..common.style import look
-from .figures import Point, Series, curve_panel, path_panel, time_panels
+from .figures import Point, Series, curve_panel, path_panel, path_widths, time_panels
 
 NAMES = ("simplified programme", "true optimum", "point-mass bound")
 
@@ -49,3 +50,24 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
 def _at_ends(values: np.ndarray) -> np.ndarray:
     """A row of intervals with one value more, so that it stands beside rows of their ends."""
     return np.append(values, values[-1])
+
+
+def write_landing_page(study: LandingStudy, path: Path) -> None:
+    """Write one self-contained HTML page; the same study gives the same bytes."""
+    series = [Series("bound", study.bound, look(0))]
+    radius = study.landing.radius
+    x, y = study.bound.position[:, 0], study.bound.position[:, 1] + radius
+    central = np.arctan2(x, y)
+    turned = study.bound.pitch + (central[1:] + central[:-1]) / 2.0  # from the local horizontal
+    shown = np.stack([radius * central, np.hypot(x, y) - radius, np.append(turned, turned[-1])])
+    write_page(
+        path,
+        Path(__file__).with_name("landing_bound.html"),
+        title="Bound of braking and landing",
+        study=study,
+        direct=None if study.direct is None else study.direct.propellant_fraction * study.vehicle.mass,
+        climb=math.degrees(study.landing.climb),
+        burns=study.bound.burns(),
+        track=path_widths(series, [shown], ("range from the site", "altitude")),
+        over_time=time_panels(series, "Angle of thrust above the site's horizontal, deg"),
+    )

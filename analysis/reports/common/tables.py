@@ -1,4 +1,4 @@
-"""Tables of a study's page: headings, rows of cells, and which columns hold numbers."""
+"""Tables of a page: headings, rows of cells, and which columns hold numbers."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 
 from markupsafe import Markup
 
-from ..common.page import exact
-from ..common.quantities import MINUS
+from .page import exact
+from .quantities import MINUS
 
 PLACES = 3  # decimals of a fraction
 
 
 class Table(NamedTuple):
-    """Headings and rows of cells; the columns ``numbers`` are set to the right."""
+    """Headings and rows of cells; the columns ``numbers`` are aligned right."""
 
     heads: Sequence[str]
     rows: Sequence[Sequence[Markup | str]]
