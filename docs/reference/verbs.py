@@ -20,8 +20,9 @@ def verbs_page() -> str:
     ]
     for verb, words in VERBS.items():
         parser = _verb_parser(verb)
-        examples = "\n".join(f"# {comment}\n{command}" for command, comment in EXAMPLES[verb])
-        parts += [f"## {verb}", escaped(words[0].upper() + words[1:]) + ".", f"```sh\n{examples}\n```"]
+        examples = "\n".join(f"# {comment}\n{command}" for command, comment in EXAMPLES.get(verb, ()))
+        parts += [f"## {verb}", escaped(words[0].upper() + words[1:]) + "."]
+        parts += [f"```sh\n{examples}\n```"] if examples else []
         parts += list(_options(parser))
         parts.append(exit_status(verb))
     return "\n\n".join(parts) + "\n"
