@@ -80,8 +80,7 @@ def present(verb: Verb, result: VerbResult, files: Mapping[str, Any]) -> ExitSta
     else:
         if target is not None:
             written.write(Path(target), lambda path: write_atomically(path, _json_text(result).encode()))
-        else:
-            print(call_by_flags("\n".join(result.lines()), flags))
+        print(call_by_flags("\n".join(result.lines()), flags))
     for name, path in files.items():
         writer = declared[name].option.writer or WRITERS.get(name)
         if writer and path is not None:

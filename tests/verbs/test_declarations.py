@@ -13,7 +13,7 @@ from importlib import import_module
 import pytest
 
 import perilune
-from perilune.analysis.reference.verbs import verb_parser
+from docs.reference.verbs import verb_parser
 from perilune.analysis.verbs.options.option import options_of
 from perilune.analysis.verbs.options.verbs import GROUPS, PURPOSES, RENAMED, VERBS
 

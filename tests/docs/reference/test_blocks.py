@@ -11,8 +11,8 @@ import re
 import pytest
 from fmpy import read_model_description
 
-from perilune.analysis.reference.blocks import block_page, fitting, slots_of
-from perilune.analysis.reference.usage import usages
+from docs.reference.blocks import block_page, fitting, slots_of
+from docs.reference.usage import usages
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.paths import ROOT, built_fmu

@@ -1,4 +1,4 @@
-"""What the choices of docs/modal_synthesis.md are worth: `python -m perilune.analysis.demo.modal_comparison`.
+"""What the choices of docs/modal_synthesis.md are worth: `python -m docs.figures.modal_comparison`.
 
 Prints the page's tables and draws docs/images/modal_*.svg. Random systems: elements of A, B and C normal, real poles
 from -4 to -0.5, at least 0.2 apart.
@@ -15,12 +15,13 @@ from matplotlib.figure import Figure
 from scipy.signal import place_poles
 from tqdm import tqdm
 
-from ...fmus_src.paths import ROOT
-from ..design.poles.output.feedback import output_feedback
-from ..design.poles.place import place
-from ..design.poles.spectrum import Spectrum
-from ..reports.common.style import house_style
-from ..reports.common.svg import svg_bytes
+from perilune.analysis.design.poles.output.feedback import output_feedback
+from perilune.analysis.design.poles.place import place
+from perilune.analysis.design.poles.spectrum import Spectrum
+from perilune.analysis.reports.common.style import house_style
+from perilune.analysis.reports.common.svg import svg_bytes
+from perilune.fmus_src.paths import ROOT
+
 from .modal_figures import choices_figure, free_figure, spreads_figure
 
 SYSTEMS = 20

@@ -1,4 +1,4 @@
-"""Draws docs/images/rendezvous_*.svg: `python -m perilune.analysis.demo.rendezvous_figures`, after build_fmus.py."""
+"""Draws docs/images/rendezvous_*.svg: `python -m docs.figures.rendezvous_figures`, after build_fmus.py."""
 
 from __future__ import annotations
 
@@ -10,12 +10,24 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from ...fmus_src.paths import ROOT
-from ..common.process_end import leave
-from ..reports.common.style import BLUE, FAINT, INK, ORANGE, SKY, VERMILION, house_style, look, new_figure, plain_ticks
-from ..reports.common.svg import DECIMALS, svg_bytes
-from ..runtime.flight.results import Result
-from ..verbs.run import simulate
+from perilune.analysis.common.process_end import leave
+from perilune.analysis.reports.common.style import (
+    BLUE,
+    FAINT,
+    INK,
+    ORANGE,
+    SKY,
+    VERMILION,
+    house_style,
+    look,
+    new_figure,
+    plain_ticks,
+)
+from perilune.analysis.reports.common.svg import DECIMALS, svg_bytes
+from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.verbs.run import simulate
+from perilune.fmus_src.paths import ROOT
+
 from .landing import vector
 
 PHASES = ("accelerate", "turn", "approach", "hold")

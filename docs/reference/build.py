@@ -11,8 +11,9 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from ...fmus_src.paths import BUILD, PACKAGE, ROOT
-from ..common.errors import InputError
+from perilune.analysis.common.errors import InputError
+from perilune.fmus_src.paths import BUILD, PACKAGE, ROOT
+
 from .links import broken_links
 from .pages import derived_pages, reference_navigation
 
@@ -39,7 +40,7 @@ def build_site(output: Path, sources: Path) -> None:
     """
     for folder in (sources, output):
         shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(DOCS, sources / "docs")
+    shutil.copytree(DOCS, sources / "docs", ignore=shutil.ignore_patterns("*.py", "*.jinja", "__pycache__", "figures"))
     for name, text in derived_pages().items():
         path = sources / "docs" / name
         path.parent.mkdir(parents=True, exist_ok=True)

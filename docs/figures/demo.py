@@ -6,17 +6,18 @@ import sys
 import time
 from pathlib import Path
 
-from ...fmus_src.export.command import main as build_fmus
-from ...fmus_src.paths import BUILD
-from ..campaigns.fly.results import BatchResult
-from ..campaigns.fly.runner import run_batch
-from ..campaigns.spec.plan import BatchPlan, read_plan
-from ..common.errors import InputError
-from ..common.process_end import leave
-from ..reports.campaign.batch_report import write_batch_report
-from ..reports.flight.run_report import write_run_report
-from ..runtime.flight.results import Result
-from ..runtime.system.options import SystemOptions
+from perilune.analysis.campaigns.fly.results import BatchResult
+from perilune.analysis.campaigns.fly.runner import run_batch
+from perilune.analysis.campaigns.spec.plan import BatchPlan, read_plan
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.common.process_end import leave
+from perilune.analysis.reports.campaign.batch_report import write_batch_report
+from perilune.analysis.reports.flight.run_report import write_run_report
+from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.fmus_src.export.command import main as build_fmus
+from perilune.fmus_src.paths import BUILD
+
 from .landing import fly_landings
 from .page import write_demo_page
 from .readme_figure import CAMPAIGN, LANDING, SYSTEM, sample_trials

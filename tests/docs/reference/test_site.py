@@ -10,8 +10,8 @@ from itertools import pairwise
 
 import pytest
 
-from perilune.analysis.reference.build import build_site
-from perilune.analysis.reference.links import broken_links
+from docs.reference.build import build_site
+from docs.reference.links import broken_links
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.paths import ROOT
 from tests.support.documented import PAGES

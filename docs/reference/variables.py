@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ...fmus_src.block import Block, Input, Output, Parameter, State, Variable
+from perilune.fmus_src.block import Block, Input, Output, Parameter, State, Variable
+
 from .markdown import escaped, number, table
 
 SHOWN = 12  # start values of a list, beyond which the first ones are enough

@@ -9,13 +9,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..campaigns.spec.campaign import Variant
-from ..campaigns.spec.checks import variant_names
-from ..campaigns.spec.plan import BatchPlan
-from ..reports.common.panels import is_slim
-from ..reports.common.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure, plain_ticks
-from ..runtime.flight.results import Result
-from ..runtime.flight.simulation import Simulation
+from perilune.analysis.campaigns.spec.campaign import Variant
+from perilune.analysis.campaigns.spec.checks import variant_names
+from perilune.analysis.campaigns.spec.plan import BatchPlan
+from perilune.analysis.reports.common.panels import is_slim
+from perilune.analysis.reports.common.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure, plain_ticks
+from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.flight.simulation import Simulation
 
 HEIGHT, SLIM_HEIGHT = 5.3, 7.0  # in
 SAMPLE = "#b9c9d6"

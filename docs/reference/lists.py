@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ...fmus_src.block import Block
-from ...fmus_src.catalogue import KINDS, catalogue
-from ..authoring.describe.fits import blocks_of_slot, slots
+from perilune.analysis.authoring.describe.fits import blocks_of_slot, slots
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import KINDS, catalogue
+
 from .blocks import slots_of
 from .markdown import escaped, prose, table
 from .variables import inputs, outputs, parameters

@@ -6,9 +6,10 @@ import re
 from pathlib import Path
 from typing import Any
 
-from ...fmus_src.catalogue import KINDS, catalogue
-from ...fmus_src.export.judge.subset_table import LANGUAGE_PAGE
-from ...fmus_src.paths import ROOT
+from perilune.fmus_src.catalogue import KINDS, catalogue
+from perilune.fmus_src.export.judge.subset_table import LANGUAGE_PAGE
+from perilune.fmus_src.paths import ROOT
+
 from .blocks import block_page
 from .interface import interface_pages
 from .kernel import kernel_page

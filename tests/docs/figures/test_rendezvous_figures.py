@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from lxml import etree
 
-from perilune.analysis.demo.rendezvous_figures import draw_rendezvous_figures, fly, gyros_figure
+from docs.figures.rendezvous_figures import draw_rendezvous_figures, fly, gyros_figure
 from perilune.fmus_src.paths import ROOT
 
 LABELS = {

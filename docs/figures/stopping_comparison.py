@@ -1,4 +1,4 @@
-"""What rules of stopping take for 99.87 % at 90 %: `python -m perilune.analysis.demo.stopping_comparison`.
+"""What rules of stopping take for 99.87 % at 90 %: `python -m docs.figures.stopping_comparison`.
 
 Prints the tables of docs/campaigns.md. Nothing is drawn: risks and expectations are those of all courses that a
 campaign can take, by recursion over looks and counts of failures.
@@ -13,9 +13,9 @@ import numpy as np
 from scipy.special import betainc, betaln
 from scipy.stats import binom
 
-from ..campaigns.verdicts.acceptance import FURTHER, flights_needed, permitted_failures, producer_risk
-from ..campaigns.verdicts.boundary import SPENT, Boundary
-from ..campaigns.verdicts.stopping import StoppingRule
+from perilune.analysis.campaigns.verdicts.acceptance import FURTHER, flights_needed, permitted_failures, producer_risk
+from perilune.analysis.campaigns.verdicts.boundary import SPENT, Boundary
+from perilune.analysis.campaigns.verdicts.stopping import StoppingRule
 
 SHARE, CONFIDENCE = 0.9987, 0.9
 RISK, RATE = 1.0 - CONFIDENCE, 1.0 - SHARE

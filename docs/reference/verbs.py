@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from ..cli import HELP_ALL, parser_of
-from ..verbs.options.help import exit_status
-from ..verbs.options.verbs import VERBS
+from perilune.analysis.cli import HELP_ALL, parser_of
+from perilune.analysis.verbs.options.help import exit_status
+from perilune.analysis.verbs.options.verbs import VERBS
+
 from .markdown import escaped, table
 
 

@@ -1,4 +1,4 @@
-"""perilune.analysis.demo.stopping_comparison: the tables of docs/campaigns.md.
+"""docs.figures.stopping_comparison: the tables of docs/campaigns.md.
 
 Truth: campaigns flown by dice, many of each kind; the page.
 """
@@ -6,7 +6,7 @@ Truth: campaigns flown by dice, many of each kind; the page.
 import numpy as np
 import pytest
 
-from perilune.analysis.demo.stopping_comparison import RATE, course, main, rules
+from docs.figures.stopping_comparison import RATE, course, main, rules
 from perilune.fmus_src.paths import ROOT
 from tests.support.lengths import either
 

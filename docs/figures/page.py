@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..campaigns.fly.results import BatchResult
-from ..reports.campaign.distributions import distribution_panels, legend_of
-from ..reports.campaign.failures import failure_panels
-from ..reports.campaign.rates import rates_figure
-from ..reports.common.page import write_page
-from ..reports.common.panels import both_widths
-from ..runtime.flight.results import Result
+from perilune.analysis.campaigns.fly.results import BatchResult
+from perilune.analysis.reports.campaign.distributions import distribution_panels, legend_of
+from perilune.analysis.reports.campaign.failures import failure_panels
+from perilune.analysis.reports.campaign.rates import rates_figure
+from perilune.analysis.reports.common.page import write_page
+from perilune.analysis.reports.common.panels import both_widths
+from perilune.analysis.runtime.flight.results import Result
+
 from .landing import HEIGHT, SLIM_HEIGHT, draw_landing, vector
 from .readme_figure import LANDING
 

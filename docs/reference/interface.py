@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from importlib import import_module
 
-from ...fmus_src.face import HOMES
+from perilune.fmus_src.face import HOMES
+
 from .markdown import prose
 
 WRITING = [name for names in HOMES.values() for name in names]  # what one writes a block with

@@ -1,14 +1,15 @@
-"""Draws docs/images/landing.svg: `python -m perilune.analysis.demo.readme_figure`, after build_fmus.py."""
+"""Draws docs/images/landing.svg: `python -m docs.figures.readme_figure`, after build_fmus.py."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from ...fmus_src.paths import ROOT
-from ..campaigns.spec.plan import read_plan
-from ..common.process_end import leave
-from ..reports.common.svg import svg_bytes
-from ..runtime.system.options import SystemOptions
+from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.common.process_end import leave
+from perilune.analysis.reports.common.svg import svg_bytes
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.fmus_src.paths import ROOT
+
 from .landing import fly_landings, landing_figure
 
 SYSTEM, CAMPAIGN = "lunar_terminal_guidance", "paper"

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from importlib import import_module
 from types import FunctionType
 
-from ...fmus_src import mathlib
-from ...fmus_src.export.judge.subset_table import (
+from perilune.fmus_src import mathlib
+from perilune.fmus_src.export.judge.subset_table import (
     BUILTIN_FUNCTIONS,
     COMPARISONS,
     LANGUAGE_PAGE,
@@ -21,6 +21,7 @@ from ...fmus_src.export.judge.subset_table import (
     REFUSED_SYNTAX,
     RULES,
 )
+
 from .markdown import escaped, table
 
 STATEMENTS = (

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...fmus_src.block import Block, Output, Parameter
-from ...fmus_src.catalogue import catalogue
-from ..authoring.describe.fits import Demand, blocks_of_slot, connectors_of, slots
+from perilune.analysis.authoring.describe.fits import Demand, blocks_of_slot, connectors_of, slots
+from perilune.fmus_src.block import Block, Output, Parameter
+from perilune.fmus_src.catalogue import catalogue
+
 from .markdown import prose, table
 from .usage import Usage, usages
 from .variables import declared, inputs, outputs, parameters, states

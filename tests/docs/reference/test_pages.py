@@ -11,12 +11,12 @@ import subprocess
 import pytest
 
 import perilune
+from docs.reference.build import pages_of, site_settings
+from docs.reference.links import broken_links
+from docs.reference.markdown import escaped, prose
+from docs.reference.pages import derived_pages, reference_navigation
+from docs.reference.verbs import verb_parser
 from perilune.analysis.authoring.describe.fits import slots
-from perilune.analysis.reference.build import pages_of, site_settings
-from perilune.analysis.reference.links import broken_links
-from perilune.analysis.reference.markdown import escaped, prose
-from perilune.analysis.reference.pages import derived_pages, reference_navigation
-from perilune.analysis.reference.verbs import verb_parser
 from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.fmus_src.export.judge.subset_table import LANGUAGE_PAGE, MATH_FUNCTIONS, OTHER_FUNCTION, REFUSED_FUNCTIONS
 from perilune.fmus_src.paths import ROOT

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
-from ..runtime.ssp.archive import open_system, system_names
-from ..runtime.ssp.description import Component, System
-from ..runtime.ssp.reading import read_description
+from perilune.analysis.runtime.ssp.archive import open_system, system_names
+from perilune.analysis.runtime.ssp.description import Component, System
+from perilune.analysis.runtime.ssp.reading import read_description
+from perilune.fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 
 
 @dataclass

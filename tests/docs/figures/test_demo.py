@@ -1,13 +1,13 @@
-"""perilune.analysis.demo.demo and the figure of the README, flown for real with few trials."""
+"""docs.figures.demo and the figure of the README, flown for real with few trials."""
 
 import numpy as np
 import pyarrow.parquet
 import pytest
 from lxml import etree
 
-from perilune.analysis.demo.demo import fly
-from perilune.analysis.demo.page import PUBLISHED
-from perilune.analysis.demo.readme_figure import draw_readme_figure
+from docs.figures.demo import fly
+from docs.figures.page import PUBLISHED
+from docs.figures.readme_figure import draw_readme_figure
 from perilune.fmus_src.paths import ROOT
 from tests.papers.test_fomichev_li import TABLE
 from tests.support.lengths import LONG
