@@ -10,7 +10,7 @@ unexport PYTHONDONTWRITEBYTECODE
 test quick long long-campaigns explore: export OPENBLAS_NUM_THREADS = 1
 
 demo: .venv/ready
-	$(BIN)/python -m perilune.analysis.demo.demo
+	$(BIN)/python -m docs.figures.demo
 
 test: .venv/ready lint build
 	-@[ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null || $(MAKE) --no-print-directory browser

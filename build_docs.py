@@ -1,6 +1,6 @@
 """Builds the documentation site to build/site: the pages under docs/ and those derived from sources."""
 
-from perilune.analysis.reference.build import main
+from docs.reference.build import main
 
 if __name__ == "__main__":
     raise SystemExit(main())

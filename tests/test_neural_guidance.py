@@ -23,7 +23,7 @@ assert check_grad(lambda w: misfit(w)[0], lambda w: misfit(w)[1], weights) < 1e-
 
 
 @pytest.mark.skipif(
-    not LONG, reason="trains a network and flies it in Python; tests/reference/test_commands.py does too"
+    not LONG, reason="trains a network and flies it in Python; tests/docs/reference/test_commands.py does too"
 )
 @pytest.mark.usefixtures("fmus")
 def test_the_network_lands_from_starts_that_it_has_not_seen(tmp_path, monkeypatch):

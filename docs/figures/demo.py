@@ -1,0 +1,75 @@
+"""Builds everything, flies a landing and the published comparison, writes build/demo/index.html: `make demo`."""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+from perilune.analysis.campaigns.fly.results import BatchResult
+from perilune.analysis.campaigns.fly.runner import run_batch
+from perilune.analysis.campaigns.spec.plan import BatchPlan, read_plan
+from perilune.analysis.common.errors import InputError
+from perilune.analysis.common.process_end import leave
+from perilune.analysis.reports.campaign.batch_report import write_batch_report
+from perilune.analysis.reports.flight.run_report import write_run_report
+from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.fmus_src.export.command import main as build_fmus
+from perilune.fmus_src.paths import BUILD
+
+from .landing import fly_landings
+from .page import write_demo_page
+from .readme_figure import CAMPAIGN, LANDING, SYSTEM, sample_trials
+
+TRIALS = 300
+
+
+def main(output: Path = BUILD / "demo", trials: int = TRIALS) -> int:
+    """Run the demonstration; returns the exit status."""
+    began = time.perf_counter()
+    print("Building the FMUs and systems ...", flush=True)
+    status = build_fmus([])
+    if status:
+        return status
+    try:
+        page = fly(output, trials)
+    except InputError as error:
+        print(f"perilune demo: {error}", file=sys.stderr)
+        return 2
+    print(f"Done in {time.perf_counter() - began:.0f} s. Open {page}")
+    return 0
+
+
+def fly(output: Path, trials: int) -> Path:
+    """Fly everything and write all files into ``output``; returns the page."""
+    plan = read_plan(SYSTEM, CAMPAIGN, SystemOptions(), trials=trials)
+    print(f"Flying trial {LANDING} of the campaign with {plan.campaign.variants()[0].name} ...", flush=True)
+    landing, sample = fly_sample(plan)
+    variants = len(plan.campaign.variants())
+    print(f"Comparing {variants} guidances over {trials} trials each ...", flush=True)
+    batch = run_batch(plan, output=output)
+    return write_files(landing, sample, batch, output)
+
+
+def fly_sample(plan: BatchPlan) -> tuple[Result, list[Result]]:
+    """One landing of the campaign in full, and others to show beside it, with the campaign's first variant."""
+    others = sample_trials()
+    larger = read_plan(SYSTEM, CAMPAIGN, plan.options, trials=max(LANDING, *others) + 1)
+    flights = fly_landings(larger, larger.campaign.variants()[0], [LANDING, *others])
+    return flights[0], flights[1:]
+
+
+def write_files(landing: Result, sample: list[Result], batch: BatchResult, output: Path) -> Path:
+    """Write the raw landing, the two full reports and the page; those of the batch are there already."""
+    print("Writing pages ...", flush=True)
+    landing.write(output / "landing.csv")
+    write_run_report(landing, output / "landing.html", f"Lunar landing: trial {LANDING} of campaign {CAMPAIGN}")
+    write_batch_report(batch, output / "comparison.html", "Lunar terminal guidance: three methods compared")
+    page = output / "index.html"
+    write_demo_page(landing, sample, batch, page)
+    return page
+
+
+if __name__ == "__main__":
+    leave(main())

@@ -1,0 +1,70 @@
+"""The page of the demonstration: a landing, and the three guidances beside what their authors published."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from perilune.analysis.campaigns.fly.results import BatchResult
+from perilune.analysis.reports.campaign.distributions import distribution_panels, legend_of
+from perilune.analysis.reports.campaign.failures import failure_panels
+from perilune.analysis.reports.campaign.rates import rates_figure
+from perilune.analysis.reports.common.page import write_page
+from perilune.analysis.reports.common.panels import both_widths
+from perilune.analysis.runtime.flight.results import Result
+
+from .landing import HEIGHT, SLIM_HEIGHT, draw_landing, vector
+from .readme_figure import LANDING
+
+
+@dataclass(frozen=True)
+class Published:
+    """A row of the published table: success rate (share of 1), errors as (mean, standard deviation) in m and m/s."""
+
+    method: str
+    success_rate: float
+    position_error: tuple[float, float]
+    velocity_error: tuple[float, float]
+
+
+# Fomichev and Li 2017, 10 000 trials; errors of the successful ones.
+PUBLISHED = {
+    "analytic_guidance": Published("analytic", 1.0, (0.4456, 0.2883), (0.4390, 0.2336)),
+    "astar_guidance": Published("A*", 0.829, (0.4568, 0.6455), (1.0196, 1.2049)),
+    "astar_modified_guidance": Published("modified A*", 0.935, (2.2596, 6.6021), (1.3355, 1.5896)),
+}
+COMPARED = ("position_error", "velocity_error")
+
+
+def write_demo_page(landing: Result, sample: list[Result], batch: BatchResult, path: Path) -> None:
+    """Write the page. Raises KeyError for a variant that the publication does not have."""
+    target = np.array([landing.provenance["parameters"][f"guidance.target_position[{i}]"] for i in (1, 2, 3)])
+    campaign = batch.plan.campaign
+    write_page(
+        path,
+        Path(__file__).with_name("demo.html"),
+        title="Perilune: a landing, and three guidances compared",
+        trial=LANDING,
+        landing=landing,
+        end_time=float(landing.time[-1]),
+        position_error=float(np.linalg.norm(vector(landing, "plant.position")[:, -1] - target)),
+        speed=float(np.linalg.norm(vector(landing, "plant.velocity")[:, -1])),
+        sample=len(sample),
+        figure=both_widths(
+            "landing",
+            "A landing from the side, in plan and over time",
+            lambda figure: draw_landing(figure, landing, sample),
+            HEIGHT,
+            SLIM_HEIGHT,
+        ),
+        campaign=campaign,
+        provenance=batch.provenance,
+        summary=batch.summary,
+        published={name: PUBLISHED[name] for name in batch.summary},
+        rates=rates_figure(batch, {name: PUBLISHED[name].success_rate for name in batch.summary}),
+        looks=legend_of(batch),
+        distributions=distribution_panels(batch, [m for m in campaign.metrics if m.name in COMPARED]),
+        failures=failure_panels(batch),
+    )

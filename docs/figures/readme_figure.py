@@ -1,0 +1,39 @@
+"""Draws docs/images/landing.svg: `python -m docs.figures.readme_figure`, after build_fmus.py."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from perilune.analysis.campaigns.spec.plan import read_plan
+from perilune.analysis.common.process_end import leave
+from perilune.analysis.reports.common.svg import svg_bytes
+from perilune.analysis.runtime.system.options import SystemOptions
+from perilune.fmus_src.paths import ROOT
+
+from .landing import fly_landings, landing_figure
+
+SYSTEM, CAMPAIGN = "lunar_terminal_guidance", "paper"
+LANDING = 42  # the trial shown in full: it starts 9.5 degrees off the direction to the site
+SAMPLE = 60  # trials behind it
+
+
+def sample_trials() -> list[int]:
+    """The trials behind the landing, which is not one of them."""
+    return [trial for trial in range(SAMPLE + 1) if trial != LANDING]
+
+
+def draw_readme_figure(path: Path) -> None:
+    """Fly trials of the published campaign with its first method and write the figure."""
+    others = sample_trials()
+    plan = read_plan(SYSTEM, CAMPAIGN, SystemOptions(), trials=max(LANDING, *others) + 1)
+    flights = fly_landings(plan, plan.campaign.variants()[0], [LANDING, *others])
+    figure = landing_figure(flights[0], flights[1:])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(svg_bytes(figure, "landing", text_as_paths=True))
+
+
+if __name__ == "__main__":
+    target = ROOT / "docs" / "images" / "landing.svg"
+    draw_readme_figure(target)
+    print(target)
+    leave(0)

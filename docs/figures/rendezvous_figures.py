@@ -1,0 +1,158 @@
+"""Draws docs/images/rendezvous_*.svg: `python -m docs.figures.rendezvous_figures`, after build_fmus.py."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from scipy.spatial.transform import Rotation
+
+from perilune.analysis.common.process_end import leave
+from perilune.analysis.reports.common.style import (
+    BLUE,
+    FAINT,
+    INK,
+    ORANGE,
+    SKY,
+    VERMILION,
+    house_style,
+    look,
+    new_figure,
+    plain_ticks,
+)
+from perilune.analysis.reports.common.svg import DECIMALS, svg_bytes
+from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.verbs.run import simulate
+from perilune.fmus_src.paths import ROOT
+
+from .landing import vector
+
+PHASES = ("accelerate", "turn", "approach", "hold")
+MOMENTS = (0.0, 1420.0, 1520.0, 4250.0, 5000.0)  # s, their beginnings and the end
+PATH = re.compile(r' d="[^"]*"')
+INTERVAL = 10.0  # s between the points of smooth curves; the flight has eight a second
+WHOLE, TURN = (0.0, 5000.0), (1400.0, 1560.0)  # s
+CAMERA, SPIN = 60.0, 45.0  # m of arrow, and of the spin axis either way
+
+
+def fly() -> Result:
+    """The approach under the parameters that the figures show, with the first of the seeds."""
+    return simulate("robot_rendezvous", parameters=["best.ssv"])
+
+
+def draw_rendezvous_figures(flight: Result, folder: Path) -> list[Path]:
+    """Write the four figures of a whole flight of `robot_rendezvous` to an existing folder and say where."""
+    paths = [folder / f"rendezvous_{name}.svg" for name in FIGURES]
+    for path, draw in zip(paths, FIGURES.values(), strict=True):
+        with house_style():
+            drawing = svg_bytes(draw(flight), path.stem, text_as_paths=True).decode()
+        path.write_text(PATH.sub(lambda data: DECIMALS.sub(r"\1", data.group()), drawing), "utf-8", newline="\n")
+    return paths
+
+
+def scene_figure(flight: Result) -> Figure:
+    """Paths of robot and object in the inertial frame, camera axes and the spin axis at the changes of phase."""
+    figure = new_figure(6.2, 7.2)
+    axes: Any = figure.add_subplot(projection="3d", computed_zorder=False)
+    rows, marks = _rows_at(flight, INTERVAL), np.searchsorted(flight.time, MOMENTS)
+    robot, target = vector(flight, "robot.position"), vector(flight, "target.position")
+    camera = _attitude(flight, "robot", marks).apply([1.0, 0.0, 0.0]).T
+    spin = _attitude(flight, "target", _rows_at(flight, 90.0)[1:2]).as_rotvec().T  # 1 deg/s: a quarter of a turn
+    for path, colour, label in ((robot, BLUE, "robot"), (target, VERMILION, "object")):
+        axes.plot(*path[:, rows], color=colour, label=label)
+        axes.plot(*path[:, marks], linestyle="", marker="o", markersize=4, color=colour)
+    for row in marks:
+        axes.plot(*np.stack([robot[:, row], target[:, row]], axis=1), color=FAINT, linewidth=0.6, linestyle=":")
+        ends = target[:, [row]] + SPIN * spin / np.linalg.norm(spin) * np.array([-1.0, 1.0])
+        axes.plot(*ends, color=ORANGE, linewidth=1.0, label="spin axis of the object" if row == marks[-1] else None)
+    axes.quiver(*robot[:, marks], *(CAMERA * camera), color=INK, linewidth=1.1, arrow_length_ratio=0.2)
+    axes.plot([], [], color=INK, linewidth=1.1, label="camera axis e_x of the robot")
+    for time, row, text in zip(MOMENTS, marks, ("{} s  ", "{} s  ", "  {} s", "  {} s", "{} s  "), strict=True):
+        axes.text(*robot[:, row], text.format(f"{time:g}"), fontsize=8, ha="left" if text[0] == " " else "right")
+    axes.set(xlabel="x, m", ylabel="y, m", zlabel="z, m")
+    axes.set_aspect("equal")
+    for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
+        axis.set_pane_color("white")
+    axes.view_init(elev=22.0, azim=-60.0)
+    axes.legend(loc="upper right", bbox_to_anchor=(1.0, 0.99))
+    return figure
+
+
+def range_figure(flight: Result) -> Figure:
+    """Range, its error and the position error over time."""
+    figure = new_figure(6.0)
+    panels = figure.subplots(3, 1, sharex=True, height_ratios=[1.0, 1.3, 1.3])
+    time = flight.time[rows := _rows_at(flight, INTERVAL)]
+    panels[0].plot(time, flight["monitor.range"][rows], color=INK)
+    panels[0].set_ylim(bottom=0.0)
+    panels[1].plot(time, 1e3 * flight["monitor.range_error"][rows], color=INK)
+    for index, error in enumerate(1e3 * vector(flight, "monitor.position_error")[:, rows]):
+        panels[2].plot(time, error, color=look(index).colour, label="xyz"[index], linewidth=1.0)
+    panels[2].legend(loc="lower right", ncols=3, title="inertial axis", bbox_to_anchor=(0.8, 0.0))
+    return _over_time(figure, panels, "range, m", "range error, mm", "position error, mm")
+
+
+def thrust_figure(flight: Result) -> Figure:
+    """Force of the jets in body axes over time, above what the plan needs."""
+    figure = new_figure(6.0)
+    panels = figure.subplots(3, 1, sharex=True, sharey=True)
+    rows = _rows_at(flight, INTERVAL)
+    planned = flight.provenance["parameters"]["robot.mass"] * vector(flight, "guidance.planned_acceleration")[:, rows]
+    planned = _attitude(flight, "robot", rows).apply(planned.T, inverse=True).T
+    for axes, force, plan in zip(panels, vector(flight, "robot.jet_force"), planned, strict=True):
+        levels = np.flatnonzero(np.diff(force[:-1], prepend=np.nan, append=np.nan))
+        axes.step(flight.time[levels], force[levels], where="post", color=SKY, linewidth=0.6, label="jets")
+        axes.plot(flight.time[rows], plan, color=VERMILION, label="plan: mass times planned acceleration")
+    panels[0].legend(loc="upper left", bbox_to_anchor=(0.3, 1.02), ncols=2)
+    return _over_time(figure, panels, *(f"force on body axis {axis}, N" for axis in "xyz"))
+
+
+def gyros_figure(flight: Result) -> Figure:
+    """Gimbal angles over the whole flight and around the turn, not wrapped."""
+    figure = new_figure(4.2)
+    whole, turn = figure.subplots(1, 2, sharey=True)
+    angles = np.degrees(np.unwrap(np.stack([flight[f"robot.gimbal_angles[{i}]"] for i in (1, 2, 3, 4)])))
+    for axes, span, interval in ((whole, WHOLE, INTERVAL), (turn, TURN, 0.5)):
+        rows = _rows_at(flight, interval, span)
+        for index, angle in enumerate(angles[:, rows]):
+            style = look(index)
+            axes.plot(flight.time[rows], angle, color=style.colour, linestyle=style.dashes, label=f"gyro {index + 1}")
+        _over_time(figure, [axes], "gimbal angle, deg", span=span)
+    whole.legend(loc="center right", bbox_to_anchor=(0.84, 0.47))
+    return figure
+
+
+def _rows_at(flight: Result, interval: float, span: tuple[float, float] = WHOLE) -> np.ndarray:
+    return np.searchsorted(flight.time, np.arange(span[0], span[1] + 0.5 * interval, interval) - 1e-9)
+
+
+def _attitude(flight: Result, component: str, rows: np.ndarray) -> Rotation:
+    """From body to inertial axes."""
+    elements = [flight[f"{component}.quaternion[{index}]"][rows] for index in (1, 2, 3, 4)]
+    return Rotation.from_quat(np.stack(elements, axis=1), scalar_first=True)
+
+
+def _over_time(figure: Figure, panels: Any, *labels: str, span: tuple[float, float] = WHOLE) -> Figure:
+    """Label panels with the same times, mark the phases in all and name them above the first."""
+    for axes, label in zip(panels, labels, strict=True):
+        axes.set_ylabel(label)
+        axes.set_xlim(*span)
+        plain_ticks(axes, x=10, y=5)
+        for boundary in MOMENTS[1:-1]:
+            axes.axvline(boundary, color=FAINT, linewidth=0.7, linestyle=(0, (3, 2)))
+    for phase, begin, end in zip(PHASES, MOMENTS, MOMENTS[1:], strict=False):
+        if span[0] <= (middle := 0.5 * (begin + end)) <= span[1]:
+            above = panels[0].get_xaxis_transform()
+            panels[0].text(middle, 1.03, phase, transform=above, ha="center", fontsize=8.0, color=FAINT)
+    panels[-1].set_xlabel("time, s")
+    return figure
+
+
+FIGURES = {"scene": scene_figure, "range": range_figure, "thrust": thrust_figure, "gyros": gyros_figure}
+
+if __name__ == "__main__":
+    print(*draw_rendezvous_figures(fly(), ROOT / "docs" / "images"), sep="\n")
+    leave(0)

@@ -1,0 +1,94 @@
+"""Builds the site: written and derived pages side by side in one folder, which Zensical then makes HTML of."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from perilune.analysis.common.errors import InputError
+from perilune.fmus_src.paths import BUILD, PACKAGE, ROOT
+
+from .links import broken_links
+from .pages import derived_pages, reference_navigation
+
+DOCS = ROOT / "docs"
+SETTINGS = DOCS / "site" / "site.toml"
+PYTHON = {
+    "docstring_style": None,  # prose, not sections
+    "filters": ["!^_"],
+    "heading_level": 2,
+    "members_order": "source",
+    "separate_signature": True,
+    "show_bases": False,
+    "show_root_full_path": False,
+    "show_root_heading": True,
+    "show_signature_annotations": True,
+    "show_source": False,
+}
+
+
+def build_site(output: Path, sources: Path) -> None:
+    """Write the site to ``output``; what it is made of is kept in ``sources``.
+
+    Raises InputError where a page is missing from the navigation, or a link, an anchor or an image leads nowhere.
+    """
+    for folder in (sources, output):
+        shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(DOCS, sources / "docs", ignore=shutil.ignore_patterns("*.py", "*.jinja", "__pycache__", "figures"))
+    for name, text in derived_pages().items():
+        path = sources / "docs" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    settings = site_settings()
+    written = {path.relative_to(sources / "docs").as_posix() for path in (sources / "docs").rglob("*.md")}
+    for name in sorted(written - set(pages_of(settings["nav"]))):
+        raise InputError(name, "navigation", "the page is not in it", f"list it in {SETTINGS.relative_to(ROOT)}")
+    (sources / "mkdocs.yml").write_text(json.dumps(settings), encoding="utf-8")  # JSON is YAML
+    command = [sys.executable, "-m", "zensical", "build", "--strict", "--config-file", "mkdocs.yml"]
+    done = subprocess.run(command, cwd=sources, capture_output=True, text=True, check=False)
+    if done.returncode:
+        print(done.stdout, file=sys.stderr)
+        reason = (done.stderr.strip().splitlines() or ["no reason given"])[-1]
+        raise InputError("docs", "zensical build", reason, "mend the places listed above")
+    shutil.move(sources / "site", output)
+    for page, target in broken_links(output):
+        raise InputError(page, target, "leads nowhere", "mend the link")
+
+
+def site_settings() -> dict[str, Any]:
+    """docs/site/site.toml with the reference in its navigation, and what depends on where things lie."""
+    settings = tomllib.loads(SETTINGS.read_text(encoding="utf-8"))
+    (reference,) = [entry for entry in settings["nav"] if "Reference" in entry]
+    reference["Reference"] = reference_navigation()
+    settings["plugins"].append(
+        {"mkdocstrings": {"handlers": {"python": {"paths": [str(PACKAGE.parent)], "options": PYTHON}}}}
+    )
+    return settings | {"docs_dir": "docs", "site_dir": "site", "use_directory_urls": False}
+
+
+def pages_of(navigation: Any) -> list[str]:
+    """The pages of a ``nav``, in order."""
+    if isinstance(navigation, str):
+        return [navigation]
+    inner = navigation.values() if isinstance(navigation, dict) else navigation
+    return [page for entry in inner for page in pages_of(entry)]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Carry out build_docs.py; returns the exit status."""
+    parser = argparse.ArgumentParser(prog="build_docs.py", description="Build the documentation site.")
+    parser.add_argument("--output", type=Path, default=BUILD / "site", metavar="DIR", help="default: build/site")
+    options = parser.parse_args(arguments)
+    try:
+        build_site(options.output, BUILD / "site_sources")
+    except InputError as error:
+        print(f"build_docs.py: {error}", file=sys.stderr)
+        return 2
+    print(f"wrote {options.output / 'index.html'}")
+    return 0

@@ -1,0 +1,102 @@
+"""The page of what a kernel may use: from the table that judges it, and from the functions of mathlib."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import pkgutil
+from collections.abc import Iterator
+from importlib import import_module
+from types import FunctionType
+
+from perilune.fmus_src import mathlib
+from perilune.fmus_src.export.judge.subset_table import (
+    BUILTIN_FUNCTIONS,
+    COMPARISONS,
+    LANGUAGE_PAGE,
+    MATH_CONSTANTS,
+    MATH_FUNCTIONS,
+    OPERATORS,
+    REFUSED_FUNCTIONS,
+    REFUSED_SYNTAX,
+    RULES,
+)
+
+from .markdown import escaped, table
+
+STATEMENTS = (
+    ("`x = ...`, `x += ...`, `self.x = ...`, `v[k] = ...`", "a variable, one that is declared, an element of a list"),
+    ("`a, b = f(...)`", "several values of a function at once"),
+    ("`if`, `elif`, `else`; `a if c else b`", "a condition is a bool: compare numbers"),
+    ("`for i in range(...)`, `while`, `break`, `continue`", "the step of a range is a constant"),
+    ("`return`", "values of one type on every path"),
+    ("`and`, `or`, `not`", "of bools"),
+)
+SYMBOLS = {
+    ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%",
+    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
+}  # fmt: skip
+FREE = ("{", "}")  # of words that a message fills in
+
+
+def kernel_page() -> str:
+    """Markdown of the page, to lie in reference."""
+    operators = " ".join(f"`{SYMBOLS[kind]}`" for kind in (*OPERATORS, *COMPARISONS))
+    constants = ", ".join(f"`math.{name}`" for name in MATH_CONSTANTS)
+    faults = [[f"`math.{name}`", str(found.arguments), _raises(found.faults)] for name, found in MATH_FUNCTIONS.items()]
+    parts = [
+        f"# {LANGUAGE_PAGE}",
+        "`initialize`, `step` and all that they call are a *kernel*: Python as it stands, which `perilune export` also "
+        "writes as C with the same bits. What is refused is named with its line and with what to write instead. A "
+        "block that needs more says `python_only = True`, and then has a Python FMU only.",
+        "## Statements",
+        table(["what", "how"], STATEMENTS),
+        "## Numbers",
+        f"`float`, `int` of 64 bits and `bool`, with {operators}, and the functions "
+        f"{', '.join(f'`{name}`' for name in BUILTIN_FUNCTIONS)}. Two to four floats are a vector: `vector(x, y, z)`, "
+        "`v.x`, `v[0]`, `v[0:2]`, with `+` `-` `*` `/`. More are a list of a fixed size: `[0.0] * n`.",
+        "## math",
+        f"Write `import math` at the top of the file. Constants: {constants}.",
+        table(["function", "arguments", "ends the run with"], faults),
+        "## mathlib",
+        "Functions of kernels that blocks here are written with; write "
+        "`from perilune.fmus_src.mathlib.MODULE import NAME`. `cross`, `dot`, `norm` and `vector` come from "
+        "`perilune`, too.",
+    ]
+    for name, functions in _helpers():
+        rows = [[f"`{item.__name__}{_arguments(item)}`", escaped(_first(item))] for item in functions]
+        parts += [f"### {name}", table(["function", "what it gives"], rows)]
+    refused = [(f"`{name}`", escaped(remedy)) for name, remedy in REFUSED_FUNCTIONS.items()]
+    rules = [*REFUSED_SYNTAX.values(), *RULES.values()]
+    said = {rule.what: rule.remedy for rule in rules if not any(mark in rule.what + rule.remedy for mark in FREE)}
+    parts += [
+        "## Instead of",
+        table(["what is refused", "write"], [*refused, *((escaped(what), escaped(how)) for what, how in said.items())]),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def _helpers() -> Iterator[tuple[str, list[FunctionType]]]:
+    """The public functions of each module of mathlib."""
+    for module in pkgutil.iter_modules(mathlib.__path__):
+        found = import_module(f"{mathlib.__name__}.{module.name}")
+        functions = [
+            value
+            for name, value in vars(found).items()
+            if isinstance(value, FunctionType) and value.__module__ == found.__name__ and not name.startswith("_")
+        ]
+        if functions:
+            yield module.name, functions
+
+
+def _raises(faults: tuple[str, ...]) -> str:
+    return ", ".join(f"`{name}`" for name in faults) or "nothing"
+
+
+def _arguments(function: FunctionType) -> str:
+    return f"({', '.join(inspect.signature(function).parameters)})"
+
+
+def _first(function: FunctionType) -> str:
+    """The first sentence of a docstring, which may go over lines."""
+    return inspect.cleandoc(function.__doc__ or "").partition("\n\n")[0].replace("\n", " ")

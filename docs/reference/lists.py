@@ -1,0 +1,57 @@
+"""The pages that list blocks: all of them by kind, and the slots with what swaps there."""
+
+from __future__ import annotations
+
+from perilune.analysis.authoring.describe.fits import blocks_of_slot, slots
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import KINDS, catalogue
+
+from .blocks import slots_of
+from .markdown import escaped, prose, table
+from .variables import inputs, outputs, parameters
+
+
+def kind_of(block: type[Block]) -> str:
+    """The kind that a block lies with: plants, sensors, ..."""
+    return block.__module__.split(".")[-2]
+
+
+def catalogue_page() -> str:
+    """Markdown of all blocks by kind, to lie in reference/blocks."""
+    parts = [
+        "# Blocks",
+        f"All {len(catalogue())} blocks of the repository; each is an FMU of the same name. `perilune describe NAME` "
+        "prints the same of an FMU, of a slot or of a system.",
+    ]
+    for kind in KINDS:
+        rows = [
+            [f"[{name}]({name}.md)", _slot(block, "../"), escaped(block.summary())]
+            for name, block in catalogue().items()
+            if kind_of(block) == kind
+        ]
+        parts += [f"## {kind.capitalize()}", table(["block", "slot", "what it is"], rows)]
+    return "\n\n".join(parts) + "\n"
+
+
+def slots_page() -> str:
+    """Markdown of all interfaces, to lie in reference."""
+    parts = [
+        "# Slots",
+        "A slot is an interface: what all blocks in it have in common, so that one is put in another's place by "
+        "`--use SLOT=FMU`. Some stand between a slot and its blocks and hold what a few of them share.",
+    ]
+    for name, slot in slots().items():
+        members = blocks_of_slot(slot)
+        rows = [[f"[{block.fmu_name}](blocks/{block.fmu_name}.md)", escaped(block.summary())] for block in members]
+        parts += [f"## {name}", prose(slot.__doc__, "../"), table(["block", "what it is"], rows)]
+        for title, content in (("Inputs", inputs(slot)), ("Outputs", outputs(slot)), ("Parameters", parameters(slot))):
+            if content:
+                parts.append(
+                    f'??? note "{title} of {name}"\n\n' + "\n".join(f"    {row}" for row in content.splitlines())
+                )
+    return "\n\n".join(parts) + "\n"
+
+
+def _slot(block: type[Block], root: str) -> str:
+    own = slots_of(block)
+    return f"[{own[-1].fmu_name}]({root}slots.md#{own[-1].fmu_name})" if own else ""

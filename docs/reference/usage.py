@@ -1,0 +1,49 @@
+"""Which systems fly an FMU: as a component, or as a variant of one of their campaigns."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+from perilune.analysis.runtime.ssp.archive import open_system, system_names
+from perilune.analysis.runtime.ssp.description import Component, System
+from perilune.analysis.runtime.ssp.reading import read_description
+from perilune.fmus_src.export.ssp_package import CAMPAIGN_FOLDER
+
+
+@dataclass
+class Usage:
+    """Where an FMU flies: components by system, and the campaigns by system that fly it as a variant."""
+
+    components: dict[str, list[str]] = field(default_factory=dict)
+    campaigns: dict[str, list[str]] = field(default_factory=dict)
+
+
+@cache
+def usages() -> dict[str, Usage]:
+    """By FMU name, of every system under ssp_systems."""
+    found: dict[str, Usage] = {}
+    for system in system_names():
+        archive = open_system(system)
+        for component, fmu in components_of(read_description(archive).system):
+            found.setdefault(fmu, Usage()).components.setdefault(system, []).append(component)
+        for file in sorted(archive.files):
+            if file.startswith(f"{CAMPAIGN_FOLDER}/") and file.endswith(".toml"):
+                campaign = tomllib.loads(archive.campaign(Path(file).name)[0].decode())
+                for fmus in campaign.get("compare", {}).values():
+                    for fmu in fmus:
+                        found.setdefault(fmu, Usage()).campaigns.setdefault(system, []).append(Path(file).stem)
+    return found
+
+
+def components_of(system: System, within: str = "") -> list[tuple[str, str]]:
+    """Components of a system and of those nested in it, each with the name of its FMU."""
+    found: list[tuple[str, str]] = []
+    for element in system.elements.values():
+        if isinstance(element, Component):
+            found.append((within + element.name, Path(element.source).stem))
+        elif isinstance(element, System):
+            found += components_of(element, f"{within}{element.name}.")
+    return found

@@ -1,0 +1,103 @@
+"""Tables of the variables that a block declares: connectors, parameters, states."""
+
+from __future__ import annotations
+
+from perilune.fmus_src.block import Block, Input, Output, Parameter, State, Variable
+
+from .markdown import escaped, number, table
+
+SHOWN = 12  # start values of a list, beyond which the first ones are enough
+
+
+def declared(block: type[Block], kind: type[Variable]) -> list[Variable]:
+    """Its variables of one kind, in order of declaration."""
+    return [variable for variable in block.variables.values() if isinstance(variable, kind)]
+
+
+def inputs(block: type[Block]) -> str:
+    """The table of its inputs; like the others here empty where there are none, and without columns that are empty."""
+    rows = [
+        [*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)]
+        for variable in declared(block, Input)
+    ]
+    return _filled(["input", "type", "unit", "bounds", "frame", "what it is"], rows)
+
+
+def outputs(block: type[Block]) -> str:
+    """The table of its outputs, with the inputs of the same communication point that each depends on."""
+    rows = [
+        [*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _at_once(block, variable),
+         _words(variable)]
+        for variable in declared(block, Output)
+    ]  # fmt: skip
+    return _filled(["output", "type", "unit", "bounds", "frame", "at once from", "what it is"], rows)
+
+
+def parameters(block: type[Block]) -> str:
+    """The table of its parameters with what they are unless set, and between what they may be set."""
+    rows = [
+        [*_name(variable), start(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)]
+        for variable in declared(block, Parameter)
+    ]
+    return _filled(["parameter", "type", "default", "unit", "bounds", "frame", "what it is"], rows)
+
+
+def states(block: type[Block]) -> str:
+    """The table of what it keeps from step to step."""
+    rows = [
+        [*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)]
+        for variable in declared(block, State)
+    ]
+    return _filled(["state", "type", "unit", "bounds", "frame", "what it is"], rows)
+
+
+def start(variable: Variable) -> str:
+    """Its start value in few characters: one for all where all are alike, the first ones of many."""
+    values = [number(value) for value in variable.elements]
+    if not variable.is_array:
+        return values[0]
+    if len(set(values)) == 1:
+        return f"all {values[0]}"
+    return ", ".join(values) if len(values) <= SHOWN else ", ".join(values[:SHOWN]) + ", ..."
+
+
+def _filled(head: list[str], rows: list[list[str]]) -> str:
+    """A table of the columns in which something stands; nothing without rows."""
+    kept = [index for index in range(len(head)) if any(row[index] for row in rows)]
+    return table([head[index] for index in kept], [[row[index] for index in kept] for row in rows]) if rows else ""
+
+
+def _name(variable: Variable) -> list[str]:
+    size = ""
+    if variable.columns is not None:
+        size = f"[{variable.size // variable.columns}, {variable.columns}]"
+    elif variable.is_array:
+        size = f"[{variable.size}]"
+    return [f"`{variable.name}{size}`", variable.type_name]
+
+
+def _unit(variable: Variable) -> str:
+    return escaped(variable.unit or ("1" if variable.type_name == "Real" else ""))
+
+
+def _frame(variable: Variable) -> str:
+    return escaped(variable.frame or "")
+
+
+def _words(variable: Variable) -> str:
+    return escaped(variable.description)
+
+
+def _bounds(variable: Variable) -> str:
+    low, high = variable.minimum, variable.maximum
+    if low is not None and high is not None:
+        return f"{low:g} to {high:g}"
+    return f"at least {low:g}" if low is not None else f"at most {high:g}" if high is not None else ""
+
+
+def _at_once(block: type[Block], variable: Variable) -> str:
+    assert isinstance(variable, Output)
+    names = block.direct_inputs(variable)
+    if names and len(names) == len(declared(block, Input)):
+        return "all inputs"
+    return ", ".join(f"`{name}`" for name in names)

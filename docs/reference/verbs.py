@@ -1,0 +1,53 @@
+"""The page of the verbs: what each does, its options, examples and exit status, as its parser has them."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+
+from perilune.analysis.cli import HELP_ALL, parser_of
+from perilune.analysis.verbs.options.help import exit_status
+from perilune.analysis.verbs.options.verbs import VERBS
+
+from .markdown import escaped, table
+
+
+def verbs_page() -> str:
+    """Markdown of all verbs, to be stored in reference."""
+    rows = [[f"[{name}](#{name.replace(' ', '-')})", escaped(verb.text)] for name, verb in VERBS.items()]
+    parts = [
+        "# Verbs",
+        "What `perilune VERB --help-all` prints. [The command line](../command_line.md) says how options go together.",
+        table(["verb", "what it does"], rows),
+    ]
+    for name, verb in VERBS.items():
+        examples = "\n".join(f"# {comment}\n{command}" for command, comment in verb.examples)
+        parts += [f"## {name}", escaped(verb.text[0].upper() + verb.text[1:]) + ".", f"```sh\n{examples}\n```"]
+        parts += [*_options(verb_parser(name)), exit_status(verb)]
+    return "\n\n".join(parts) + "\n"
+
+
+def verb_parser(name: str) -> argparse.ArgumentParser:
+    """The parser of a verb, with all options explained."""
+    parser: argparse.ArgumentParser = parser_of([*name.split(), HELP_ALL])
+    for word in name.split():
+        (choices,) = (each.choices for each in parser._actions if isinstance(each, argparse._SubParsersAction))
+        parser = choices[word]
+    return parser
+
+
+def _options(parser: argparse.ArgumentParser) -> Iterator[str]:
+    """A table for each group of options."""
+    for group in parser._action_groups:
+        rows = [[_name(action), escaped(action.help or "")] for action in group._group_actions]
+        if rows and group.title != "help":
+            yield table([group.title or "", ""], rows)
+
+
+def _name(action: argparse.Action) -> str:
+    values = f"{{{','.join(map(str, action.choices))}}}" if action.choices else action.dest.upper()
+    metavar = str(action.metavar or values)
+    if not action.option_strings:
+        return f"`{metavar}`"
+    option = ", ".join(action.option_strings)
+    return f"`{option}`" if action.nargs == 0 else f"`{option} {metavar}`"

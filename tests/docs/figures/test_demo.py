@@ -1,0 +1,78 @@
+"""docs.figures.demo and the figure of the README, flown for real with few trials."""
+
+import numpy as np
+import pyarrow.parquet
+import pytest
+from lxml import etree
+
+from docs.figures.demo import fly
+from docs.figures.page import PUBLISHED
+from docs.figures.readme_figure import draw_readme_figure
+from perilune.fmus_src.paths import ROOT
+from tests.papers.test_fomichev_li import TABLE
+from tests.support.lengths import LONG
+from tests.support.pages.checks import assert_self_contained, data_values, parse, text_of
+
+TRIALS = 12
+FILES = {"landing.html", "comparison.html", "landing.csv", "landing.csv.json"}
+FILES |= {"draws.parquet", "summary.json"}
+
+
+@pytest.fixture(scope="module")
+def demo(fmus, tmp_path_factory):
+    return fly(tmp_path_factory.mktemp("demo"), TRIALS)
+
+
+def test_page_stands_alone_and_its_links_lead_somewhere(demo):
+    page = demo.read_text(encoding="utf-8")
+    assert_self_contained(page)
+    links = set(parse(page).xpath("//a/@href"))
+    assert links == FILES
+    assert all((demo.parent / link).is_file() for link in links)
+
+
+def test_reports_beside_it_stand_alone(demo):
+    for name in ("landing.html", "comparison.html"):
+        assert_self_contained((demo.parent / name).read_text(encoding="utf-8"))
+
+
+def test_the_published_values_are_those_of_the_table():
+    found = {
+        name: (round(100.0 * row.success_rate, 9), row.position_error, row.velocity_error)
+        for name, row in PUBLISHED.items()
+    }
+    assert found == {name: (row.success, row.miss, row.velocity) for name, row in TABLE.items()}
+
+
+def test_ours_stand_beside_the_published_values(demo):
+    page = demo.read_text(encoding="utf-8")
+    text, values = text_of(page), data_values(page)
+    trials = pyarrow.parquet.read_table(demo.parent / "trials").to_pydict()
+    for variant, published in PUBLISHED.items():
+        good = [ok for name, ok in zip(trials["variant"], trials["success"], strict=True) if name == variant]
+        assert len(good) == TRIALS
+        assert repr(float(np.mean(good))) in values
+        assert repr(published.success_rate) in values
+        for mean, std in (published.position_error, published.velocity_error):
+            assert f"{mean:.4f} / {std:.4f}" in text
+
+
+def test_the_landing_arrives(demo):
+    facts = parse(demo.read_text(encoding="utf-8")).xpath("//dl//data/@value")
+    flight_time, miss, speed, step = map(float, facts)
+    assert 190.0 < flight_time < 225.0
+    assert miss < 0.1
+    assert speed < 1.0
+    assert step == 0.1
+
+
+def test_figure_of_the_readme_is_reproduced(fmus, tmp_path):
+    draw_readme_figure(tmp_path / "a.svg")
+    first = (tmp_path / "a.svg").read_bytes()
+    if LONG:
+        draw_readme_figure(tmp_path / "b.svg")
+        assert first == (tmp_path / "b.svg").read_bytes()
+    assert b"<dc:date>" not in first
+    kept, drawn = (etree.parse(path).getroot() for path in (ROOT / "docs/images/landing.svg", tmp_path / "a.svg"))
+    assert kept.get("viewBox") == drawn.get("viewBox")
+    assert [element.get("id") for element in kept.iter("{*}g")] == [element.get("id") for element in drawn.iter("{*}g")]

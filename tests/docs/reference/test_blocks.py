@@ -1,0 +1,99 @@
+"""The page of a block says what its class declares, and its docstring says what it has to.
+
+Truth: the model description that is built from the same class and read back by FMPy; the classes themselves.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+
+import pytest
+from fmpy import read_model_description
+
+from docs.reference.blocks import block_page, fitting, slots_of
+from docs.reference.usage import usages
+from perilune.fmus_src.block import Block
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.paths import ROOT, built_fmu
+
+# Blocks that count, compare or pass on, without a model of anything that could be left out.
+WITHOUT_MODEL = {
+    "air_disturbance",
+    "command_switch",
+    "estimate_monitor",
+    "flight_monitor",
+    "ideal_navigation",
+    "jet_health",
+    "landing_sequencer",
+    "rendezvous_monitor",
+    "touchdown_monitor",
+}
+ASSUMPTION = re.compile(r"\b[Aa]ssumes\b")
+SOURCE = re.compile(r"\bSources?\b[^:]*: |docs/[\w/]+\.md")
+
+
+def words_of(block: type[Block]) -> str:
+    """What the docstrings of a block and of what it is derived from say."""
+    bases = [base for base in block.__mro__ if issubclass(base, Block) and base is not Block]
+    return "\n".join(inspect.cleandoc(base.__doc__ or "") for base in bases)
+
+
+@pytest.mark.parametrize("name", catalogue())
+def test_a_docstring_has_purpose_assumptions_and_source(name):
+    block = catalogue()[name]
+    assert re.search(r"[.:]$", block.summary()), "the first line is the purpose, a sentence"
+    words = words_of(block)
+    assert SOURCE.search(words), "say where the law or model is from, or which page of docs has it"
+    assert name in WITHOUT_MODEL or ASSUMPTION.search(words), "say what the model or the law assumes"
+    for page in re.findall(r"docs/[\w/]+\.md", words):
+        assert (ROOT / page).is_file(), page
+
+
+@pytest.mark.parametrize("name", catalogue())
+def test_the_page_has_every_variable(name):
+    """Each variable of modelDescription.xml has its row, with type, unit and description."""
+    page = block_page(catalogue()[name])
+    rows = {
+        re.split(r"[\[`]", row.split("`")[1])[0]: row.replace("\\", "").replace("&lt;", "<")
+        for row in page.splitlines()
+        if row.startswith("| `")
+    }
+    description = read_model_description(str(built_fmu(name, "python")), validate=False)
+    seen = set()
+    for variable in description.modelVariables:
+        if variable.causality == "independent":
+            continue
+        whole = variable.name.partition("[")[0]
+        seen.add(whole)
+        assert f"| {variable.type} |" in rows[whole]
+        if variable.unit is not None:
+            assert f"| {variable.unit} |" in rows[whole]
+        if variable.min is not None:
+            assert f"{float(variable.min):g}" in rows[whole]
+    assert seen == set(catalogue()[name].variables)
+
+
+def test_systems_that_use_a_block_name_it():
+    """As text searches of the systems' own files find them."""
+    for name, usage in usages().items():
+        for system in usage.components:
+            assert f"{name}.fmu" in (ROOT / "ssp_systems" / system / "SystemStructure.ssd").read_text(encoding="utf-8")
+        for system, campaigns in usage.campaigns.items():
+            for campaign in campaigns:
+                text = (ROOT / "ssp_systems" / system / "campaigns" / f"{campaign}.toml").read_text(encoding="utf-8")
+                assert f'"{name}"' in text
+    assert len(usages()) > 50
+
+
+def test_what_fits_has_all_connectors():
+    assert "astar_guidance" in fitting(catalogue()["analytic_guidance"])
+    for block in catalogue().values():
+        for slot in slots_of(block):
+            assert issubclass(block, slot)
+        for name in fitting(block):
+            other = catalogue()[name].variables
+            for variable in block.variables.values():
+                if variable.causality in ("input", "output"):
+                    assert other[variable.name].causality == variable.causality
+                    assert other[variable.name].size >= variable.size

@@ -1,0 +1,183 @@
+"""Every command that the documentation gives does what a reader expects of it, in order, page by page.
+
+Truth: the exit status of the console command itself. What flies for minutes is led up to its first flight here, by the
+same path: options read, names looked up, system and campaign prepared. `make long` flies it.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from importlib import import_module
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from perilune.analysis.cli import main
+from perilune.analysis.verbs.options.verbs import VERBS
+from perilune.fmus_src.paths import ROOT
+from tests.support.documented import documented, page_text, saved_files
+from tests.support.lengths import LONG
+from tests.support.pages.system_page import write_system
+
+# Commands by how they begin, and where they are carried out instead.
+SYSTEM_BY_HAND = "docs/write_a_system.md"
+ELSEWHERE = {
+    "make ": "the targets of the Makefile; those of README are what CI runs",
+    "pip install": "tests/package/test_wheel.py installs the wheel",
+    "dask ": "of other machines; tests/campaigns/fly/cluster/test_dask.py starts both here",
+    "perilune batch --scheduler": "tests/campaigns/fly/cluster/test_dask.py flies there",
+    "seq 0 3 | xargs": "tests/campaigns/fly/cluster/test_recipes.py",
+    "python fly_hyperqueue.py": "tests/campaigns/fly/cluster/test_recipes.py",
+    "sbatch ": "needs a SLURM controller; the page says what was tried",
+    "job=$(sbatch ": "likewise",
+    "LD_PRELOAD=": "of a host of the reader's own",
+}
+# Commands by what is in them, and why only `make long` carries them out.
+TAKES_LONG = {
+    "--campaign paper --output results": "6000 flights",
+    "--campaign paper --trials 10000": "30 000 flights",
+    "--campaign paper --parameters exact.ssv": "20 000 flights",
+    "--trials 1000000": "a million flights",
+    "--campaign noisy": "30 000 flights, or 4000 of the orbit",
+    "lunar_landing --campaign compare --parameters noisy.ssv --output": "6000 flights",
+    "lunar_landing --campaign compare --parameters noisy.ssv --trials 50 --output": "300 flights, and their page",
+    "--campaign compare --trials 100": "100 flights of 320 s",
+    "perilune replay results": "what it is a trial of takes long",
+    "perilune compare": "what it compares takes long, and so do its pages; see tests/commands/test_compare.py",
+    "--campaign fixed_starts": "800 flights",
+    "--campaign cases": "192 entries",
+    "--campaign tracking": "8000 flights",
+    "--campaign contacts": "2000 flights of 67 minutes",
+    "--campaign table1": "flights at a step of a hundredth of a second",
+    "--campaign table2": "300 such flights",
+    "--campaign robustness_angle": "410 such flights",
+    "landing_mission": "67 minutes of flight and a page with all of it",
+    "perilune stability entry_attitude": "six operating points, in air",
+    "perilune stability orbital_attitude": "two operating points and their limit cycles",
+    "robot_rendezvous --parameters paper.ssv --report": "nine channels and a sweep",
+    "attitude --parameters paper.ssv --report good.html": "what first_flight.md does, too",
+    "attitude_control.lead_time=": "a thin and an unstable loop with their pages, 20 s",
+    "--campaign inertia --trials 20": "twenty linearisations",
+    "--optimum": "direct multiple shooting",
+    "--direct": "a direct method",
+    "perilune worst robot_rendezvous": "a hundred linearisations",
+    "modal_comparison": "two minutes of random plants",
+    "perilune benchmark": "importers that take a minute each",
+    "lunar_landing --parameters noisy.ssv --use": "320 s of flight with all sensors and a table of it",
+    "lunar_landing --report": "320 s of flight and its page",
+    "entry_attitude --report": "a flight through air and its page",
+    "hover_transfer --parameters ideal.ssv --report": "a flight and its page",
+    "guidance=analytic_guidance,neural_guidance": "twenty flights of a guidance in Python",
+}
+FAILS = (  # exit status 1
+    "attitude_control.lead_time=",  # the thin and the unstable loop
+    "--fault 'pulses.pulse_lengths[2]=override:0@60'",  # limits at the end
+    "--fault 'gyros.measured_angular_velocity[1]=bias:1e-4@100..200'",
+)
+# What begins the work of a verb, once all that it was given has been looked at.
+WORK = {
+    "batch": ["campaigns.batch.run_batch", "campaigns.batch.open_campaign", "campaigns.sensitivity.sensitivity"],
+    "benchmark": ["benchmark.run_benchmark"],
+    "compare": ["compare.compare"],
+    "plan": ["plans.hover_transfer.hover_study", "plans.landing_bound.landing_study"],
+    "replay": ["campaigns.replay.replay_trial"],
+    "run": ["run.fly"],
+    "stability": ["stability.study"],
+    "worst": ["campaigns.worst.worst_margin", "campaigns.worst.worst_case"],
+}
+ALIKE = ("describe", "list", "run", "stability")  # read nothing of the folder: once is enough
+PLACES = documented()
+_done: set[str] = set()
+
+
+class ReadyError(Exception):
+    """All is prepared, and the work would begin."""
+
+
+def _ready(*_arguments, **_keywords):
+    raise ReadyError
+
+
+def _beginning(command: str, table) -> str | None:
+    return next((words for words in table if words in command), None)
+
+
+OF_SYSTEMS = "docs/systems/"  # pages whose commands are alike: `make test` takes every third of them
+TAKEN = (
+    PLACES
+    if LONG
+    else [
+        *(place for place in PLACES if not place.startswith(OF_SYSTEMS)),
+        *[place for place in PLACES if place.startswith(OF_SYSTEMS)][::3],
+    ]
+)
+
+
+@pytest.mark.parametrize("place", TAKEN)
+def test_the_commands(place, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for name, content in saved_files(page_text(place)):
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    if place == SYSTEM_BY_HAND:
+        write_system(tmp_path)
+    here = tmp_path
+    for command in PLACES[place]:
+        if any(command.startswith(words) for words in ELSEWHERE):
+            continue
+        brief = not LONG and _beginning(command, TAKES_LONG) is not None
+        if not command.startswith("perilune "):
+            here = here if brief else _shell(command, here)
+            continue
+        words = shlex.split(command)[1:]
+        if brief:
+            _prepare(words, monkeypatch)
+            continue
+        if command in _done:
+            continue
+        _done.update([command] if words[0] in ALIKE and "linear_guidance" not in command else [])
+        expected = 1 if _beginning(command, FAILS) else 0
+        assert main(words) == expected, f"{command}\n{capsys.readouterr().err}"
+        for option, value in pairwise(words):
+            if option in ("--output", "--report", "--graph", "--json"):
+                assert Path(value).exists(), command
+    capsys.readouterr()
+
+
+def _prepare(words: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command up to where it would begin its work."""
+    with monkeypatch.context() as patch:
+        for work in WORK[words[0]]:
+            module, _, name = work.rpartition(".")
+            patch.setattr(import_module(f"perilune.analysis.commands.{module}"), name, _ready)
+        with pytest.raises(ReadyError):
+            main(words)
+
+
+def _shell(command: str, here: Path) -> Path:
+    """Carry out a line of a shell in a folder; returns the folder it ends in."""
+    line = f"set -e; python() {{ '{sys.executable}' \"$@\"; }}; {command}; pwd > '{here}/.place'"
+    done = subprocess.run(["bash", "-c", line], cwd=here, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, f"{command}\n{done.stderr}"
+    return Path((here / ".place").read_text(encoding="utf-8").strip())
+
+
+def test_every_verb_has_an_example():
+    for name, verb in VERBS.items():
+        assert any(f"{command} ".startswith(f"perilune {name} ") for command, _ in verb.examples)
+
+
+def test_the_targets_of_make():
+    targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
+    named = [command for commands in PLACES.values() for command in commands if command.startswith("make ")]
+    assert named
+    assert {command.split()[1] for command in named} <= targets
+
+
+def test_what_is_left_out_is_there_to_be_left_out():
+    commands = [command for commands in PLACES.values() for command in commands]
+    for words in (*ELSEWHERE, *TAKES_LONG, *FAILS):
+        assert any(words in command for command in commands), words

@@ -1,0 +1,92 @@
+"""The site as it is built: strict, and complete without a network or a server.
+
+Truth: the built files, read by lxml; a browser that opens them as files.
+"""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+
+import pytest
+
+from docs.reference.build import build_site
+from docs.reference.links import broken_links
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.paths import ROOT
+from tests.support.documented import PAGES
+from tests.support.pages.browser import find_browser, start
+
+LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([\w-]+))?\)")
+SEARCH = """<script>
+setTimeout(() => document.querySelector(".md-search button").click(), 1500);
+setTimeout(() => {
+  const box = document.activeElement;
+  const input = box.shadowRoot ? box.shadowRoot.activeElement : box;
+  input.value = "singularity-robust";
+  input.dispatchEvent(new Event("input", { bubbles: true }));
+}, 3000);
+setTimeout(() => {
+  const all = [...document.querySelectorAll("*")].filter((element) => element.shadowRoot);
+  document.title = "FOUND " + all.map((element) => element.shadowRoot.textContent).join(" ");
+}, 6000);
+</script></body>"""
+
+
+def anchors(text: str) -> set[str]:
+    """Of the headings of a page, as GitHub and the site make them."""
+    headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    return {re.sub(r"\s", "-", re.sub(r"[^\w\s-]", "", heading.lower().strip())) for heading in headings}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_links_between_pages(page):
+    """As they stand, for those who read the files themselves."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    for target, anchor in LINK.findall(text):
+        path = page if not target else (page.parent / target).resolve()
+        assert path.is_file(), target
+        assert path.is_relative_to(ROOT), target
+        if anchor:
+            assert anchor in anchors(path.read_text(encoding="utf-8")), f"{target}#{anchor}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_tables_are_read_alike_everywhere(page):
+    """The site ends a table at a blank line only, and shows the backslash before a bar in code that GitHub needs."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    lines = text.splitlines()
+    for line, following in pairwise(lines):
+        if line.lstrip().startswith("| "):
+            assert not following.strip() or following.lstrip().startswith("|"), following
+            assert not any("|" in code for code in line.split("`")[1::2]), line
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("site")
+    build_site(folder / "site", folder / "sources")
+    return folder / "site"
+
+
+@pytest.mark.slow
+def test_it_is_complete(site):
+    assert list(broken_links(site)) == []
+    for name in catalogue():
+        assert (site / "reference" / "blocks" / f"{name}.html").is_file()
+    signature = (site / "reference" / "python" / "flying.html").read_text(encoding="utf-8")
+    assert "stop_time" in signature
+    assert 'id="perilune.simulate"' in signature
+
+
+@pytest.mark.slow
+def test_search_without_a_server(site, tmp_path):
+    browser = find_browser()
+    text = (site / "index.html").read_text(encoding="utf-8")
+    page = site / "search_probe.html"
+    page.write_text(text.replace("</body>", SEARCH), encoding="utf-8")
+    dom = start(browser, page, tmp_path, "--virtual-time-budget=15000", "--dump-dom")
+    page.unlink()
+    found = re.search(r"<title>FOUND (.*?)</title>", dom, re.DOTALL)
+    assert found, dom[:500]
+    assert "gyro_steering_robust" in found[1]

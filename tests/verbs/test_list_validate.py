@@ -1,0 +1,78 @@
+"""`perilune list` and `perilune validate`: what is there, and what is wrong with it.
+
+Truth: the catalogue, the folders on disk, documents broken in one place.
+"""
+
+import json
+
+import pytest
+
+from perilune.analysis.cli import main
+from perilune.fmus_src.catalogue import catalogue
+from perilune.fmus_src.paths import BUILD, SYSTEMS
+from tests.support.builders import component, connection, document, pack, parameter_set, retouched, system
+
+pytestmark = pytest.mark.usefixtures("fmus")
+
+
+def test_list(capsys):
+    assert main(["list", "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert set(found["systems"]) == {path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd")}
+    landing = found["systems"]["lunar_terminal_guidance"]
+    assert landing["parameter_sets"] == ["exact.ssv", "ideal.ssv", "noisy.ssv", "paper.ssv"]
+    assert landing["campaigns"] == ["noisy", "paper"]
+    assert set(catalogue()) <= set(found["fmus"])
+    assert "python" in found["fmus"]["astar_guidance"]["built"]
+    assert main(["list"]) == 0
+    text = capsys.readouterr().out
+    first = {line.split()[0] for line in text.splitlines() if line}  # some names stand in the lines of others
+    assert {*catalogue(), "lunar_terminal_guidance"} <= first
+    assert "noisy.ssv" in text
+
+
+def test_everything_of_ours_is_valid(capsys):
+    paths = [str(path) for path in sorted(BUILD.glob("fmus/*/*.fmu"))[::24]]  # all of them: test_fmus_elsewhere.py
+    assert len(paths) > 4
+    paths += [str(path) for path in sorted(SYSTEMS.glob("*/*.ssv"))]
+    paths += [str(path) for path in sorted(SYSTEMS.glob("*/campaigns/*.toml"))]
+    paths += ["lunar_terminal_guidance", str(BUILD / "ssp" / "lunar_terminal_guidance.ssp")]
+    assert main(["validate", *paths]) == 0
+    captured = capsys.readouterr()
+    assert captured.err == ""
+    assert captured.out.count(": OK\n") == len(paths)
+
+
+def test_notes_of_a_system(tiny_folder, tmp_path, capsys):
+    left = component("left", "cross", "input b Real m; output ya Real m; output yb Real m")
+    right = component("right", "cross", "input a Real m; input b Real m; output ya Real m; output yb Real m")
+    wires = connection("left.ya", "right.a") + connection("right.ya", "left.b") + connection("left.yb", "right.b")
+    path = pack(tmp_path / "s.ssp", tiny_folder / "python", document(system(left, right, connections=wires)))
+    assert main(["validate", str(path), "--json", "-"]) == 0
+    (found,) = json.loads(capsys.readouterr().out)
+    assert found["problems"] == []
+    assert found["notes"] == [
+        "left.a: input not declared in the SSD, keeps 0.25",
+        "right.ya -> left.b: read one step late",
+    ]
+    assert main(["validate", str(path)]) == 0
+    assert capsys.readouterr().out.count("note: ") == 2
+
+
+def test_every_problem_has_its_line(tiny_folder, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    tiny = tiny_folder / "python"
+    (tmp_path / "good.ssv").write_text(parameter_set("a=Real:1"))
+    (tmp_path / "bad.ssv").write_text(parameter_set("a=Real:1; a=Real:2"))
+    (tmp_path / "bad.fmu").write_bytes(b"x")
+    (tmp_path / "bad.toml").write_text("system = ")
+    retouched(tiny / "gain.fmu", tmp_path / "odd.fmu", lambda text: text.replace('unit="m"', 'unit="ell"', 1))
+    names = ["good.ssv", "bad.ssv", "bad.fmu", "bad.toml", "odd.fmu", "gone.ssv", "gone.toml", "gone.fmu", "gone"]
+    assert main(["validate", *names, "--strict"]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == "good.ssv: OK\nodd.fmu: note: the FMU proposes no stop time: 1 s taken\n"
+    lines = captured.err.splitlines()
+    assert len(lines) == 8, captured.err
+    for name, line in zip(names[1:], lines, strict=True):
+        assert line.startswith(f"perilune: {name}"), line
+        assert "; " in line
