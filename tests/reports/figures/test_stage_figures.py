@@ -113,7 +113,7 @@ def test_the_table_of_phases():
     found = cells(one(PHASES, mission()))
     expected = [[name, f"{begin:g}", f"{end - begin:g}", f"{spent:.3f}"] for name, begin, end, spent in SPANS]
     assert found == [*expected, ["total", "0", "200", "24.000"]]
-    assert one(replace(PHASES, spent=None), mission()).table.heads == ("phase", "begins, s", "takes, s")
+    assert one(replace(PHASES, spent=None), mission()).table.heads == ("phase", "start, s", "duration, s")
 
 
 def bars(figure):
@@ -152,7 +152,7 @@ def test_a_budget_beside_its_bound():
     assert section.table.heads == ("item", "kg", "sum of")
     assert cells(section) == [
         ["bound", "9.500", "bound of landing"],
-        ["capture and descent over it", "1.500", "capture + descent less bound of landing"],
+        ["capture and descent over it", "1.500", "capture + descent \N{MINUS SIGN} bound of landing"],
         ["hover", "3.000", "hover"],
         ["total", "14.000", ""],
         ["consumption in these phases", "14.000", "capture, descent, hover"],
