@@ -232,7 +232,7 @@ WRONG = {
         f'<Limits><Limit signal="{SPACE}" most="1" unit="s"/></Limits>', "Limit", "its unit is rad, required is s"
     ),
     "a path without x": (f'<Path y="{SPACE}"/>', "Path", "either x, or arc and radius"),
-    "a path with both": (f'<Path x="{SPACE}" arc="plant.angles" radius="a" y="{SPACE}"/>', "Path", "either x, or arc and"),
+    "a path with both": (f'<Path x="{SPACE}" arc="plant.angles" radius="a" y="{SPACE}"/>', "Path", "either x, or"),
     "an arc without radius": (f'<Path arc="plant.angles" y="{SPACE}"/>', "Path", "either x, or arc and radius"),
     "an arc of angles": (
         f'<Path arc="plant.angles" radius="plant.orbital_rate" y="{SPACE}"/>', "Path", "its unit is rad, required is m"
