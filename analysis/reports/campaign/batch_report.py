@@ -1,4 +1,4 @@
-"""The page of one batch: rates, metrics, distributions, where it fails, what it was made of."""
+"""The page of one batch: success probability, requirements, metrics, distributions, failure region, provenance."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from ...campaigns.draws.declared import drawn_names
 from ...campaigns.fly.results import BatchResult
 from ..common.page import write_page
 from .distributions import distribution_panels, legend_of, sort_metrics
-from .failures import failure_panels, telling_scores
 from .rates import rates_figure
 from .replays import extremes_to_replay, failures_to_replay
-from .scatters import scatter_figures
-from .tables import HEADINGS, draw_rows, drivers, fmu_rows, group_rows, seen_statuses, variant_rows, verdict_rows
+from .scatters import failure_panels, influence_on_success, scatter_figures
+from .tables import HEADINGS, component_statuses, draw_rows, drivers, fmu_rows, group_rows, variant_rows, verdict_rows
 
 
 def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
     """Write one self-contained HTML page about a batch; the same result gives the same bytes."""
     campaign = result.plan.campaign
-    drawn, still, empty = sort_metrics(result)
-    scores = {variant: telling_scores(result, variant) for variant in result.rows}
+    varying, constant, empty = sort_metrics(result)
+    influences = {variant: influence_on_success(result, variant) for variant in result.rows}
+    system = ("system", "all", result.provenance["system_sha256"])
     write_page(
         path,
         Path(__file__).with_name("batch_report.html"),
@@ -32,20 +32,20 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         requirements=verdict_rows(result.summary, campaign),
         statistics=HEADINGS,
         rates=rates_figure(result),
-        left_out={variant: seen.note for variant, seen in result.shown.items() if seen.note},
+        samples={variant: sample.note for variant, sample in result.shown.items() if sample.note},
         looks=legend_of(result),
-        distributions=distribution_panels(result, drawn),
-        still=still,
+        distributions=distribution_panels(result, varying),
+        constant=constant,
         empty=empty,
         scatters=scatter_figures(result),
         failures=failure_panels(result),
         failed=failures_to_replay(result),
         extremes=extremes_to_replay(result),
         stored=result.folder is not None,
-        seen=seen_statuses(result),
-        scores={variant: found for variant, found in scores.items() if found},
+        statuses=component_statuses(result),
+        influences={variant: values for variant, values in influences.items() if values},
         drivers=drivers(result),
-        drawn_names=drawn_names(campaign),
+        input_names=drawn_names(campaign),
         draws=draw_rows(campaign),
-        fmus=fmu_rows(result.provenance["fmus"]),
+        hash_rows=[system, *fmu_rows(result.provenance["fmus"])],
     )

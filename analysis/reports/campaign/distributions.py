@@ -17,67 +17,68 @@ from ..common.panels import Panel, panel, swatch
 from ..common.quantities import labelled, shown_factor
 from ..common.style import WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
 
-DECADES = 2.0  # a metric that spans more gets a logarithmic axis
-TAIL = 0.01  # on it, this share of the smallest values may lie left of the axis
+CUMULATIVE = "cumulative probability (CDF), %"
+DECADES = 2.0  # range of a metric from which its axis is logarithmic
+TAIL = 0.01  # on a logarithmic axis, the fraction of values drawn at its left edge
 
 
 def metric_values(result: BatchResult, metric: str) -> dict[str, np.ndarray]:
-    """A metric by variant, one value per trial that figures show, nan and inf included."""
-    return {name: found.first.metrics[metric] for name, found in result.shown.items()}
+    """A metric by variant, one value for each plotted trial, nan and inf included."""
+    return {name: sample.first.metrics[metric] for name, sample in result.shown.items()}
 
 
 def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
-    """Metrics worth a panel; those with one value in every trial, and it; those that are nowhere finite."""
-    drawn, still, empty = [], [], []
+    """Metrics that vary; constant ones with their value; those without a finite value."""
+    varying, constant, empty = [], [], []
     for metric in result.plan.campaign.metrics:
-        found = [entry.metrics_all[metric.name] for entry in result.summary.values()]
+        statistics = [entry.metrics_all[metric.name] for entry in result.summary.values()]
         trials = sum(entry.trials for entry in result.summary.values())
-        ends = {end for entry in found for end in (entry.min, entry.max) if end is not None}
+        ends = {end for entry in statistics for end in (entry.min, entry.max) if end is not None}
         if not ends:
             empty.append(metric)
-        elif len(ends) == 1 and sum(entry.count for entry in found) == trials > 1:
-            still.append((metric, ends.pop()))
+        elif len(ends) == 1 and sum(entry.count for entry in statistics) == trials > 1:
+            constant.append((metric, ends.pop()))
         else:
-            drawn.append(metric)
-    return drawn, still, empty
+            varying.append(metric)
+    return varying, constant, empty
 
 
 def distribution_panels(result: BatchResult, metrics: Sequence[Metric]) -> list[Panel]:
-    """Empirical distributions over all trials: the share of trials with at most that value."""
+    """Empirical cumulative distributions over all trials."""
     looks = [look(index) for index in range(len(result.rows))]
 
     def drawing(metric: Metric) -> Callable[[Axes], None]:
         def draw(axes: Axes) -> None:
             draw_distribution(axes, metric, metric_values(result, metric.name), looks)
-            axes.set_title("share of trials, %", loc="left", fontsize=8.5)
+            axes.set_title(CUMULATIVE, loc="left", fontsize=8.5)
 
         return draw
 
     return [
-        panel(metric.name, f"distribution-{index}", f"Distributions of {metric.name}", drawing(metric))
+        panel(metric.name, f"distribution-{index}", f"Cumulative distribution of {metric.name}", drawing(metric))
         for index, metric in enumerate(metrics)
     ]
 
 
 def legend_of(result: BatchResult) -> list[tuple[Markup, str]]:
-    """Variants with the looks that they are drawn with."""
+    """Variants with their line styles."""
     return [(swatch(look(index)), variant) for index, variant in enumerate(result.rows)]
 
 
 def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray], looks: Sequence[Look]) -> None:
-    """One panel: the empirical distribution of a metric in each of some series, which have a look each."""
-    shown = {name: found * shown_factor(metric.unit) for name, found in values.items()}
-    everything = np.concatenate(list(shown.values()))
+    """One panel: the empirical distribution of a metric in several series with their line styles."""
+    scaled = [series * shown_factor(metric.unit) for series in values.values()]
+    everything = np.concatenate(scaled)
     everything = everything[np.isfinite(everything)]
     low, high, logarithmic = _limits(everything)
-    for found, (colour, dashes, marker) in zip(shown.values(), looks, strict=True):
-        finite = np.clip(np.sort(found[np.isfinite(found)]), low, None)
-        share = 100.0 * np.arange(1, finite.size + 1) / found.size
+    for series, (colour, dashes, marker) in zip(scaled, looks, strict=True):
+        finite = np.clip(np.sort(series[np.isfinite(series)]), low, None)
+        probability = 100.0 * np.arange(1, finite.size + 1) / series.size
         x = np.concatenate([[low], finite, [high]])
-        y = np.concatenate([[0.0], share, share[-1:] if share.size else [0.0]])
+        y = np.concatenate([[0.0], probability, probability[-1:] if probability.size else [0.0]])
         axes.step(x, y, where="post", color=colour, linestyle=dashes, linewidth=1.6)
         if finite.size == 1:
-            axes.plot(finite, share, color=colour, marker=marker, markersize=5)
+            axes.plot(finite, probability, color=colour, marker=marker, markersize=5)
     if logarithmic:
         log_ticks_x(axes)
     else:
@@ -107,24 +108,24 @@ HEIGHT = 2.3  # in, of a panel
 
 
 def metric_plot(result: BatchResult, metrics: list[Metric]) -> Figure:
-    """Empirical distributions over the trials that figures show, a panel per metric, a line per variant."""
+    """Empirical distributions over the plotted trials, a panel per metric, a line per variant."""
     looks = {name: look(index) for index, name in enumerate(result.rows)}
     return distribution_plot({metric: metric_values(result, metric.name) for metric in metrics}, looks)
 
 
 def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], looks: Mapping[str, Look]) -> Figure:
-    """A panel per metric with its values by label; those that are nowhere finite have no line."""
+    """A panel per metric with its values by label; series without a finite value have no line."""
     columns = min(COLUMNS, len(metrics))
     rows = -(-len(metrics) // columns)
     with house_style():
         figure = new_figure(0.5 + HEIGHT * rows, WIDTH * columns / COLUMNS)
         panels = figure.subplots(rows, columns, squeeze=False, sharey=True).flatten()
         for axes, (metric, by_label) in zip(panels, metrics.items(), strict=False):
-            some = {label: values for label, values in by_label.items() if np.any(np.isfinite(values))}
-            draw_distribution(axes, metric, some, [looks[label] for label in some])
+            finite = {label: values for label, values in by_label.items() if np.any(np.isfinite(values))}
+            draw_distribution(axes, metric, finite, [looks[label] for label in finite])
         for axes in panels[len(metrics) :]:
             axes.remove()
         lines = [Line2D([], [], color=style.colour, linestyle=style.dashes, linewidth=1.6) for style in looks.values()]
         figure.legend(lines, list(looks), loc="outside upper left", ncols=columns, handlelength=3.2)
-        figure.supylabel("share of trials, %", fontsize=9.0)
+        figure.supylabel(CUMULATIVE, fontsize=9.0)
     return figure

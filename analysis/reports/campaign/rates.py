@@ -1,4 +1,4 @@
-"""Success rates of a batch's variants with their intervals."""
+"""Success probabilities of the variants of a batch with their confidence intervals."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ RING: dict[str, Any] = {
 
 
 def rates_figure(result: BatchResult, published: Mapping[str, float] | None = None) -> Widths:
-    """A dot per variant at its success rate, a bar over the interval, both written beside it.
+    """A mark per variant at its success probability, a bar over the interval, both labelled.
 
-    ``published`` are rates to compare with, as shares of 1, drawn as rings.
+    ``published`` are rates to compare with, as fractions of 1, plotted as rings.
     """
     names = list(result.summary)
     others = [100.0 * rate for rate in (published or {}).values()]
@@ -52,13 +52,15 @@ def rates_figure(result: BatchResult, published: Mapping[str, float] | None = No
         axes.grid(visible=False, axis="y")
         axes.tick_params(axis="y", length=0, labelsize=9)
         plain_ticks(axes, x=5 if slim else 8)
-        axes.set_xlabel(f"success rate, %, with its {100.0 * result.summary[names[0]].confidence:g} % interval")
+        axes.set_xlabel(
+            f"success probability, %, with {100.0 * result.summary[names[0]].confidence:g} % confidence interval"
+        )
         if others:
             figure.legend([Line2D([], [], **RING)], ["published rate"], loc="outside upper right", borderpad=0.1)
 
     rest = 0.75 + (0.25 if others else 0.0)
-    words = "Success rates of " + ", ".join(names)
-    return both_widths("rates", words, draw, rest + LANE * len(names), rest + SLIM_LANE * len(names))
+    description = "Success probabilities of " + ", ".join(names)
+    return both_widths("rates", description, draw, rest + LANE * len(names), rest + SLIM_LANE * len(names))
 
 
 def _draw_rate(axes: Axes, index: int, rate: float, low: float, high: float) -> None:
@@ -69,10 +71,10 @@ def _draw_rate(axes: Axes, index: int, rate: float, low: float, high: float) -> 
     axes.plot(rate, index, color=colour, marker=marker, markersize=7, clip_on=False, zorder=3)
 
 
-def _write_rate(axes: Axes, index: int, name: str, words: str, slim: bool) -> None:
-    """The rate beside its bar; on a narrow figure, which has no room there, name and rate above it."""
+def _write_rate(axes: Axes, index: int, name: str, label: str, slim: bool) -> None:
+    """Write the rate next to its bar; on a narrow figure, name and rate above it."""
     if not slim:
-        axes.annotate(words, (1.02, index), xycoords=("axes fraction", "data"), va="center")
+        axes.annotate(label, (1.02, index), xycoords=("axes fraction", "data"), va="center")
         return
-    for text, x, side in ((name, 0.0, "left"), (words, 1.0, "right")):
+    for text, x, side in ((name, 0.0, "left"), (label, 1.0, "right")):
         axes.annotate(text, (x, index - 0.32), xycoords=("axes fraction", "data"), ha=side, va="bottom", fontsize=8.5)

@@ -1,4 +1,4 @@
-"""Trials that are worth flying again, and the command that does."""
+"""Commands that replay single trials: the first failures, and those with the maximum of a metric."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FAILURES = 3  # of a variant, the first ones
 
 @dataclass(frozen=True)
 class Replay:
-    """A trial of a variant, why it is worth a look, and the command line that flies it again."""
+    """A trial of a variant, the reasons to replay it, and the command that does."""
 
     variant: str
     trial: int
@@ -34,56 +34,56 @@ def failures_to_replay(result: BatchResult) -> list[Replay]:
 
 
 def extremes_to_replay(result: BatchResult) -> list[Replay]:
-    """Where a metric of a variant is largest, each trial once."""
+    """The trials with the maximum of a metric of a variant, each once."""
     return _replays(result, _extremes)
 
 
 def _replays(result: BatchResult, choose: Callable[[BatchResult, str], list[tuple[int, Markup]]]) -> list[Replay]:
-    found: list[Replay] = []
+    replays: list[Replay] = []
     for variant in result.plan.campaign.variants():
-        own: dict[int, list[Markup]] = {}
+        reasons: dict[int, list[Markup]] = {}
         for trial, reason in choose(result, variant.name):
-            own.setdefault(trial, []).append(reason)
-        found += [
-            Replay(variant.name, trial, reasons, command_of(result, variant, trial)) for trial, reasons in own.items()
+            reasons.setdefault(trial, []).append(reason)
+        replays += [
+            Replay(variant.name, trial, texts, replay_of(result, variant, trial)) for trial, texts in reasons.items()
         ]
-    return found
+    return replays
 
 
 def _failures(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
-    found: list[tuple[int, Markup]] = []
+    failures: list[tuple[int, Markup]] = []
     for part in result.rows[variant].parts("trial", "success", "status"):
-        for row in np.flatnonzero(~part["success"])[: FAILURES - len(found)]:
-            found.append((int(part["trial"][row]), Markup("{}").format(part["status"][row])))
-        if len(found) == FAILURES:
+        for row in np.flatnonzero(~part["success"])[: FAILURES - len(failures)]:
+            failures.append((int(part["trial"][row]), Markup("{}").format(part["status"][row])))
+        if len(failures) == FAILURES:
             break
-    return found
+    return failures
 
 
 def _extremes(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
-    """Where a metric is largest, unless several trials share that value."""
-    found = []
+    """The trial with the maximum of each metric, unless several trials have it."""
+    extremes = []
     for metric in result.plan.campaign.metrics:
-        most, where = _largest(result.rows[variant], f"metric.{metric.name}")
-        if len(where) == 1:
-            reason = Markup("{}: {} {}").format(metric.name, exact(most, metric.unit), shown_unit(metric.unit))
-            found.append((where[0], reason))
-    return found
+        maximum, trials = _maximum(result.rows[variant], f"metric.{metric.name}")
+        if len(trials) == 1:
+            reason = Markup("{}: {} {}").format(metric.name, exact(maximum, metric.unit), shown_unit(metric.unit))
+            extremes.append((trials[0], reason))
+    return extremes
 
 
-def _largest(rows: TrialRows, column: str) -> tuple[float, list[int]]:
-    """The largest value of a column, nan the least of all, and two at most of the trials that have it."""
-    most, where = -np.inf, list[int]()
+def _maximum(rows: TrialRows, column: str) -> tuple[float, list[int]]:
+    """The maximum of a column, nan counting as minus infinity, and up to two of the trials that have it."""
+    maximum, trials = -np.inf, list[int]()
     for part in rows.parts("trial", column):
         values = np.where(np.isnan(part[column]), -np.inf, part[column])
-        if values.max() > most:
-            most, where = float(values.max()), []
-        where += part["trial"][np.flatnonzero(values == most)[: 2 - len(where)]].tolist()
-    return most, where
+        if values.max() > maximum:
+            maximum, trials = float(values.max()), []
+        trials += part["trial"][np.flatnonzero(values == maximum)[: 2 - len(trials)]].tolist()
+    return maximum, trials
 
 
-def command_of(result: BatchResult, variant: Variant, trial: int) -> str:
-    """The command line that flies one trial of one variant again: of the campaign's folder, where it has one."""
+def replay_of(result: BatchResult, variant: Variant, trial: int) -> str:
+    """The command that replays one trial of one variant, from the campaign's folder if it has one."""
     if result.folder is None:
         return replay_command(result.plan, variant, trial)
     return stored_replay(result.folder, result.rows, variant.name, trial)

@@ -1,4 +1,4 @@
-"""One metric over another, a panel for each variant: the figures that a campaign asks for."""
+"""Scatter plots of successes and failures, a panel per variant: over declared metrics, and over influential inputs."""
 
 from __future__ import annotations
 
@@ -10,20 +10,42 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 
+from ...campaigns.draws.declared import drawn_names
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.spec.campaign import Metric, Scatter
 from ..common.page import exact
 from ..common.panels import Panel, panel
 from ..common.quantities import labelled, number, shown_factor, shown_unit
 from ..common.style import INK, VERMILION, plain_ticks
-from .failures import GOOD, MANY
 
-SIDE = 3.4  # in
+SIDE = 3.4  # in, of a panel over metrics
+HEIGHT = 3.2  # in, of a panel over inputs
+SUCCESS = "#9a9a9a"
+MANY = 3000  # points of a panel from which they are stored as an image
+
+
+def plot_outcomes(axes: Axes, x: np.ndarray, y: np.ndarray, success: np.ndarray, minimum_size: float) -> None:
+    """Successes as dots and failures as crosses, with their numbers in a legend; marks shrink as points grow many."""
+    is_image = success.size > MANY
+    size = max(minimum_size, min(1.0, (500.0 / success.size) ** 0.5))
+    axes.plot(
+        x[success], y[success], "o", markersize=3.2 * size, color=SUCCESS, markeredgewidth=0.0, rasterized=is_image,
+        label=f"{int(success.sum())} successes",
+    )  # fmt: skip
+    axes.plot(
+        x[~success], y[~success], "x", markersize=4.5 * size, color=VERMILION, markeredgewidth=1.3 * size,
+        rasterized=is_image, label=f"{int((~success).sum())} failures",
+    )  # fmt: skip
+    plain_ticks(axes, x=5, y=6)
+    axes.legend(
+        loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2, borderpad=0.2, handletextpad=0.2, columnspacing=1.0,
+        markerscale=1.0 / size,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class ScatterFigure:
-    """A heading, a panel for each variant and what is to be read of them."""
+    """A heading, a panel for each variant, and captions."""
 
     title: str
     panels: list[Panel]
@@ -31,7 +53,7 @@ class ScatterFigure:
 
 
 def scatter_figures(result: BatchResult) -> list[ScatterFigure]:
-    """The figures of [scatter] in the order of the campaign."""
+    """The plots of [scatter] in the order of the campaign."""
     return [_scatter_figure(result, scatter) for scatter in result.plan.campaign.scatters]
 
 
@@ -39,10 +61,10 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
     metrics = {metric.name: metric for metric in result.plan.campaign.metrics}
     pair = (metrics[scatter.x], metrics[scatter.y])
     points = {
-        variant: np.stack([seen.dots.metrics[metric.name] * shown_factor(metric.unit) for metric in pair])
-        for variant, seen in result.shown.items()
+        variant: np.stack([sample.dots.metrics[metric.name] * shown_factor(metric.unit) for metric in pair])
+        for variant, sample in result.shown.items()
     }
-    title = scatter.title or f"{scatter.y} over {scatter.x}"
+    title = scatter.title or f"{scatter.y} vs. {scatter.x}"
     everything = np.concatenate(list(points.values()), axis=1)
     limits = _limits(everything, 0.0 if scatter.circle is None else shown_factor(pair[0].unit) * scatter.circle)
     to_scale = pair[0].unit == pair[1].unit
@@ -50,18 +72,18 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
         limits = _square(limits)
 
     def drawing(variant: str) -> Callable[[Axes], None]:
-        good = result.shown[variant].dots.success
-        return lambda axes: _draw_panel(axes, points[variant], good, pair, scatter, limits, to_scale)
+        success = result.shown[variant].dots.success
+        return lambda axes: _draw_panel(axes, points[variant], success, pair, scatter, limits, to_scale)
 
     panels = [
         panel(variant, f"scatter-{scatter.name}-{index}", f"{title}: {variant}", drawing(variant), SIDE)
         for index, variant in enumerate(points)
     ]
-    return ScatterFigure(title, panels, _reading(scatter, pair[0], points))
+    return ScatterFigure(title, panels, _notes(scatter, pair[0], points))
 
 
 def _limits(points: np.ndarray, radius: float) -> np.ndarray | None:
-    """Low and high ends of both axes, a row each, with all finite points and the circle in them; None without any."""
+    """Limits of both axes, a row each, that contain all finite points and the circle; None without any."""
     points = points[:, np.all(np.isfinite(points), axis=0)]
     ends = np.array([[-radius, radius]] * 2) if radius else np.empty((2, 0))
     everything = np.concatenate([points, ends], axis=1)
@@ -73,7 +95,7 @@ def _limits(points: np.ndarray, radius: float) -> np.ndarray | None:
 
 
 def _square(limits: np.ndarray) -> np.ndarray:
-    """Both axes as long as the longer one."""
+    """Limits of equal length."""
     middle, half = limits.mean(axis=1), 0.5 * float(np.max(np.ptp(limits, axis=1)))
     return np.stack([middle - half, middle + half], axis=1)
 
@@ -81,27 +103,17 @@ def _square(limits: np.ndarray) -> np.ndarray:
 def _draw_panel(
     axes: Axes,
     points: np.ndarray,
-    good: np.ndarray,
+    success: np.ndarray,
     pair: tuple[Metric, Metric],
     scatter: Scatter,
     limits: np.ndarray | None,
     to_scale: bool,
 ) -> None:
-    image = good.size > MANY
-    size = max(0.5, min(1.0, (500.0 / good.size) ** 0.5))
-    axes.plot(
-        *points[:, good], "o", markersize=3.4 * size, color=GOOD, markeredgewidth=0.0, rasterized=image,
-        label=f"{int(good.sum())} successes",
-    )  # fmt: skip
-    axes.plot(
-        *points[:, ~good], "x", markersize=5.0, color=VERMILION, markeredgewidth=1.3, rasterized=image,
-        label=f"{int((~good).sum())} failures",
-    )  # fmt: skip
+    plot_outcomes(axes, points[0], points[1], success, minimum_size=0.5)
     if scatter.circle is not None:
         radius = scatter.circle * shown_factor(pair[0].unit)
         axes.add_patch(Circle((0.0, 0.0), radius, fill=False, edgecolor=INK, linewidth=1.0, linestyle=(0, (4, 2))))
         axes.plot(0.0, 0.0, "+", color=INK, markersize=8)
-    plain_ticks(axes, x=5, y=6)
     axes.set_xlabel(labelled(pair[0].name, pair[0].unit))
     axes.set_ylabel(labelled(pair[1].name, pair[1].unit))
     if limits is not None:
@@ -109,20 +121,65 @@ def _draw_panel(
         axes.set_ylim(*limits[1])
     if to_scale:
         axes.set_aspect("equal")
-    axes.legend(
-        loc="lower left", bbox_to_anchor=(-0.02, 1.0), ncols=2, borderpad=0.2, handletextpad=0.2, columnspacing=1.0
-    )
 
 
-def _reading(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> list[Markup]:
-    """What the circle is, and how many trials have no point."""
+def _notes(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> list[Markup]:
+    """The caption of the circle, and the number of trials without a point."""
     notes = []
     if scatter.circle is not None:
         radius = exact(scatter.circle, metric.unit)
         notes.append(Markup("Dashed: {} {} around the origin.").format(radius, shown_unit(metric.unit)))
-    for variant, found in points.items():
-        lacking = int(np.count_nonzero(~np.all(np.isfinite(found), axis=0)))
+    for variant, values in points.items():
+        lacking = int(np.count_nonzero(~np.all(np.isfinite(values), axis=0)))
         if lacking:
-            words = Markup("{}: {} of {} trials have no finite value and no mark.")
-            notes.append(words.format(variant, number(lacking), number(found.shape[1])))
+            text = Markup("{}: {} of {} trials have no finite value and are not plotted.")
+            notes.append(text.format(variant, number(lacking), number(values.shape[1])))
     return notes
+
+
+def influence_on_success(result: BatchResult, variant: str) -> dict[str, float]:
+    """The influence of each dispersed input on success, 0 to 1, largest first.
+
+    It is the larger absolute correlation with success, of the input or of its distance from its mean; the latter sees
+    failures at both ends. Inputs that do not vary and derived values are left out; so are all inputs without both
+    failures and successes.
+    """
+    success = result.shown[variant].dots.success.astype(float)
+    if success.min() == success.max():
+        return {}
+    influence = {}
+    for name in drawn_names(result.plan.campaign):
+        values = result.shown[variant].dots.draws[name]
+        columns = [column for column in (values, np.abs(values - values.mean())) if np.ptp(column) > 0.0]
+        if columns:
+            influence[name] = max(abs(float(np.corrcoef(success, column)[0, 1])) for column in columns)
+    return dict(sorted(influence.items(), key=lambda item: -item[1]))
+
+
+def failure_panels(result: BatchResult) -> list[Panel]:
+    """Failures and successes over the two most influential inputs of each variant that has both."""
+    chosen = {variant: list(influence_on_success(result, variant))[:2] for variant in result.rows}
+
+    def drawing(variant: str, names: list[str]) -> Callable[[Axes], None]:
+        return lambda axes: _draw_failures(axes, result, variant, names)
+
+    return [
+        panel(
+            variant,
+            f"failures-{index}",
+            f"Failures of {variant} over {' and '.join(names)}",
+            drawing(variant, names),
+            HEIGHT,
+        )
+        for index, (variant, names) in enumerate(chosen.items())
+        if names
+    ]
+
+
+def _draw_failures(axes: Axes, result: BatchResult, variant: str, names: list[str]) -> None:
+    sample = result.shown[variant].dots
+    trials = np.arange(sample.success.size, dtype=float)
+    y = sample.draws[names[1]] if len(names) > 1 else trials
+    plot_outcomes(axes, sample.draws[names[0]], y, sample.success, minimum_size=0.35)
+    axes.set_xlabel(names[0])
+    axes.set_ylabel(names[1] if len(names) > 1 else "trial")

@@ -31,12 +31,12 @@ def group_rows(summary: Summary) -> list[SummaryRow]:
 
 
 class RequirementRow(NamedTuple):
-    """A requirement of a variant: ``found`` is its verdict in the summary, ``bound`` its tolerance bound in words."""
+    """A requirement of a variant: its verdict in the summary, and its tolerance bound as text."""
 
     variant: str
     name: str
     description: str
-    found: RequirementVerdict
+    verdict: RequirementVerdict
     bound: str
 
 
@@ -45,8 +45,8 @@ def verdict_rows(summary: Summary, campaign: Campaign) -> list[RequirementRow]:
     described = {requirement.name: requirement.description for requirement in campaign.requirements}
     units = {metric.name: metric.unit for metric in campaign.metrics}
     return [
-        RequirementRow(variant, name, described[name], found, _bound(found, units))
-        for variant, name, found in requirement_rows(summary)
+        RequirementRow(variant, name, described[name], verdict, _bound(verdict, units))
+        for variant, name, verdict in requirement_rows(summary)
     ]
 
 
@@ -57,57 +57,57 @@ def _bound(result: RequirementVerdict, units: Mapping[str, str]) -> str:
     return bound_text(result, f"{number(in_shown_unit(result.bound.value, unit))} {shown_unit(unit)}".strip())
 
 
-TOLD = 3  # draws of a metric
+MOST_INPUTS = 3  # of a metric
 
 
 class Driver(NamedTuple):
-    """A metric of a variant, and the draws that it goes with most: their names and rank correlations."""
+    """A metric of a variant, and its most correlated inputs: their names and rank correlations."""
 
     variant: str
     metric: str
-    draws: list[tuple[str, float]]
+    inputs: list[tuple[str, float]]
 
 
 def drivers(result: BatchResult) -> list[Driver]:
-    """A row for every metric of every variant that has any rank correlation, the largest first."""
+    """A row for each metric of each variant that has a rank correlation, the largest first."""
     names = drawn_names(result.plan.campaign)
     rows = []
-    for variant, seen in result.shown.items():
-        trials = seen.first
+    for variant, sample in result.shown.items():
+        trials = sample.first
         draws = {name: trials.draws[name] for name in names}
-        for metric, found in rank_correlations(draws, trials.metrics).items():
-            known = [(name, rho) for name, rho in found.items() if rho is not None]
+        for metric, correlations in rank_correlations(draws, trials.metrics).items():
+            known = [(name, rho) for name, rho in correlations.items() if rho is not None]
             known.sort(key=lambda item: -abs(item[1]))
             if known:
-                rows.append(Driver(variant, metric, known[:TOLD]))
+                rows.append(Driver(variant, metric, known[:MOST_INPUTS]))
     return rows
 
 
-class SeenStatus(NamedTuple):
-    """A status as the worst that a signal of a variant reported, in ``seen`` of ``trials``."""
+class ComponentStatus(NamedTuple):
+    """The highest status that a signal of a variant reported, in ``occurrences`` of ``trials``."""
 
     variant: str
     signal: str
     status: int
-    seen: int
+    occurrences: int
     trials: int
 
 
-def seen_statuses(result: BatchResult) -> list[SeenStatus]:
-    """Counts by variant, signal and status; none where no trial reported two, as the table of ends tells all then."""
+def component_statuses(result: BatchResult) -> list[ComponentStatus]:
+    """Counts by variant, signal and status; none if no trial reported two, as the termination statuses suffice then."""
     if not any(len(worst_statuses(text)) > 1 for entry in result.summary.values() for text in entry.statuses):
         return []
-    found = []
+    rows = []
     for variant, entry in result.summary.items():
         counts: Counter[tuple[str, int]] = Counter()
         for text, trials in entry.statuses.items():
             counts.update(dict.fromkeys(worst_statuses(text).items(), trials))
-        found += [SeenStatus(variant, *status, count, entry.trials) for status, count in sorted(counts.items())]
-    return found
+        rows += [ComponentStatus(variant, *status, count, entry.trials) for status, count in sorted(counts.items())]
+    return rows
 
 
 def draw_rows(campaign: Campaign) -> list[tuple[str, str, str]]:
-    """Name, distribution and arguments of every draw, then every derived value with its expression."""
+    """Name, distribution and arguments of each dispersed parameter, then derived ones with their expressions."""
     rows = []
     for draw in campaign.draws:
         arguments = ", ".join(f"{key} {_plain(value)}" for key, value in draw.arguments.items())
@@ -116,7 +116,7 @@ def draw_rows(campaign: Campaign) -> list[tuple[str, str, str]]:
 
 
 def _plain(value: Any) -> str:
-    """A draw's argument: a number, or numbers in brackets, shortened where they are many."""
+    """An argument of a distribution: a number, or numbers in brackets, abbreviated if they are many."""
     if not isinstance(value, tuple | list):
         return f"{value:.10g}"
     inner = [_plain(entry) for entry in value]
@@ -124,12 +124,12 @@ def _plain(value: Any) -> str:
 
 
 def fmu_rows(fmus: dict[str, dict[str, str]]) -> list[tuple[str, str, str]]:
-    """Component, variants and hash of every FMU that flew, variants that share one brought together."""
-    flown: dict[tuple[str, str], list[str]] = {}
+    """Component, variants and SHA-256 of every FMU, variants with the same FMU in one row."""
+    variants_of: dict[tuple[str, str], list[str]] = {}
     for variant, components in fmus.items():
         for component, digest in components.items():
-            flown.setdefault((component, digest), []).append(variant)
+            variants_of.setdefault((component, digest), []).append(variant)
     return [
         (component, "all" if len(variants) == len(fmus) else ", ".join(variants), digest)
-        for (component, digest), variants in sorted(flown.items(), key=lambda item: item[0][0])
+        for (component, digest), variants in sorted(variants_of.items(), key=lambda item: item[0][0])
     ]

@@ -13,7 +13,7 @@ from lxml import etree
 
 from perilune.analysis.reports.campaign.batch_report import write_batch_report
 from perilune.analysis.reports.campaign.scatters import scatter_figures
-from perilune.analysis.reports.campaign.tables import seen_statuses
+from perilune.analysis.reports.campaign.tables import component_statuses
 from tests.support.pages.checks import assert_self_contained, parse, text_of
 from tests.support.pages.samples import DRAWS, batch_result
 
@@ -56,7 +56,7 @@ def test_every_finite_trial_has_its_mark():
     assert far == {"#9a9a9a": 4 + 1, "#d55e00": 1}
     words = [str(note) for note in found.notes]
     assert words[0] == 'Dashed: <data value="10.0">10</data> m around the origin.'
-    assert words[1:] == ["near: 1 of 4 trials have no finite value and no mark."]
+    assert words[1:] == ["near: 1 of 4 trials have no finite value and are not plotted."]
 
 
 def test_the_circle_is_round_and_to_scale():
@@ -78,7 +78,7 @@ def test_the_circle_is_round_and_to_scale():
 def test_angles_are_in_degrees():
     asked = PLANE.format("rad", "rad", f"circle = {math.pi / 6}")
     (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + asked))
-    assert found.title == "north over east"
+    assert found.title == "north vs. east"
     assert ">30</data> deg around the origin." in found.notes[0]
     assert "east, deg" in found.panels[0].figure
 
@@ -90,16 +90,16 @@ def test_units_that_differ_and_nothing_finite(tmp_path):
     write_batch_report(nothing, tmp_path / "page.html", "Lost")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     assert_self_contained(page)
-    assert "lost: 3 of 3 trials have no finite value and no mark." in text_of(page)
+    assert "lost: 3 of 3 trials have no finite value and are not plotted." in text_of(page)
 
 
 def test_statuses_are_counted_by_component_where_trials_saw_several(tmp_path):
     result = batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED)
-    assert seen_statuses(result) == []  # the table of ends says it all
+    assert component_statuses(result) == []  # the table of ends says it all
     texts = ["finished (hover.status 2, sequencer.status 4)", "finished (hover.status 2)", "finished", "stop_time"]
     result.summary["near"] = replace(result.summary["near"], statuses=Counter(texts))
     rows = [("near", "hover.status", 2, 2, 4), ("near", "sequencer.status", 4, 1, 4)]
-    assert [tuple(row) for row in seen_statuses(result)] == rows
+    assert [tuple(row) for row in component_statuses(result)] == rows
     write_batch_report(result, tmp_path / "page.html", "Seen")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     (table,) = parse(page).xpath("//h3[text()='Statuses by component']/following-sibling::div[1]/table")

@@ -359,9 +359,7 @@ def test_limits_of_an_fmu_that_is_put_in_and_lacks_them_are_not_evaluated(tiny_f
 
 def test_ours_is_valid_and_its_bound_is_kept(capsys):
     assert main(["validate", "landing_mission"]) == 0
-    assert (
-        capsys.readouterr().out == "landing_mission: good\n"
-    )  # no note: the bound that it keeps is that of its values
+    assert capsys.readouterr().out == "landing_mission: OK\n"  # no note: the bound that it keeps is that of its values
     (budget,) = (figure for figure in read_figures(prepare_system("landing_mission")) if isinstance(figure, Budget))
     assert set(budget.bound.names) == set(budget.bound.values) == {"landing", "braking", "transfer", "approach"}
     other = prepare_system("landing_mission", SystemOptions(set={"sequencer.redesignation_1[1]": 0.0}))
