@@ -11,6 +11,7 @@ from lxml import html
 
 import perilune
 from perilune.analysis.campaigns.summary import success_interval
+from perilune.analysis.verbs.validate import FileCheck
 from tests.api.test_flights import pictures
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -117,7 +118,7 @@ def test_a_law(tmp_path):
     assert "u1 = " in law.text()
     assert "u1 = " in html.fromstring(law._repr_html_()).text_content()
     law.write_parameters(tmp_path / "law.ssv")
-    assert perilune.validate(tmp_path / "law.ssv") == [{"path": str(tmp_path / "law.ssv"), "problems": [], "notes": []}]
+    assert [*perilune.validate(tmp_path / "law.ssv")] == [FileCheck(str(tmp_path / "law.ssv"), (), ())]
 
 
 def test_plans():

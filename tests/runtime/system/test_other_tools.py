@@ -174,7 +174,7 @@ def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys):
     assert "--open-inputs start" in capsys.readouterr().err
     assert main(["validate", str(path), "--open-inputs", "start"]) == 0
     assert "cross.b: open input, keeps 0.5" in capsys.readouterr().out
-    assert perilune.validate(path, open_inputs="start")[0]["problems"] == []
+    assert perilune.validate(path, open_inputs="start")[0].problems == ()
 
 
 def test_system_options_are_for_systems_and_fmus_alone(tiny, tmp_path, capsys):
