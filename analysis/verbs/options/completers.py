@@ -16,6 +16,7 @@ from ...runtime.ssp.archive import SystemArchive, open_system, system_names
 from ...runtime.ssp.description import Component
 from ...runtime.ssp.reading import read_description
 
+SLOT_TEMPLATES = Path(__file__).parents[2] / "authoring" / "new" / "templates" / "slots"
 Completer = Callable[..., Iterable[str]]
 
 
@@ -76,6 +77,10 @@ def laws(prefix: str, **_: Any) -> list[str]:
 
 def searches(prefix: str, **_: Any) -> list[str]:
     return [*(path.stem for path in SEARCHES.glob("*.toml")), *_paths(prefix, "toml")]
+
+
+def block_slots(prefix: str, **_: Any) -> list[str]:
+    return sorted(path.name.partition(".")[0] for path in SLOT_TEMPLATES.glob("*.py.jinja"))
 
 
 def _system(parsed_args: argparse.Namespace) -> SystemArchive | None:
