@@ -10,7 +10,7 @@ from typing import Any, Literal
 from fmpy.validation import validate_fmu
 
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
-from ..campaigns.spec.toml_table import read_toml
+from ..campaigns.spec.source import read_source_file
 from ..common.errors import InputError
 from ..design.laws.law import read_law
 from ..design.synthesis.synthesis_file import read_synthesis
@@ -86,7 +86,7 @@ def _check(path: str, options: SystemOptions) -> dict[str, Any]:
         elif path.endswith(".json"):
             read_law(Path(path))
         elif path.endswith(".toml"):
-            is_search = SYNTHESIS in read_toml(Path(path)).content
+            is_search = SYNTHESIS in read_source_file(Path(path)).table().content
             (read_synthesis if is_search else read_campaign)(Path(path))
         else:
             variants = [None, *(name for name in open_system(path).variants() if name != DEFAULT_VARIANT)]
