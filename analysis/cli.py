@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import inspect
 import os
-import shutil
 import sys
-import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from types import ModuleType
-from typing import Any, NoReturn
+from typing import NoReturn
 
 import argcomplete
 
@@ -19,58 +18,14 @@ from .common.errors import EndedError, InputError, UnwrittenError, call_by_flags
 from .common.exit_status import ExitStatus
 from .common.process_end import leave
 from .common.streams import steady_streams
-from .examples import EXAMPLES
+from .verbs.options.help import Parser, group_help, overview, verb_help
 from .verbs.options.parsing import add_verb, flags_of, read_parsed
 from .verbs.options.verb import Verb
-from .verbs.options.verbs import VERBS as DECLARED
+from .verbs.options.verbs import GROUPS, OLD, RENAMED, VERBS
 
 HELP_ALL = "--help-all"
-WIDEST = 100  # columns of any output
-VERBS = {
-    "list": "list systems, with parameter sets, campaigns and loops, laws and FMUs",
-    "describe": "say what a system, an FMU or a slot has: connectors, parameters with their values, what fits where",
-    "validate": "check systems, FMUs, parameter sets and campaigns",
-    "compare": "compare the variants of one or several stored batches on the same trials",
-    "law": "print a network operator's law as a formula, or write it as parameter set or drawing",
-    "synthesize": "search for a control law, every candidate flown in its system",
-    "plan": "plan a transfer between hovers, or bound what a landing takes",
-    "benchmark": "time a communication step against other importers",
-    "new": "write a block or a system of your own to start from",
-    "export": "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
-}
-VERBS |= {verb.name: verb.text for verb in DECLARED.values()}
-
-# What exit status 1 means in addition to an interruption.
-FAILURES = {
-    "synthesize": "no law was found with every trial a success",
-    "plan": "there is no such plan, or less propellant on board than it takes",
-}
-
-
-class Formatter(argparse.HelpFormatter):
-    """argparse's own, at most 100 columns wide, which keeps the lines of examples as they are: those with an indent."""
-
-    def __init__(self, prog: str) -> None:
-        super().__init__(prog, max_help_position=32, width=min(shutil.get_terminal_size().columns, WIDEST))
-
-    def _fill_text(self, text: str, width: int, indent: str) -> str:
-        return "\n".join(
-            line
-            if line.startswith(" ")
-            else textwrap.fill(line, width, initial_indent=indent, subsequent_indent=indent)
-            for line in text.splitlines()
-        )
-
-
-class Parser(argparse.ArgumentParser):
-    """argparse with errors on one line and options in full."""
-
-    def __init__(self, **keywords: Any) -> None:
-        super().__init__(**keywords, allow_abbrev=False, formatter_class=Formatter)
-
-    def error(self, message: str) -> NoReturn:
-        place = ": ".join(self.prog.split())
-        self.exit(2, f"{place}: {message}; see {self.prog} --help\n")
+COMPLETING = "COMP_LINE"  # a shell's variable: the line that is being written
+USAGE = "perilune [--help] [--version] VERB ..."
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -85,15 +40,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _carry_out(given: Sequence[str]) -> int:
+    for renamed in (" ".join(given[:2]), *given[:1]):
+        if renamed in RENAMED:
+            print(f"perilune: {renamed}: renamed; write perilune {RENAMED[renamed]}", file=sys.stderr)
+            return ExitStatus.REFUSED
     parser = parser_of(given)
     argcomplete.autocomplete(parser)
-    options = parser.parse_args(given)
-    verb = DECLARED.get(options.verb)
-    flags = flags_of(verb or DECLARED["run"])
+    parsed = parser.parse_args(given)
+    verb = VERBS.get(f"{parsed.verb} {parsed.second}" if parsed.verb in GROUPS else parsed.verb)
+    flags: Mapping[str, str] = flags_of(VERBS["run"] if verb is None else verb)
     try:
-        return _module(options.verb).run(options) if verb is None else carry_out(verb, options)
+        return _module(parsed.verb).run(parsed) if verb is None else carry_out(verb, parsed)
     except InputError as error:
-        print(f"perilune: {error.line(flags)}", file=sys.stderr)
+        for line in error.lines(flags):
+            print(f"perilune: {line}", file=sys.stderr)
         return ExitStatus.REFUSED
     except TimeoutError as error:
         print(f"perilune: {call_by_flags(str(error), flags)}", file=sys.stderr)
@@ -115,42 +75,57 @@ def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
     """Call the function of a verb with what a command line gives, and present its result."""
     arguments, options, files = read_parsed(verb, parsed)
     result = importlib.import_module(".verbs.result", __package__)
-    result.check_files(verb, files)
+    result.check_files(verb, options, files)
     result.report_stale(verb, arguments, options)
     module, function = verb.home
     called = getattr(importlib.import_module(f".verbs.{module}", __package__), function)
+    parameters = inspect.signature(called).parameters.values()
+    several = [each for one in parameters if one.kind is one.VAR_POSITIONAL for each in arguments.pop(one.name)]
     try:
-        outcome = called(**arguments, **options)
+        outcome = called(*several, **arguments, **options)
     except UnwrittenError as error:
-        result.present(error.result, files, flags_of(verb))
+        result.present(verb, error.result, files)
         raise
-    return result.present(outcome, files, flags_of(verb))
-
-
-def exit_status(verb: str) -> str:
-    """What the exit statuses of a verb mean."""
-    not_met = DECLARED[verb].not_met if verb in DECLARED else FAILURES.get(verb)
-    failure = f"{not_met}, or interrupted" if not_met else "interrupted"
-    return f"Exit status: 0: done, and all is met. 1: {failure}. 2: wrong input, or a result could not be written."
+    return result.present(verb, outcome, files)
 
 
 def parser_of(given: Sequence[str]) -> Parser:
     """All verbs by name; only the one that is given has its options read, which is what keeps completion quick."""
-    parser = Parser(prog="perilune", description="Spacecraft guidance, navigation and control as FMI components.")
-    parser.add_argument("--version", action="version", version=f"perilune {version('perilune')}")
-    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB", parser_class=Parser)
-    named = [*given, *os.environ.get("COMP_LINE", "").split()]  # a shell asks with the line that is being written
-    for verb, words in VERBS.items():
-        declared = DECLARED.get(verb)
-        given_examples = EXAMPLES[verb] if declared is None else declared.examples
-        examples = "".join(f"  {command}\n      {comment}\n" for command, comment in given_examples)
-        epilog = f"Examples:\n{examples}\n{exit_status(verb)}"
-        own = verbs.add_parser(verb, help=words, description=words, epilog=epilog)
-        if verb in named and verb in DECLARED:
-            add_verb(own, DECLARED[verb], is_complete=HELP_ALL in named)
-            own.add_argument(HELP_ALL, action="help", help="show the shared options, too")
-        elif verb in named:
-            _module(verb, "asked.").add(own)
+    parser = Parser(prog="perilune", usage=USAGE, description=overview(), add_help=False)
+    parser.add_argument("--help", "-h", action="help", help="show this help")
+    text = f"perilune {version('perilune')}"
+    parser.add_argument("--version", action="version", version=text, help="show the version")
+    named = [*given, *os.environ.get(COMPLETING, "").split()]
+    is_complete = HELP_ALL in named or COMPLETING in os.environ
+    seconds = {}
+    verbs = parser.add_subparsers(
+        dest="verb", required=True, metavar="VERB", prog="perilune", parser_class=Parser, help=argparse.SUPPRESS
+    )
+    for group in GROUPS:
+        usage = f"perilune {group} [--help] VERB ..."
+        added = verbs.add_parser(group, usage=usage, description=group_help(group))
+        seconds[group] = added.add_subparsers(
+            dest="second",
+            required=True,
+            metavar="VERB",
+            prog=f"perilune {group}",
+            parser_class=Parser,
+            help=argparse.SUPPRESS,
+        )
+    for name, verb in VERBS.items():
+        first, _, second = name.partition(" ")
+        own = (seconds[first] if second else verbs).add_parser(
+            second or first, description=verb.text, epilog=verb_help(verb), add_help=False
+        )
+        if first in named and (not second or second in named):
+            add_verb(own, verb, is_complete=is_complete)
+            shown = own.add_argument_group("help")
+            shown.add_argument("--help", "-h", action="help", help="show this help")
+            shown.add_argument(HELP_ALL, action="help", help="show this help with the shared options")
+    for name, words in OLD.items():
+        own = verbs.add_parser(name, description=words)
+        if name in named:
+            _module(name, "asked.").add(own)
     return parser
 
 

@@ -23,6 +23,7 @@ EVERYWHERE = {"analysis/common", "fmus_src/paths"}
 KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
 MOST = 15
 LISTS = {
+    "analysis/verbs",
     "fmus_src/mathlib",
     "tests/mathlib",
     *(f"fmus_src/{kind}" for kind in KINDS),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -39,9 +39,9 @@ class Comparison(comparison.Comparison):
         from pandas import DataFrame
 
         rows = [
-            {"metric": metric, "variant": row.variant, "group": row.group, **values}
+            {"metric": metric, "variant": row.variant, "group": row.group, **asdict(values)}
             for row in summary_rows(self.summary)
-            for metric, values in row.entry["metrics"].items()
+            for metric, values in row.entry.metrics.items()
         ]
         return DataFrame(rows)
 
@@ -71,8 +71,8 @@ class Comparison(comparison.Comparison):
         rates = [
             (
                 *who_cells(row, self.group),
-                str(row.entry["trials"]),
-                *(_percent(row.entry["rates"][name]) for name in names),
+                str(row.entry.trials),
+                *(comparison.rate_text(row.entry.rates[name], short_percent) for name in names),
             )
             for row in rows
         ]
@@ -96,8 +96,3 @@ def compare(*results: FilePath | Sequence[FilePath], reference: str | None = Non
     if not folders:
         raise InputError("compare", "", "no folder of results", "name what batch(..., output=...) wrote")
     return Comparison(**vars(side_by_side(folders, reference)))
-
-
-def _percent(rate: dict[str, Any]) -> str:
-    low, high = map(short_percent, rate["interval"])
-    return f"{short_percent(rate['rate'])} ({low} to {high})"

@@ -34,8 +34,17 @@ class InputError(ValueError):
 
     def line(self, flags: Mapping[str, str]) -> str:
         """The error in one line, each parameter called as ``flags`` say, or by its name."""
+        return call_by_flags(self.text, flags)
+
+    def lines(self, flags: Mapping[str, str]) -> list[str]:
+        """What the command line prints: one line, of `InputErrors` one for each."""
+        return [self.line(flags)]
+
+    @property
+    def text(self) -> str:
+        """The error in one line, parameters between backquotes."""
         location = ": ".join(part for part in (self.file, self.element, self.problem) if part)
-        return " ".join(call_by_flags(f"{location}; {self.remedy}", flags).split())
+        return " ".join(f"{location}; {self.remedy}".split())
 
 
 def call_by_flags(text: str, flags: Mapping[str, str]) -> str:

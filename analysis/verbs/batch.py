@@ -42,7 +42,7 @@ class BatchResult(results.BatchResult):
     requirements: tuple[Expression, ...] = ()
 
     def __repr__(self) -> str:
-        rates = ", ".join(f"{name} {short_percent(entry['success_rate'])} %" for name, entry in self.summary.items())
+        rates = ", ".join(f"{name} {short_percent(entry.success_rate)} %" for name, entry in self.summary.items())
         return f"{type(self).__name__}({self.provenance['system']}, {self.plan.campaign.trials} trials: {rates})"
 
     def to_json(self) -> dict[str, Any]:
@@ -104,10 +104,10 @@ class BatchResult(results.BatchResult):
         rates = [
             (
                 *who_cells(row, group),
-                str(row.entry["trials"]),
-                short_percent(row.entry["success_rate"]),
-                " to ".join(short_percent(end) for end in row.entry["success_interval"]),
-                ", ".join(f"{count} {status}" for status, count in row.entry["statuses"].items()),
+                str(row.entry.trials),
+                short_percent(row.entry.success_rate),
+                " to ".join(short_percent(end) for end in row.entry.success_interval),
+                ", ".join(f"{count} {status}" for status, count in row.entry.statuses.items()),
             )
             for row in rows
         ]
@@ -121,7 +121,7 @@ class BatchResult(results.BatchResult):
 
     def _requirement_grid(self) -> Grid:
         rows = [
-            (f"{name}: {entry['text']}", variant, entry["verdict"], str(entry["flights"]), str(entry["failures"]))
+            (f"{name}: {entry.text}", variant, entry.verdict, str(entry.flights), str(entry.failures))
             for variant, name, entry in requirement_rows(self.summary)
         ]
         return Grid(("requirement", "variant", "verdict", "flights", "failures"), rows)

@@ -10,21 +10,23 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ..common.atomic import write_atomically
-from ..common.errors import call_by_flags
+from ..common.errors import InputError, call_by_flags
 from ..common.exit_status import ExitStatus
 from ..common.targets import Results, check_file, check_folder
 from ..runtime.system.options import system_options
 from ..runtime.system.stale import stale_fmus
 from .options.option import defaults_of, options_of
+from .options.parsing import flags_of
 from .options.verb import Verb
 
 STANDARD_OUTPUT = "-"
 
 
 class VerbResult(Protocol):
-    """The result of a verb. It may have ``report(path)`` and ``write(path)``, for the files of its verb.
+    """The result of a verb.
 
-    It may also have a ``folder``, in which it is stored already.
+    It may have ``report(path)``, ``write(path)`` and other methods that write the files of its verb; a ``folder`` in
+    which it is stored already; and ``problem_status``, the exit status of problems where it is not 1.
     """
 
     def lines(self) -> Sequence[str]:
@@ -37,16 +39,18 @@ class VerbResult(Protocol):
         """Requirements that are not met and simulations that did not complete: a line each, exit status 1."""
 
 
-WRITERS = {
-    "report": "report",
-    "output": "write",
-    "graph": "write_graph",
-}  # of a result, by the option that names a file
+WRITERS = {"report": "report", "output": "write"}  # of a result, by the option of a file that does not name another
 
 
-def check_files(verb: Verb, files: Mapping[str, Any]) -> None:
-    """Refuse files that cannot be written, before anything is simulated. Raises InputError."""
+def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]) -> None:
+    """Refuse files that cannot be written, and options without their file, before any work. Raises InputError."""
     declared = options_of(verb.files)
+    for name, value in options.items():
+        needed = options_of(verb.options)[name].option.needs
+        if needed and files.get(needed) is None:
+            raise InputError(
+                f"`{name}`", str(value), f"without effect unless `{needed}` is given", "give both or neither"
+            )
     for name, path in files.items():
         if path is not None and str(path) != STANDARD_OUTPUT:
             option = declared[name].option
@@ -66,12 +70,9 @@ def report_stale(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str,
         print(f"perilune: {line}", file=sys.stderr)
 
 
-def present(result: VerbResult, files: Mapping[str, Any], flags: Mapping[str, str]) -> ExitStatus:
-    """Print a result or its JSON document, write its files, report its problems; the exit status of the command.
-
-    ``flags`` are what the verb's parameters are called on the command line.
-    """
-    written = Results()
+def present(verb: Verb, result: VerbResult, files: Mapping[str, Any]) -> ExitStatus:
+    """Print a result or its JSON document, write its files, report its problems; the exit status of the command."""
+    written, declared, flags = Results(), options_of(verb.files), flags_of(verb)
     written.written += [folder] if (folder := getattr(result, "folder", None)) is not None else []
     target = files.get("json")
     if target == STANDARD_OUTPUT:
@@ -79,11 +80,11 @@ def present(result: VerbResult, files: Mapping[str, Any], flags: Mapping[str, st
     else:
         if target is not None:
             written.write(Path(target), lambda path: write_atomically(path, _json_text(result).encode()))
-        else:
-            print(call_by_flags("\n".join(result.lines()), flags))
+        print(call_by_flags("\n".join(result.lines()), flags))
     for name, path in files.items():
-        if name in WRITERS and path is not None:
-            written.write(Path(path), partial(_call, result, WRITERS[name]))
+        writer = declared[name].option.writer or WRITERS.get(name)
+        if writer and path is not None:
+            written.write(Path(path), partial(_call, result, writer))
     if target != STANDARD_OUTPUT:
         written.say()
     problems = result.problems()
@@ -91,7 +92,7 @@ def present(result: VerbResult, files: Mapping[str, Any], flags: Mapping[str, st
         print(f"perilune: {call_by_flags(line, flags)}", file=sys.stderr)
     if written.failed:
         return ExitStatus.REFUSED
-    return ExitStatus.NOT_MET if problems else ExitStatus.MET
+    return getattr(result, "problem_status", ExitStatus.NOT_MET) if problems else ExitStatus.MET
 
 
 def _json_text(result: VerbResult) -> str:

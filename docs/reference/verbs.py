@@ -5,52 +5,43 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from perilune.analysis.cli import VERBS, exit_status, parser_of
-from perilune.analysis.examples import EXAMPLES
+from perilune.analysis.cli import HELP_ALL, parser_of
+from perilune.analysis.verbs.options.help import exit_status
+from perilune.analysis.verbs.options.verbs import VERBS
 
 from .markdown import escaped, table
 
 
 def verbs_page() -> str:
-    """Markdown of all verbs, to lie in reference."""
+    """Markdown of all verbs, to be stored in reference."""
+    rows = [[f"[{name}](#{name.replace(' ', '-')})", escaped(verb.text)] for name, verb in VERBS.items()]
     parts = [
         "# Verbs",
-        "What `perilune VERB --help` prints. [The command line](../command_line.md) says how options work together.",
-        table(["verb", "what it does"], [[f"[{verb}](#{verb})", escaped(words)] for verb, words in VERBS.items()]),
+        "What `perilune VERB --help-all` prints. [The command line](../command_line.md) says how options go together.",
+        table(["verb", "what it does"], rows),
     ]
-    for verb, words in VERBS.items():
-        parser = _verb_parser(verb)
-        examples = "\n".join(f"# {comment}\n{command}" for command, comment in EXAMPLES.get(verb, ()))
-        parts += [f"## {verb}", escaped(words[0].upper() + words[1:]) + "."]
-        parts += [f"```sh\n{examples}\n```"] if examples else []
-        parts += list(_options(parser))
-        parts.append(exit_status(verb))
+    for name, verb in VERBS.items():
+        examples = "\n".join(f"# {comment}\n{command}" for command, comment in verb.examples)
+        parts += [f"## {name}", escaped(verb.text[0].upper() + verb.text[1:]) + ".", f"```sh\n{examples}\n```"]
+        parts += [*_options(verb_parser(name)), exit_status(verb)]
     return "\n\n".join(parts) + "\n"
 
 
-def _verb_parser(verb: str) -> argparse.ArgumentParser:
-    return _sub_parsers(parser_of([verb]))[verb]
-
-
-def _sub_parsers(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
-    for action in parser._actions:
-        if isinstance(action, argparse._SubParsersAction):
-            return dict(action.choices)
-    return {}
+def verb_parser(name: str) -> argparse.ArgumentParser:
+    """The parser of a verb, with all options explained."""
+    parser: argparse.ArgumentParser = parser_of([*name.split(), HELP_ALL])
+    for word in name.split():
+        (choices,) = (each.choices for each in parser._actions if isinstance(each, argparse._SubParsersAction))
+        parser = choices[word]
+    return parser
 
 
 def _options(parser: argparse.ArgumentParser) -> Iterator[str]:
-    """A table for each group of options; those of its own verbs after them."""
-    own = _sub_parsers(parser)
+    """A table for each group of options."""
     for group in parser._action_groups:
-        shown = [action for action in group._group_actions if action.help != argparse.SUPPRESS and not own]
-        rows = [[_name(action), escaped(_help(action))] for action in shown if action.dest != "help"]
-        if rows:
-            yield table([(group.title or "").replace("positional ", ""), ""], rows)
-    for name, inner in own.items():
-        yield f"### {parser.prog.split()[-1]} {name}"
-        yield escaped((inner.description or "")[:1].upper() + (inner.description or "")[1:]) + "."
-        yield from _options(inner)
+        rows = [[_name(action), escaped(action.help or "")] for action in group._group_actions]
+        if rows and group.title != "help":
+            yield table([group.title or "", ""], rows)
 
 
 def _name(action: argparse.Action) -> str:
@@ -60,10 +51,3 @@ def _name(action: argparse.Action) -> str:
         return f"`{metavar}`"
     option = ", ".join(action.option_strings)
     return f"`{option}`" if action.nargs == 0 else f"`{option} {metavar}`"
-
-
-def _help(action: argparse.Action) -> str:
-    text = action.help or ""
-    if isinstance(action, argparse._AppendAction):
-        text += "; may be repeated"
-    return text

@@ -106,12 +106,12 @@ def test_batches_and_comparisons_take_names_and_lists(tmp_path):
         batch.trials["default"].metrics["total"],
     )
     checked = perilune.validate([system, str(tmp_path / "sum.toml")])
-    assert [row["path"] for row in checked] == [system, str(tmp_path / "sum.toml")]
-    assert not any(row["problems"] for row in checked)
+    assert [check.path for check in checked] == [system, str(tmp_path / "sum.toml")]
+    assert not checked.problems()
 
 
 def test_a_law_is_written_to_a_file_by_its_name(tmp_path):
-    name = perilune.inventory()["laws"][0]
+    name = perilune.inventory().laws[0]
     perilune.law(name).write(str(tmp_path / "law.json"))
     assert perilune.law(tmp_path / "law.json").matrix == perilune.law(name).matrix
     assert Path(tmp_path / "law.json").is_file()

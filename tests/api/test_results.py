@@ -11,6 +11,7 @@ from lxml import html
 
 import perilune
 from perilune.analysis.campaigns.summary import success_interval
+from perilune.analysis.verbs.validate import FileCheck
 from tests.api.test_flights import pictures
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -40,9 +41,9 @@ def test_a_batch_as_a_table(batch):
     assert len(table) == TRIALS * len(COMPARED)
     for name in COMPARED:
         own = table[table["variant"] == name]
-        assert own["success"].mean() == batch.summary[name]["success_rate"]
+        assert own["success"].mean() == batch.summary[name].success_rate
         good = own[own["success"]]["metric.position_error"]
-        assert np.mean(good) == pytest.approx(batch.summary[name]["metrics"]["position_error"]["mean"], rel=1e-12)
+        assert np.mean(good) == pytest.approx(batch.summary[name].metrics["position_error"].mean, rel=1e-12)
     assert repr(batch).startswith("BatchResult(lunar_terminal_guidance, 40 trials: analytic_guidance 100 %")
 
 
@@ -117,7 +118,7 @@ def test_a_law(tmp_path):
     assert "u1 = " in law.text()
     assert "u1 = " in html.fromstring(law._repr_html_()).text_content()
     law.write_parameters(tmp_path / "law.ssv")
-    assert perilune.validate(tmp_path / "law.ssv") == [{"path": str(tmp_path / "law.ssv"), "problems": [], "notes": []}]
+    assert [*perilune.validate(tmp_path / "law.ssv")] == [FileCheck(str(tmp_path / "law.ssv"), (), ())]
 
 
 def test_plans():

@@ -13,7 +13,7 @@ from scipy.stats import beta
 
 import perilune
 from perilune.analysis.campaigns.statistics import STATISTICS
-from perilune.analysis.cli import VERBS, main
+from perilune.analysis.cli import main
 from perilune.fmus_src.paths import SYSTEMS
 from tests.support.pages.checks import assert_self_contained, data_values, text_of
 
@@ -38,11 +38,6 @@ def folders(fmus, tmp_path_factory):
     for name, parameters in (("ideal", ()), ("noisy", ("noisy.ssv",))):
         perilune.batch(SYSTEM, str(base / "c.toml"), trials=16, workers=1, parameters=parameters, output=base / name)
     return base / "ideal", base / "noisy"
-
-
-def test_the_verb_is_there_beside_the_others():
-    assert "compare" in VERBS
-    assert len(set(VERBS)) == len(VERBS)
 
 
 def test_table_on_the_console(folders, capsys):

@@ -13,11 +13,13 @@ from dataclasses import replace
 
 import pytest
 
-from perilune.analysis.cli import FAILURES, VERBS, main
+from perilune.analysis.cli import main
+from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.fmus_src.paths import ROOT, SYSTEMS
 from tests.support.loops.exact_systems import late_double_integrator
 
 SYSTEM = "lunar_terminal_guidance"
+FAILURES = {name: verb.not_met for name, verb in VERBS.items() if verb.not_met}
 ONE = f"{SYSTEM} --campaign paper --compare guidance=analytic_guidance --workers 1"
 FAILING = "--fault guidance.thrust_acceleration=override:1e308@1"  # every flight gives infinity
 STUDY = f"{ONE} --samples 100"
@@ -140,12 +142,11 @@ def test_the_status_of_a_command(command, status, folder, tmp_path, monkeypatch,
 
 
 def test_the_table_has_every_verb_with_every_status_that_it_can_end_with():
-    seen = {(command.split()[0], status) for command, status in ROWS}
+    seen = {(verb, status) for command, status in ROWS for verb in VERBS if f"{command} ".startswith(f"{verb} ")}
     for verb in VERBS:
         can = {0, 2} | ({1} if verb in FAILURES else set())
         left_out = {0, 1} if verb in ELSEWHERE else set()
         assert {status for name, status in seen if name == verb} | left_out >= can, verb
-    assert set(FAILURES) <= set(VERBS)
 
 
 def test_the_docs_say_the_same_of_each_verb():
@@ -160,7 +161,7 @@ def test_the_docs_say_the_same_of_each_verb():
 @pytest.mark.parametrize("verb", VERBS)
 def test_the_help_of_a_verb(verb, capsys):
     with pytest.raises(SystemExit) as stop:
-        main([verb, "--help"])
+        main([*verb.split(), "--help"])
     assert stop.value.code == 0
     words = " ".join(capsys.readouterr().out.split())
     one = f"{FAILURES[verb]}, or interrupted" if verb in FAILURES else "interrupted"

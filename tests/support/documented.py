@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Iterator
 from pathlib import Path
 
-from perilune.analysis.examples import EXAMPLES
+from perilune.analysis.verbs.options.verbs import VERBS
 from perilune.fmus_src.paths import ROOT
 
 BLOCK = re.compile(r"^```(sh|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
@@ -31,7 +31,7 @@ def commands_in(text: str) -> list[str]:
 def documented() -> dict[str, list[str]]:
     """All commands by where they stand: a page's path, or ``VERB --help``."""
     found = {path.relative_to(ROOT).as_posix(): commands_in(path.read_text(encoding="utf-8")) for path in PAGES}
-    found |= {f"{verb} --help": [command for command, _ in examples] for verb, examples in EXAMPLES.items()}
+    found |= {f"{name} --help": [command for command, _ in verb.examples] for name, verb in VERBS.items()}
     return {place: commands for place, commands in found.items() if commands}
 
 

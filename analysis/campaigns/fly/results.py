@@ -13,10 +13,10 @@ from typing import Any
 import pyarrow
 
 from ...common.atomic import write_atomically
+from ...common.to_json import to_json
 from ..plotted_sample import Shown, shown
-from ..requirement_verdicts import add_verdicts
 from ..spec.plan import BatchPlan
-from ..summary import summarise
+from ..summary import Summary, summarise
 from ..tables import assumption_lines, faults_line, summary_text
 from ..trials import Trials
 from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
@@ -33,7 +33,7 @@ class BatchResult:
 
     plan: BatchPlan
     rows: Mapping[str, FlownRows]
-    summary: dict[str, Any]
+    summary: Summary
     provenance: dict[str, Any]
     folder: Path | None = None
 
@@ -56,7 +56,7 @@ class BatchResult:
 
     def document(self) -> dict[str, Any]:
         """The machine-readable result: provenance and the summary of each variant."""
-        return {**self.provenance, "variants": self.summary}
+        return {**self.provenance, "variants": to_json(self.summary)}
 
     def text(self) -> str:
         """The summary for a terminal."""
@@ -96,6 +96,13 @@ def make_result(
     plan: BatchPlan, rows: Mapping[str, FlownRows], provenance: dict[str, Any], folder: Path | None = None
 ) -> BatchResult:
     """The result with its summary; ``rows`` by variant, each in order of trial."""
-    summary = summarise(rows, plan.campaign.metrics, plan.groups, plan.campaign.group or "")
-    add_verdicts(summary, plan.campaign.requirements, rows, plan.until_decided)
+    campaign = plan.campaign
+    summary = summarise(
+        rows,
+        campaign.metrics,
+        plan.groups,
+        campaign.group or "",
+        requirements=campaign.requirements,
+        until_decided=plan.until_decided,
+    )
     return BatchResult(plan, rows, summary, provenance, folder)

@@ -32,10 +32,11 @@ class Option:
     """What is said of an option; its name is the key that it annotates.
 
     ``default`` holds where the option is not given; a mutable one is an empty constant. ``flag`` is the name on the
-    command line where it differs: the singular of an option that may be repeated. ``above`` and ``minimum`` bound a
-    number. ``completer`` names a function of `completers`. ``comma`` reads several values from one text, with commas
-    between; ``suffixes`` are those that a file may have,
-    ``is_folder`` says that it is a folder.
+    command line where it differs: the singular of an option that may be repeated. ``above``, ``minimum`` and
+    ``maximum`` bound a number. ``completer`` names a function of `completers`. ``comma`` reads several values from one
+    text, with commas between. ``needs`` names the option of a file without which it would have no effect on the command
+    line. Of a file, ``suffixes`` are those that it may have, ``is_folder`` says that it is a folder, and ``writer`` is
+    the method of the result that writes it.
     """
 
     text: str
@@ -45,9 +46,12 @@ class Option:
     flag: str = ""
     above: float | None = None
     minimum: float | None = None
+    maximum: float | None = None
     completer: str = ""
     comma: bool = False
+    needs: str = ""
     suffixes: tuple[str, ...] = ()
+    writer: str = ""
     is_folder: bool = False
     form: str = field(default="NAME=VALUE")  # of an option with pairs
 

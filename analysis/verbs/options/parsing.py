@@ -16,13 +16,14 @@ from .verb import Argument, Verb
 def add_verb(parser: argparse.ArgumentParser, verb: Verb, is_complete: bool) -> None:
     """Add a verb's arguments and options: its own first; shared ones are explained where ``is_complete``."""
     parser.usage = f"{parser.prog} {' '.join(map(_usage, verb.arguments))} [OPTION ...]".replace("  ", " ")
+    arguments = parser.add_argument_group("arguments")
     for argument in verb.arguments:
-        _add_argument(parser, argument)
+        _add_argument(arguments, argument)
     options = [*options_of(verb.options).values(), *options_of(verb.files).values()]
     shared = {name: title for title, group in SHARED.items() for name in options_of(group)}
     sections: dict[str, list[Declared]] = {}
     for each in sorted(options, key=lambda each: each.name in shared):
-        sections.setdefault(shared.get(each.name, "options of this verb"), []).append(each)
+        sections.setdefault(shared.get(each.name, "options"), []).append(each)
     for title, members in sections.items():
         is_explained = is_complete or title not in SHARED
         names = " ".join(f"--{each.flag}" for each in members)
@@ -37,7 +38,7 @@ def _usage(argument: Argument) -> str:
     return f"[{argument.metavar}]" if argument.optional else f"{argument.metavar}{' ...' if argument.many else ''}"
 
 
-def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
+def _add_argument(parser: argparse._ArgumentGroup, argument: Argument) -> None:
     keywords: dict[str, Any] = {"metavar": argument.metavar, "help": argument.text}
     if argument.is_option:
         action = parser.add_argument(f"--{argument.name}", required=not argument.optional, **keywords)

@@ -66,5 +66,15 @@ STABILITY = Verb(
     (SYSTEM,),
     StabilityOptions,
     StabilityFiles,
+    (
+        (
+            "perilune stability robot_rendezvous --loop attitude --parameters paper.ssv --report stability.html",
+            "one of the loops that the system declares",
+        ),
+        (
+            "perilune stability lunar_terminal_guidance --loop guidance.thrust_acceleration --at 20",
+            "a loop broken at one connector, in a system that declares none",
+        ),
+    ),
     not_met="a requirement is not met or withheld, or something could not be studied",
 )

@@ -83,6 +83,18 @@ RARE = Verb(
     (SYSTEM, CAMPAIGN),
     RareOptions,
     ReportFiles,
+    (
+        (
+            "perilune rare lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--failure 'flight_time > 220' --samples 500 --output long_flights",
+            "the probability of a long flight, from few simulations a level",
+        ),
+        (
+            "perilune batch lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--draws long_flights/failures.parquet",
+            "the most probable long flights, simulated again",
+        ),
+    ),
     not_met="a --require is not met",
 )
 WORST = Verb(
@@ -93,6 +105,13 @@ WORST = Verb(
     (SYSTEM, CAMPAIGN),
     WorstOptions,
     ReportFiles,
+    (
+        (
+            "perilune worst lunar_terminal_guidance --campaign paper --compare guidance=analytic_guidance "
+            "--metric flight_time --flights 600 --output longest",
+            "the longest flight within the search box",
+        ),
+    ),
     not_met="a --require is not met",
 )
 SENSITIVITY = Verb(

@@ -45,6 +45,8 @@ def check_number(declared: Declared, value: float | int, text: str = "") -> floa
         raise InputError(f"`{declared.name}`", text, f"not above {option.above:g}", "give a larger number")
     if option.minimum is not None and value < option.minimum:
         raise InputError(f"`{declared.name}`", text, f"below {option.minimum:g}", f"give {option.minimum:g} or more")
+    if option.maximum is not None and value > option.maximum:
+        raise InputError(f"`{declared.name}`", text, f"above {option.maximum:g}", f"give {option.maximum:g} or less")
     return value
 
 
@@ -83,14 +85,21 @@ def check_value(declared: Declared, value: Any) -> Any:
             raise InputError(
                 f"`{declared.name}`", text, "one name where a list is meant", f'give {declared.name}=["{text}"]'
             )
+        for each in value if declared.choices else ():
+            _check_choice(declared, each)
         return tuple(value)
     if declared.kind is Kind.PAIRS and isinstance(value, Mapping):
         return dict(value)
-    if declared.choices and value not in declared.choices:
-        raise InputError(f"`{declared.name}`", str(value), "no such choice", suggestion(str(value), declared.choices))
+    if declared.choices:
+        _check_choice(declared, value)
     if declared.kind in (Kind.NUMBER, Kind.INTEGER) and isinstance(value, int | float):
         return check_number(declared, value)
     return value
+
+
+def _check_choice(declared: Declared, value: Any) -> None:
+    if value not in declared.choices:
+        raise InputError(f"`{declared.name}`", str(value), "no such choice", suggestion(str(value), declared.choices))
 
 
 def value_texts(declared: Declared, value: Any) -> list[str]:

@@ -63,7 +63,7 @@ def test_what_does_not_fly(tiny_folder, tmp_path, change, expected):
     with pytest.raises(InputError) as error:
         perilune.simulate(path)
     assert str(error.value).startswith(f"{path}{expected}")
-    assert perilune.validate(path)[0]["problems"] == [str(error.value)]
+    assert perilune.validate(path)[0].problems == (str(error.value),)
 
 
 @pytest.mark.parametrize(

@@ -174,7 +174,7 @@ def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys):
     assert "--open-inputs start" in capsys.readouterr().err
     assert main(["validate", str(path), "--open-inputs", "start"]) == 0
     assert "cross.b: open input, keeps 0.5" in capsys.readouterr().out
-    assert perilune.validate(path, open_inputs="start")[0]["problems"] == []
+    assert perilune.validate(path, open_inputs="start")[0].problems == ()
 
 
 def test_system_options_are_for_systems_and_fmus_alone(tiny, tmp_path, capsys):
@@ -193,7 +193,7 @@ def test_a_campaign_may_name_the_file_of_its_system(tiny, tmp_path):
         'system = "s.ssp"\ntrials = 2\nseed = 1\n\n[success]\nexpression = "out > 0"\n\n'
         '[metric.out]\nexpression = "gain.y"\nreduction = "final"\n'
     )
-    assert perilune.batch(path, campaign, workers=1).summary["default"]["success_rate"] == 1.0
+    assert perilune.batch(path, campaign, workers=1).summary["default"].success_rate == 1.0
 
 
 def test_a_step_that_does_not_advance_time(tiny, tmp_path):

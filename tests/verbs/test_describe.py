@@ -41,7 +41,7 @@ def test_values_come_with_the_line_that_gives_them(described):
         c for c in described(SYSTEM, "--set", "guidance.gravity=1.6")["components"] if c["name"] == "guidance"
     ]
     values = {row["name"]: (row["value"], row["from"], row["unit"]) for row in guidance["variables"]}
-    assert values["gravity"] == (1.6, "--set", "m/s2")
+    assert values["gravity"] == (1.6, "`set`", "m/s2")
     value, origin, _ = values["target_position"]
     for index, line in enumerate(range(*_stretch(origin))):
         given = (SYSTEMS / SYSTEM / origin.split()[0]).read_text().splitlines()[line - 1]

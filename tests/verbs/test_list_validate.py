@@ -40,7 +40,7 @@ def test_everything_of_ours_is_valid(capsys):
     assert main(["validate", *paths]) == 0
     captured = capsys.readouterr()
     assert captured.err == ""
-    assert captured.out.count(": good\n") == len(paths)
+    assert captured.out.count(": OK\n") == len(paths)
 
 
 def test_notes_of_a_system(tiny_folder, tmp_path, capsys):
@@ -70,7 +70,7 @@ def test_every_problem_has_its_line(tiny_folder, tmp_path, capsys, monkeypatch):
     names = ["good.ssv", "bad.ssv", "bad.fmu", "bad.toml", "odd.fmu", "gone.ssv", "gone.toml", "gone.fmu", "gone"]
     assert main(["validate", *names, "--strict"]) == 2
     captured = capsys.readouterr()
-    assert captured.out == "good.ssv: good\nodd.fmu: note: the FMU proposes no stop time: 1 s taken\n"
+    assert captured.out == "good.ssv: OK\nodd.fmu: note: the FMU proposes no stop time: 1 s taken\n"
     lines = captured.err.splitlines()
     assert len(lines) == 8, captured.err
     for name, line in zip(names[1:], lines, strict=True):

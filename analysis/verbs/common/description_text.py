@@ -1,0 +1,128 @@
+"""What `perilune describe` prints of a system, a component, an FMU or a slot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ...authoring.describe.variables import of_causality
+from ...runtime.system.order.feedthrough import Origin
+from .text import text_table, wrap
+
+LONGEST_LIST = 60  # characters of a list of values, beyond which it is cut
+INDENT = 16  # of what goes with a title
+
+
+def description_lines(document: Mapping[str, Any]) -> list[str]:
+    """The lines of a description, by what it is of."""
+    if "components" in document:
+        return _system_lines(document)
+    if "slot" in document:
+        title = f"{document['slot']} ({document['interface']}): {document['description']}"
+        fmus = text_table([[f"  {name}", text] for name, text in document["fmus"].items()])
+        lines = [*wrap(title, 4), "FMUs", *fmus]
+    elif "fits" in document:
+        compatible = ", ".join(document["fits"]) or "none of this repository"
+        lines = [
+            *wrap(f"{document['name']}: {document['fmu']}, {document['description']}", 4),
+            *wrap(f"compatible FMUs {compatible}", INDENT),
+            f"feedthrough     {_feedthrough(document)}",
+            *_connection_lines(document),
+        ]
+    else:
+        lines = _fmu_lines(document)
+    return lines + _variable_lines(document["variables"])
+
+
+def _fmu_lines(document: Mapping[str, Any]) -> list[str]:
+    alone = document["alone"]
+    times = f"{alone['start_time']:g} s to {alone['stop_time']:g} s in steps of {alone['step']:g} s"
+    undeclared = []
+    if document["undeclared_outputs"]:
+        outputs = ", ".join(document["undeclared_outputs"])
+        text = f"feedthrough     not declared of {outputs}: assumed none in a system, unless --feedthrough says so"
+        undeclared = wrap(text, INDENT)
+    return [
+        *wrap(f"{document['fmu']}: {document['description']}", 4),
+        *undeclared,
+        *wrap(f"stand-alone     as {alone['component']}, {times}: perilune run {document['file']}", INDENT),
+    ]
+
+
+def _system_lines(document: Mapping[str, Any]) -> list[str]:
+    times = f"{document['step']:g} s to {document['stop_time']:g} s"
+    lines = wrap(f"{document['system']}: {document['file']}, {times}", 4)
+    for title in ("parameter_sets", "campaigns", "loops"):
+        lines += wrap(f"{title.replace('_', ' '):{INDENT}}{', '.join(document[title]) or 'none'}", INDENT)
+    if document["connectors"]:
+        connectors = ", ".join(f"{each['name']} ({each['kind']})" for each in document["connectors"])
+        lines += wrap(f"{'connectors':{INDENT}}{connectors}", INDENT)
+    components = document["components"]
+    lines.append("components (perilune describe SYSTEM COMPONENT: all that one has)")
+    lines += text_table([[f"  {each['name']}", each["fmu"], each["description"]] for each in components])
+    lines.append("compatible FMUs, for --use COMPONENT=FMU")
+    lines += text_table([[f"  {each['name']}", ", ".join(each["fits"])] for each in components if each["fits"]])
+    lines += _connection_lines(document)
+    settled = [each for each in components if each["feedthrough_origin"] != Origin.FMU]
+    if settled:
+        lines.append("feedthrough that is not as the FMU declares it")
+        lines += text_table([[f"  {each['name']}", _feedthrough(each)] for each in settled])
+        lines += [line for cut in document["cut_at_start"] for line in wrap(f"  {cut}: a loop, cut at the start", 4)]
+    overridden = [
+        [f"  {each['name']}.{row['name']}", _value(row), row["unit"] or "", row["from"]]
+        for each in components
+        for row in each["variables"]
+        if row["from"]
+    ]
+    return [*lines, "overridden values", *text_table(overridden or [["  none"]])]
+
+
+def _feedthrough(component: Mapping[str, Any]) -> str:
+    """Whether outputs depend directly on inputs, with where that comes from."""
+    return f"{'direct' if component['feedthrough'] else 'none'}, {component['feedthrough_origin']}"
+
+
+def _connection_lines(document: Mapping[str, Any]) -> list[str]:
+    connected: dict[tuple[str, str], list[str]] = {}
+    for row in document["connections"]:
+        size = f"[{row['elements']}]" if row["elements"] > 1 else ""
+        name = row["output"] if row["output"] == row["input"] else f"{row['output']} as {row['input']}"
+        ends = (row["from"] or document["system"], row["to"] or document["system"])
+        connected.setdefault(ends, []).append(name + size)
+    rows = [[f"  {source}", f"-> {target}", ", ".join(names)] for (source, target), names in connected.items()]
+    return ["connections", *text_table(rows)]
+
+
+def _variable_lines(rows: list[dict[str, Any]]) -> list[str]:
+    lines = []
+    for title, causality in (("inputs", "input"), ("outputs", "output"), ("parameters", "parameter")):
+        chosen = [
+            [f"  {row['name']}{_size(row)}", _value(row), row["unit"] or "", row["from"] or "", row["description"]]
+            for row in of_causality(rows, causality)
+        ]
+        lines += [title, *text_table(chosen)] if chosen else []
+    return lines
+
+
+def _size(row: Mapping[str, Any]) -> str:
+    if row["size"] == 1:
+        return ""
+    return str(row["size"]) if isinstance(row["size"], list) else f"[{row['size']}]"
+
+
+def _value(row: Mapping[str, Any]) -> str:
+    value = row["value"]
+    if value is None:
+        return ""
+    if not isinstance(value, list):
+        return _plain(value)
+    if all(entry == value[0] for entry in value):
+        return f"all {_plain(value[0])}" if value[0] is not None else ""
+    text = ", ".join(_plain(entry) for entry in value)
+    return text if len(text) <= LONGEST_LIST else text[:LONGEST_LIST].rpartition(",")[0] + ", ..."
+
+
+def _plain(value: Any) -> str:
+    return (
+        f"{value:.10g}" if isinstance(value, float) else str(value).lower() if isinstance(value, bool) else str(value)
+    )

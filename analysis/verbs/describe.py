@@ -1,0 +1,111 @@
+"""`perilune.describe` and `perilune describe`: what a system, an FMU or a slot has."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Unpack
+
+from ...fmus_src.catalogue import catalogue
+from ...fmus_src.export.available import fmu_flavours
+from ..authoring.describe.fits import blocks_of_slot, slots
+from ..authoring.describe.system import describe_system
+from ..authoring.describe.variables import variables_of
+from ..common.errors import InputError, suggestion
+from ..runtime.ssp.archive import system_names
+from ..runtime.system.alone import describe_alone
+from ..runtime.system.fmu import load_fmu
+from ..runtime.system.options import SystemOptions as System
+from ..runtime.system.options import system_options
+from ..runtime.system.prepared import find_fmu, prepare_system
+from .common.description_text import description_lines
+from .options.looking import DESCRIBE
+from .options.option import FilePath
+from .options.system import SystemOptions
+from .options.verb import verb
+
+
+class Description(dict[str, Any]):
+    """What a system, an FMU, a component or a slot has, by key; see `describe`."""
+
+    def lines(self) -> list[str]:
+        """What `perilune describe` prints."""
+        return description_lines(self)
+
+    def to_json(self) -> dict[str, Any]:
+        """The same for other programs."""
+        return dict(self)
+
+    def problems(self) -> list[str]:
+        """None."""
+        return []
+
+
+@verb(DESCRIBE)
+def describe(what: FilePath, component: str | None = None, **options: Unpack[SystemOptions]) -> Description:
+    """Describe a system, an FMU or a slot: `perilune describe`, as a dictionary.
+
+    ``what`` is a system, an FMU by name or file, or an interface by name; ``component`` one of a system, with all its
+    variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, loops; of an FMU
+    or a component ``variables``, and how an FMU is simulated ``alone`` (s); of a slot ``fmus`` too. A component says
+    whether its outputs are treated as direct functions of inputs (``feedthrough``) and where that comes from; an FMU
+    lists the outputs that it does not declare it of. The options are those of `simulate`. Raises InputError.
+    """
+    name, system = os.fspath(what), system_options(options)
+    if name.endswith(".fmu") or name in catalogue() or name in fmu_flavours():
+        if component is not None:
+            raise InputError("describe", component, "an FMU has no components", "name a system before it")
+        return _describe_fmu(name, system)
+    if name in slots():
+        return _describe_slot(name)
+    if name in system_names() or Path(name).exists():
+        return _describe_system(name, component, system)
+    known = [*system_names(), *slots(), *catalogue()]
+    raise InputError("describe", name, "no system, FMU or slot of this name", suggestion(name, known))
+
+
+def _describe_fmu(name: str, options: System) -> Description:
+    data, label = find_fmu(name, options.flavour, "describe")
+    fmu = load_fmu(data, label)
+    alone, _ = describe_alone(fmu, options)
+    return Description(
+        fmu=fmu.name,
+        file=label,
+        description=fmu.description.description or "",
+        native=fmu.is_native,
+        undeclared_outputs=[output for output, inputs in fmu.declared_dependencies().items() if inputs is None],
+        alone={
+            "component": alone.system.name,
+            "start_time": alone.start_time,
+            "stop_time": alone.stop_time if options.stop_time is None else options.stop_time,
+            "step": alone.step if options.step is None else options.step,
+        },
+        variables=variables_of(fmu),
+    )
+
+
+def _describe_slot(name: str) -> Description:
+    slot = slots()[name]
+    rows = [
+        {"name": name, "causality": variable.causality, "size": variable.size, "unit": variable.unit, "value": None,
+         "minimum": variable.minimum, "maximum": variable.maximum, "from": None, "description": variable.description}
+        for name, variable in slot.variables.items()
+    ]  # fmt: skip
+    return Description(
+        slot=name,
+        interface=slot.__name__,
+        description=slot.summary(),
+        variables=rows,
+        fmus={block.fmu_name: block.summary() for block in blocks_of_slot(slot)},
+    )
+
+
+def _describe_system(name: str, component: str | None, options: System) -> Description:
+    document = describe_system(prepare_system(name, options))
+    if component is None:
+        return Description(document)
+    components = {entry["name"]: entry for entry in document["components"]}
+    if component not in components:
+        raise InputError("describe", component, "no such component", suggestion(component, components))
+    connections = [row for row in document["connections"] if component in (row["from"], row["to"])]
+    return Description(components[component], system=document["system"], connections=connections)

@@ -1,0 +1,91 @@
+"""What `perilune --help` and `perilune VERB --help` print around the options: purposes, examples, exit statuses."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import textwrap
+from typing import Any, NoReturn
+
+from .verb import Verb
+from .verbs import GROUPS, OLD, PURPOSES, VERBS
+
+WIDEST = 100  # columns of any output
+NAME = 18  # columns of a verb's name
+
+
+class Formatter(argparse.HelpFormatter):
+    """argparse's own, at most 100 columns wide, which keeps the lines of examples as they are: those with an indent."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, max_help_position=32, width=min(shutil.get_terminal_size().columns, WIDEST))
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return "\n".join(
+            line
+            if line.startswith(" ")
+            else textwrap.fill(line, width, initial_indent=indent, subsequent_indent=indent)
+            for line in text.splitlines()
+        )
+
+
+class Parser(argparse.ArgumentParser):
+    """argparse with errors on one line and options in full."""
+
+    def __init__(self, **keywords: Any) -> None:
+        super().__init__(**keywords, allow_abbrev=False, formatter_class=Formatter)
+
+    def error(self, message: str) -> NoReturn:
+        location = ": ".join(self.prog.split())
+        self.exit(2, f"{location}: {message}; see {self.prog} --help\n")
+
+
+def overview() -> str:
+    """The verbs by purpose, each purpose with an example."""
+    parts = ["Spacecraft guidance, navigation and control as FMI components."]
+    for purpose in PURPOSES:
+        verbs = [verb for verb in VERBS.values() if verb.purpose == purpose]
+        rows = [(verb.name, verb.text) for verb in verbs]
+        rows += list(OLD.items()) if purpose == "Study" else []
+        if rows:
+            parts += ["", f"{purpose}:", *_rows(rows)]
+        parts += [f"  example: {_broken(verb.examples[0][0], 11)}" for verb in verbs[:1]]
+    return "\n".join(parts)
+
+
+def group_help(group: str) -> str:
+    """The verbs of a group."""
+    rows = [(name.split()[1], verb.text) for name, verb in VERBS.items() if name.split()[0] == group]
+    return "\n".join([f"{GROUPS[group]}", "", *_rows(rows)])
+
+
+def verb_help(verb: Verb) -> str:
+    """A verb's examples, and what its exit statuses mean."""
+    examples = "".join(f"  {_broken(command, 4)}\n      {comment}\n" for command, comment in verb.examples)
+    return f"Examples:\n{examples}\n{exit_status(verb)}"
+
+
+def exit_status(verb: Verb) -> str:
+    """What the exit statuses of a verb mean."""
+    not_met = f"{verb.not_met}, or interrupted" if verb.not_met else "interrupted"
+    return f"Exit status: 0: done, and all is met. 1: {not_met}. 2: wrong input, or a result could not be written."
+
+
+def _rows(rows: list[tuple[str, str]]) -> list[str]:
+    lines = []
+    for name, text in rows:
+        first, *more = textwrap.wrap(text, WIDEST - NAME - 2)
+        lines += [f"  {name:{NAME}}{first}", *(f"  {'':{NAME}}{line}" for line in more)]
+    return lines
+
+
+def _broken(command: str, indent: int) -> str:
+    """A command as a shell reads it, its lines no longer than WIDEST: broken before options."""
+    lines, first, *others = [], *command.split(" --")
+    for other in others:
+        if len(first) + len(other) + indent + 6 > WIDEST:
+            lines.append(f"{first} \\")
+            first = f"{' ' * indent}--{other}"
+        else:
+            first = f"{first} --{other}"
+    return "\n".join([*lines, first])

@@ -1,0 +1,162 @@
+"""`perilune.validate` and `perilune validate`: files checked without a simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any, ClassVar, Unpack, overload
+
+from fmpy.validation import validate_fmu
+
+from ..campaigns.spec.file import SYNTHESIS, read_campaign
+from ..campaigns.spec.toml_table import read_toml
+from ..common.errors import InputError
+from ..common.exit_status import ExitStatus
+from ..design.laws.law import read_law
+from ..design.synthesis.synthesis_file import read_synthesis
+from ..design.trajectories.stored_bound import MissingBound, find_bound
+from ..reports.figures.declaration.reading import read_figures
+from ..runtime.flight.instances.reset_check import reset_verdict
+from ..runtime.ssp.archive import DEFAULT_VARIANT, open_system
+from ..runtime.ssp.parameter_sets import read_parameter_file
+from ..runtime.system.fmu import Fmu, load_fmu
+from ..runtime.system.options import SystemOptions as System
+from ..runtime.system.options import system_options
+from ..runtime.system.prepared import prepare_system
+from ..stability.request.channels import channels_of
+from ..stability.request.declaration import Declaration
+from ..stability.request.reading import read_declaration
+from ..stability.request.subject import Subject
+from .common.paths import path_list
+from .common.text import wrap
+from .options.looking import VALIDATE
+from .options.option import FilePath
+from .options.system import SystemOptions
+from .options.verb import verb
+
+FILES = (".ssv", ".json", ".toml")  # that are no systems
+
+
+@dataclass(frozen=True)
+class FileCheck:
+    """One path that was checked: ``problems`` (a line each, none where it is valid) and ``notes``."""
+
+    path: str
+    problems: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Validation(Sequence[FileCheck]):
+    """The checks, in the order of the paths."""
+
+    checks: tuple[FileCheck, ...]
+    problem_status: ClassVar[ExitStatus] = ExitStatus.REFUSED
+
+    @overload
+    def __getitem__(self, index: int) -> FileCheck: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[FileCheck, ...]: ...
+    def __getitem__(self, index: int | slice) -> FileCheck | tuple[FileCheck, ...]:
+        return self.checks[index]
+
+    def __len__(self) -> int:
+        return len(self.checks)
+
+    def lines(self) -> list[str]:
+        """What `perilune validate` prints: notes, and what is valid."""
+        lines = []
+        for check in self.checks:
+            for note in check.notes:
+                lines += wrap(f"{check.path}: note: {note}", 4)
+            lines += [] if check.problems else [f"{check.path}: OK"]
+        return lines
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Path, problems and notes of each."""
+        return [asdict(check) for check in self.checks]
+
+    def problems(self) -> list[str]:
+        """The problems of all paths."""
+        return [problem for check in self.checks for problem in check.problems]
+
+
+@verb(VALIDATE)
+def validate(*paths: FilePath | Sequence[FilePath], **options: Unpack[SystemOptions]) -> Validation:
+    """Check systems, FMUs, parameter sets, campaigns, laws: `perilune validate`.
+
+    They are given one by one or as a list; the result has a `FileCheck` for each. Of a system all variants are checked
+    unless ``variant`` names one; the options are those of `simulate`, for systems and FMUs alone.
+    """
+    system = system_options(options)
+    return Validation(tuple(_check(path, system) for path in path_list(paths)))
+
+
+def _check(path: str, options: System) -> FileCheck:
+    notes: list[str] = []
+    problems: list[str] = []
+    try:
+        if path.endswith(FILES) and replace(options, strict=False) != System():
+            raise InputError(path, "system options", "it is no system, which they are for", "check it by itself")
+        if path.endswith(".fmu"):
+            fmu = load_fmu(_read(path), path)
+            violations = [f"{path}: modelDescription.xml: {' '.join(text.split())}" for text in validate_fmu(path)]
+            if options.strict:
+                problems += [f"{violation}; fix the FMU's modelDescription.xml" for violation in violations]
+            else:
+                notes += violations
+            notes += prepare_system(path, options, {path: fmu}).remarks
+            notes += _reset_notes(fmu, path)
+        elif path.endswith(".ssv"):
+            read_parameter_file(_read(path), path)
+        elif path.endswith(".json"):
+            read_law(Path(path))
+        elif path.endswith(".toml"):
+            is_search = SYNTHESIS in read_toml(Path(path)).content
+            (read_synthesis if is_search else read_campaign)(Path(path))
+        else:
+            notes += _check_system(path, options)
+    except InputError as error:
+        problems.append(error.text)
+    return FileCheck(path, tuple(problems), tuple(notes))
+
+
+def _check_system(path: str, options: System) -> list[str]:
+    """Notes on a system, of all its variants unless one is named. Raises InputError."""
+    notes: list[str] = []
+    variants = [None, *(name for name in open_system(path).variants() if name != DEFAULT_VARIANT)]
+    for variant in variants if options.variant is None else [options.variant]:
+        subject = Subject(path, replace(options, variant=variant))
+        prepared = prepare_system(path, subject.options, subject.fmus)
+        _check_loops(subject, read_declaration(prepared.network.description))
+        read_figures(prepared)
+        bound = find_bound(prepared)
+        notes += [f"bound: {bound.reason}"] if isinstance(bound, MissingBound) else []
+        notes += prepared.network.notes
+        notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
+        for component, fmu in prepared.network.fmus.items():
+            notes += _reset_notes(fmu, component)
+    return notes
+
+
+def _reset_notes(fmu: Fmu, name: str) -> list[str]:
+    """A note on an FMU whose reset fails: it is tried, unless it is our own."""
+    verdict = reset_verdict(fmu)
+    if verdict.resets:
+        return []
+    return [f"{name}: instantiated anew for every simulation, as its reset fails: {verdict.reason}"]
+
+
+def _check_loops(subject: Subject, declared: Declaration) -> None:
+    """Refuse an operating point that cannot be set, and a loop that is cut where no signal is."""
+    points = {point.name: subject.at(point) for point in declared.points}
+    for loop in declared.loops:
+        for name in loop.points:
+            channels_of(loop, points[name].network, points[name].step)
+
+
+def _read(path: str) -> bytes:
+    if not Path(path).is_file():
+        raise InputError(path, "file", "not found", "give the path of a file")
+    return Path(path).read_bytes()

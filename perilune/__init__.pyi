@@ -1,0 +1,127 @@
+"""The public names of `perilune`, each from the module that defines it: the one list, read by type checkers,
+editors and `perilune/__init__.py`.
+"""
+
+from . import modal as modal
+from .analysis.api.comparison import Comparison as Comparison
+from .analysis.api.comparison import compare as compare
+from .analysis.api.export import Exported as Exported
+from .analysis.api.export import export as export
+from .analysis.api.laws import Law as Law
+from .analysis.api.laws import law as law
+from .analysis.api.laws import synthesize as synthesize
+from .analysis.api.own import new_block as new_block
+from .analysis.api.own import new_system as new_system
+from .analysis.api.plans import (
+    HoverPlan as HoverPlan,
+)
+from .analysis.api.plans import (
+    LandingBound as LandingBound,
+)
+from .analysis.api.plans import (
+    plan_hover_transfer as plan_hover_transfer,
+)
+from .analysis.api.plans import (
+    plan_landing_bound as plan_landing_bound,
+)
+from .analysis.api.results.plots import plot_results as plot_results
+from .analysis.api.results.stored import StoredResults as StoredResults
+from .analysis.api.results.stored import open_results as open_results
+from .analysis.api.timing import benchmark as benchmark
+from .analysis.common.errors import InputError as InputError
+from .analysis.design.synthesis.outcome import SynthesisResult as SynthesisResult
+from .analysis.design.trajectories.bounds import Landing as Landing
+from .analysis.design.trajectories.path import PlanError as PlanError
+from .analysis.design.trajectories.vehicle import Margins as Margins
+from .analysis.design.trajectories.vehicle import Transfer as Transfer
+from .analysis.design.trajectories.vehicle import Vehicle as Vehicle
+from .analysis.runtime.system.fault import Fault as Fault
+from .analysis.stability.injection.bench import StudyError as StudyError
+from .analysis.verbs.batch import BatchResult as BatchResult
+from .analysis.verbs.batch import batch as batch
+from .analysis.verbs.describe import describe as describe
+from .analysis.verbs.inventory import inventory as inventory
+from .analysis.verbs.merge import merge as merge
+from .analysis.verbs.prepare import PreparedCampaign as PreparedCampaign
+from .analysis.verbs.prepare import prepare as prepare
+from .analysis.verbs.rare import RareResult as RareResult
+from .analysis.verbs.rare import rare as rare
+from .analysis.verbs.replay import ReplayResult as ReplayResult
+from .analysis.verbs.replay import replay as replay
+from .analysis.verbs.run import Result as Result
+from .analysis.verbs.run import simulate as simulate
+from .analysis.verbs.sensitivity import SensitivityResult as SensitivityResult
+from .analysis.verbs.sensitivity import sensitivity as sensitivity
+from .analysis.verbs.shard import ShardResult as ShardResult
+from .analysis.verbs.shard import shard as shard
+from .analysis.verbs.stability import StabilityReport as StabilityReport
+from .analysis.verbs.stability import stability as stability
+from .analysis.verbs.validate import validate as validate
+from .analysis.verbs.worst import WorstResult as WorstResult
+from .analysis.verbs.worst import worst as worst
+from .fmus_src.block import (
+    Block as Block,
+)
+from .fmus_src.block import (
+    DeclarationError as DeclarationError,
+)
+from .fmus_src.block import (
+    Input as Input,
+)
+from .fmus_src.block import (
+    Output as Output,
+)
+from .fmus_src.block import (
+    Parameter as Parameter,
+)
+from .fmus_src.block import (
+    State as State,
+)
+from .fmus_src.interfaces.allocation import Allocation as Allocation
+from .fmus_src.interfaces.attitude_observer import AttitudeObserver as AttitudeObserver
+from .fmus_src.interfaces.entry_control import EntryControl as EntryControl
+from .fmus_src.interfaces.filtered_navigation import FilteredNavigation as FilteredNavigation
+from .fmus_src.interfaces.gyro_steering import GyroSteering as GyroSteering
+from .fmus_src.interfaces.inertial_navigation import InertialNavigation as InertialNavigation
+from .fmus_src.interfaces.jet_allocation import JetAllocation as JetAllocation
+from .fmus_src.interfaces.navigation import Navigation as Navigation
+from .fmus_src.interfaces.orbital_control import OrbitalControl as OrbitalControl
+from .fmus_src.interfaces.terminal_guidance import (
+    CLAMPED as CLAMPED,
+)
+from .fmus_src.interfaces.terminal_guidance import (
+    GOOD as GOOD,
+)
+from .fmus_src.interfaces.terminal_guidance import (
+    NO_SOLUTION as NO_SOLUTION,
+)
+from .fmus_src.interfaces.terminal_guidance import (
+    NOT_CONVERGED as NOT_CONVERGED,
+)
+from .fmus_src.interfaces.terminal_guidance import (
+    TerminalGuidance as TerminalGuidance,
+)
+from .fmus_src.mathlib.vectors import (
+    Vector as Vector,
+)
+from .fmus_src.mathlib.vectors import (
+    Vector2 as Vector2,
+)
+from .fmus_src.mathlib.vectors import (
+    Vector3 as Vector3,
+)
+from .fmus_src.mathlib.vectors import (
+    Vector4 as Vector4,
+)
+from .fmus_src.mathlib.vectors import (
+    cross as cross,
+)
+from .fmus_src.mathlib.vectors import (
+    dot as dot,
+)
+from .fmus_src.mathlib.vectors import (
+    norm as norm,
+)
+from .fmus_src.mathlib.vectors import (
+    vector as vector,
+)
