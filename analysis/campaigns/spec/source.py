@@ -73,7 +73,7 @@ class CampaignSource:
 
 
 def read_source(data: bytes, label: str, archive: SystemArchive | None = None) -> CampaignSource:
-    """A campaign's file with those that it extends, in an ``archive`` or beside it. Raises InputError, for a cycle too."""
+    """A campaign's file with those that it extends, perhaps in an ``archive``. Raises InputError, for a cycle too."""
     return _read_source(data, label, archive, ())
 
 
