@@ -14,8 +14,8 @@ from .distributions import read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
 from .requirements import read_requirements
-from .source import read_source_file
-from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, sequence, text
+from .toml.source import read_source_file
+from .toml.table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, sequence, text
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 # of records, of the results' table and of files of draws

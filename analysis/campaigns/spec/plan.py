@@ -23,8 +23,8 @@ from .drawn import DrawnTrials, with_streams
 from .faults import drawn_fault
 from .file import parse_campaign
 from .groups import Group, groups_of
-from .source import CampaignSource, read_source
 from .sweeps import with_sweeps
+from .toml.source import CampaignSource, read_source
 
 PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
 

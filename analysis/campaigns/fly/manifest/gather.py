@@ -17,7 +17,7 @@ from ....runtime.flight.instances.reset_check import reset_verdict
 from ....runtime.ssp.archive import SystemArchive
 from ....runtime.system.prepared import PreparedSystem
 from ...spec.plan import BatchPlan
-from ...spec.source import CampaignSource
+from ...spec.toml.source import CampaignSource
 from ..shards.numbering import shard_size
 from .contents import name_of
 from .manifest import Manifest

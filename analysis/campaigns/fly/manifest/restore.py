@@ -18,8 +18,8 @@ from ....runtime.system.options import SystemOptions
 from ...draws.given import GivenDraws, part_streams
 from ...spec.file import parse_campaign
 from ...spec.plan import BatchPlan
-from ...spec.source import CampaignSource
 from ...spec.sweeps import with_sweeps
+from ...spec.toml.source import CampaignSource
 from ..shards.draws import stored_draws
 from .contents import stored
 from .manifest import CONTENTS, Manifest

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...common.errors import InputError
-from ...runtime.ssp.archive import SystemArchive
-from .toml_lines import key_lines
-from .toml_table import Table
+from ....common.errors import InputError
+from ....runtime.ssp.archive import SystemArchive
+from .lines import key_lines
+from .table import Table
 
 EXTENDS = "extends"
 HERE = "."  # in its list, the position of the file's own entries; the end where it is not listed
