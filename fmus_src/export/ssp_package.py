@@ -30,8 +30,8 @@ def system_files(folder: Path) -> dict[str, Path]:
             files[name] = path
         elif path.parent == folder and path.suffix in RESOURCE_SUFFIXES:
             files[f"resources/{name}"] = path
-        elif path.parent == folder / "campaigns":
-            files[f"{CAMPAIGN_FOLDER}/{path.name}"] = path
+        elif name.startswith("campaigns/"):
+            files[f"{CAMPAIGN_FOLDER}/{name.removeprefix('campaigns/')}"] = path
         elif name == "README.md":
             files["documentation/README.md"] = path
         elif name.startswith(("resources/", "documentation/", "extra/")):
