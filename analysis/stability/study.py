@@ -146,7 +146,7 @@ def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
 
 
 def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channel) -> LoopReport:
-    """One channel by both routes, with its amplitudes and elements."""
+    """One channel by linearisation and frequency-response test, with its amplitudes and elements."""
     work = point.loop_study(channel, request.declaration.limits)
     work.measure()
     work.refuse_what_is_no_loop()
@@ -178,7 +178,7 @@ def _vary(
     unstudied: list[Unstudied],
     tell: Tell,
 ) -> None:
-    """What needs route A with something changed: the step, the campaign."""
+    """What needs the linearisation with something changed: the step, the campaign."""
     loops = [loop for loop in request.loops_at(point) if any(report.loop == loop.name for report in reports)]
     steps = sampled(subject, point, loops, step, cells, [report.name for report in reports], tell)
     spread: dict[str, Dispersion] = {}

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from ...stability.loops.margin_values import MARGINS
 from ...stability.results.loop import LoopReport
 from ...stability.results.nonlinear import Nonlinearity
-from ...stability.results.routes import Mode
+from ...stability.results.responses import Mode
 from ...stability.results.varied import LEVELS, Dispersion
 from ..common.panels import Panel
 from ..common.quantities import MINUS, NONE, shown_unit
@@ -47,10 +47,10 @@ class Part:
 
 
 def method(loop: LoopReport) -> Part:
-    """Both routes side by side, and whether they agree."""
+    """Linearised and measured response side by side, and whether they agree."""
     rows: list[tuple[Cell, ...]] = []
-    if loop.route_a is not None:
-        a = loop.route_a
+    if loop.linearised is not None:
+        a = loop.linearised
         rows += [
             ("A, linearisation", "states", numeral(a.states)),
             ("", "period, s", numeral(a.period)),
@@ -58,8 +58,8 @@ def method(loop: LoopReport) -> Part:
             ("", "states with non-smooth dynamics", ", ".join(a.doubtful) or "none"),
             ("", "response at other frequencies, %", per_cent(a.periodicity)),
         ]
-    if loop.route_b is not None:
-        b = loop.route_b
+    if loop.measured_response is not None:
+        b = loop.measured_response
         rows += [
             (
                 "B, frequency-response test",
@@ -89,7 +89,7 @@ def classical(loop: LoopReport) -> Part:
     rows: list[tuple[Cell, ...]] = []
     kind = "crossing" if loop.margins.unstable else "margin"
     for crossing in margins.gain:
-        name = f"gain {kind} {'up' if crossing.value >= 1.0 else 'down'}"
+        name = f"{'upper' if crossing.value >= 1.0 else 'lower'} gain {kind}"
         rows.append((name, in_decibels(crossing.value, absolute=True), "dB", numeral(crossing.frequency)))
     if not margins.gain:
         rows.append((f"gain {kind}", NO_CROSSING, "", ""))
@@ -128,12 +128,12 @@ def robust(loop: LoopReport) -> Part:
         ("peak of S, dB", in_decibels(margins.sensitivity_peak), numeral(margins.sensitivity_frequency)),
         ("peak of T, dB", in_decibels(margins.complementary_peak), numeral(margins.complementary_frequency)),
         ("disk margin", word or numeral(margins.disk_margin), numeral(margins.disk_frequency)),
-        ("— gain, up and down, dB", word or in_decibels(margins.disk_gain, "without limit"), ""),
+        ("— gain, upper and lower, dB", word or in_decibels(margins.disk_gain, "without limit"), ""),
         ("— phase, deg", word or in_degrees(margins.disk_phase), ""),
     ]
-    note = "Within the disk margin gain and phase may change at once."
+    note = "Gain and phase may vary simultaneously within the disk margin."
     if loop.margins.unstable:
-        note = "Peaks are those of the response: of an unstable closed loop they bound nothing."
+        note = "The closed loop is unstable: peaks of the response bound nothing."
     return Part("robust", "Robust", Table(("quantity", "value", "at rad/s"), "tnn", rows), note)
 
 
@@ -160,7 +160,7 @@ def modes(loop: LoopReport) -> Part:
         for mode in upper(loop.modes)
     ]
     head = ("z", "|z|", "s, rad/s", "damping", "frequency, rad/s", "kind", "controllability", "observability")
-    note = "A pair of conjugate modes is one line, with ±."
+    note = "A conjugate pair is one row, with ±."
     if any(mode.z.imag == 0.0 and mode.z.real < 0.0 for mode in loop.modes):
         note += (
             " A real z below 0 is one pole, no pair: it changes its sign with every sample and shrinks to |z| in each, "
@@ -179,7 +179,7 @@ def structure(loop: LoopReport) -> Part:
         ("observable at the break point", numeral(margins.observable), numeral(margins.least_observable)),
         ("both: order of the loop", numeral(margins.order), ""),
     ]
-    return Part("structure", "Structure", Table(("part", "rank", "least kept singular value"), "tnn", rows))
+    return Part("structure", "Structure", Table(("part", "rank", "smallest retained singular value"), "tnn", rows))
 
 
 def dispersed(dispersion: Dispersion) -> Part:
@@ -292,10 +292,10 @@ def parts(loop: LoopReport) -> list[Part]:
 def without(loop: LoopReport) -> list[str]:
     """Parts that this loop has not, and for which no reason is given either: they were not asked for."""
     there = {
-        "route A": loop.route_a is not None,
-        "route B": loop.route_b is not None,
-        "modes": bool(loop.modes) or loop.route_a is None,
-        "structure": loop.structure is not None or loop.route_a is None,
+        "linearisation": loop.linearised is not None,
+        "frequency-response test": loop.measured_response is not None,
+        "modes": bool(loop.modes) or loop.linearised is None,
+        "structure": loop.structure is not None or loop.linearised is None,
         "step response": loop.step is not None,
         "dispersion": loop.dispersion is not None,
         "amplitude sweep": bool(loop.amplitudes),

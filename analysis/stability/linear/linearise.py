@@ -1,4 +1,4 @@
-"""Route A: the linear model over one hyperperiod from the complete memory of a system."""
+"""Linearisation: the linear model over one hyperperiod from the complete memory of a system."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.linalg
 
-from ..results.routes import Mode, Structure
+from ..results.responses import Mode, Structure
 from .lifted import LiftedModel, Port
 
 APART = 1e-4  # of the largest: a mode that answers less does not belong to the loop, or it is rounding

@@ -83,7 +83,7 @@ def assess(
 def requirements(margins: Margins, limits: Limits, outside: Sequence[str] = ()) -> tuple[Requirement, ...]:
     """The project's limits against one loop; ``outside`` names what grows without a part in it."""
     if margins.stable is None:
-        note = "poles are not known without route A"
+        note = "poles are not known without a linearisation"
         stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, None, 1.0, None, note)
     else:
         note = "" if margins.stable else grows(outside) or "the closed loop is unstable"

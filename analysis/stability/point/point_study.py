@@ -23,7 +23,7 @@ from ..results.report import PointReport
 from ..results.requirement import Requirement, Scope
 from .assessment import lowest_frequency
 from .loop_study import LoopStudy
-from .routes import DOUBTFUL, LoopModel, loop_model
+from .responses import DOUBTFUL, LoopModel, loop_model
 
 MOST_TRIM = 8  # of the memory that changes most
 TENTH = 0.1  # relative change of L at which the frozen view no longer holds
@@ -49,7 +49,7 @@ class PointStudy:
         return self.bench.channels
 
     def linearise(self, cells: Sequence[int] | None = None, steps: Sequence[float] = STEPS) -> None:
-        """Route A, or why it cannot be taken; ``cells`` and ``steps`` as in `linearise`."""
+        """Linearisation, or why it cannot be taken; ``cells`` and ``steps`` as in `linearise`."""
         try:
             self._start = OperatingPoint(self.bench)
             self.linear = linearise(self._start, cells, steps)
@@ -57,7 +57,7 @@ class PointStudy:
             self.why_not = str(error)
 
     def model(self, channel: Channel) -> LoopModel | None:
-        """Route A of one channel; None where there is none."""
+        """Linearisation of one channel; None where there is none."""
         if self.linear is None:
             return None
         if channel.name not in self._models:
@@ -66,7 +66,7 @@ class PointStudy:
         return self._models[channel.name]
 
     def loop_study(self, channel: Channel, limits: Limits) -> LoopStudy:
-        notes = {} if self.linear is not None else {"route A": self.why_not}
+        notes = {} if self.linear is not None else {"linearisation": self.why_not}
         return LoopStudy(self.bench, channel, self.model(channel), limits, notes)
 
     def report(self) -> PointReport:

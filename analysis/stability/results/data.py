@@ -19,7 +19,7 @@ from .document import document
 from .loop import JointReport, LoopReport
 from .mat_file import mat_bytes, struct_array
 from .report import Orders, StabilityReport
-from .routes import RouteB
+from .responses import Measured
 from .state_space import StateSpace
 
 JSON, MAT, CSV = "loops.json", "loops.mat", "responses.csv"
@@ -122,12 +122,12 @@ def _margin(value: float | str | None) -> float | str:
 
 def _curves(loop: LoopReport) -> Curves:
     """The linearised and the measured response, as far as there are."""
-    route_b: RouteB | None = loop.route_b
+    measured_response: Measured | None = loop.measured_response
     curves: list[tuple[str, np.ndarray, np.ndarray]] = []
     if loop.open_loop is not None:
         curves.append((LINEARISED, loop.curve.frequency, loop.curve.value))
-    if route_b is not None:
-        curves.append((MEASURED, route_b.curve.frequency, route_b.curve.value))
+    if measured_response is not None:
+        curves.append((MEASURED, measured_response.curve.frequency, measured_response.curve.value))
     return tuple(curves)
 
 

@@ -25,7 +25,7 @@ KEYS = {
 
 
 def document(report: StabilityReport) -> dict[str, Any]:
-    """The whole report without route A's curves, ready for strict JSON.
+    """The whole report without the linearisation's curves, ready for strict JSON.
 
     No number is infinite: a margin is a number, "unstable", "unlimited", or null where it is not known.
     """
@@ -127,18 +127,18 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
             for item in loop.amplitudes
         ],
     }
-    if loop.route_a is not None:
-        facts = loop.route_a
-        entry["route_a"] = {
+    if loop.linearised is not None:
+        facts = loop.linearised
+        entry["linearised"] = {
             "states": facts.states,
             "period_s": facts.period,
             "plateau": facts.plateau,
             "doubtful": list(facts.doubtful),
             "periodicity": facts.periodicity,
         }
-    if loop.route_b is not None:
-        facts_b = loop.route_b
-        entry["route_b"] = {
+    if loop.measured_response is not None:
+        facts_b = loop.measured_response
+        entry["measured_response"] = {
             "amplitude": facts_b.amplitude,
             "lines": facts_b.lines,
             "period_s": facts_b.period,

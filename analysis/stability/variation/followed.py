@@ -8,7 +8,7 @@ from ..injection.bench import StudyError
 from ..linear.linearise import Linearisation
 from ..loops.margin_values import Margins
 from ..point.assessment import assess, lowest_frequency
-from ..point.routes import LoopModel, loop_model
+from ..point.responses import LoopModel, loop_model
 
 ONE_STEP = (1e-6,)  # of differences, where a plateau has been seen at the same point already
 

@@ -62,10 +62,10 @@ def frequency_axis(axes: Axes, low: float, high: float) -> None:
 
 
 def measured_too(loop: LoopReport) -> Curve | None:
-    """The response of route B where the curve is route A's."""
-    if loop.route_a is None or loop.route_b is None:
+    """The response of the frequency-response test where the curve is the linearisation's."""
+    if loop.linearised is None or loop.measured_response is None:
         return None
-    return loop.route_b.curve
+    return loop.measured_response.curve
 
 
 def margin_crossings(loop: LoopReport) -> Classical:
