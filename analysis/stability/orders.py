@@ -120,7 +120,7 @@ def _judged(report: StabilityReport, orders: Orders) -> StabilityReport:
 
 
 def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
-    """A loop with the requirements of both orders; where linearised and measured responses differ in the other order, nothing passes in it."""
+    """A loop with the requirements of both orders; where the responses differ in the other order, nothing passes."""
     note = "" if other is None or not other.doubted else DIFFERENT
     judged = replace(loop, requirements=_both(loop.requirements, () if other is None else other.requirements, note))
     if loop.dispersion is not None:

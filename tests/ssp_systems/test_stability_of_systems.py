@@ -1,4 +1,4 @@
-"""The stability of robot_rendezvous and lunar_landing as they fly, linearisation and frequency-response test, against the same loops in closed form.
+"""The stability of robot_rendezvous and lunar_landing, by both methods, against the same loops in closed form.
 
 Truth: support/loops/exact_robot.py and exact_lunar.py, which know nothing of the FMUs, with margins by
 python-control; the robot's published designs with means taken as interpolated delays; the double integrator under

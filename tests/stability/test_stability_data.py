@@ -168,7 +168,7 @@ def test_a_mat_file_says_nothing_of_when_and_where():
 
 
 def lifted(loop, samples):
-    """The closed loop of a state space over several of its samples, as the linearisation has it; states in other units."""
+    """The closed loop of a state space over several samples, as the linearisation has it; states in other units."""
     back = np.linalg.solve(np.eye(1) + loop.D, np.hstack([-loop.C, -loop.D]))
     c, d = back[:, : loop.nstates], back[:, loop.nstates :]
     a, b = loop.A + loop.B @ c, loop.B @ (np.eye(1) + d)

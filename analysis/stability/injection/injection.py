@@ -1,4 +1,4 @@
-"""Frequency-response test: a loop's frequency response measured by a multisine added at the cut while the loop is closed.
+"""Frequency-response test: a multisine is added at the cut while the loop is closed, and the response measured.
 
 It needs no memory, only inputs and outputs, so it serves anyone's FMUs. Every flight starts at the beginning; the
 same flight without the multisine is subtracted, so that the motion along the trajectory and the sensors' noise, which

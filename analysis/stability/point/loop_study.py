@@ -103,7 +103,7 @@ class LoopStudy:
 
     @cached_property
     def assessed(self) -> tuple[Assessment, Response]:
-        """Margins, by linearisation where it can be trusted, else by the frequency-response test, once `measure` has run.
+        """Margins, by linearisation where it can be trusted, else by the frequency-response test, after `measure`.
 
         Raises StudyError where there is neither, or where the response is no loop's that margins could be read from.
         """

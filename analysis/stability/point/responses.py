@@ -30,7 +30,7 @@ BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped
 
 @dataclass
 class LoopModel:
-    """Linearisation of one channel. ``outside`` is the unstable memory that the loop has no part in, the fastest first."""
+    """Linearisation of one channel. ``outside``: unstable state variables outside of the loop, the fastest first."""
 
     model: LiftedModel
     port: Port

@@ -65,7 +65,7 @@ class LoopReport:
 
     @property
     def doubted(self) -> bool:
-        """Whether the two linearised and measured responses differ: then nothing that was read off one of them can pass."""
+        """Whether linearised and measured response differ: then nothing that was read off one of them can pass."""
         return self.agreement is not None and not self.agreement.agrees
 
     @property

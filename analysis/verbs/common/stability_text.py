@@ -58,7 +58,7 @@ def _unit(item: Requirement) -> str:
 
 
 def _words(sizes: Mapping[Quantity, float], sides: Mapping[Quantity, str] | None = None) -> str:
-    """Sizes of margins: ``gain margin 12.39 dB, phase margin 44.28 deg, modulus margin 0.597, disk margin 0.761``, with words for those that are one-sided."""
+    """Sizes of margins, ``gain margin 12.39 dB, phase margin 44.28 deg``, and which of them are one-sided."""
     words = []
     for quantity, size in sizes.items():
         if size == UNLIMITED:

@@ -315,8 +315,8 @@ def extreme(studies):
     zero = replace(loop.classical, gain=(*loop.classical.gain, start))
     bare = replace(
         loop, name="bare", classical=zero, curve=Curve(np.array([0.1, 1.0]), np.array([1.0 + 0j, 0.5 - 0.5j])),
-        linearised=None, measured_response=None, agreement=None, modes=(), poles_z=np.zeros(0), structure=None, step=None,
-        nonlinearities=(), sampling=(), requirements=(), dispersion=None,
+        linearised=None, measured_response=None, agreement=None, modes=(), poles_z=np.zeros(0), structure=None,
+        step=None, nonlinearities=(), sampling=(), requirements=(), dispersion=None,
     )  # fmt: skip
     point = replace(studies.late.points[0], drift=None, holds=None)
     return StabilityReport("x", {"faults": [], "seed": None}, {}, (point,), (free, bare), (), (), (), 0.0)

@@ -1,4 +1,4 @@
-"""Output feedback for m + p > n: poles, every spread, linearisation and frequency-response test, and what is refused."""
+"""Output feedback for m + p > n: poles, every spread, both routes, and what is refused."""
 
 from __future__ import annotations
 
