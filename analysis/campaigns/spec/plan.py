@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -26,7 +24,7 @@ from .faults import drawn_fault
 from .file import parse_campaign
 from .groups import Group, groups_of
 from .sweeps import with_sweeps
-from .toml_table import Table
+from .toml.source import CampaignSource, read_source
 
 PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
 
@@ -52,7 +50,7 @@ class BatchPlan:
     watch: Watch = UNWATCHED
     given: GivenDraws | None = None
     compared_by: str = ""  # what errors name for the compared FMUs: --compare, or the campaign's file
-    campaign_data: bytes = b""  # the campaign's file
+    source: CampaignSource | None = None  # the campaign's file, with those that it extends
     until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
     archive: SystemArchive | None = None  # flown instead of what `system` names, for which it stands
     known_draws: Draws | None = field(default=None, compare=False, repr=False)  # of all trials, made before
@@ -147,15 +145,6 @@ class BatchPlan:
         return drawn | {f"{name}.{number}" for name in with_streams(prepared) for number in StreamNumbers._fields}
 
 
-def campaign_of(data: bytes, label: str) -> Campaign:
-    """The campaign that a file declares, which ``label`` names in messages. Raises InputError."""
-    try:
-        table = Table(tomllib.loads(data.decode("utf-8")), label)
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
-    return parse_campaign(table)
-
-
 def read_plan(
     system: str | Path,
     campaign: str,
@@ -178,7 +167,8 @@ def read_plan(
     """
     archive = open_system(system)
     data, label = archive.campaign(campaign)
-    read = campaign_of(data, label)
+    source = read_source(data, label, archive)
+    read = parse_campaign(source.table())
     if read.system.removesuffix(".ssp").removesuffix(".fmu") != archive.name:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
     changes: dict = {}
@@ -202,12 +192,12 @@ def read_plan(
         str(system),
         changed,
         options,
-        hashlib.sha256(data).hexdigest(),
+        source.sha256,
         faults=tuple(faults),
         series=series,
         watch=watch or UNWATCHED,
         compared_by=f"{label}: compare" if compare is None else "`compare`",
-        campaign_data=data,
+        source=source,
         until_decided=until_decided,
     )
     return plan if draws is None else plan.of_samples(read_given(draws, changed))

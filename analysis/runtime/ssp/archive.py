@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from multiprocessing import parent_process
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
 from ....fmus_src.export.available import fmu_file
@@ -146,6 +146,11 @@ class SystemArchive:
         """A campaign by name: the system's own, else a path."""
         places = (f"{CAMPAIGN_FOLDER}/{name}", f"{CAMPAIGN_FOLDER}/{name}.toml")
         return self._named(name, places, "`campaign`", ".toml")
+
+    def campaign_names(self) -> list[str]:
+        """The system's own campaigns; files in folders below theirs are parts that campaigns extend."""
+        files = (PurePosixPath(name) for name in self.files)
+        return [file.stem for file in files if file.suffix == ".toml" and str(file.parent) == CAMPAIGN_FOLDER]
 
     def _named(self, name: str, places: tuple[str, ...], option: str, suffix: str) -> tuple[bytes, str]:
         for place in places:

@@ -54,8 +54,8 @@ class LoopStudy:
                 return
             lowest = FIRST_LOOK * self.nyquist
             while True:
-                found = self._measure_from(lowest)
-                if abs(found.curve.value[0]) > LOOP_GAIN:
+                measured = self._measure_from(lowest)
+                if abs(measured.curve.value[0]) > LOOP_GAIN:
                     return
                 lowest *= 0.25
         except (NotMeasurableError, StudyError) as error:
@@ -90,9 +90,9 @@ class LoopStudy:
             raise StudyError(f"its derivatives have no plateau ({names}), and there is no measurement: {reason}")
         if (self._doubtful or self.model is None) and self._bent:
             assert self.injector is not None
-            found = self.amplitudes(float(np.sqrt(self.injector.frequency[0] * self.injector.frequency[-1])))
-            assert found is not None
-            points, frequency = found
+            amplitudes = self.amplitudes(float(np.sqrt(self.injector.frequency[0] * self.injector.frequency[-1])))
+            assert amplitudes is not None
+            points, frequency = amplitudes
             sizes = "; ".join(
                 f"{decibels(item.value):.2f} dB, {np.degrees(np.angle(item.value)):.1f} deg with {item.amplitude:g}"
                 for item in points
@@ -113,7 +113,7 @@ class LoopStudy:
     def _assess(self) -> tuple[Assessment, Response]:
         if self.model is not None and not (self._doubtful and self.measured is not None and not self._bent):
             undamped, include = self.model.lightly_damped()
-            found = assess(
+            assessment = assess(
                 self.model.response,
                 self.model.lowest,
                 self.nyquist,
@@ -123,7 +123,7 @@ class LoopStudy:
                 include,
                 self.model.slower,
             )
-            return found, self.model.response
+            return assessment, self.model.response
         if self.measured is None:
             raise StudyError(f"{self.channel.name}: " + "; ".join(f"{name}: {why}" for name, why in self.notes.items()))
         if self.model is not None:
@@ -171,10 +171,10 @@ class LoopStudy:
         )
         report.requirements = requirements(report.margins, self.limits, report.outside)
         if self.model is not None and self.measured is not None:
-            found = agreement(self.model.response, self.measured, self.seconds)
-            report.agreement = found
-            if not found.agrees:
-                report.not_applicable["agreement"] = disagreement(found, self.model.facts, self.measured)
+            compared = agreement(self.model.response, self.measured, self.seconds)
+            report.agreement = compared
+            if not compared.agrees:
+                report.not_applicable["agreement"] = disagreement(compared, self.model.facts, self.measured)
         return report
 
     def _step(self, assessment: Assessment) -> tuple[np.ndarray, np.ndarray]:
@@ -198,14 +198,14 @@ class LoopStudy:
             return None
         peak = self.injector.peak()
         line = int(np.argmin(abs(np.log(self.injector.frequency / frequency))))
-        found = {1.0: self.measured.curve.value}
+        by_amplitude = {1.0: self.measured.curve.value}
         for factor in FACTORS:
             value = measured(self.injector, factor * peak)
             if value is not None:
-                found[factor] = value
-        reference = found[min(found)][line]
+                by_amplitude[factor] = value
+        reference = by_amplitude[min(by_amplitude)][line]
         points = tuple(
             AmplitudePoint(factor * peak, complex(value[line]), float(abs(quotient(value[line], reference) - 1.0)))
-            for factor, value in sorted(found.items())
+            for factor, value in sorted(by_amplitude.items())
         )
         return points, float(self.injector.frequency[line])

@@ -131,26 +131,26 @@ class PointStudy:
 
         low = lowest_frequency(single, seconds)
         try:
-            found = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
+            margin = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
         except ValueError as error:
             raise StudyError(str(error)) from error
         models = [self.model(port.channel) for port in ports]
         stable = all(item is not None and item.stable for item in models)
         wanted = {
-            Quantity.DISK_GAIN: (decibel_size(found.gain), limits.dispersed_gain_margin_db),
-            Quantity.DISK_PHASE: (degree_size(found.phase), limits.dispersed_phase_margin_deg),
+            Quantity.DISK_GAIN: (decibel_size(margin.gain), limits.dispersed_gain_margin_db),
+            Quantity.DISK_PHASE: (degree_size(margin.phase), limits.dispersed_phase_margin_deg),
         }
         return JointReport(
             name=loop.name,
             point=self.point.name,
             channels=tuple(port.channel.name for port in ports),
             stable=stable,
-            disk_margin=found.alpha,
-            disk_gain=found.gain,
-            disk_phase=found.phase,
-            disk_frequency=found.frequency,
-            frequency=found.frequencies,
-            disk_margins=found.alphas,
+            disk_margin=margin.alpha,
+            disk_gain=margin.gain,
+            disk_phase=margin.phase,
+            disk_frequency=margin.frequency,
+            frequency=margin.frequencies,
+            disk_margins=margin.alphas,
             open_loop=open_loop(model, ports) if all(map(_has_plateau, models)) else None,
             requirements=tuple(
                 Requirement.at_least(Scope.JOINT, quantity, size if stable else UNSTABLE, limit)

@@ -95,25 +95,25 @@ class LoopModel:
         return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
 
 
-def loop_model(found: Linearisation, port: Port) -> LoopModel:
+def loop_model(linearisation: Linearisation, port: Port) -> LoopModel:
     """The part of a linear model that belongs to one channel, and how far it can be trusted."""
-    model = found.model.reduced((port,))
-    neighbour = found.neighbour.reduced((port,))
+    model = linearisation.model.reduced((port,))
+    neighbour = linearisation.neighbour.reduced((port,))
     nyquist = np.pi / port.seconds
     look = np.geomspace(1e-3, 1.0, 40) * nyquist
     a, b = model.response((port,), look)[:, 0, 0], neighbour.response((port,), look)[:, 0, 0]
     visible = (abs(a) > LEAST_LOOK) & (abs(a) < 1.0 / LEAST_LOOK)  # margins are decided where L is about 1
     change = float(np.max(abs(b[visible] / a[visible] - 1.0), initial=0.0))
     facts = RouteA(
-        states=found.states,
+        states=linearisation.states,
         period=model.period,
         plateau=change,
         doubtful=_doubtful(model, neighbour) if change > DOUBTFUL else (),
         periodicity=model.periodicity(port, look[::8]),
     )
     own = modes(model, port)
-    outside = tuple(block for block in found.blocks if _is_outside(block, own, change))
-    place = found.model.ports.index(port)
+    outside = tuple(block for block in linearisation.blocks if _is_outside(block, own, change))
+    place = linearisation.model.ports.index(port)
     unseen = tuple(
         unseen_mode(complex(block.multipliers[0]), model.period, block.moved[place], block.moves[place])
         for block in outside
@@ -159,7 +159,7 @@ def agreement(response: Response, measured: RouteB, sample_period: float) -> Agr
     return Agreement(gain, phase, float(frequency[-1]), bool(gain <= GAIN_AGREES and phase <= PHASE_AGREES))
 
 
-def disagreement(found: Agreement, a: RouteA, b: RouteB) -> str:
+def disagreement(compared: Agreement, a: RouteA, b: RouteB) -> str:
     """Why the routes differ, as far as each knows of itself."""
     reasons = []
     if a.plateau > DOUBTFUL:
@@ -171,5 +171,5 @@ def disagreement(found: Agreement, a: RouteA, b: RouteB) -> str:
         reasons.append(f"unexcited lines answer with {b.unexcited:.2g} of the excited ones")
     if a.periodicity > NOT_LINEAR:
         reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} comes back at other frequencies)")
-    size = f"{decibels(found.gain):.2g} dB and {np.degrees(found.phase):.2g} deg apart"
+    size = f"{decibels(compared.gain):.2g} dB and {np.degrees(compared.phase):.2g} deg apart"
     return f"{size}: " + ("; ".join(reasons) or "neither route sees a reason; the operating point does not last")

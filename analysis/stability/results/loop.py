@@ -68,8 +68,8 @@ class LoopReport:
 
     @property
     def verdict(self) -> Verdict:
-        found = combined(self.judged)
-        return Verdict.NOT_APPLICABLE if found is Verdict.PASS and self.doubted else found
+        verdict = combined(self.judged)
+        return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and self.doubted else verdict
 
 
 @dataclass(frozen=True)

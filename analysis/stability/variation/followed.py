@@ -24,10 +24,10 @@ def margins_of(model: LoopModel) -> Margins:
     low = lowest_frequency(model.response, seconds)
     try:
         undamped, near = model.lightly_damped()
-        found = assess(model.response, low, np.pi / seconds, seconds, None, (), [*undamped, *near])
+        assessment = assess(model.response, low, np.pi / seconds, seconds, None, (), [*undamped, *near])
     except ValueError as error:
         raise StudyError(f"{model.port.channel.name}: {error}") from error
-    return Margins.of(found.classical, found.robust, model.stable, model.largest)
+    return Margins.of(assessment.classical, assessment.robust, model.stable, model.largest)
 
 
 def poles_of(model: LoopModel) -> np.ndarray:

@@ -48,9 +48,9 @@ def stability_problems(report: StabilityReport) -> list[str]:
 
 def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:
     where = f"{'loops' if isinstance(subject, JointReport) else 'loop'} {subject.name} at {subject.point}"
-    found = "of an unstable loop" if item.unstable else f"{item.value:.4g} {_unit(item)}".strip()
+    text = "of an unstable loop" if item.unstable else f"{item.value:.4g} {_unit(item)}".strip()
     note = f": {item.note}" if item.note else ""
-    return f"{where}: {item.title} {found} misses the limit {item.limit:g} {_unit(item)}".strip() + note
+    return f"{where}: {item.title} {text} misses the limit {item.limit:g} {_unit(item)}".strip() + note
 
 
 def _unit(item: Requirement) -> str:
@@ -65,8 +65,8 @@ def _words(sizes: Mapping[Quantity, float], sides: Mapping[Quantity, str] | None
         if size == UNLIMITED:
             words.append(f"no {name} crossing")
         else:
-            found = f"{name} {size:.3f}" if quantity.unit == "1" else f"{size:.2f} {quantity.unit}"
-            words.append(f"{found} {(sides or {}).get(quantity, '')}".strip())
+            text = f"{name} {size:.3f}" if quantity.unit == "1" else f"{size:.2f} {quantity.unit}"
+            words.append(f"{text} {(sides or {}).get(quantity, '')}".strip())
     return ", ".join(words)
 
 
@@ -89,11 +89,11 @@ def _lines(loop: LoopReport) -> Iterator[str]:
     if (spread := loop.dispersion) is not None:
         if spread.unstable:
             again = f"the worst, trial {spread.worst}, again: {spread.replay}"
-            found = f"{spread.unstable} of {spread.trials} trials unstable; {again}"
+            text = f"{spread.unstable} of {spread.trials} trials unstable; {again}"
         else:
             least = {quantity: spread.levels(quantity)["least"] for quantity in MARGINS}
-            found = f"{spread.trials} trials stable, least {_words(least)}"
-        yield f"  over {Path(spread.campaign).name}: {found}"
+            text = f"{spread.trials} trials stable, least {_words(least)}"
+        yield f"  over {Path(spread.campaign).name}: {text}"
 
 
 def _crossing_line(sweep: SweepReport, crossing: SweepCrossing) -> str:
