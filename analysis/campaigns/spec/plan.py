@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -53,10 +53,13 @@ class BatchPlan:
     source: CampaignSource | None = None  # the campaign's file, with those that it extends
     until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
     archive: SystemArchive | None = None  # flown instead of what `system` names, for which it stands
+    known_draws: Draws | None = field(default=None, compare=False, repr=False)  # of all trials, made before
 
     @cached_property
     def draws(self) -> Draws:
         """What is drawn for all trials. Raises InputError."""
+        if self.known_draws is not None:
+            return self.known_draws
         if self.given is not None:
             return table_of(self.campaign, self.given.table)
         return CountedDraws(self.campaign) if self.is_counted else draw_table(self.campaign)
@@ -68,7 +71,7 @@ class BatchPlan:
 
     def draw_parts(self, size: int = PART) -> Iterator[DrawTable]:
         """What is drawn for all trials, ``size`` of them at a time, none of it held. Raises InputError."""
-        if self.given is None and not self.is_counted and "draws" not in self.__dict__:
+        if self.given is None and not self.is_counted and self.known_draws is None:
             yield from draw_parts(self.campaign, size)
             return
         for part in parted(self.campaign.trials, size):
@@ -90,15 +93,16 @@ class BatchPlan:
     def of_part(self, trials: range) -> BatchPlan:
         """A plan of trials in a row, with the draws that they have in this one; from 1 on, those must be given."""
         given = None if self.given is None else self.given.of_part(trials)
-        part = replace(self, campaign=replace(self.campaign, trials=len(trials)), given=given)
-        if not self.is_counted:
-            # in cached_property's place: drawn anew they may differ
-            part.__dict__["draws"] = self.draws.of_part(trials) if trials.start else self.draws.of_first(trials.stop)
-        return part
+        draws = None
+        if not self.is_counted:  # made anew for fewer trials they may differ
+            draws = self.draws.of_part(trials) if trials.start else self.draws.of_first(trials.stop)
+        campaign = replace(self.campaign, trials=len(trials))
+        return replace(self, campaign=campaign, given=given, known_draws=draws)
 
     def of_samples(self, given: GivenDraws) -> BatchPlan:
         """A plan that flies given draws, a trial for each: values derived of them, faults and metrics follow."""
-        return replace(self, campaign=replace(self.campaign, trials=given.trials), given=given)
+        campaign = replace(self.campaign, trials=given.trials)
+        return replace(self, campaign=campaign, given=given, known_draws=None)
 
     @cached_property
     def groups(self) -> list[Group]:

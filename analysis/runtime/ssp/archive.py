@@ -60,6 +60,7 @@ class SystemArchive:
     description: str = DESCRIPTION
     elsewhere: Mapping[str, Path] = field(default_factory=dict)
     besides: dict[str, None] = field(default_factory=dict)
+    known_digest: str | None = None
 
     @property
     def is_fmu(self) -> bool:
@@ -168,7 +169,9 @@ class SystemArchive:
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 over names and contents."""
+        """SHA-256 over names and contents, or the one that was computed before."""
+        if self.known_digest is not None:
+            return self.known_digest
         total = hashlib.sha256()
         for name in sorted(self.files):
             total.update(name.encode() + b"\0" + hashlib.sha256(self._content(name, name)).digest())

@@ -59,8 +59,8 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
     if manifest.draws is not None:
         plan = plan.of_samples(_given(contents, manifest.draws)).of_first(manifest.trials)
     elif not plan.is_counted:
-        held = stored_draws((draws or folder).absolute(), manifest.trials, plan.campaign.drawn_names())
-        plan.__dict__["draws"] = held  # in cached_property's place: drawn anew they could differ
+        stored_table = stored_draws((draws or folder).absolute(), manifest.trials, plan.campaign.drawn_names())
+        plan = replace(plan, known_draws=stored_table)  # made anew they could differ
     for digest, verdict in manifest.resets.items():
         known(digest, ResetVerdict(**verdict))
     return plan
@@ -75,16 +75,15 @@ def _source(contents: Path, campaign: Mapping[str, Any]) -> CampaignSource:
 def _archive(contents: Path, manifest: Manifest) -> SystemArchive:
     system: Mapping[str, Any] = manifest.system
     files = {name: stored(contents, content) for name, content in system["files"].items()}
-    archive = SystemArchive(
+    return SystemArchive(
         name=system["name"],
         label=system["label"],
         path=contents if system["fmu"] is None else files[system["fmu"]],
         files=files,
         description=system["description"],
         elsewhere={asked: stored(contents, content) for asked, content in manifest.elsewhere.items()},
+        known_digest=system["sha256"],  # without the files that were read in addition to its list of files
     )
-    archive.__dict__["digest"] = system["sha256"]  # as it was computed, without what was read besides its list of files
-    return archive
 
 
 def _series(contents: Path, series: Mapping[str, str]) -> InputSeries:
