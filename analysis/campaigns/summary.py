@@ -1,29 +1,69 @@
-"""What came of a campaign: rates with their intervals, metrics over trials, of variants and of groups of trials."""
+"""Summary of a campaign: success rates with intervals, statistics of metrics, verdicts, by variant and group."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 import scipy
 
+from ..common.to_json import optional, to_json
+from .requirement_verdicts import RequirementVerdict, requirement_verdict
 from .rows import Part, TrialRows, blocks, held
 from .spec.campaign import Metric
 from .spec.groups import Group
-from .statistics import HELD, INFINITE, QUANTILES, statistics
+from .spec.requirements import Requirement
+from .statistics import IN_MEMORY, QUANTILES, MetricStatistics, statistics
 
 CONFIDENCE = 0.95
+Interval = tuple[float, float]
 
 
-def success_interval(successes: int, trials: int, confidence: float = 0.95) -> tuple[float, float]:
+@dataclass(frozen=True)
+class Rate:
+    """The ``rate`` at which trials are a yes, ``count`` of ``trials``, with its `success_interval`."""
+
+    count: int
+    trials: int
+    rate: float
+    interval: Interval
+
+
+@dataclass(frozen=True, kw_only=True)
+class VariantSummary:
+    """Trials of one variant: all, or those of a group, whose ``value`` is then that of the draw that groups.
+
+    ``statuses`` counts trials by status. ``metrics`` are statistics over successful trials, ``metrics_all`` over all.
+    A variant has ``groups`` by label and the verdicts on ``requirements`` by name, if the campaign declares any; in a
+    comparison it has ``rates`` by name.
+    """
+
+    value: float | None = optional()
+    trials: int
+    success_rate: float
+    success_interval: Interval
+    confidence: float
+    statuses: Mapping[str, int]
+    metrics_over: str
+    metrics: Mapping[str, MetricStatistics]
+    metrics_all: Mapping[str, MetricStatistics]
+    groups: Mapping[str, VariantSummary] = optional({})
+    requirements: Mapping[str, RequirementVerdict] = optional({})
+    rates: Mapping[str, Rate] = optional({})
+
+
+Summary = Mapping[str, VariantSummary]  # by variant
+
+
+def success_interval(successes: int, trials: int, confidence: float = 0.95) -> Interval:
     """Interval (low, high) of the probability of success after ``successes`` in ``trials`` independent trials.
 
     Clopper and Pearson's exact interval: it covers the true rate with at least ``confidence``
     whatever that rate is. Wilson's is shorter but covers less than it says near 0 and 1, and
-    rates near 1 are what guidance is judged by. Raises ValueError unless 0 <= successes <= trials, trials >= 1.
+    rates near 1 are what guidance is measured by. Raises ValueError unless 0 <= successes <= trials, trials >= 1.
     """
     if not (trials >= 1 and 0 <= successes <= trials):
         raise ValueError(f"{successes} successes of {trials} trials")
@@ -33,7 +73,13 @@ def success_interval(successes: int, trials: int, confidence: float = 0.95) -> t
     return low, high
 
 
-def _summary(trials: TrialRows, metrics: Sequence[Metric]) -> dict[str, Any]:
+def success_rate(yes: np.ndarray) -> Rate:
+    """The rate of trials that are a yes (booleans, one a trial, one trial or more)."""
+    count = int(np.count_nonzero(yes))
+    return Rate(count, yes.size, count / yes.size, success_interval(count, yes.size, CONFIDENCE))
+
+
+def _summary(trials: TrialRows, metrics: Sequence[Metric]) -> VariantSummary:
     count, successes = 0, 0
     statuses: Counter[str] = Counter()
     for part in trials.parts("success", "status"):
@@ -41,39 +87,46 @@ def _summary(trials: TrialRows, metrics: Sequence[Metric]) -> dict[str, Any]:
         successes += int(np.count_nonzero(part["success"]))
         statuses.update(part["status"].tolist())
     columns = {metric.name: (f"metric.{metric.name}", metric.unit) for metric in metrics}
-    return {
-        "trials": count,
-        "success_rate": successes / count,
-        "success_interval": list(success_interval(successes, count, CONFIDENCE)),
-        "confidence": CONFIDENCE,
-        "statuses": dict(sorted(statuses.items())),
-        "metrics_over": "successful trials",
-        "metrics": {
-            name: statistics(blocks(trials, column, "success"), unit) for name, (column, unit) in columns.items()
-        },
-        "metrics_all": {name: statistics(blocks(trials, column), unit) for name, (column, unit) in columns.items()},
-    }
+    return VariantSummary(
+        trials=count,
+        success_rate=successes / count,
+        success_interval=success_interval(successes, count, CONFIDENCE),
+        confidence=CONFIDENCE,
+        statuses=dict(sorted(statuses.items())),
+        metrics_over="successful trials",
+        metrics={name: statistics(blocks(trials, column, "success"), unit) for name, (column, unit) in columns.items()},
+        metrics_all={name: statistics(blocks(trials, column), unit) for name, (column, unit) in columns.items()},
+    )
 
 
 def summarise(
-    variants: Mapping[str, TrialRows], metrics: Sequence[Metric], groups: Sequence[Group] = (), by: str = ""
-) -> dict[str, Any]:
+    variants: Mapping[str, TrialRows],
+    metrics: Sequence[Metric],
+    groups: Sequence[Group] = (),
+    by: str = "",
+    *,
+    requirements: Sequence[Requirement] = (),
+    until_decided: bool = False,
+) -> Summary:
     """The summaries of all variants by name. Every variant has one trial or more.
 
-    With ``groups`` a variant has ``groups`` too, by their labels: the same over the trials of each, and its ``value``;
-    ``by`` is the draw by whose values they are.
+    ``groups`` are those of trials by the values of the draw ``by``. Verdicts are by `requirement_verdict`.
     """
     columns = ["success", *(f"metric.{metric.name}" for metric in metrics), *([f"draw.{by}"] if groups else [])]
-    found = {}
+    summary = {}
     for name, rows in variants.items():
-        trials = held(rows, columns, HELD)
-        found[name] = _summary(trials, metrics)
-        if groups:
-            found[name]["groups"] = {
-                group.label: {"value": group.value, **_summary(_Members(trials, f"draw.{by}", group), metrics)}
+        trials = held(rows, columns, IN_MEMORY)
+        summary[name] = replace(
+            _summary(trials, metrics),
+            groups={
+                group.label: replace(_summary(_Members(trials, f"draw.{by}", group), metrics), value=group.value)
                 for group in groups
-            }
-    return found
+            },
+            requirements={
+                requirement.name: requirement_verdict(requirement, rows, until_decided) for requirement in requirements
+            },
+        )
+    return summary
 
 
 @dataclass(frozen=True)
@@ -91,45 +144,45 @@ class _Members:
 
 
 class SummaryRow(NamedTuple):
-    """A row of a summary's tables: a variant, or one group of its trials by its label, and what there is to say."""
+    """A row of a summary's tables: a variant, or one group of its trials by its label."""
 
     variant: str
     group: str | None
-    entry: dict[str, Any]
+    entry: VariantSummary
 
 
-def summary_rows(summary: Mapping[str, Any]) -> list[SummaryRow]:
+def summary_rows(summary: Summary) -> list[SummaryRow]:
     """Every variant, each followed by its groups."""
     rows = []
     for name, variant in summary.items():
         rows.append(SummaryRow(name, None, variant))
-        rows += [SummaryRow(name, label, entry) for label, entry in variant.get("groups", {}).items()]
+        rows += [SummaryRow(name, label, entry) for label, entry in variant.groups.items()]
     return rows
 
 
-def requirement_values(summary: Mapping[str, Any]) -> dict[str, float]:
+def requirement_values(summary: Summary) -> dict[str, float]:
     """Every number of a summary under a dotted name, for requirements as expressions.
 
     ``variant.success_rate``, ``variant.success_interval[1]`` (low) and ``[2]`` (high),
-    ``variant.metrics.NAME.mean``, ``variant.groups["LABEL"].success_rate`` and so on; numbers that could not be
-    had are nan.
+    ``variant.metrics.NAME.mean``, ``variant.groups["LABEL"].success_rate`` and so on; numbers that do not exist are
+    nan.
     """
     values: dict[str, float] = {}
 
     def walk(prefix: str, entry: Any) -> None:
         if isinstance(entry, Mapping):
             for key, inner in entry.items():
-                walk(f"{prefix}.{key}" if prefix else key, inner)
+                walk(f"{prefix}.{key}", inner)
         elif isinstance(entry, list):
             for index, inner in enumerate(entry):
                 walk(f"{prefix}[{index + 1}]", inner)
         elif not isinstance(entry, str):
             values[prefix] = float("nan") if entry is None else float(entry)
-        elif entry in INFINITE and prefix.endswith(tuple(f".{key}" for key in QUANTILES)):
+        elif entry in ("inf", "-inf") and prefix.endswith(tuple(f".{key}" for key in QUANTILES)):
             values[prefix] = float(entry)
 
     for name, variant in summary.items():
-        walk(name, {key: entry for key, entry in variant.items() if key != "groups"})
-        for label, group in variant.get("groups", {}).items():
-            walk(f'{name}.groups["{label}"]', group)
+        walk(name, to_json(replace(variant, groups={})))
+        for label, group in variant.groups.items():
+            walk(f'{name}.groups["{label}"]', to_json(group))
     return values

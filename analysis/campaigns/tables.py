@@ -6,8 +6,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ..common.percent import percent
+from .requirement_verdicts import RequirementVerdict
 from .statistics import STATISTICS
-from .summary import CONFIDENCE, SummaryRow, summary_rows
+from .summary import CONFIDENCE, Summary, SummaryRow, summary_rows
+from .verdicts.acceptance import Verdict
 
 
 def aligned(rows: list[list[str]]) -> list[str]:
@@ -41,49 +43,69 @@ def metric_lines(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str 
     cells = [["metric, successful trials", *who_heads(group), *STATISTICS, "unit"]]
     for metric in metrics:
         for row in rows:
-            found = row.entry["metrics"][metric]
-            cells.append([metric, *who_cells(row, group), *(_cell(found[key]) for key in STATISTICS), found["unit"]])
+            values = row.entry.metrics[metric]
+            cells.append(
+                [metric, *who_cells(row, group), *(_cell(values.value(key)) for key in STATISTICS), values.unit]
+            )
     return aligned(cells) if len(cells) > 1 else []
 
 
-def _cell(value: float | str | None) -> str:
-    if value is None:
-        return "-"
-    return value if isinstance(value, str) else f"{value:.4g}"
+def _cell(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g}"
 
 
-def requirement_lines(summary: Mapping[str, Any]) -> list[str]:
+def requirement_lines(summary: Summary) -> list[str]:
     """A line per requirement and variant: what is required, the figures and the verdict; then tolerance bounds."""
     head = ["requirement", "variant", "flights", "failures", "risk %", "verdict", "more for 0, 1, 2 failures"]
     cells, bounds = [head], []
-    for variant, name, found in requirement_rows(summary):
-        risk = percent(found["consumer_risk"])
-        more = ", ".join("-" if number is None else str(number) for number in found["flights_to_decide"].values())
-        text, flights = f"{name}: {found['text']}", str(found["flights"])
-        cells.append([text, variant, flights, str(found["failures"]), risk, found["verdict"], more])
-        if found["bound"] is not None:
-            unit = summary[variant]["metrics"][found["bound"]["metric"]]["unit"]
-            value = f"{_cell(found['bound']['value'])} {'' if unit == '1' else unit}".strip()
-            bounds.append(f"{variant}: {bound_text(found, value)}")
+    for variant, name, result in requirement_rows(summary):
+        more = ", ".join("-" if number is None else str(number) for number in result.flights_to_decide.values())
+        text, risk = f"{name}: {result.text}", percent(result.consumer_risk)
+        cells.append([text, variant, str(result.flights), str(result.failures), risk, str(result.verdict), more])
+        if result.bound is not None:
+            unit = summary[variant].metrics[result.bound.metric].unit
+            value = f"{_cell(result.bound.value)} {'' if unit == '1' else unit}".strip()
+            bounds.append(f"{variant}: {bound_text(result, value)}")
     return [*aligned(cells), *bounds] if len(cells) > 1 else []
 
 
-def requirement_rows(summary: Mapping[str, Any]) -> list[tuple[str, str, dict[str, Any]]]:
+def requirement_rows(summary: Summary) -> list[tuple[str, str, RequirementVerdict]]:
     """Variant, name and verdict of every requirement of every variant, those of one requirement together."""
-    names = dict.fromkeys(name for variant in summary.values() for name in variant.get("requirements", {}))
-    return [(variant, name, entry["requirements"][name]) for name in names for variant, entry in summary.items()]
+    names = dict.fromkeys(name for variant in summary.values() for name in variant.requirements)
+    return [(variant, name, entry.requirements[name]) for name in names for variant, entry in summary.items()]
 
 
-def bound_text(found: Mapping[str, Any], value: str) -> str:
-    """The tolerance bound of a requirement in words, with its ``value`` as it is shown."""
-    bound = found["bound"]
-    share = f"{100 * found['share']:.10g} % of flights at {100 * found['confidence']:.10g} %"
-    if bound["rank"] is None:
-        more = f"a campaign longer by {bound['flights_to_decide']} has one"
-        return f"no {bound['side']} bound of {bound['metric']} in {share}: {more}"
-    rank = "the worst" if bound["rank"] == 1 else f"the worst but {bound['rank'] - 1}"
-    sign = "<=" if bound["side"] == "upper" else ">="
-    return f"{bound['metric']} {sign} {value} in {share}: {rank} of {bound['flights']} flights"
+def bound_text(result: RequirementVerdict, value: str) -> str:
+    """The tolerance bound of a requirement in words, with its ``value`` as text. The requirement has a bound."""
+    bound = result.bound
+    assert bound is not None
+    share = f"{100 * result.share:.10g} % of flights at {100 * result.confidence:.10g} %"
+    if bound.rank is None:
+        more = f"a campaign longer by {bound.flights_to_decide} has one"
+        return f"no {bound.side} bound of {bound.metric} in {share}: {more}"
+    rank = "the worst" if bound.rank == 1 else f"the worst but {bound.rank - 1}"
+    sign = "<=" if bound.side == "upper" else ">="
+    return f"{bound.metric} {sign} {value} in {share}: {rank} of {bound.flights} flights"
+
+
+def unmet_lines(summary: Summary) -> list[str]:
+    """A line for each requirement of each variant that is not met or undecided: its figures, what is missing."""
+    return [
+        f"{variant}: requirement {name}: {result.text}: {verdict_text(result)}"
+        for variant, entry in summary.items()
+        for name, result in entry.requirements.items()
+        if result.verdict is not Verdict.MET
+    ]
+
+
+def verdict_text(result: RequirementVerdict) -> str:
+    """A verdict in words: its flights and failures and, where undecided, what would decide it."""
+    text = f"{result.verdict}: {result.failures} of {result.flights} flights fail it"
+    if result.verdict is not Verdict.UNDECIDED:
+        return text
+    more = result.flights_to_decide
+    longer = f"a campaign longer by {more[0]}, {more[1]} or {more[2]} flights"
+    return f"{text}; {longer} would meet it with 0, 1 or 2 more failures"
 
 
 def faults_line(faults: Iterable[object]) -> str:
@@ -91,17 +113,16 @@ def faults_line(faults: Iterable[object]) -> str:
     return f"with faults: {'; '.join(map(str, faults))}"
 
 
-def summary_text(summary: Mapping[str, Any], group: str | None = None) -> str:
+def summary_text(summary: Summary, group: str | None = None) -> str:
     """A summary for the terminal: success rates, requirements, then metrics of successful trials, of groups too."""
     rows = summary_rows(summary)
     rates = [[*who_heads(group), "trials", "success %", f"{100 * CONFIDENCE:g} % interval", "statuses"]]
     for row in rows:
-        low, high = row.entry["success_interval"]
-        statuses = ", ".join(f"{count} {status}" for status, count in row.entry["statuses"].items())
-        rate = percent(row.entry["success_rate"])
+        low, high = row.entry.success_interval
+        statuses = ", ".join(f"{count} {status}" for status, count in row.entry.statuses.items())
+        rate = percent(row.entry.success_rate)
         interval = f"{percent(low)} to {percent(high)}"
-        rates.append([*who_cells(row, group), str(row.entry["trials"]), rate, interval, statuses])
-    metrics = dict.fromkeys(metric for variant in summary.values() for metric in variant["metrics"])
-    found = metric_lines(rows, metrics, group)
-    required = requirement_lines(summary)
-    return "\n".join([*aligned(rates), *(["", *required] if required else []), *(["", *found] if found else [])])
+        rates.append([*who_cells(row, group), str(row.entry.trials), rate, interval, statuses])
+    metrics = dict.fromkeys(metric for variant in summary.values() for metric in variant.metrics)
+    tables = [aligned(rates), requirement_lines(summary), metric_lines(rows, metrics, group)]
+    return "\n\n".join("\n".join(lines) for lines in tables if lines)

@@ -9,8 +9,10 @@ from typing import Any, Unpack
 
 from matplotlib.figure import Figure as Plot
 
-from ..campaigns.fly import results, runner
+from ..campaigns.fly import results
+from ..campaigns.fly.campaign import open_campaign
 from ..campaigns.fly.cluster.connection import cluster
+from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.rows import whole_column
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.summary import CONFIDENCE, summary_rows
@@ -42,7 +44,7 @@ class BatchResult(results.BatchResult):
     requirements: tuple[Expression, ...] = ()
 
     def __repr__(self) -> str:
-        rates = ", ".join(f"{name} {short_percent(entry['success_rate'])} %" for name, entry in self.summary.items())
+        rates = ", ".join(f"{name} {short_percent(entry.success_rate)} %" for name, entry in self.summary.items())
         return f"{type(self).__name__}({self.provenance['system']}, {self.plan.campaign.trials} trials: {rates})"
 
     def to_json(self) -> dict[str, Any]:
@@ -104,10 +106,10 @@ class BatchResult(results.BatchResult):
         rates = [
             (
                 *who_cells(row, group),
-                str(row.entry["trials"]),
-                short_percent(row.entry["success_rate"]),
-                " to ".join(short_percent(end) for end in row.entry["success_interval"]),
-                ", ".join(f"{count} {status}" for status, count in row.entry["statuses"].items()),
+                str(row.entry.trials),
+                short_percent(row.entry.success_rate),
+                " to ".join(short_percent(end) for end in row.entry.success_interval),
+                ", ".join(f"{count} {status}" for status, count in row.entry.statuses.items()),
             )
             for row in rows
         ]
@@ -121,7 +123,7 @@ class BatchResult(results.BatchResult):
 
     def _requirement_grid(self) -> Grid:
         rows = [
-            (f"{name}: {entry['text']}", variant, entry["verdict"], str(entry["flights"]), str(entry["failures"]))
+            (f"{name}: {entry.text}", variant, entry.verdict, str(entry.flights), str(entry.failures))
             for variant, name, entry in requirement_rows(self.summary)
         ]
         return Grid(("requirement", "variant", "verdict", "flights", "failures"), rows)
@@ -156,12 +158,6 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
         resume_hint(folder),
         cluster(options["scheduler"], workers=workers, engine=engine) as elsewhere,
     ):
-        result = runner.run_batch(
-            plan, workers=workers, output=folder, resume=options["resume"], engine=engine, elsewhere=elsewhere
-        )
-    return batch_result(result, requirements)
-
-
-def batch_result(result: results.BatchResult, requirements: list[Expression]) -> BatchResult:
-    """A result with what users have of it."""
-    return BatchResult(result.plan, result.rows, result.summary, result.provenance, result.folder, tuple(requirements))
+        opened = open_campaign(plan, folder, resume=options["resume"], engine=engine, workers=workers)
+        rows = fly_campaign(opened, opened.missing(), workers=workers, engine=engine, elsewhere=elsewhere)
+        return BatchResult.finish(opened, rows, requirements=tuple(requirements))

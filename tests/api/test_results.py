@@ -41,9 +41,9 @@ def test_a_batch_as_a_table(batch):
     assert len(table) == TRIALS * len(COMPARED)
     for name in COMPARED:
         own = table[table["variant"] == name]
-        assert own["success"].mean() == batch.summary[name]["success_rate"]
+        assert own["success"].mean() == batch.summary[name].success_rate
         good = own[own["success"]]["metric.position_error"]
-        assert np.mean(good) == pytest.approx(batch.summary[name]["metrics"]["position_error"]["mean"], rel=1e-12)
+        assert np.mean(good) == pytest.approx(batch.summary[name].metrics["position_error"].mean, rel=1e-12)
     assert repr(batch).startswith("BatchResult(lunar_terminal_guidance, 40 trials: analytic_guidance 100 %")
 
 

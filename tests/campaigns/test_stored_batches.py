@@ -216,7 +216,7 @@ def test_what_cannot_be_compared_is_refused_in_one_line(original, tmp_path, opti
 def test_other_refusals(original, tmp_path):
     with pytest.raises(InputError, match=r"given twice; give each folder once"):
         compare([original, original.parent / "." / original.name])
-    with pytest.raises(InputError, match=r"--reference: delta: no such variant; use one of beta, alpha, gamma"):
+    with pytest.raises(InputError, match=r"reference: delta: no such variant; use one of beta, alpha, gamma"):
         compare([original], "delta")
     with pytest.raises(InputError, match=r"summary\.json: not found"):
         compare([tmp_path / "nothing"])
@@ -246,7 +246,7 @@ def test_rates_are_what_is_true_or_false(original, tmp_path):
     write_sample(tmp_path / "true", noise=1e-9)
     found = compare([tmp_path / "true"])
     assert names(found) == [None, "pinpoint"]
-    assert found.summary["beta"]["rates"]["pinpoint"]["count"] == 40
+    assert found.summary["beta"].rates["pinpoint"].count == 40
 
 
 def test_a_metric_that_only_one_batch_has(original, tmp_path):
@@ -255,4 +255,4 @@ def test_a_metric_that_only_one_batch_has(original, tmp_path):
     found = compare([tmp_path / "fewer", original])
     assert [metric.name for metric in found.metrics] == ["miss", "propellant", "x_error_over_sigma", "tilt"]
     assert np.all(np.isnan(found.values("fewer: alpha", "tilt")))
-    assert found.summary["fewer: alpha"]["metrics"]["tilt"]["count"] == 0
+    assert found.summary["fewer: alpha"].metrics["tilt"].count == 0

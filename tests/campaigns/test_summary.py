@@ -13,6 +13,7 @@ from perilune.analysis.campaigns.spec.campaign import Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.groups import Group
 from perilune.analysis.campaigns.summary import requirement_values, success_interval, summarise
+from perilune.analysis.common.to_json import to_json
 
 METRICS = [Metric("miss", Expression("p.x"), "final", unit="m")]
 GOOD = TrialColumns(["finished"] * 4, np.array([True, True, True, False]), {"miss": np.array([1.0, 2.0, 6.0, 500.0])})
@@ -25,33 +26,36 @@ def summary():
 
 
 def test_rates_and_statuses(summary):
-    assert summary["good"]["trials"] == 4
-    assert summary["good"]["success_rate"] == 0.75
-    assert summary["good"]["success_interval"] == list(success_interval(3, 4))
-    assert summary["bad"]["statuses"] == {"finished": 1, "nonfinite": 1}
+    assert summary["good"].trials == 4
+    assert summary["good"].success_rate == 0.75
+    assert summary["good"].success_interval == success_interval(3, 4)
+    assert summary["bad"].statuses == {"finished": 1, "nonfinite": 1}
 
 
 def test_metrics_are_over_successes_and_over_all(summary):
     good = summary["good"]
-    assert good["metrics_over"] == "successful trials"
-    assert good["metrics"]["miss"] == {
+    assert good.metrics_over == "successful trials"
+    assert to_json(good.metrics["miss"]) == {
         "count": 3, "mean": 3.0, "std": pytest.approx(math.sqrt(7)), "max": 6.0, "min": 1.0,
         "rms": pytest.approx(math.sqrt(41 / 3)), "p5": 1.0, "p50": 2.0, "p95": 6.0, "p99": 6.0, "unit": "m",
     }  # fmt: skip
-    assert good["metrics_all"]["miss"]["max"] == 500.0
+    assert good.metrics_all["miss"].max == 500.0
 
 
 def test_what_cannot_be_had_is_none(summary):
-    assert summary["bad"]["metrics"]["miss"] == {
+    assert to_json(summary["bad"].metrics["miss"]) == {
         "count": 0, "mean": None, "std": None, "max": None, "min": None, "rms": None,
         "p5": None, "p50": None, "p95": None, "p99": None, "unit": "m",
     }  # fmt: skip
-    assert summary["bad"]["metrics_all"]["miss"]["count"] == 1
-    assert summary["bad"]["metrics_all"]["miss"]["std"] is None
+    assert summary["bad"].metrics_all["miss"].count == 1
+    assert summary["bad"].metrics_all["miss"].std is None
 
 
 def test_is_strict_json(summary):
-    assert json.loads(json.dumps(summary, allow_nan=False)) == summary
+    document = to_json(summary)
+    assert json.loads(json.dumps(document, allow_nan=False)) == document
+    assert document["good"]["success_rate"] == 0.75
+    assert document["good"].keys().isdisjoint({"value", "groups", "requirements", "rates"})
 
 
 def test_requirements_reach_every_number(summary):
@@ -66,10 +70,10 @@ def test_requirements_see_what_is_infinite():
     """A trial that never settles: the quantile is infinite, so a bound on it is not met, and not 0 either."""
     late = TrialColumns(["finished"] * 2, np.array([True, True]), {"miss": np.array([1.0, math.inf])})
     summary = summarise({"late": late}, METRICS)
-    assert summary["late"]["metrics"]["miss"]["p95"] == "inf"
+    assert summary["late"].metrics["miss"].p95 == math.inf
     assert requirement_values(summary)["late.metrics.miss.p95"] == math.inf
     assert requirement_values(summary)["late.metrics.miss.p50"] == 1.0
-    json.dumps(summary, allow_nan=False)
+    assert json.loads(json.dumps(to_json(summary), allow_nan=False))["late"]["metrics"]["miss"]["p95"] == "inf"
 
 
 CASES = np.array([0.5, 2.0, 2.0, 0.5])
@@ -79,15 +83,13 @@ PARTED = replace(GOOD, draws={"case": CASES})
 
 def test_groups_are_summed_up_as_the_whole():
     summary = summarise({"good": PARTED}, METRICS, GROUPS, "case")
-    found = summary["good"].pop("groups")
-    assert summary == summarise({"good": GOOD}, METRICS)
-    assert list(found) == ["0.5", "2"]
+    groups = summary["good"].groups
+    assert replace(summary["good"], groups={}) == summarise({"good": GOOD}, METRICS)["good"]
+    assert list(groups) == ["0.5", "2"]
     for group in GROUPS:
-        own = [trial for trial, case in enumerate(CASES) if case == group.value]
-        alone = TrialColumns(["finished"] * 2, GOOD.success[own], {"miss": GOOD.metrics["miss"][own]})
-        entry = found[group.label]
-        assert entry.pop("value") == group.value
-        assert entry == summarise({"x": alone}, METRICS)["x"]
+        members = [trial for trial, case in enumerate(CASES) if case == group.value]
+        alone = TrialColumns(["finished"] * 2, GOOD.success[members], {"miss": GOOD.metrics["miss"][members]})
+        assert groups[group.label] == replace(summarise({"x": alone}, METRICS)["x"], value=group.value)
 
 
 def test_requirements_reach_groups_by_their_value():
@@ -113,7 +115,7 @@ class InParts:
 @pytest.mark.parametrize("held", [12, 11])
 def test_few_trials_are_read_once_and_many_come_to_the_same(monkeypatch, held):
     """Three columns of four trials are held, statuses are read for the whole and both groups; or no column is held."""
-    monkeypatch.setattr(summaries, "HELD", held)
+    monkeypatch.setattr(summaries, "IN_MEMORY", held)
     trials = InParts(PARTED)
     assert summarise({"x": trials}, METRICS, GROUPS, "case") == summarise({"x": PARTED}, METRICS, GROUPS, "case")
     assert (trials.readings <= 4) == (held >= 12)

@@ -59,13 +59,13 @@ def test_success_rates(result, method):
     low, high = BANDS[method]
     assert low <= TABLE[method].success <= high
     fewest, most = successes_within(low, high, TRIALS)
-    reached = round(result.summary[method]["success_rate"] * TRIALS)
+    reached = round(result.summary[method].success_rate * TRIALS)
     assert fewest <= reached <= most
 
 
 def test_methods_rank_as_published(result):
     """On the same draws: what the analytic method reaches is at least what the others do."""
-    rates = [result.summary[method]["success_rate"] for method in sorted(TABLE, key=lambda name: TABLE[name].success)]
+    rates = [result.summary[method].success_rate for method in sorted(TABLE, key=lambda name: TABLE[name].success)]
     assert rates == sorted(rates)
 
 
@@ -74,10 +74,10 @@ def test_errors_of_the_stop_at_the_last_full_cycle(result):
     rows = [row for row in result.table().to_pylist() if row["variant"] == "analytic_guidance"]
     left = np.array([row["final.guidance.time_to_go"] for row in rows])
     assert stats.kstest(left / 0.1, stats.uniform(0, 1).cdf).pvalue > 1e-3
-    found = result.summary["analytic_guidance"]["metrics"]
-    assert found["velocity_error"]["mean"] == pytest.approx(0.27, abs=0.05)
-    assert found["velocity_error"]["std"] == pytest.approx(0.16, abs=0.03)
-    assert found["position_error"]["mean"] == pytest.approx(0.009, abs=0.003)
+    found = result.summary["analytic_guidance"].metrics
+    assert found["velocity_error"].mean == pytest.approx(0.27, abs=0.05)
+    assert found["velocity_error"].std == pytest.approx(0.16, abs=0.03)
+    assert found["position_error"].mean == pytest.approx(0.009, abs=0.003)
 
 
 @pytest.mark.parametrize(("step", "miss", "velocity"), [(0.1, 1e-6, 1e-3), (1.0, 1e-3, 0.05)])
@@ -86,7 +86,7 @@ def test_exact_method_meets_the_target(step, miss, velocity):
     found = perilune.batch(
         SYSTEM, "paper", trials=EXACT_TRIALS, compare=compare, parameters=["exact.ssv"], step=step, workers=1
     ).summary["analytic_exact_guidance"]
-    assert found["success_rate"] == 1.0
-    assert found["metrics_all"]["position_error"]["count"] == EXACT_TRIALS
-    assert found["metrics_all"]["position_error"]["max"] < miss
-    assert found["metrics_all"]["velocity_error"]["max"] < velocity
+    assert found.success_rate == 1.0
+    assert found.metrics_all["position_error"].count == EXACT_TRIALS
+    assert found.metrics_all["position_error"].max < miss
+    assert found.metrics_all["velocity_error"].max < velocity

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from ...common.percent import percent
+from ...common.to_json import to_json
 from ..folder.stored import StoredBatch
 from ..rows import TrialColumns
 from ..spec.campaign import Metric
 from ..spec.groups import Group
-from ..summary import CONFIDENCE, success_interval, summarise, summary_rows
+from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
 from ..tables import aligned, faults_line, metric_lines, who_cells, who_heads
 from ..trials import Trials
 from .paired import PairedRates, PairedValues, paired_rates, paired_values
@@ -118,8 +119,8 @@ class Comparison:
         return np.isfinite(values) & (values != 0.0)
 
     @cached_property
-    def summary(self) -> dict[str, Any]:
-        """Per contender what a batch's summary has, and ``rates``: count, rate and interval by name; groups too."""
+    def summary(self) -> Summary:
+        """Per contender what a batch's summary has, and ``rates`` by name; groups have both."""
         grouping = self._grouping
         by = {} if grouping is None or grouping.group is None else {grouping.group: grouping.draws[grouping.group]}
         columns = {
@@ -131,18 +132,21 @@ class Comparison:
             )
             for label, contender in self.contenders.items()
         }
-        found = summarise(columns, self.metrics, self.groups, self.group or "")
-        members = {group.label: np.flatnonzero(group.has(values)) for group in self.groups for values in by.values()}
-        for label, group, entry in summary_rows(found):
-            trials = slice(None) if group is None else members[group]
-            entry["rates"] = {name_of(rate): self._rate(label, rate, trials) for rate in self.rates}
-        return found
+        members = {group.label: group.has(values) for group in self.groups for values in by.values()}
 
-    def _rate(self, label: str, rate: Metric | None, trials: slice | np.ndarray) -> dict[str, Any]:
-        yes = self.outcomes(label, rate)[trials]
-        count = int(yes.sum())
-        interval = list(success_interval(count, yes.size, CONFIDENCE))
-        return {"count": count, "trials": yes.size, "rate": count / yes.size, "interval": interval}
+        def with_rates(label: str, entry: VariantSummary) -> VariantSummary:
+            groups = {group: self._rates(label, members[group]) for group in entry.groups}
+            return replace(
+                entry,
+                groups={group: replace(inner, rates=groups[group]) for group, inner in entry.groups.items()},
+                rates=self._rates(label, slice(None)),
+            )
+
+        summary = summarise(columns, self.metrics, self.groups, self.group or "")
+        return {label: with_rates(label, entry) for label, entry in summary.items()}
+
+    def _rates(self, label: str, trials: slice | np.ndarray) -> dict[str, Rate]:
+        return {name_of(rate): success_rate(self.outcomes(label, rate)[trials]) for rate in self.rates}
 
     @cached_property
     def pairs(self) -> list[tuple[str, str]]:
@@ -186,14 +190,14 @@ class Comparison:
         return group | {
             "batches": {str(batch.folder): batch.provenance for batch in self.batches.values()},
             "notes": list(self.notes),
-            "variants": self.summary,
+            "variants": to_json(self.summary),
             "pairs": [
                 {
                     "a": pair[0],
                     "b": pair[1],
-                    "rates": {name_of(rate): asdict(self.paired_rates(pair, rate)) for rate in self.rates},
-                    "metrics": {m.name: asdict(self.paired_values(pair, m.name, True)) for m in self.metrics},
-                    "metrics_all": {m.name: asdict(self.paired_values(pair, m.name, False)) for m in self.metrics},
+                    "rates": {name_of(rate): to_json(self.paired_rates(pair, rate)) for rate in self.rates},
+                    "metrics": {m.name: to_json(self.paired_values(pair, m.name, True)) for m in self.metrics},
+                    "metrics_all": {m.name: to_json(self.paired_values(pair, m.name, False)) for m in self.metrics},
                 }
                 for pair in self.pairs
             ],
@@ -205,10 +209,10 @@ class Comparison:
         rows = summary_rows(self.summary)
         cells = [[*who_heads(self.group), "trials", *map(_head, names)]]
         for row in rows:
-            rates = [_percent(row.entry["rates"][name]) for name in names]
-            cells.append([*who_cells(row, self.group), str(row.entry["trials"]), *rates])
-        found = metric_lines(rows, [metric.name for metric in self.metrics], self.group)
-        return "\n".join([*aligned(cells), *(["", *found] if found else []), *self._fault_lines(), *self.notes])
+            rates = [rate_text(row.entry.rates[name]) for name in names]
+            cells.append([*who_cells(row, self.group), str(row.entry.trials), *rates])
+        metrics = metric_lines(rows, [metric.name for metric in self.metrics], self.group)
+        return "\n".join([*aligned(cells), *(["", *metrics] if metrics else []), *self._fault_lines(), *self.notes])
 
     def _fault_lines(self) -> list[str]:
         """With which faults every batch flew; nothing where none did."""
@@ -223,9 +227,10 @@ def _head(name: str) -> str:
     return f"{name} %{'' if name == SUCCESS else ' of all'} ({100 * CONFIDENCE:g} %)"
 
 
-def _percent(rate: Mapping[str, Any]) -> str:
-    low, high = rate["interval"]
-    return f"{percent(rate['rate'])} ({percent(low)} to {percent(high)})"
+def rate_text(rate: Rate, text: Callable[[float], str] = percent) -> str:
+    """A rate with its interval, in per cent as ``text`` writes it."""
+    low, high = rate.interval
+    return f"{text(rate.rate)} ({text(low)} to {text(high)})"
 
 
 def name_of(rate: Metric | None) -> str:

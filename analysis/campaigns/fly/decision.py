@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..requirement_verdicts import decided_after, kept
+from ..requirement_verdicts import decided_after, satisfies
 from ..rows import TrialRows
 from ..spec.plan import BatchPlan
 
@@ -35,7 +35,7 @@ class Decision:
             return
         requirements = self._plan.campaign.requirements
         self._ahead[shard] = {
-            name: [kept(requirement, trials) for requirement in requirements] for name, trials in variants.items()
+            name: [satisfies(requirement, trials) for requirement in requirements] for name, trials in variants.items()
         }
         while not self.is_made and self._looked in self._ahead:
             for name, found in self._ahead.pop(self._looked).items():

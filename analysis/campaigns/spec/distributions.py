@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..draws.declared import Draw
-from .toml_table import Table, choice_of, integer, names, number, sequence
+from .toml.table import Table, choice_of, integer, names, number, sequence
 
 NUMBERS = sequence(number)
 MATRIX = sequence(NUMBERS)

@@ -30,12 +30,12 @@ def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, 
     """Metrics worth a panel; those with one value in every trial, and it; those that are nowhere finite."""
     drawn, still, empty = [], [], []
     for metric in result.plan.campaign.metrics:
-        found = [entry["metrics_all"][metric.name] for entry in result.summary.values()]
-        trials = sum(entry["trials"] for entry in result.summary.values())
-        ends = {entry[end] for entry in found for end in ("min", "max") if entry["count"]}
+        found = [entry.metrics_all[metric.name] for entry in result.summary.values()]
+        trials = sum(entry.trials for entry in result.summary.values())
+        ends = {end for entry in found for end in (entry.min, entry.max) if end is not None}
         if not ends:
             empty.append(metric)
-        elif len(ends) == 1 and sum(entry["count"] for entry in found) == trials > 1:
+        elif len(ends) == 1 and sum(entry.count for entry in found) == trials > 1:
             still.append((metric, ends.pop()))
         else:
             drawn.append(metric)

@@ -28,14 +28,14 @@ def rates_figure(result: BatchResult, published: Mapping[str, float] | None = No
     """
     names = list(result.summary)
     others = [100.0 * rate for rate in (published or {}).values()]
-    intervals = [[100.0 * end for end in result.summary[name]["success_interval"]] for name in names]
+    intervals = [[100.0 * end for end in result.summary[name].success_interval] for name in names]
     lowest = min([low for low, _ in intervals] + others)
 
     def draw(figure: Figure) -> None:
         slim = is_slim(figure)
         axes = figure.subplots()
         for index, (name, (low, high)) in enumerate(zip(names, intervals, strict=True)):
-            rate = 100.0 * result.summary[name]["success_rate"]
+            rate = 100.0 * result.summary[name].success_rate
             _draw_rate(axes, index, rate, low, high)
             _write_rate(
                 axes,
@@ -52,7 +52,7 @@ def rates_figure(result: BatchResult, published: Mapping[str, float] | None = No
         axes.grid(visible=False, axis="y")
         axes.tick_params(axis="y", length=0, labelsize=9)
         plain_ticks(axes, x=5 if slim else 8)
-        axes.set_xlabel(f"success rate, %, with its {100.0 * result.summary[names[0]]['confidence']:g} % interval")
+        axes.set_xlabel(f"success rate, %, with its {100.0 * result.summary[names[0]].confidence:g} % interval")
         if others:
             figure.legend([Line2D([], [], **RING)], ["published rate"], loc="outside upper right", borderpad=0.1)
 

@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 from ...campaigns.draws.declared import drawn_names
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.fly.workers.status_texts import worst_statuses
+from ...campaigns.requirement_verdicts import RequirementVerdict
 from ...campaigns.spec.campaign import Campaign
 from ...campaigns.statistics import QUANTILES, STATISTICS
-from ...campaigns.summary import SummaryRow, summary_rows
+from ...campaigns.summary import Summary, SummaryRow, summary_rows
 from ...campaigns.tables import bound_text, requirement_rows
 from ...studies.sensitivity.ranks import rank_correlations
 from ..common.quantities import in_shown_unit, number, shown_unit
@@ -19,12 +20,12 @@ from ..common.quantities import in_shown_unit, number, shown_unit
 HEADINGS = {name: f"{QUANTILES[name]} %" if name in QUANTILES else name for name in STATISTICS}
 
 
-def variant_rows(summary: Mapping[str, Any]) -> list[SummaryRow]:
+def variant_rows(summary: Summary) -> list[SummaryRow]:
     """A row per variant, over all its trials."""
     return [row for row in summary_rows(summary) if row.group is None]
 
 
-def group_rows(summary: Mapping[str, Any]) -> list[SummaryRow]:
+def group_rows(summary: Summary) -> list[SummaryRow]:
     """A row per variant and group of its trials, groups of a variant together."""
     return [row for row in summary_rows(summary) if row.group is not None]
 
@@ -35,11 +36,11 @@ class RequirementRow(NamedTuple):
     variant: str
     name: str
     description: str
-    found: dict[str, Any]
+    found: RequirementVerdict
     bound: str
 
 
-def verdict_rows(summary: Mapping[str, Any], campaign: Campaign) -> list[RequirementRow]:
+def verdict_rows(summary: Summary, campaign: Campaign) -> list[RequirementRow]:
     """A row per requirement and variant, variants of a requirement together."""
     described = {requirement.name: requirement.description for requirement in campaign.requirements}
     units = {metric.name: metric.unit for metric in campaign.metrics}
@@ -49,12 +50,11 @@ def verdict_rows(summary: Mapping[str, Any], campaign: Campaign) -> list[Require
     ]
 
 
-def _bound(found: Mapping[str, Any], units: Mapping[str, str]) -> str:
-    if found["bound"] is None:
+def _bound(result: RequirementVerdict, units: Mapping[str, str]) -> str:
+    if result.bound is None:
         return ""
-    value, unit = found["bound"]["value"], units[found["bound"]["metric"]]
-    known = float(value) if isinstance(value, str) else value
-    return bound_text(found, f"{number(in_shown_unit(known, unit))} {shown_unit(unit)}".strip())
+    unit = units[result.bound.metric]
+    return bound_text(result, f"{number(in_shown_unit(result.bound.value, unit))} {shown_unit(unit)}".strip())
 
 
 TOLD = 3  # draws of a metric
@@ -95,14 +95,14 @@ class SeenStatus(NamedTuple):
 
 def seen_statuses(result: BatchResult) -> list[SeenStatus]:
     """Counts by variant, signal and status; none where no trial reported two, as the table of ends tells all then."""
-    if not any(len(worst_statuses(text)) > 1 for entry in result.summary.values() for text in entry["statuses"]):
+    if not any(len(worst_statuses(text)) > 1 for entry in result.summary.values() for text in entry.statuses):
         return []
     found = []
     for variant, entry in result.summary.items():
         counts: Counter[tuple[str, int]] = Counter()
-        for text, trials in entry["statuses"].items():
+        for text, trials in entry.statuses.items():
             counts.update(dict.fromkeys(worst_statuses(text).items(), trials))
-        found += [SeenStatus(variant, *status, count, entry["trials"]) for status, count in sorted(counts.items())]
+        found += [SeenStatus(variant, *status, count, entry.trials) for status, count in sorted(counts.items())]
     return found
 
 

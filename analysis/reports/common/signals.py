@@ -1,4 +1,4 @@
-"""The signals of a run sorted into vectors and components, for any system: from names, units and types alone."""
+"""Signals of a run grouped into vectors and components, by names, units and types alone."""
 
 from __future__ import annotations
 
@@ -47,22 +47,22 @@ class SignalGroup:
         return self.type == "Real"
 
     def values(self, result: Result) -> np.ndarray:
-        """The values, elements by rows of time, in SI."""
+        """The values in SI, [elements, samples]."""
         return np.stack([result[name] for name in self.names])
 
 
 def signal_groups(result: Result) -> list[SignalGroup]:
-    """All signals in their order, elements of vectors brought together."""
+    """All signals in their order, elements of vectors grouped."""
     components = result.provenance["fmus"]
-    found: dict[tuple[str, str, str | None, str, bool], list[tuple[str, str]]] = {}
+    by_key: dict[tuple[str, str, str | None, str, bool], list[tuple[str, str]]] = {}
     for name in result.signals:
         component, variable = parted(name, components)
         indexed = INDEXED.fullmatch(variable)
         base, index = indexed.groups() if indexed else (variable, "")
         key = (component, base, result.units[name], result.types[name], bool(indexed))
-        found.setdefault(key, []).append((name, index))
+        by_key.setdefault(key, []).append((name, index))
     groups = []
-    for (component, variable, unit, kind, _), elements in found.items():
+    for (component, variable, unit, kind, _), elements in by_key.items():
         names = tuple(name for name, _ in elements)
         indices = tuple(index for _, index in elements if index)
         groups.append(SignalGroup(component, variable, unit, kind, names, indices))
@@ -70,9 +70,9 @@ def signal_groups(result: Result) -> list[SignalGroup]:
 
 
 def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup, SignalGroup]:
-    """Each group and the first one that has the same unit and the same values, often itself.
+    """Each group with the first group of the same unit and values, itself if there is none before it.
 
-    A connected input repeats the output that drives it; drawing it twice tells nothing.
+    A connected input repeats the output that drives it and needs no plot of its own.
     """
     first: dict[tuple, SignalGroup] = {}
     return {
@@ -81,7 +81,7 @@ def distinct(groups: Iterable[SignalGroup], result: Result) -> dict[SignalGroup,
 
 
 def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[SignalGroup]:
-    """States and commands, by the names of variables alone: of each the first component's signal that changes."""
+    """States and commands, by the names of variables: of each the first signal that changes."""
     first: dict[str, SignalGroup] = {}
     for group in groups:
         if group.component and group.is_real and group.variable in STATES + COMMANDS:
@@ -92,7 +92,7 @@ def states_and_commands(groups: Iterable[SignalGroup], result: Result) -> list[S
 
 
 def position_groups(result: Result) -> list[SignalGroup]:
-    """Distinct signals COMPONENT.position[1..3] in m: the paths that a trajectory figure shows."""
+    """Distinct signals COMPONENT.position[1..3] in m: the paths of a trajectory plot."""
     groups = [
         group
         for group in signal_groups(result)

@@ -118,7 +118,7 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
 
 def _axis_start(rows: Iterable[SummaryRow], rate: str) -> float:
     """Where the axis of a rate's intervals begins: at the tenth below the lowest."""
-    lowest = min((row.entry["rates"][rate]["interval"][0] for row in rows), default=1.0)
+    lowest = min((row.entry.rates[rate].interval[0] for row in rows), default=1.0)
     return min(0.9, math.floor(10.0 * lowest) / 10.0)
 
 

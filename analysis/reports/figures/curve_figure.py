@@ -1,4 +1,4 @@
-"""Scalars over time, each in a panel of its own or all in one, with the limits that they have."""
+"""Scalars over time with their limits, each in its own panel or all in one."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from ..common.style import FAINT, look
 from .declaration.figures import Curve
 from .section import (
     Section,
-    choice,
-    chosen_rows,
+    condition_text,
+    empty_section,
     history_panel,
     legend_of,
-    nothing_chosen,
+    select_rows,
     sentence,
-    trimmed,
+    span_of,
     wide_history,
 )
 
 
 def curve_section(curve: Curve, result: Result, name: str) -> Section:
-    """The figures of curves; ``name`` must differ between the figures of a page."""
-    chosen = chosen_rows(curve.rows, result)
+    """The section of curves; ``name`` must differ between the figures of a page."""
+    chosen = select_rows(curve.rows, result)
     if curve.rows is not None and not chosen.any():
-        return nothing_chosen(curve.title, curve.rows)
-    rows = trimmed(chosen)
+        return empty_section(curve.title, curve.rows)
+    rows = span_of(chosen)
     time = result.time[rows]
-    shown = [np.where(chosen, signal.shown(result)[0], np.nan)[rows] for signal in curve.signals]
+    values = [np.where(chosen, signal.plot_values(result)[0], np.nan)[rows] for signal in curve.signals]
     unit_name = curve.signals[0].unit_name
     unit = shown_unit(unit_name)
 
@@ -42,16 +42,16 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
         for index in which:
             style = look(index if curve.together else 0)
             axes.plot(
-                time, shown[index], color=style.colour, linestyle=style.dashes, marker="." if time.size == 1 else ""
+                time, values[index], color=style.colour, linestyle=style.dashes, marker="." if time.size == 1 else ""
             )
 
-    notes = _reading(curve, unit)
-    if len(shown) == 1 or curve.together:
+    notes = _caption(curve, unit)
+    if len(values) == 1 or curve.together:
         names = ", ".join(signal.label for signal in curve.signals)
-        drawn = wide_history(
-            name, f"{curve.title}: {names} over time", unit, time, lambda axes: draw(axes, range(len(shown)))
+        plot = wide_history(
+            name, f"{curve.title}: {names} over time", unit, time, lambda axes: draw(axes, range(len(values)))
         )
-        return Section(title=curve.title, drawn=drawn, legend=legend_of(curve.labels), notes=notes)
+        return Section(title=curve.title, plot=plot, legend=legend_of(curve.labels), notes=notes)
     panels = [
         history_panel(
             label,
@@ -66,12 +66,12 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
     return Section(title=curve.title, panels=panels, notes=notes)
 
 
-def _reading(curve: Curve, unit: str) -> list[Markup]:
-    words = Markup("line: {}").format(", ".join(signal.label for signal in curve.signals))
+def _caption(curve: Curve, unit: str) -> list[Markup]:
+    text = Markup("line: {}").format(", ".join(signal.label for signal in curve.signals))
     limits = [limit for limit in (curve.low, curve.high) if limit is not None]
     if limits:
-        values = Markup(" and ").join(exact(limit, curve.signals[0].unit_name) for limit in limits)
-        words = Markup("{}; dashed: {} {}").format(words, values, unit)
+        numbers = Markup(" and ").join(exact(limit, curve.signals[0].unit_name) for limit in limits)
+        text = Markup("{}; dashed: limits {} {}").format(text, numbers, unit)
     if curve.rows is not None:
-        words = Markup("{}; where {}").format(words, choice(curve.rows))
-    return [sentence(words), *(Markup("{}").format(note) for note in curve.notes)]
+        text = Markup("{}; samples where {}").format(text, condition_text(curve.rows))
+    return [sentence(text), *(Markup("{}").format(note) for note in curve.notes)]

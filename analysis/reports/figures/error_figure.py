@@ -1,4 +1,4 @@
-"""An estimate less the truth, with what the estimator states of it: the whole flight, and to the scale of its end."""
+"""Estimation errors with the estimator's standard deviation: the full time history, and a zoom on its end."""
 
 from __future__ import annotations
 
@@ -13,23 +13,33 @@ from ..common.panels import Panel
 from ..common.quantities import shown_unit
 from ..common.style import BLUE, FAINT, ORANGE
 from .declaration.figures import Error
-from .section import Section, capital, choice, chosen_rows, history_panel, nothing_chosen, seconds, sentence, trimmed
+from .section import (
+    Section,
+    capital,
+    condition_text,
+    empty_section,
+    history_panel,
+    seconds,
+    select_rows,
+    sentence,
+    span_of,
+)
 
 SIGMAS = (3.0, 1.0)
-MOST_ROWS = 500  # of the shades, which nothing simplifies
+MOST_ROWS = 500  # of the shaded areas, which matplotlib does not simplify
 ROUNDING = 1e-12  # of times, which are start + n h
-FAR = 4.0  # times the extent of the last quarter from which on the whole flight leaves too little of it to see
+WIDE = 4.0  # range of the errors over that of the last quarter from which a zoom is plotted
 
 
 def error_section(error: Error, result: Result, name: str) -> Section:
-    """The figures and findings of an error; ``name`` must differ between the figures of a page."""
-    chosen = chosen_rows(error.rows, result)
+    """The section of an error; ``name`` must differ between the figures of a page."""
+    chosen = select_rows(error.rows, result)
     if error.rows is not None and not chosen.any():
-        return nothing_chosen(error.title, error.rows)
-    rows = trimmed(chosen)
+        return empty_section(error.title, error.rows)
+    rows = span_of(chosen)
     time = result.time[rows]
-    values = np.where(chosen, error.estimate.shown(result) - error.truth.shown(result), np.nan)[:, rows]
-    stated = np.zeros_like(values) if error.sigma is None else error.sigma.shown(result)[:, rows]
+    values = np.where(chosen, error.estimate.plot_values(result) - error.truth.plot_values(result), np.nan)[:, rows]
+    stated = np.zeros_like(values) if error.sigma is None else error.sigma.plot_values(result)[:, rows]
     sigma = np.where(stated > 0.0, stated, np.nan)
     panels: list[Panel] = []
     findings: list[Markup] = []
@@ -40,7 +50,7 @@ def error_section(error: Error, result: Result, name: str) -> Section:
         title=error.title,
         panels=panels,
         findings=findings,
-        notes=[*_reading(error, sigma), *(Markup("{}").format(note) for note in error.notes)],
+        notes=[*_caption(error, sigma), *(Markup("{}").format(note) for note in error.notes)],
     )
 
 
@@ -48,7 +58,7 @@ def _panels(
     error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, name: str
 ) -> list[Panel]:
     unit = shown_unit(error.estimate.unit_name)
-    what = f"{error.title}: {label or error.estimate.label} over time"
+    description = f"{error.title}: {label or error.estimate.label} over time"
     head = f"{label}, " if label else ""
 
     def draw(axes: Axes, reach: float | None = None) -> None:
@@ -61,53 +71,60 @@ def _panels(
         if reach is not None:
             axes.set_ylim(-reach, reach)
 
-    panels = [history_panel(capital(f"{head}the whole flight"), f"{name}-whole", what, unit, time, draw)]
-    reach = _reach_of_the_end(values, sigma)
+    panels = [history_panel(capital(f"{head}time history"), f"{name}-whole", description, unit, time, draw)]
+    reach = _final_range(values, sigma)
     if reach is not None:
-        words = capital(f"{head}to the scale of the last quarter")
+        label = capital(f"{head}scaled to the last quarter")
         panels.append(
-            history_panel(words, f"{name}-end", f"{what}, its end", unit, time, lambda axes: draw(axes, reach))
+            history_panel(
+                label,
+                f"{name}-end",
+                f"{description}, scaled to the last quarter",
+                unit,
+                time,
+                lambda axes: draw(axes, reach),
+            )
         )
     return panels
 
 
-def _reach_of_the_end(values: np.ndarray, sigma: np.ndarray) -> float | None:
-    """How far from 0 the last quarter goes, its deviations too; None where the whole flight shows it well."""
+def _final_range(values: np.ndarray, sigma: np.ndarray) -> float | None:
+    """Largest magnitude of error and sigma in the last quarter; None where the full range shows it well."""
     sizes = np.fmax(np.abs(values), np.fmax(SIGMAS[0] * sigma, 0.0))
     later = sizes[3 * values.size // 4 :]
-    if not np.any(later > 0.0) or np.nanmax(sizes) <= FAR * np.nanmax(later):
+    if not np.any(later > 0.0) or np.nanmax(sizes) <= WIDE * np.nanmax(later):
         return None
     return 1.1 * float(np.nanmax(later))
 
 
 def _findings(error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray) -> list[Markup]:
-    """The shares of the time within sigma and three of it; nothing where none is stated."""
+    """Fractions of the samples within 1 and 3 sigma; none without a sigma."""
     start = time[0] if error.after is None else error.after
-    told = np.isfinite(sigma) & np.isfinite(values) & (time >= start - ROUNDING * abs(start))
-    if not np.any(told):
+    counted = np.isfinite(sigma) & np.isfinite(values) & (time >= start - ROUNDING * abs(start))
+    if not np.any(counted):
         return []
-    shares = [float(np.mean(np.abs(values[told]) <= times * sigma[told])) for times in SIGMAS]
-    words = Markup("{}from {} on {} of the time within sigma ({} of a normal error would be), {} within three").format(
-        f"{label}: " if label else "", seconds(start), _percent(shares[1]), _percent(_normal(1.0)), _percent(shares[0])
+    fractions = [float(np.mean(np.abs(values[counted]) <= times * sigma[counted])) for times in SIGMAS]
+    text = Markup("{}from {}, {} of the samples within 1 sigma (normal distribution: {}), {} within 3 sigma").format(
+        f"{label}: " if label else "", seconds(start), *map(_percent, (fractions[1], _normal(1.0), fractions[0]))
     )
-    return [sentence(words)]
+    return [sentence(text)]
 
 
 def _normal(times: float) -> float:
     return float(2.0 * scipy.stats.norm.cdf(times) - 1.0)
 
 
-def _percent(share: float) -> Markup:
-    return Markup('<data value="{}">{}</data> %').format(repr(share), short_percent(share, 1))
+def _percent(fraction: float) -> Markup:
+    return Markup('<data value="{}">{}</data> %').format(repr(fraction), short_percent(fraction, 1))
 
 
-def _reading(error: Error, sigma: np.ndarray) -> list[Markup]:
-    words = Markup("line: {} less {}").format(error.estimate.label, error.truth.label)
+def _caption(error: Error, sigma: np.ndarray) -> list[Markup]:
+    text = Markup("line: {} minus {}").format(error.estimate.label, error.truth.label)
     if error.sigma is not None and not np.any(np.isfinite(sigma)):
-        words = Markup("{}; {} states no deviation, it is 0 throughout").format(words, error.sigma.label)
+        text = Markup("{}; {} is 0 throughout, no standard deviation").format(text, error.sigma.label)
     elif error.sigma is not None:
-        gaps = ", where it is not 0" if not np.all(np.isfinite(sigma)) else ""
-        words = Markup("{}; shaded: one and three of {} either way{}").format(words, error.sigma.label, gaps)
+        gaps = " where it is not 0" if not np.all(np.isfinite(sigma)) else ""
+        text = Markup("{}; shaded: ±1 and ±3 {}{}").format(text, error.sigma.label, gaps)
     if error.rows is not None:
-        words = Markup("{}; where {}").format(words, choice(error.rows))
-    return [sentence(words)]
+        text = Markup("{}; samples where {}").format(text, condition_text(error.rows))
+    return [sentence(text)]

@@ -1,4 +1,4 @@
-"""The figures that a system asks for in its SSD, drawn from a flight."""
+"""The sections of the figures that a system declares in its SSD."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from markupsafe import Markup
 
 from ...runtime.flight.results import Result
-from .band_figure import band_section, inside, since
+from .band_figure import band_section, inside, settling_text
 from .curve_figure import curve_section
 from .declaration.figures import Band, Budget, Curve, Error, Figure, Limits, Path, Phases, Pulses
 from .error_figure import error_section
@@ -20,8 +20,8 @@ from .tables import budget_section, limit_section
 
 
 def figure_sections(figures: Sequence[Figure], result: Result) -> list[Section]:
-    """A section for each figure in the order of the SSD; a run without rows has none."""
-    return [_section(figure, result, f"own{index}") for index, figure in enumerate(figures) if result.time.size]
+    """A section for each figure in the order of the SSD; none for a run without samples."""
+    return [_section(figure, result, f"figure{index}") for index, figure in enumerate(figures) if result.time.size]
 
 
 def _section(figure: Figure, result: Result, name: str) -> Section:
@@ -42,21 +42,19 @@ def _section(figure: Figure, result: Result, name: str) -> Section:
             return limit_section(figure, result)
         case Budget():
             return budget_section(figure, result)
-    return Section(title=figure.title, notes=[Markup("Not drawn: {}.").format(note) for note in figure.notes])
+    return Section(title=figure.title, notes=[Markup("Not plotted: {}.").format(note) for note in figure.notes])
 
 
 def joint_findings(figures: Sequence[Figure], result: Result) -> list[Markup]:
-    """From when on all bands of one name hold together, where there are several of it."""
-    found: dict[str, list[np.ndarray]] = {}
+    """The time from which all bands of one name hold, where several have it."""
+    conditions: dict[str, list[np.ndarray]] = {}
     for band in figures:
         if isinstance(band, Band) and result.time.size:
-            found.setdefault(band.name, []).append(np.logical_and.reduce(inside(band, result)))
-    return [
-        sentence(Markup("{}: {}").format(_together(len(held)), since(name, result.time, np.logical_and.reduce(held))))
-        for name, held in found.items()
-        if len(held) > 1
-    ]
-
-
-def _together(bands: int) -> str:
-    return "both bands together" if bands == 2 else f"all {bands} bands together"
+            conditions.setdefault(band.name, []).append(np.logical_and.reduce(inside(band, result)))
+    findings = []
+    for name, bands in conditions.items():
+        if len(bands) > 1:
+            count = "both bands" if len(bands) == 2 else f"all {len(bands)} bands"
+            text = settling_text(name, result.time, np.logical_and.reduce(bands))
+            findings.append(sentence(Markup("{}: {}").format(count, text)))
+    return findings

@@ -13,7 +13,7 @@ from ...runtime.flight.results import Flight
 from ..common.page import exact
 from ..common.quantities import NONE, shown_unit
 from .declaration.figures import Figure, Limit, Limits
-from .declaration.values import Undrawn
+from .declaration.values import Unavailable
 
 
 class Verdict(StrEnum):
@@ -62,7 +62,7 @@ def limit_document(figures: Sequence[Figure], result: Flight) -> list[dict[str, 
     for figure in figures:
         if isinstance(figure, Limits):
             document += limit_entries(figure, result)
-        elif isinstance(figure, Undrawn) and figure.has_limits:
+        elif isinstance(figure, Unavailable) and figure.has_limits:
             document += [
                 {"name": figure.title, "verdict": Verdict.NOT_EVALUATED, "reason": note} for note in figure.notes
             ]

@@ -1,4 +1,4 @@
-"""A scalar over another: a path, with the positions that stand beside it."""
+"""A scalar over another: a path, with further positions as marks."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from ..common.quantities import labelled, shown_unit
 from ..common.style import BLUE, INK, look, plain_ticks
 from .declaration.figures import Path, Point
 from .declaration.values import Arc, Signal
-from .section import Section, choice, chosen_rows, nothing_chosen, sentence, trimmed
+from .section import Section, condition_text, empty_section, select_rows, sentence, span_of
 
 HEIGHT = 3.6  # in
-EQUAL_HEIGHT = 4.6  # in, where both axes have one scale
+EQUAL_HEIGHT = 4.6  # in, with equal scales
 SLIM_HEIGHT = 3.4  # in
 
 
 def path_section(path: Path, result: Result, name: str) -> Section:
-    """The figure of a path; ``name`` must differ between the figures of a page."""
-    chosen = chosen_rows(path.rows, result)
+    """The section of a path; ``name`` must differ between the figures of a page."""
+    chosen = select_rows(path.rows, result)
     if path.rows is not None and not chosen.any():
-        return nothing_chosen(path.title, path.rows)
-    rows = trimmed(chosen)
+        return empty_section(path.title, path.rows)
+    rows = span_of(chosen)
 
     def line(signal: Signal | Arc) -> np.ndarray:
-        return np.where(chosen, signal.shown(result)[0], np.nan)[rows]
+        return np.where(chosen, signal.plot_values(result)[0], np.nan)[rows]
 
     x, y = line(path.x), line(path.y)
     scales = _scales(path, x, y)
@@ -51,13 +51,13 @@ def path_section(path: Path, result: Result, name: str) -> Section:
             axes.legend(loc="best")
 
     beyond = isinstance(path.x, Arc) and bool(np.nanmax(x, initial=0.0) > 0.5 * np.pi * path.x.radius)
-    what = f"{path.title}: {path.y.label} over {path.x.label}"
-    drawn = both_widths(name, what, draw, EQUAL_HEIGHT if path.equal else HEIGHT, SLIM_HEIGHT)
-    return Section(title=path.title, drawn=drawn, notes=_reading(path, beyond))
+    description = f"{path.title}: {path.y.label} over {path.x.label}"
+    plot = both_widths(name, description, draw, EQUAL_HEIGHT if path.equal else HEIGHT, SLIM_HEIGHT)
+    return Section(title=path.title, plot=plot, notes=_caption(path, beyond))
 
 
 def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
-    """Factors of both axes: km where lengths in m are long; equal axes have one."""
+    """Factors of both axes: km where lengths in m are long; the same with equal scales."""
     metres = [signal.unit_name == "m" for signal in (path.x, path.y)]
     if path.equal and all(metres):
         factor, _ = far(np.concatenate([x, y]))
@@ -67,7 +67,7 @@ def _scales(path: Path, x: np.ndarray, y: np.ndarray) -> tuple[float, float]:
 
 
 def _over_ground(path: Path) -> bool:
-    """Whether the ordinate is an altitude over the sphere along which the abscissa goes."""
+    """Whether the ordinate is the altitude over the sphere of the abscissa."""
     return isinstance(path.x, Arc) and path.y.label.rpartition(".")[2] == "altitude"
 
 
@@ -76,35 +76,33 @@ def _axis(signal: Signal | Arc, scale: float) -> str:
 
 
 def _draw_point(axes: Axes, point: Point, position: tuple[np.ndarray, np.ndarray], index: int) -> None:
-    """Everywhere where a position has stood, smaller than where it stands last."""
-    places = np.stack(position)
-    places = places[:, np.all(np.isfinite(places), axis=0)]
-    if not places.size:
+    """All values of a position, the last one larger."""
+    points = np.stack(position)
+    points = points[:, np.all(np.isfinite(points), axis=0)]
+    if not points.size:
         return
-    moved = np.concatenate([[True], np.any(np.diff(places, axis=1) != 0.0, axis=0)])
+    moved = np.concatenate([[True], np.any(np.diff(points, axis=1) != 0.0, axis=0)])
     style = look(index)
-    axes.plot(*places[:, moved], linestyle="", marker=style.marker, markersize=4, color=style.colour)
+    axes.plot(*points[:, moved], linestyle="", marker=style.marker, markersize=4, color=style.colour)
     axes.plot(
-        *places[:, -1], linestyle="", marker=style.marker, markersize=9, markerfacecolor="none",
+        *points[:, -1], linestyle="", marker=style.marker, markersize=9, markerfacecolor="none",
         markeredgewidth=1.6, color=style.colour, label=point.name,
     )  # fmt: skip
 
 
-def _reading(path: Path, beyond: bool) -> list[Markup]:
-    words = Markup("ring: the end")
+def _caption(path: Path, beyond: bool) -> list[Markup]:
+    text = Markup("circle: end")
     if path.points:
         names = ", ".join(f"{point.name} ({point.x.label}, {point.y.label})" for point in path.points)
-        words = Markup("{}; marks: {} wherever it stood, large where it stands last").format(words, names)
+        text = Markup("{}; marks: {}, large: final").format(text, names)
     if path.rows is not None:
-        words = Markup("{}; where {}").format(words, choice(path.rows))
-    scale = Markup("both axes to one scale") if path.equal else Markup("axes to different scales")
-    words = Markup("{}; {}").format(words, scale)
+        text = Markup("{}; samples where {}").format(text, condition_text(path.rows))
+    scale = Markup("equal scales") if path.equal else Markup("not to scale")
+    text = Markup("{}; {}").format(text, scale)
     if isinstance(path.x, Arc):
-        words = Markup("{}; range: along the ground, from the origin to below {}").format(words, path.x.position.label)
+        text = Markup("{}; range: ground range of {} from the origin").format(text, path.x.position.label)
         if beyond:
-            words = Markup("{}, beyond a quarter of the circumference along the great circle of the track").format(
-                words
-            )
+            text = Markup("{}, along the great circle of the track beyond a quarter of the circumference").format(text)
     if _over_ground(path):
-        words = Markup("{}; dark line: the surface").format(words)
-    return [sentence(words), *(Markup("{}").format(note) for note in path.notes)]
+        text = Markup("{}; black line: surface").format(text)
+    return [sentence(text), *(Markup("{}").format(note) for note in path.notes)]

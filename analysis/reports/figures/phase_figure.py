@@ -13,16 +13,16 @@ from matplotlib.figure import Figure
 from ...runtime.flight.results import Flight, Result
 from ..common.page import exact
 from ..common.panels import Widths, both_widths, is_slim
-from ..common.quantities import number, shown_unit
+from ..common.quantities import labelled, number
 from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 from ..common.tables import Table
 from .declaration.figures import Phase, Phases
-from .section import Section, evenly, seconds, sentence
+from .section import Section, align, seconds, sentence
 
 
 @dataclass(frozen=True)
 class Span:
-    """A phase from ``begin`` to ``end`` (s); ``spent`` is what it used up, None where that is not told."""
+    """A phase from ``begin`` to ``end`` (s); ``spent`` is its consumption, None where that is not declared."""
 
     name: str
     begin: float
@@ -31,9 +31,9 @@ class Span:
 
 
 def spans_of(phases: Phases, flight: Flight) -> list[Span]:
-    """The phases as they were flown, one after the other; a value without a name is its own.
+    """The phases in the order of the flight; a value without a name is its own name.
 
-    A phase is from the row in which its value stands first to that of the next one, the last to the end.
+    A phase lasts from its first sample to the first sample of the next one, the last phase to the end.
     """
     values = phases.signal.values(flight)[0]
     starts = [(0, values[0]), *((int(row) + 1, values[row + 1]) for row in np.flatnonzero(np.diff(values)))]
@@ -41,7 +41,7 @@ def spans_of(phases: Phases, flight: Flight) -> list[Span]:
     firsts: list[tuple[int, str]] = []
     for (begin, value), end in zip(starts, ends, strict=True):
         named = [phase for phase in phases.phases if phase.value == value]
-        firsts += _parts(named, flight, begin, end) if named else [(begin, f"{phases.signal.label} {value:g}")]
+        firsts += _subphases(named, flight, begin, end) if named else [(begin, f"{phases.signal.label} {value:g}")]
     spent = None if phases.spent is None else phases.spent.values(flight)[0]
     lasts = [row for row, _ in firsts[1:]] + [values.size - 1]
     return [
@@ -55,25 +55,25 @@ def spans_of(phases: Phases, flight: Flight) -> list[Span]:
     ]
 
 
-def _parts(named: Sequence[Phase], flight: Flight, begin: int, end: int) -> list[tuple[int, str]]:
-    """First row and name of the phases that share a value, between two rows; one that takes no row is left out."""
-    found: list[tuple[int, str]] = []
+def _subphases(named: Sequence[Phase], flight: Flight, begin: int, end: int) -> list[tuple[int, str]]:
+    """First row and name of the phases with the same value, between two rows; a phase without a row is left out."""
+    starts: list[tuple[int, str]] = []
     for phase in named:
         over = end
         if phase.until is not None:
             over = begin + int(np.argmax(np.append(phase.until.values(flight)[0][begin:end] != 0.0, True)))
         if over > begin:
-            found.append((begin, phase.name))
+            starts.append((begin, phase.name))
         begin = over
-    return found
+    return starts
 
 
 def statuses_of(phases: Phases, flight: Flight) -> list[tuple[int, float]] | None:
-    """Each status and when (s) it was there first, in order of time; None where statuses are not told."""
+    """Each status and the time (s) of its first occurrence, in order of time; None where no status is declared."""
     if phases.status_times is not None:
         times = phases.status_times.values(flight)[:, -1]
-        found = [(index, float(time)) for index, time in enumerate(times, 1) if time >= 0.0]
-        return sorted(found, key=lambda entry: entry[1])
+        occurred = [(index, float(time)) for index, time in enumerate(times, 1) if time >= 0.0]
+        return sorted(occurred, key=lambda entry: entry[1])
     if phases.status is None:
         return None
     values = phases.status.values(flight)[0]
@@ -82,23 +82,23 @@ def statuses_of(phases: Phases, flight: Flight) -> list[tuple[int, float]] | Non
 
 
 LANE = 0.27  # in
-LONG = 0.5  # share of the flight in which nothing happens from which on it is cut, so that the rest is seen
-KEPT = 0.06  # of that rest, what is left of the cut time at either end
-NEAR_THE_EDGE = 0.88  # of a window, from where on a bar's duration stands on its left
+LONG = 0.5  # fraction of the flight without an event from which the time axis is broken
+MARGIN = 0.06  # of the remaining time, shown on either side of the break
+NEAR_THE_EDGE = 0.88  # of a window, from which the duration is written on the left of a bar
 Window = tuple[float, float]
 
 
 def phase_section(phases: Phases, result: Result, name: str) -> Section:
-    """The figure, table and statuses of the phases; ``name`` must differ between the figures of a page."""
+    """The section of the phases; ``name`` must differ between the figures of a page."""
     spans, statuses = spans_of(phases, result), statuses_of(phases, result)
     windows = _windows(spans, statuses or [])
-    notes = [Markup("A bar for each phase with how long it takes, s.")]
+    notes = [Markup("Bars: phases with their duration, s.")]
     if len(windows) > 1:
         left_out = windows[1][0] - windows[0][1]
-        notes[0] = Markup("{} The time is cut by {}.").format(notes[0], seconds(left_out))
+        notes[0] = Markup("{} Axis break: {} omitted.").format(notes[0], seconds(left_out))
     return Section(
         title=phases.title,
-        drawn=_figure(phases, spans, statuses or [], windows, name),
+        plot=_figure(phases, spans, statuses or [], windows, name),
         table=_table(phases, spans),
         findings=[] if statuses is None else _findings(phases, statuses),
         notes=[*notes, *(Markup("{}").format(note) for note in phases.notes)],
@@ -106,16 +106,16 @@ def phase_section(phases: Phases, result: Result, name: str) -> Section:
 
 
 def _windows(spans: Sequence[Span], statuses: Sequence[tuple[int, float]]) -> list[Window]:
-    """The times that are drawn: all, or those before and after a time when long nothing happens within a phase."""
+    """The time windows of the plot: the flight, or what is before and after a long interval without an event."""
     begin, end = spans[0].begin, spans[-1].end
     events = sorted({begin, end, *(span.begin for span in spans), *(time for _, time in statuses)})
     length, left, right = max(
         (right - left, left, right) for left, right in zip(events, [*events[1:], end], strict=True)
     )
-    kept = KEPT * (end - begin - length)
-    if not kept > 0.0 or length <= LONG * (end - begin):
+    margin = MARGIN * (end - begin - length)
+    if not margin > 0.0 or length <= LONG * (end - begin):
         return [(begin, end)]
-    return [(begin, left + kept), (right - kept, end)]
+    return [(begin, left + margin), (right - margin, end)]
 
 
 def _figure(
@@ -140,12 +140,12 @@ def _figure(
             _draw_cut(*all_axes)
         figure.supxlabel("time, s", fontsize=9, color=INK)
 
-    words = f"{phases.title}: {', '.join(lanes)} over time"
-    return both_widths(name, words, draw, 0.75 + LANE * len(lanes))
+    description = f"{phases.title}: {', '.join(lanes)} over time"
+    return both_widths(name, description, draw, 0.75 + LANE * len(lanes))
 
 
 def _draw_bar(axes: Axes, span: Span, lane: int, begin: float, end: float) -> None:
-    """The part of a phase that a window shows, with its whole duration where it ends."""
+    """The part of a phase within a window, with its whole duration where it ends."""
     left, right = max(span.begin, begin), min(span.end, end)
     if right < left or (right == left and span.end > span.begin):
         return
@@ -160,19 +160,19 @@ def _draw_bar(axes: Axes, span: Span, lane: int, begin: float, end: float) -> No
 
 
 def _draw_statuses(axes: Axes, statuses: Sequence[tuple[int, float]]) -> None:
-    together: dict[float, list[int]] = {}
+    by_time: dict[float, list[int]] = {}
     for status, time in statuses:
-        together.setdefault(time, []).append(status)
-    for time, found in together.items():
+        by_time.setdefault(time, []).append(status)
+    for time, numbers in by_time.items():
         axes.axvline(time, color=VERMILION, linewidth=1.1, linestyle=(0, (4, 2)))
         axes.annotate(
-            ", ".join(map(str, found)), (time, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 3),
+            ", ".join(map(str, numbers)), (time, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 3),
             textcoords="offset points", ha="center", fontsize=8, color=VERMILION, fontweight="bold",
         )  # fmt: skip
 
 
 def _draw_cut(left: Axes, right: Axes) -> None:
-    """Slanted strokes where the axis of time goes on later."""
+    """Slanted strokes at the break of the time axis."""
     left.spines["right"].set_visible(False)
     right.spines["left"].set_visible(False)
     for axes, x in ((left, 1.0), (right, 0.0)):
@@ -183,27 +183,34 @@ def _draw_cut(left: Axes, right: Axes) -> None:
 
 
 def _table(phases: Phases, spans: Sequence[Span]) -> Table:
-    heads = ["phase", "begins, s", "takes, s"]
+    heads = ["phase", "start, s", "duration, s"]
     unit = None if phases.spent is None else phases.spent.unit_name
     if phases.spent is not None:
-        heads.append(f"uses up, {shown_unit(unit)}" if shown_unit(unit) else "uses up")
-    whole = [*spans, _whole(spans)]
+        heads.append(labelled(_quantity(phases), unit))
+    rows = [*spans, _total(spans)]
     columns = [
-        [span.name for span in whole],
-        [exact(span.begin, digits=6) for span in whole],
-        [exact(span.end - span.begin, digits=6) for span in whole],
-        *([evenly([span.spent for span in whole], unit)] if phases.spent is not None else []),
+        [span.name for span in rows],
+        [exact(span.begin, digits=6) for span in rows],
+        [exact(span.end - span.begin, digits=6) for span in rows],
+        *([align([span.spent for span in rows], unit)] if phases.spent is not None else []),
     ]
     return Table(tuple(heads), list(zip(*columns, strict=True)), numbers=(1, 2, 3))
 
 
-def _whole(spans: Sequence[Span]) -> Span:
+def _quantity(phases: Phases) -> str:
+    """What phases consume: propellant where a mass decreases."""
+    return (
+        "propellant" if phases.spent is not None and phases.spent.label.rpartition(".")[2] == "mass" else "consumption"
+    )
+
+
+def _total(spans: Sequence[Span]) -> Span:
     spent = [span.spent for span in spans if span.spent is not None]
-    return Span("all", spans[0].begin, spans[-1].end, sum(spent) if spent else None)
+    return Span("total", spans[0].begin, spans[-1].end, sum(spent) if spent else None)
 
 
 def _findings(phases: Phases, statuses: Sequence[tuple[int, float]]) -> list[Markup]:
-    """What each status means and when it was there first."""
+    """Each status with the time of its first occurrence and its meaning."""
     if not statuses:
         return [Markup("Status 0 throughout.")]
     return [

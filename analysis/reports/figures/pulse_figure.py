@@ -1,4 +1,4 @@
-"""Pulses of jets: a lane for each axis with a bar for each pulse that was fired, and what was spent so far."""
+"""Pulses of jets: a lane for each axis with a bar for each pulse, and the thruster on-time so far."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from .declaration.figures import Pulses
 from .section import Section, sentence
 
 LANE = 0.85  # in
-SPENT = 1.1  # in
-BAR = 1.1  # pt; a pulse's own width would not be seen
+TOTAL = 1.1  # in
+BAR = 1.1  # pt; the duration of a pulse would not be visible
 
 
-def fired(pulses: Pulses, result: Result) -> np.ndarray:
-    """Lengths (s) of the pulses that begin in each row, with their sign, axes by rows; 0 where none does.
+def pulse_lengths(pulses: Pulses, result: Result) -> np.ndarray:
+    """Signed lengths (s) of the pulses that start at each sample, [axes, samples]; 0 where none starts.
 
-    Those that are still to begin in the last row are not: what is commanded in a row acts over the step after it.
+    Pulses of the last sample are left out: a command acts over the step after its sample.
     """
     lengths = np.nan_to_num(pulses.lengths.values(result), nan=0.0, posinf=0.0, neginf=0.0)
     lengths[:, -1] = 0.0
@@ -36,23 +36,23 @@ def fired(pulses: Pulses, result: Result) -> np.ndarray:
 
 
 def pulse_section(pulses: Pulses, result: Result, name: str) -> Section:
-    """The figure and findings of pulses; ``name`` must differ between the figures of a page."""
-    lengths = fired(pulses, result)
+    """The section of pulses; ``name`` must differ between the figures of a page."""
+    lengths = pulse_lengths(pulses, result)
     notes = [Markup("{}").format(note) for note in pulses.notes]
     if not np.any(lengths):
         return Section(title=pulses.title, findings=[Markup("No pulse was fired.")], notes=notes)
     return Section(
         title=pulses.title,
-        drawn=_figure(pulses, result, lengths, name),
+        plot=_figure(pulses, result, lengths, name),
         findings=[_findings(pulses, lengths)],
-        notes=[_reading(pulses, result), *notes],
+        notes=[_caption(pulses, result), *notes],
     )
 
 
 def _figure(pulses: Pulses, result: Result, lengths: np.ndarray, name: str) -> Widths:
-    heights = [LANE] * len(lengths) + [SPENT] * (pulses.total is not None)
+    heights = [LANE] * len(lengths) + [TOTAL] * (pulses.total is not None)
     reach = 1.1 * float(np.abs(lengths).max())
-    rests = None if pulses.remainder is None else pulses.remainder.shown(result)
+    rests = None if pulses.remainder is None else pulses.remainder.plot_values(result)
     if rests is not None:
         reach = max(reach, 1.1 * float(np.nanmax(np.abs(rests), initial=0.0)))
 
@@ -64,7 +64,7 @@ def _figure(pulses: Pulses, result: Result, lengths: np.ndarray, name: str) -> W
             label = pulses.labels[index] or pulses.lengths.label
             axes.set_title(f"{label}, s", loc="left", pad=4)
         if pulses.total is not None:
-            all_axes[-1].plot(result.time, pulses.total.shown(result)[0], color=BLUE)
+            all_axes[-1].plot(result.time, pulses.total.plot_values(result)[0], color=BLUE)
             all_axes[-1].set_title(labelled(pulses.total.label, pulses.total.unit_name), loc="left", pad=4)
             plain_ticks(all_axes[-1], y=3)
         plain_ticks(all_axes[-1], x=5 if is_slim(figure) else 10)
@@ -88,35 +88,33 @@ def _draw_lane(axes: Axes, time: np.ndarray, lengths: np.ndarray, rest: np.ndarr
 
 
 def _bars(time: np.ndarray, lengths: np.ndarray, colour: str) -> PathPatch:
-    """All bars of one sign as a single path: a collection would repeat its style for each."""
+    """All bars of one sign as a single path; a collection would repeat the style of each."""
     ends = np.stack([np.stack([time, time]), np.stack([np.zeros_like(lengths), lengths])])  # x and y, foot and head
     codes = np.tile(np.array([Path.MOVETO, Path.LINETO], dtype=np.uint8), time.size)
     path = Path(ends.transpose(2, 1, 0).reshape(-1, 2), codes)
-    path.should_simplify = False  # it would leave bars out
+    path.should_simplify = False  # it would drop bars
     return PathPatch(path, fill=False, edgecolor=colour, linewidth=BAR, capstyle="butt")
 
 
 def _findings(pulses: Pulses, lengths: np.ndarray) -> Markup:
-    words = _amount(lengths)
+    text = _amount(lengths)
     if len(lengths) > 1:
-        axes = (Markup("{} {}").format(label, _amount(own)) for label, own in zip(pulses.labels, lengths, strict=True))
-        words = Markup("{} in all: {}").format(words, Markup("; ").join(axes))
-    return sentence(words)
+        axes = (Markup("{} {}").format(label, _amount(row)) for label, row in zip(pulses.labels, lengths, strict=True))
+        text = Markup("total {} ({})").format(text, Markup("; ").join(axes))
+    return sentence(text)
 
 
 def _amount(lengths: np.ndarray) -> Markup:
-    """How many pulses, how long together."""
+    """The number of pulses and their total duration."""
     count = int(np.count_nonzero(lengths))
-    word = "pulse" if count == 1 else "pulses"
-    return Markup("{} {}, {} s").format(number(count), word, exact(float(np.abs(lengths).sum()), digits=3))
+    duration = exact(float(np.abs(lengths).sum()), digits=3)
+    return Markup("{} {}, {} s").format(number(count), "pulse" if count == 1 else "pulses", duration)
 
 
-def _reading(pulses: Pulses, result: Result) -> Markup:
-    words = Markup("bars: {}, each as high as the pulse is long, at the time at which it begins").format(
-        pulses.lengths.label
-    )
+def _caption(pulses: Pulses, result: Result) -> Markup:
+    text = Markup("bars: {}, at the start of each pulse, height: its duration").format(pulses.lengths.label)
     if pulses.remainder is not None:
-        still = not np.any(pulses.remainder.values(result))
-        line = Markup("{} is 0 throughout") if still else Markup("thin line: {}")
-        words = Markup("{}; {}").format(words, line.format(pulses.remainder.label))
-    return sentence(words)
+        is_zero = not np.any(pulses.remainder.values(result))
+        line = Markup("{} is 0 throughout") if is_zero else Markup("thin line: {}")
+        text = Markup("{}; {}").format(text, line.format(pulses.remainder.label))
+    return sentence(text)

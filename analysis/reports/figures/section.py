@@ -1,4 +1,4 @@
-"""What the page shows of one figure that a system asks for."""
+"""One section of a page: the plots, table and text of a figure that a system declares."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ HEIGHT = 2.6  # in
 
 @dataclass(frozen=True)
 class Section:
-    """A heading with figures, ``panels`` side by side or one ``drawn`` as wide as the page, and a table.
+    """A heading with plots, ``panels`` side by side or one ``plot`` as wide as the page, and a table.
 
-    ``legend`` are (swatch, label) of the series, ``findings`` what the figure comes to, ``notes`` how to read it.
+    ``legend`` are (swatch, label) of the series, ``findings`` the results, ``notes`` the captions.
     """
 
     title: str
     panels: list[Panel] = field(default_factory=list)
-    drawn: Widths | None = None
+    plot: Widths | None = None
     table: Table | None = None
     legend: list[tuple[Markup, str]] = field(default_factory=list)
     findings: list[Markup] = field(default_factory=list)
@@ -39,27 +39,27 @@ class Section:
 
 
 def legend_of(labels: tuple[str, ...]) -> list[tuple[Markup, str]]:
-    """A vector's elements with the looks that they are drawn with; a scalar needs none."""
+    """The elements of a vector with their line styles; none for a scalar."""
     return [(swatch(look(index)), label) for index, label in enumerate(labels)] if len(labels) > 1 else []
 
 
 def history_panel(
     label: str, name: str, description: str, unit: str, time: np.ndarray, draw: Callable[[Axes], None]
 ) -> Panel:
-    """A panel over time, half as wide as the page's column; ``draw`` adds the lines and sets the ordinate."""
-    return panel(label, name, description, lambda axes: _dress(axes, unit, time, draw, 6), HEIGHT, HALF_WIDTH)
+    """A panel over time, half as wide as the page's column; ``draw`` plots the lines and sets the ordinate."""
+    return panel(label, name, description, lambda axes: _plot_history(axes, unit, time, draw, 6), HEIGHT, HALF_WIDTH)
 
 
 def wide_history(name: str, description: str, unit: str, time: np.ndarray, draw: Callable[[Axes], None]) -> Widths:
-    """Likewise, as wide as the page's column."""
+    """A plot over time, as wide as the page's column."""
 
     def dress(figure: Figure) -> None:
-        _dress(figure.subplots(), unit, time, draw, 6 if is_slim(figure) else 12)
+        _plot_history(figure.subplots(), unit, time, draw, 6 if is_slim(figure) else 12)
 
     return both_widths(name, description, dress, HEIGHT)
 
 
-def _dress(axes: Axes, unit: str, time: np.ndarray, draw: Callable[[Axes], None], intervals: int) -> None:
+def _plot_history(axes: Axes, unit: str, time: np.ndarray, draw: Callable[[Axes], None], intervals: int) -> None:
     draw(axes)
     axes.set_xlim(time[0], time[-1] if time[-1] > time[0] else time[0] + 1.0)
     axes.set_xlabel("time, s")
@@ -67,19 +67,19 @@ def _dress(axes: Axes, unit: str, time: np.ndarray, draw: Callable[[Axes], None]
     plain_ticks(axes, x=intervals, y=5)
 
 
-def chosen_rows(rows: Rows | None, result: Result) -> np.ndarray:
-    """Whether each row is of a figure; all of them where none are chosen."""
-    return np.ones(result.time.size, dtype=bool) if rows is None else rows.chosen(result)
+def select_rows(rows: Rows | None, result: Result) -> np.ndarray:
+    """Whether each sample belongs to a figure; all of them without a selection."""
+    return np.ones(result.time.size, dtype=bool) if rows is None else rows.select(result)
 
 
-def trimmed(chosen: np.ndarray) -> slice:
-    """From the first chosen row to the last; there is one."""
-    found = np.flatnonzero(chosen)
-    return slice(int(found[0]), int(found[-1]) + 1)
+def span_of(chosen: np.ndarray) -> slice:
+    """From the first selected sample to the last; there is one."""
+    selected = np.flatnonzero(chosen)
+    return slice(int(selected[0]), int(selected[-1]) + 1)
 
 
-def choice(rows: Rows) -> Markup:
-    """In words, which rows were chosen."""
+def condition_text(rows: Rows) -> Markup:
+    """The condition of a selection of samples."""
     label, unit = rows.signal.label, rows.signal.unit_name
     if rows.low is None or rows.high is None:
         word, limit = ("at least", rows.low) if rows.high is None else ("at most", rows.high)
@@ -89,13 +89,13 @@ def choice(rows: Rows) -> Markup:
     return Markup("{} is {} to {}").format(label, exact(rows.low, unit), exact(rows.high, unit))
 
 
-def nothing_chosen(title: str, rows: Rows) -> Section:
-    """What there is of a figure whose rows were not flown."""
-    return Section(title=title, notes=[Markup("Not drawn: in no row {}.").format(choice(rows))])
+def empty_section(title: str, rows: Rows) -> Section:
+    """The section of a figure without a selected sample."""
+    return Section(title=title, notes=[Markup("Not plotted: no sample where {}.").format(condition_text(rows))])
 
 
-def evenly(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Markup]:
-    """Numbers of a column, all with the decimals that the largest of them has with so many digits."""
+def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Markup]:
+    """Numbers of a column, all with the decimals of the largest at so many significant digits."""
     sizes = [abs(in_shown_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
     most = max(sizes, default=0.0)
     places = max(0, digits - 1 - math.floor(math.log10(most))) if most > 0.0 else 0
@@ -110,15 +110,15 @@ def evenly(values: Sequence[float | None], unit: str | None, digits: int = 5) ->
 
 
 def seconds(time: float) -> Markup:
-    """A time on the page."""
+    """A time with its unit."""
     return Markup("{} s").format(exact(float(time), digits=6))
 
 
 def sentence(words: Markup) -> Markup:
-    """With a capital at its beginning and a full stop at its end."""
+    """A text as a sentence: with a capital first and a full stop last."""
     return Markup("{}.").format(Markup(capital(words)))
 
 
 def capital(words: str) -> str:
-    """With a capital at its beginning; the rest as it is."""
+    """A text with a capital first."""
     return words[:1].upper() + words[1:]

@@ -13,7 +13,7 @@ from ..common.tables import Table
 from .declaration.figures import BoundValues, Budget, Item, Limits
 from .limits import Verdict, evaluate, limit_rows
 from .phase_figure import spans_of
-from .section import Section, evenly, sentence
+from .section import Section, align, sentence
 
 
 def limit_section(limits: Limits, result: Result) -> Section:
@@ -37,16 +37,16 @@ def limit_section(limits: Limits, result: Result) -> Section:
 
 
 def spent_by_phase(budget: Budget, result: Result) -> dict[str, float]:
-    """What each phase that was flown used up, all its times together."""
-    found: dict[str, float] = {}
+    """The consumption of each phase that occurred, summed over its occurrences."""
+    spent: dict[str, float] = {}
     for span in spans_of(budget.of, result):
-        assert span.spent is not None  # a budget is of phases that tell it
-        found[span.name] = found.get(span.name, 0.0) + span.spent
-    return found
+        assert span.spent is not None  # the reader of a budget demands it
+        spent[span.name] = spent.get(span.name, 0.0) + span.spent
+    return spent
 
 
 def amount(item: Item, spent: Mapping[str, float], bound: BoundValues | None) -> float | None:
-    """What an item comes to; None where a phase of it was not flown or the bound is missing."""
+    """The amount of an item; None where one of its phases did not occur or the bound is missing."""
     values = {} if bound is None else bound.values
     if any(name not in spent for name in item.phases) or any(name not in values for name in (*item.plus, *item.minus)):
         return None
@@ -60,30 +60,32 @@ def budget_section(budget: Budget, result: Result) -> Section:
     unit = budget.of.spent.unit_name if budget.of.spent is not None else None
     amounts = [amount(item, spent, budget.bound) for item in budget.items]
     known = [value for value in amounts if value is not None]
-    together = math.fsum(known) if len(known) == len(amounts) else None
+    total = math.fsum(known) if len(known) == len(amounts) else None
     named = list(dict.fromkeys(name for item in budget.items for name in item.phases))
     used = math.fsum(spent[name] for name in named) if all(name in spent for name in named) else None
-    names = [*(item.name for item in budget.items), "together", "used up in these phases"]
-    sources = [*map(_made_of, budget.items), "", ", ".join(named)]
-    shown = evenly([*amounts, together, used], unit)
-    notes = [Markup("Not flown: {}.").format(name) for name in named if name not in spent]
+    names = [*(item.name for item in budget.items), "total", "consumption in these phases"]
+    sources = [*map(_sum_text, budget.items), "", ", ".join(named)]
+    numbers = align([*amounts, total, used], unit)
+    notes = [Markup("Phase did not occur: {}.").format(name) for name in named if name not in spent]
     if budget.bound is not None and budget.bound.missing:
-        notes.append(Markup("Without the bound: {}.").format(budget.bound.missing))
+        notes.append(Markup("Bound not available: {}.").format(budget.bound.missing))
     return Section(
         title=budget.title,
         table=Table(
-            heads=("", shown_unit(unit), "from"), rows=list(zip(names, shown, sources, strict=True)), numbers=(1,)
+            heads=("item", shown_unit(unit), "sum of"),
+            rows=list(zip(names, numbers, sources, strict=True)),
+            numbers=(1,),
         ),
         notes=notes,
     )
 
 
-def _made_of(item: Item) -> str:
-    """The sum in words."""
+def _sum_text(item: Item) -> str:
+    """The terms of an item."""
     parts = []
     if item.phases:
         parts.append(" + ".join(item.phases))
     if item.plus:
         parts.append(f"bound of {' + '.join(item.plus)}")
-    words = " + ".join(parts)
-    return f"{words} less bound of {' + '.join(item.minus)}" if item.minus else words
+    terms = " + ".join(parts)
+    return f"{terms} − bound of {' + '.join(item.minus)}" if item.minus else terms  # noqa: RUF001

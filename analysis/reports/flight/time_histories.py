@@ -20,16 +20,16 @@ from ..common.style import FAINT, house_style, look, new_figure, plain_ticks
 
 HEIGHT = 1.9  # in, of a panel on the page
 PLOT_HEIGHT, PLOT_WIDTH = 2.0, 6.8  # in, of a panel in a figure of its own
-MOST = 12  # panels that are open where no name says which are states and commands
+MOST = 12  # panels that are unfolded where no signal has the name of a state or command
 SPIKE = 8.0  # a range so many times that of the middle 98 % of the values is clipped
 
 
 @dataclass(frozen=True)
 class ComponentHistory:
-    """One component's section: its panels, and the signals that need none of their own.
+    """One component's section: its panels, and the signals without a panel.
 
-    ``legend`` are (swatch, element) where one of them is a vector. ``constant`` are (label, values, unit) of groups
-    that never change; ``copies`` are (label, label of the group that has the same values throughout).
+    ``legend`` are (swatch, element) where one of them is a vector. ``constant`` are (label, values, unit) of
+    constant groups; ``copies`` are (label, label of the group with the same values).
     """
 
     component: str
@@ -45,9 +45,9 @@ class ComponentHistory:
 
 @dataclass(frozen=True)
 class Histories:
-    """Sections of the states and commands, ``first``, and of the ``rest``, which are folded away.
+    """Sections of the states and commands, ``first``, and of the ``rest``, which the page folds.
 
-    Without a signal whose name says that it is one, the first `MOST` panels are ``first``.
+    Where no signal has the name of a state or command, the first `MOST` panels are ``first``.
     """
 
     first: list[ComponentHistory]
@@ -56,7 +56,7 @@ class Histories:
 
     @property
     def folded(self) -> int:
-        """How many panels are folded away."""
+        """Number of panels that the page folds."""
         return sum(len(history.panels) for history in self.rest)
 
 
@@ -66,38 +66,39 @@ def time_histories(result: Result) -> Histories:
         return Histories([], [], False)
     groups = signal_groups(result)
     originals = distinct(groups, result)
-    drawn = [group for group in groups if originals[group] == group and not _is_constant(group, result)]
-    named = states_and_commands(drawn, result)
-    open_ = named or drawn[:MOST]
+    varying = [group for group in groups if originals[group] == group and not _is_constant(group, result)]
+    named = states_and_commands(varying, result)
+    unfolded = named or varying[:MOST]
     components = list(dict.fromkeys(group.component for group in groups))
     first, rest = [], []
-    for number_, component in enumerate(components):
-        mine = [group for group in groups if group.component == component]
-        shown = [group for group in open_ if group.component == component]
-        if shown:
-            name = f"history{number_}-first"
-            first.append(ComponentHistory(component, _panels(shown, result, name), _legend(shown), [], []))
-        rest.append(_folded(component, [group for group in mine if group not in open_], originals, result, number_))
+    for position, component in enumerate(components):
+        members = [group for group in groups if group.component == component]
+        selected = [group for group in unfolded if group.component == component]
+        if selected:
+            name = f"history{position}-first"
+            first.append(ComponentHistory(component, _panels(selected, result, name), _legend(selected), [], []))
+        others = [group for group in members if group not in unfolded]
+        rest.append(_folded_history(component, others, originals, result, position))
     return Histories(first, [history for history in rest if not history.is_empty], bool(named))
 
 
-def _folded(
+def _folded_history(
     component: str,
     groups: list[SignalGroup],
     originals: dict[SignalGroup, SignalGroup],
     result: Result,
-    number_: int,
+    position: int,
 ) -> ComponentHistory:
-    """The section of a component's signals that are not among the first: drawn, constant, or copies of others."""
-    still = [group for group in groups if _is_constant(group, result)]
-    copies = [(group, originals[group]) for group in groups if originals[group] != group and group not in still]
-    drawn = [group for group in groups if group not in still and originals[group] == group]
+    """The section of a component's other signals: with a panel, constant, or copies of others."""
+    constant = [group for group in groups if _is_constant(group, result)]
+    copies = [(group, originals[group]) for group in groups if originals[group] != group and group not in constant]
+    varying = [group for group in groups if group not in constant and originals[group] == group]
     final = result.final()
     return ComponentHistory(
         component=component,
-        panels=_panels(drawn, result, f"history{number_}"),
-        legend=_legend(drawn),
-        constant=[(group.label, [final[name] for name in group.names], group.unit) for group in still],
+        panels=_panels(varying, result, f"history{position}"),
+        legend=_legend(varying),
+        constant=[(group.label, [final[name] for name in group.names], group.unit) for group in constant],
         copies=[(group.label, original.label) for group, original in copies],
     )
 
@@ -107,8 +108,8 @@ def _is_constant(group: SignalGroup, result: Result) -> bool:
     return bool(np.all(values == values[:, :1]))
 
 
-def _in_order_of_unit(groups: list[SignalGroup]) -> list[SignalGroup]:
-    """Real signals first, those of a unit together, units in order of appearance."""
+def _sort_by_unit(groups: list[SignalGroup]) -> list[SignalGroup]:
+    """Real signals first, grouped by unit, units in order of appearance."""
     kinds = list(dict.fromkeys((not group.is_real, group.unit) for group in groups))
     return sorted(groups, key=lambda group: (not group.is_real, kinds.index((not group.is_real, group.unit))))
 
@@ -121,14 +122,14 @@ def _panels(groups: list[SignalGroup], result: Result, name: str) -> list[Panel]
         panel(
             labelled(group.variable, group.unit), f"{name}-{index}", f"{group.label} over time", drawing(group), HEIGHT
         )
-        for index, group in enumerate(_in_order_of_unit(groups))
+        for index, group in enumerate(_sort_by_unit(groups))
     ]
 
 
 def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
-    """The looks of the elements of the longest vector."""
+    """The line styles of the elements of the longest vector."""
     elements = max((group.indices for group in groups), key=len, default=())
-    return [(swatch(look(number_)), f"[{index}]") for number_, index in enumerate(elements)]
+    return [(swatch(look(position)), f"[{index}]") for position, index in enumerate(elements)]
 
 
 def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
@@ -145,10 +146,10 @@ def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
         axes.set_yticks([0, 1], ["false", "true"])
         axes.set_ylim(-0.15, 1.15)
     elif group.is_real:
-        _cut_spikes(axes, values)
+        _clip_spikes(axes, values)
 
 
-def _cut_spikes(axes: Axes, values: np.ndarray) -> None:
+def _clip_spikes(axes: Axes, values: np.ndarray) -> None:
     """Clip the ordinate where a few extreme values would flatten the rest; a note gives the full range."""
     finite = values[np.isfinite(values)]
     if not finite.size:
@@ -170,7 +171,7 @@ def _cut_spikes(axes: Axes, values: np.ndarray) -> None:
 
 
 def signal_plot(result: Result, names: Sequence[str]) -> Figure:
-    """A panel for each signal or vector, below each other over the same time. Raises KeyError for an unknown name."""
+    """A panel for each signal or vector, stacked over the same time. Raises KeyError for an unknown name."""
     values = [result[name] for name in names]
     with house_style():
         figure = new_figure(0.3 + PLOT_HEIGHT * len(names), PLOT_WIDTH)
@@ -178,13 +179,13 @@ def signal_plot(result: Result, names: Sequence[str]) -> Figure:
         for axes, name, columns in zip(panels, names, values, strict=True):
             parts = elements(name, result.signals)
             unit = result.units[parts[0]]
-            drawn = shown_factor(unit) * columns.reshape(result.time.size, -1)
+            plotted = shown_factor(unit) * columns.reshape(result.time.size, -1)
             for index, part in enumerate(parts):
                 style = look(index)
                 is_real = result.types[part] == "Real"
                 axes.plot(
                     result.time,
-                    drawn[:, index],
+                    plotted[:, index],
                     color=style.colour,
                     linestyle=style.dashes,
                     label=part.removeprefix(name),

@@ -1,4 +1,4 @@
-"""The path of whatever has a position: plan and side view, with times along it."""
+"""Trajectories of components with a position: ground track or plan view, and altitude or side view, with times."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from ..common.signals import SignalGroup, position_groups
 from ..common.style import FAINT, GRID, INK, Look, house_style, look, new_figure, plain_ticks
 
 HEIGHT = 3.2  # in
-MAXIMUM_STRETCH = 4.0  # axes whose ranges differ by less are drawn to one scale
-FAR = 0.35  # rad along the ground, beyond which a plan on the tangent plane would fold back: the ground track instead
-GROUND = 0.05  # of the height: what is drawn of the ground
+MAXIMUM_RATIO = 4.0  # of the ranges of both axes, up to which their scales are equal
+FAR = 0.35  # rad along the ground, beyond which the ground track replaces the plan view on the tangent plane
+GROUND = 0.05  # of the height: depth of the grey ground
 
 
 class View(NamedTuple):
-    """One side from which paths are seen: heading, a word for it, what a screen reader says, and what draws it."""
+    """A view of the trajectories: heading, identifier, description for screen readers, plotting function."""
 
     title: str
     name: str
@@ -33,7 +33,7 @@ class View(NamedTuple):
 
 
 def trajectory_panels(result: Result) -> list[Panel]:
-    """The path as it stands on the page; none where nothing has a position."""
+    """The views for the page; none where no component has a position."""
     return [
         panel(view.title, f"trajectory-{view.name}", view.description, view.draw, HEIGHT, HALF_WIDTH)
         for view in _views(result)
@@ -41,21 +41,21 @@ def trajectory_panels(result: Result) -> list[Panel]:
 
 
 def trajectory_reading(result: Result) -> str:
-    """How to read the panels."""
-    words = "Dots: times since the start; ring: the end."
+    """The caption of the panels."""
+    caption = "Dots: elapsed time; circle: end of the flight."
     groups = position_groups(result)
     radius = _radius(groups, [group.values(result) for group in groups], result) if result.time.size else None
     if radius is None:
-        return f"{words} Elements of the position in the frame that the component states."
+        return f"{caption} Elements of the position in the frame of the component."
     return (
-        f"{words} Grey: the ground. Altitude and distances along the ground are over a sphere of {radius / 1e3:.1f} km "
-        "radius, as the recorded altitude shows it; downrange grows in the direction of flight and is 0 at the origin "
-        "of the position's frame. position[k]: elements in that frame."
+        f"{caption} Grey: ground. Altitude and downrange are relative to a sphere of {radius / 1e3:.1f} km radius, "
+        "fitted to the recorded altitude. Downrange increases in the direction of flight and is 0 at the origin of the "
+        "position's frame; position[k] are elements in that frame."
     )
 
 
 def trajectory_plot(result: Result) -> Figure | None:
-    """The same in one figure; None where nothing has a position."""
+    """All views in one figure; None where no component has a position."""
     views = _views(result)
     if not views:
         return None
@@ -68,28 +68,28 @@ def trajectory_plot(result: Result) -> Figure | None:
 
 
 def _views(result: Result) -> list[View]:
-    """Seen from above and from the side; none where nothing has a position.
+    """Horizontal and vertical view; none where no component has a position.
 
-    Of flights over a round body, altitude over downrange distance; else, and from above, elements of the position.
+    Over a round body the vertical view is altitude over downrange, else both are elements of the position.
     """
     groups = position_groups(result)
     if not groups or not result.time.size:
         return []
     paths = [group.values(result) for group in groups]
     labels = [group.label for group in groups]
-    who = ", ".join(group.component for group in groups)
+    components = ", ".join(group.component for group in groups)
     radius = _radius(groups, paths, result)
     if radius is None:
-        return _flat_views(paths, labels, result.time, who)
+        return _flat_views(paths, labels, result.time, components)
     arcs = [np.stack([radius * angle for angle in track_angles(path, radius)]) for path in paths]
     heights = [np.stack([arc[0], altitude_over(path, radius)]) for arc, path in zip(arcs, paths, strict=True)]
-    downrange = "downrange of the origin"
-    side = View("Side view", "side", f"Altitude over downrange distance of {who}, over the surface",
-                _drawing(heights, labels, result.time, (downrange, "altitude"), ground=True))  # fmt: skip
+    downrange = "downrange from the origin"
+    side = View("Altitude vs. downrange", "side", f"Altitude vs. downrange of {components}",
+                _plot_of(heights, labels, result.time, (downrange, "altitude"), ground=True))  # fmt: skip
     if np.nanmax(np.abs(arcs[0][0])) > FAR * radius:
-        draw = _drawing(arcs, labels, result.time, (downrange, "across"))
-        return [View("Ground track", "plan", f"Ground track of {who}", draw), side]
-    return [*_flat_views(paths, labels, result.time, who)[:-1], side]
+        draw = _plot_of(arcs, labels, result.time, (downrange, "crossrange"))
+        return [View("Ground track", "plan", f"Ground track of {components}", draw), side]
+    return [*_flat_views(paths, labels, result.time, components)[:-1], side]
 
 
 def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: Result) -> float | None:
@@ -101,23 +101,23 @@ def _radius(groups: Sequence[SignalGroup], paths: Sequence[np.ndarray], result: 
     return None
 
 
-def _flat_views(paths: Sequence[np.ndarray], labels: Sequence[str], time: np.ndarray, who: str) -> list[View]:
-    """Plan (elements 1 and 2) and side view (3 over the wider of the two); where one stays the same, the latter."""
+def _flat_views(paths: Sequence[np.ndarray], labels: Sequence[str], time: np.ndarray, components: str) -> list[View]:
+    """Plan view (elements 1 and 2) and side view (3 over the wider of the two); in a plane the side view alone."""
     spans = np.ptp(np.concatenate(paths, axis=1), axis=1)
     across = 0 if spans[0] >= spans[1] else 1
 
     def view(title: str, name: str, x: int, y: int) -> View:
         names = (f"position[{x + 1}]", f"position[{y + 1}]")
-        draw = _drawing([path[[x, y]] for path in paths], labels, time, names)
-        return View(title, name, f"{title} of the path of {who}", draw)
+        draw = _plot_of([path[[x, y]] for path in paths], labels, time, names)
+        return View(title, name, f"{title} of {components}", draw)
 
     if spans[1 - across] == 0.0:
         constant = number(float(paths[0][1 - across][0]))
-        return [view(f"Side view; position[{2 - across}] stays at {constant} m", "side", across, 2)]
-    return [view("Plan", "plan", across, 1 - across), view("Side view", "side", across, 2)]
+        return [view(f"Side view; position[{2 - across}] = {constant} m", "side", across, 2)]
+    return [view("Plan view", "plan", across, 1 - across), view("Side view", "side", across, 2)]
 
 
-def _drawing(
+def _plot_of(
     paths: Sequence[np.ndarray],
     labels: Sequence[str],
     time: np.ndarray,
@@ -125,21 +125,21 @@ def _drawing(
     *,
     ground: bool = False,
 ) -> Callable[[Axes], None]:
-    """What draws paths, abscissa and ordinate in m by rows; ``ground``: the ordinate is above a surface, drawn too."""
+    """A function that plots paths, rows of abscissa and ordinate in m; with ``ground``, the ground at 0, too."""
     everything = np.concatenate(paths, axis=1)
     width, height = np.ptp(everything, axis=1)
     if ground:
         height = max(height, float(np.nanmax(everything[1])))
-    if _is_even(width, height):
+    if _is_legible_to_scale(width, height):
         (scale, unit) = far(everything)
         scales, units = (scale, scale), (unit, unit)
     else:
         scales, units = zip(*map(far, everything), strict=True)
-    drawn = [np.array(scales)[:, None] * path for path in paths]
+    scaled = [np.array(scales)[:, None] * path for path in paths]
     marks = _marked_rows(time)
 
     def draw(axes: Axes) -> None:
-        for index, (path, label) in enumerate(zip(drawn, labels, strict=True)):
+        for index, (path, label) in enumerate(zip(scaled, labels, strict=True)):
             _draw_path(axes, path, look(index), label, marks)
         if ground:
             axes.axhspan(-GROUND * scales[1] * height, 0.0, facecolor=GRID, edgecolor="none", zorder=0.8)
@@ -148,20 +148,20 @@ def _drawing(
         axes.set_xlabel(f"{names[0]}, {units[0]}")
         axes.set_ylabel(f"{names[1]}, {units[1]}")
         _scale(axes, width, height)
-        _label_times(axes, drawn[0], time, marks)
+        _label_times(axes, scaled[0], time, marks)
         if len(paths) > 1:
             axes.legend(loc="best")
 
     return draw
 
 
-def _is_even(width: float, height: float) -> bool:
-    """Whether one scale for both axes leaves something to see."""
-    return height > 0.0 and 1.0 / MAXIMUM_STRETCH <= width / height <= MAXIMUM_STRETCH
+def _is_legible_to_scale(width: float, height: float) -> bool:
+    """Whether equal scales of both axes leave the path legible."""
+    return height > 0.0 and 1.0 / MAXIMUM_RATIO <= width / height <= MAXIMUM_RATIO
 
 
 def _marked_rows(time: np.ndarray) -> np.ndarray:
-    """Rows nearest to round times, about eight of them, the end always among them."""
+    """Rows nearest to about eight round times, and the last row."""
     if time.size == 1 or time[-1] == time[0]:
         return np.array([0])
     round_times = MaxNLocator(8, steps=[1, 2, 5, 10]).tick_values(time[0], time[-1])
@@ -177,12 +177,12 @@ def _draw_path(axes: Axes, path: np.ndarray, style: Look, label: str, marks: np.
 
 
 def _label_times(axes: Axes, path: np.ndarray, time: np.ndarray, marks: np.ndarray) -> None:
-    """Times at the marks of a path, beside the line and not on each other."""
+    """Label the marks of a path with their times, next to the line and without overlap."""
     limits = np.array([axes.get_xlim(), axes.get_ylim()])
     extent = np.ptp(limits, axis=1)
     for row in marks[:-1]:
         if np.max(np.abs(path[:, row] - path[:, -1]) / extent) < 0.1:
-            continue  # its label would lie on the end's
+            continue  # its label would overlap that of the end
         left, right = path[:, max(0, row - 1)], path[:, row + 1]
         rising = (right[0] - left[0]) * (right[1] - left[1]) > 0.0  # then there is room above on the left
         side = -1 if rising else 1
@@ -200,15 +200,9 @@ def _write_time(axes: Axes, time: float, point: np.ndarray, offset: tuple[int, i
 
 
 def _scale(axes: Axes, width: float, height: float) -> None:
-    """One scale for both axes where that leaves something to see, else say that there are two."""
+    """Equal scales of both axes where the path stays legible; a note says which."""
     axes.margins(0.1, 0.12)
-    if _is_even(width, height):
+    equal = _is_legible_to_scale(width, height)
+    if equal:
         axes.set_aspect("equal", adjustable="datalim")
-        axes.set_title("axes to one scale", loc="right", fontsize=8.0, color=FAINT)
-    elif height > 0.0 and width / height > 1.0:
-        stretch = number(float(width / height), 2)
-        axes.set_title(
-            f"not to scale: the path is {stretch} times as wide as high", loc="right", fontsize=8.0, color=FAINT
-        )
-    else:
-        axes.set_title("axes to different scales", loc="right", fontsize=8.0, color=FAINT)
+    axes.set_title("equal scales" if equal else "not to scale", loc="right", fontsize=8.0, color=FAINT)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,13 +14,12 @@ from ...campaigns.fly.results import BatchResult
 from ...campaigns.fly.workers.flyer import TrialResult
 from ...campaigns.fly.workers.status_texts import worst_statuses
 from ...campaigns.replay_command import stored_replay
-from ...campaigns.requirement_verdicts import add_verdicts, unmet_lines
 from ...campaigns.rows import TrialColumns, TrialRows
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.summary import requirement_values, summarise
-from ...campaigns.tables import aligned
+from ...campaigns.tables import aligned, unmet_lines
 from ...runtime.flight.results import TIMED_OUT
 from ...runtime.system.status_words import with_meaning
 from .requirements import read_requirements, requirement_problems
@@ -84,7 +84,7 @@ def status_meanings(plan: BatchPlan, result: BatchResult) -> list[str]:
     """What each status that a trial reported means, once, as its FMU says."""
     meanings: dict[str, None] = {}
     for variant in plan.campaign.variants():
-        texts = dict.fromkeys(text for text in result.summary[variant.name]["statuses"] if worst_statuses(text))
+        texts = dict.fromkeys(text for text in result.summary[variant.name].statuses if worst_statuses(text))
         if texts:
             network = plan.prepare(variant).network
             seen = {item: None for text in texts for item in worst_statuses(text).items()}
@@ -99,10 +99,12 @@ def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Express
     blank = TrialColumns([""], np.zeros(1, dtype=bool), metrics)
     variants = [variant.name for variant in plan.campaign.variants()]
     columns = dict.fromkeys(variants, blank)
-    summary = summarise(columns, plan.campaign.metrics)
-    for name in variants if plan.groups else ():
-        summary[name]["groups"] = {group.label: {**summary[name], "value": group.value} for group in plan.groups}
-    add_verdicts(summary, plan.campaign.requirements, columns)
+    summary = {
+        name: replace(
+            entry, groups={group.label: replace(entry, value=group.value, requirements={}) for group in plan.groups}
+        )
+        for name, entry in summarise(columns, plan.campaign.metrics, requirements=plan.campaign.requirements).items()
+    }
     known = requirement_values(summary)
     statuses = tuple(f"{name.removesuffix('.trials')}.statuses." for name in known if name.endswith(".trials"))
     return read_requirements(texts, known, statuses)
@@ -111,7 +113,7 @@ def campaign_requirements(plan: BatchPlan, texts: Sequence[str]) -> list[Express
 def timed_out(result: BatchResult) -> dict[str, int]:
     """How many flights of each variant took longer than they may; those without any are left out."""
     counts = {
-        variant: sum(count for status, count in entry["statuses"].items() if status.startswith(TIMED_OUT))
+        variant: sum(count for status, count in entry.statuses.items() if status.startswith(TIMED_OUT))
         for variant, entry in result.summary.items()
     }
     return {variant: count for variant, count in counts.items() if count}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...reports.figures.declaration.figures import Figure, Limits
-from ...reports.figures.declaration.values import Undrawn
+from ...reports.figures.declaration.values import Unavailable
 from ...reports.figures.limits import Verdict, evaluate, limit_lines
 from ...runtime.flight.results import Flight, Result
 from ...runtime.flight.statuses import status_lines
@@ -26,7 +26,7 @@ def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Re
     for figure in figures:
         if isinstance(figure, Limits):
             lines += limit_lines(figure, result)
-        elif isinstance(figure, Undrawn) and figure.has_limits:
+        elif isinstance(figure, Unavailable) and figure.has_limits:
             lines += [f"{figure.title}: {Verdict.NOT_EVALUATED}, {note}" for note in figure.notes]
     return [*lines, *status_lines(prepared.network, result)]
 
@@ -50,7 +50,7 @@ def flight_problems(prepared: PreparedSystem, figures: Sequence[Figure], result:
             if named[Verdict.NOT_EVALUATED]:
                 names = ", ".join(named[Verdict.NOT_EVALUATED])
                 lines.append(f"limits not evaluated: {names}: {figure.obstacle(result)}")
-        elif isinstance(figure, Undrawn) and figure.has_limits:
+        elif isinstance(figure, Unavailable) and figure.has_limits:
             lines += [f"limits not evaluated: {note}" for note in figure.notes]
     return [f"{file}: {line}" for line in lines]
 

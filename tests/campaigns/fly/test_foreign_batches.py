@@ -48,7 +48,7 @@ def check(result):
 def test_a_trial_does_not_know_of_the_one_before(tmp_path, quirk, workers):
     result = flown(tmp_path, workers=workers, **{quirk: 3 if quirk == "RESET" else True})
     check(result)
-    assert result.summary["default"]["statuses"] == {"stop_time": 24}
+    assert result.summary["default"].statuses == {"stop_time": 24}
 
 
 @pytest.mark.parametrize("workers", [1, 2])
@@ -57,12 +57,12 @@ def test_a_failed_trial_does_not_spoil_the_next(tmp_path, workers):
     check(result)
     below = int((result.plan.draws.columns["odd.gain"] < 0.0).sum())
     assert 0 < below < 24
-    assert result.summary["default"]["statuses"] == {"failed": below, "stop_time": 24 - below}
+    assert result.summary["default"].statuses == {"failed": below, "stop_time": 24 - below}
 
 
 def test_a_parameter_that_is_not_taken_is_a_failed_trial(tmp_path):
     result = flown(tmp_path, IGNORES_GAIN=True)
-    assert result.summary["default"]["statuses"] == {"failed": 24}
+    assert result.summary["default"].statuses == {"failed": 24}
     assert "odd.gain: was set to" in result.trials["default"].messages[0]
 
 
@@ -87,7 +87,7 @@ def test_one_instance_in_each_process(tmp_path, workers):
 
 def test_an_end_that_an_fmu_asks_for_is_a_good_one(tmp_path):
     result = flown(tmp_path, ENDS_AT=0.6)
-    assert result.summary["default"]["statuses"] == {"terminated": 24}
+    assert result.summary["default"].statuses == {"terminated": 24}
     gains = result.plan.draws.columns["odd.gain"]
     np.testing.assert_allclose(result.trials["default"].metrics["last"], 0.6 * (gains * 0.5 + 2.0), rtol=1e-13)
     assert set(result.trials["default"].end_time) == {0.6}

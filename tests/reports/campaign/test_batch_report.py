@@ -39,11 +39,11 @@ def test_same_result_same_bytes(page, tmp_path):
 def test_every_number_of_the_summary_is_there(result, page):
     values = set(data_values(page))
     for variant in result.summary.values():
-        for number in (variant["success_rate"], *variant["success_interval"], *variant["statuses"].values()):
+        for number in (variant.success_rate, *variant.success_interval, *variant.statuses.values()):
             assert repr(number) in values
-        for table in ("metrics", "metrics_all"):
-            for found in variant[table].values():
-                assert {repr(found[column]) for column in ("count", *STATISTICS)} <= values
+        for table in (variant.metrics, variant.metrics_all):
+            for found in table.values():
+                assert {repr(found.count), *(repr(found.value(column)) for column in STATISTICS)} <= values
 
 
 def test_every_name_is_there(result, page):
@@ -116,7 +116,7 @@ def test_infinite_quantiles_are_shown(tmp_path):
 
 
 def test_angles_are_in_degrees_on_screen(result, page):
-    mean = result.summary["shaky"]["metrics"]["tilt"]["mean"]
+    mean = result.summary["shaky"].metrics["tilt"].mean
     assert f">{math.degrees(mean):.4g}</data>" in page
     assert "tilt, deg" in text_of(page)
 

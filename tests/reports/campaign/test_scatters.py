@@ -6,6 +6,7 @@ Truth: outcomes made by hand, whose marks are counted in the figure and whose pl
 import math
 import re
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 from lxml import etree
@@ -96,7 +97,7 @@ def test_statuses_are_counted_by_component_where_trials_saw_several(tmp_path):
     result = batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED)
     assert seen_statuses(result) == []  # the table of ends says it all
     texts = ["finished (hover.status 2, sequencer.status 4)", "finished (hover.status 2)", "finished", "stop_time"]
-    result.summary["near"]["statuses"] = Counter(texts)
+    result.summary["near"] = replace(result.summary["near"], statuses=Counter(texts))
     rows = [("near", "hover.status", 2, 2, 4), ("near", "sequencer.status", 4, 1, 4)]
     assert [tuple(row) for row in seen_statuses(result)] == rows
     write_batch_report(result, tmp_path / "page.html", "Seen")

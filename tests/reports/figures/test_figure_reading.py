@@ -13,7 +13,7 @@ from perilune.analysis.cli import main
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.reports.figures.declaration.figures import Band, Error, Pulses
 from perilune.analysis.reports.figures.declaration.reading import read_figures
-from perilune.analysis.reports.figures.declaration.values import Undrawn
+from perilune.analysis.reports.figures.declaration.values import Unavailable
 from perilune.analysis.runtime.flight.program import layout_of
 from perilune.analysis.runtime.flight.simulation import Simulation
 from perilune.analysis.runtime.system.options import SystemOptions
@@ -124,21 +124,21 @@ WRONG = {
     ),
     "unknown unit": ('<Band signal="plant.angles" low="0" unit="grad"/>', "Band", "unit grad is not defined"),
     "unit that does not fit": (
-        '<Band signal="plant.angles" low="0" unit="s"/>', "Band", "signal plant.angles: its unit is rad, asked for is s"
+        '<Band signal="plant.angles" low="0" unit="s"/>', "Band", "signal plant.angles: its unit is rad, required is s"
     ),
     "unit of what has none": (
-        '<Band signal="plant.status" low="0" unit="s"/>', "Band", "plant.status: its unit is none, asked for is s"
+        '<Band signal="plant.status" low="0" unit="s"/>', "Band", "plant.status: its unit is none, required is s"
     ),
     "about of another size": (
         '<Band signal="plant.angles" low="0" about="1 2"/>', "Band", "about has 2 numbers, plant.angles has 3 elements"
     ),
     "about that is no number": ('<Band signal="plant.angles" low="0" about="1 2 x"/>', "Band", "about 'x' is not a"),
     "labels of another number": (
-        '<Band signal="plant.angles" low="0" labels="a b"/>', "Band", "labels has 2 words, plant.angles has 3 elements"
+        '<Band signal="plant.angles" low="0" labels="a b"/>', "Band", "labels has 2 names, plant.angles has 3 elements"
     ),
     "pulses without lengths": ("<Pulses/>", "Pulses", "no lengths"),
     "pulses that are no times": (
-        '<Pulses lengths="plant.angles"/>', "Pulses", "lengths plant.angles: its unit is rad, asked for is s"
+        '<Pulses lengths="plant.angles"/>', "Pulses", "lengths plant.angles: its unit is rad, required is s"
     ),
     "count that is Real": (
         '<Pulses lengths="pulses.pulse_lengths" count="plant.jet_seconds"/>', "Pulses",
@@ -159,11 +159,11 @@ WRONG = {
     ),
     "truth of another unit": (
         '<Error estimate="observer.estimated_angles" truth="plant.angular_velocity"/>', "Error",
-        "truth plant.angular_velocity: its unit is rad/s, asked for is rad",
+        "truth plant.angular_velocity: its unit is rad/s, required is rad",
     ),
     "sigma of another unit": (
         '<Error estimate="plant.angles[2]" truth="plant.angles[2]" sigma="plant.jet_seconds"/>', "Error",
-        "sigma plant.jet_seconds: its unit is s, asked for is rad",
+        "sigma plant.jet_seconds: its unit is s, required is rad",
     ),
     "time that is no number": (
         '<Error estimate="plant.angles" truth="plant.angles" after="soon"/>', "Error", "after 'soon' is not a number"
@@ -241,16 +241,16 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said_and_not_refused(tmp_path, tiny
         '<Error estimate="ramp.y" truth="ramp.y" sigma="body.y"/>\n'
         '<Pulses lengths="ramp.y" count="ramp.count"/>'
     )
-    with pytest.raises(InputError, match=r"sigma body\.y: its unit is rad, asked for is m"):
+    with pytest.raises(InputError, match=r"sigma body\.y: its unit is rad, required is m"):
         swapped(tmp_path, tiny, inside, {})  # the system's own FMUs are its own fault
-    with pytest.raises(InputError, match=r"Pulses \(line \d+\): lengths ramp\.y: its unit is m, asked for is s"):
+    with pytest.raises(InputError, match=r"Pulses \(line \d+\): lengths ramp\.y: its unit is m, required is s"):
         swapped(tmp_path, tiny, inside, {"body": "ramp"})
     attitude, error, pulses = swapped(tmp_path, tiny, inside, {"body": "whole", "ramp": "gain"})
-    assert attitude == Undrawn("Attitude", ("signal body.y: no such signal, with whole as body",))
+    assert attitude == Unavailable("Attitude", ("signal body.y: no such signal, with whole as body",))
     assert isinstance(error, Error)
     assert error.sigma is None
     assert error.notes == ("Left out: sigma body.y: no such signal, with whole as body.",)
-    assert pulses == Undrawn("Pulses", ("lengths ramp.y: its unit is m, asked for is s, with gain as ramp",))
+    assert pulses == Unavailable("Pulses", ("lengths ramp.y: its unit is m, required is s, with gain as ramp",))
 
 
 def test_units_with_factor_and_offset(tmp_path, tiny):

@@ -78,8 +78,8 @@ def test_all_figures_are_drawn(figures, result):
     sections = figure_sections(figures, result)
     assert len(sections) == len(figures) > 10
     assert not any(
-        "Not drawn" in words for section in sections for words in section.notes if "coast" not in section.title
+        "Not plotted" in words for section in sections for words in section.notes if "coast" not in section.title
     )
-    wide = sum(len(figure) for section in sections for figure in section.drawn or ())
+    wide = sum(len(figure) for section in sections for figure in section.plot or ())
     size = wide + sum(len(panel.figure) for section in sections for panel in section.panels)
     assert size < 2_500_000

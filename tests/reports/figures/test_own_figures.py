@@ -14,7 +14,7 @@ from lxml import etree, html
 import perilune
 from perilune.analysis.reports.figures.declaration.figures import Pulses
 from perilune.analysis.reports.figures.declaration.reading import read_figures
-from perilune.analysis.reports.figures.declaration.values import Signal, Undrawn
+from perilune.analysis.reports.figures.declaration.values import Signal, Unavailable
 from perilune.analysis.reports.figures.figure_sections import figure_sections, joint_findings
 from perilune.analysis.reports.flight.run_report import write_run_report
 from perilune.analysis.runtime.system.prepared import prepare_system
@@ -97,22 +97,22 @@ def test_a_page_without_figures_has_no_such_section(tmp_path):
 
 
 def test_they_are_on_the_page_above_the_time_histories(tmp_path):
-    figures = (ANGLES, PULSES, ERROR, Undrawn("Jets & more", ("lengths: no such signal",)))
+    figures = (ANGLES, PULSES, ERROR, Unavailable("Jets & more", ("lengths: no such signal",)))
     page = page_of(flown(angles=angles(), **pulses(), **errors()), tmp_path, *figures)
     assert_self_contained(page)
     headings = [part.text for part in parse(page).xpath("//h2 | //h3")]
     begin = headings.index("System-specific plots")
     assert headings[begin + 1 : begin + 6] == ["Angles", "Jets", "Error", "Jets & more", "States and commands"]
-    for words in ("Settled from 97.5 s on: roll", "20 pulses", "within sigma", "Not drawn: lengths: no such signal."):
+    for words in ("Settling time 97.5 s: roll", "20 pulses", "within 1 sigma", "Not plotted: lengths: no such signal."):
         assert words in text_of(page)
     assert {"97.5", "40.5"} <= set(data_values(page))
 
 
 def test_a_band_says_from_when_on():
     found = one(ANGLES, flown(angles=angles()))
-    assert findings(found) == ["Settled from 97.5 s on: roll from 40.5 s, yaw from 97.5 s."]
-    assert notes(found) == ["Shaded: \N{MINUS SIGN}0.5 to 0.5 deg of ship.angles; dotted: from there on settled."]
-    assert captions(found) == ["The whole flight", "The band close up"]
+    assert findings(found) == ["Settling time 97.5 s: roll 40.5 s, yaw 97.5 s."]
+    assert notes(found) == ["Green: \N{MINUS SIGN}0.5 to 0.5 deg for ship.angles; dotted line: settling time."]
+    assert captions(found) == ["Time history", "Zoom on tolerance band"]
     assert [label for _, label in found.legend] == ["roll", "yaw"]
     assert {"20", "deg"} <= texts(found.panels[0].figure)
     close = texts(found.panels[1].figure)
@@ -124,11 +124,13 @@ def test_a_band_that_is_left_again_or_never_is():
     values = angles()
     inside = one(ANGLES, flown(angles=0.0 * values))
     assert findings(inside) == ["Settled throughout: roll throughout, yaw throughout."]
-    assert captions(inside) == ["The whole flight"]  # nothing to see closer
+    assert captions(inside) == ["Time history"]  # nothing to zoom in on
     values[0, -1] = np.nan
-    assert findings(one(ANGLES, flown(angles=values))) == ["Not settled at the end: roll not, yaw from 97.5 s."]
+    assert findings(one(ANGLES, flown(angles=values))) == ["Not settled at the end: roll not at the end, yaw 97.5 s."]
     values[:, :] = np.nan
-    assert findings(one(ANGLES, flown(angles=values))) == ["Not settled at the end: roll not, yaw not."]
+    assert findings(one(ANGLES, flown(angles=values))) == [
+        "Not settled at the end: roll not at the end, yaw not at the end."
+    ]
 
 
 def test_what_is_subtracted_and_a_single_limit():
@@ -137,9 +139,11 @@ def test_what_is_subtracted_and_a_single_limit():
     signal = Signal("ship.rate", ("ship.rate",), RADIAN, 1.0, (0.05,))
     band = replace(ANGLES, signal=signal, low=-0.001, high=None, about=(-0.05,), labels=("",), name="within the band")
     found = one(band, flown(rate=rate))
-    assert findings(found) == ["Within the band from 20 s on."]
+    assert findings(found) == ["Settling time 20 s (within the band)."]
     (note,) = notes(found)
-    assert note.startswith("Shaded: from \N{MINUS SIGN}0.0573 deg of ship.rate less (\N{MINUS SIGN}2.865) deg; dotted")
+    assert note.startswith(
+        "Green: at least \N{MINUS SIGN}0.0573 deg for ship.rate minus (\N{MINUS SIGN}2.865) deg; dotted"
+    )
     assert values_in(*found.notes) == {"-0.001", "-0.05"}
 
 
@@ -148,16 +152,16 @@ def test_bands_of_one_name_are_told_together():
     second = replace(first, signal=scalar("ship.angles[2]", DEG, 1.0 / DEGREE))
     result = flown(angles=angles())
     words = [plain(found) for found in joint_findings([first, second, replace(first, name="calm"), PULSES], result)]
-    assert words == ["Both bands together: settled from 97.5 s on."]
+    assert words == ["Both bands: settling time 97.5 s."]
     words = [plain(found) for found in joint_findings([first, first, first], result)]
-    assert words == ["All 3 bands together: settled from 40.5 s on."]
+    assert words == ["All 3 bands: settling time 40.5 s."]
 
 
 def test_a_bar_for_each_pulse():
     """81 ticks: x fires up in 8 and down in 8 of them, y in the first 4; the last row's tick never acts."""
     found = one(PULSES, flown(**pulses()))
-    assert findings(found) == ["20 pulses, 2.4 s in all: x 16 pulses, 1.6 s; y 4 pulses, 0.8 s."]
-    drawn = bars(found.drawn.wide)
+    assert findings(found) == ["Total 20 pulses, 2.4 s (x 16 pulses, 1.6 s; y 4 pulses, 0.8 s)."]
+    drawn = bars(found.plot.wide)
     (x_up, y_up), (x_down,) = drawn["#0072b2"], drawn["#d55e00"]
     assert [len(part) for part in (x_up, x_down, y_up)] == [8, 8, 4]
     heights = {name: part[:, 0, 1] - part[:, 1, 1] for name, part in (("+", x_up), ("-", x_down), ("y", y_up))}
@@ -167,7 +171,7 @@ def test_a_bar_for_each_pulse():
     np.testing.assert_allclose(heights["-"], -0.15 * scale, atol=0.02)
     np.testing.assert_allclose(heights["y"], 0.2 * scale, atol=0.02)
     np.testing.assert_allclose(np.diff(y_up[:, 0, 0]), np.diff(x_up[:, 0, 0])[0] / 10.0, atol=0.02)  # 2.5 s and 25 s
-    assert {"x, s", "y, s", "ship.spent, s"} <= texts(found.drawn.wide)
+    assert {"x, s", "y, s", "ship.spent, s"} <= texts(found.plot.wide)
     assert "thin line: ship.rest" in notes(found)[0]
 
 
@@ -178,13 +182,13 @@ def test_without_a_count_every_row_has_new_pulses():
     alone = replace(PULSES, lengths=signal, count=None, remainder=None, total=None, labels=("",))
     found = one(alone, flown(lengths=lengths))
     assert findings(found) == ["3 pulses, 0.7 s."]
-    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(found.drawn.wide).items()} == {
+    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(found.plot.wide).items()} == {
         "#0072b2": [2],
         "#d55e00": [1],
     }
     still = one(alone, flown(lengths=0.0 * lengths))
     assert findings(still) == ["No pulse was fired."]
-    assert still.drawn is None
+    assert still.plot is None
 
 
 def test_many_pulses_stay_small():
@@ -194,8 +198,8 @@ def test_many_pulses_stay_small():
     signals = dict(zip(signal.names, lengths, strict=True))
     result = replace(run_result(), time=0.2 * np.arange(rows), signals=signals)
     found = one(Pulses("Jets", (), signal, None, None, None, ("x", "y", "z")), result)
-    assert count_of(found.drawn.wide) == 3 * (rows - 1)
-    assert len(found.drawn.wide) < 40 * 3 * rows  # a bar is two points of some ten letters each
+    assert count_of(found.plot.wide) == 3 * (rows - 1)
+    assert len(found.plot.wide) < 40 * 3 * rows  # a bar is two points of some ten letters each
 
 
 def test_an_error_within_its_sigma():
@@ -205,22 +209,20 @@ def test_an_error_within_its_sigma():
     within = sum(1 for row in range(100, ROWS) if row % 4 != 3) / 301
     assert {repr(inside), repr(within)} <= values_in(*found.findings)
     assert findings(found) == [
-        f"From 50 s on 25.2 % of the time within sigma ({100.0 * math.erf(math.sqrt(0.5)):.3g} % of a normal error "
-        "would be), 75.1 % within three."
+        "From 50 s, 25.2 % of the samples within 1 sigma (normal distribution: "
+        f"{100.0 * math.erf(math.sqrt(0.5)):.3g} %), 75.1 % within 3 sigma."
     ]
-    assert notes(found) == [
-        "Line: ship.estimate less ship.truth; shaded: one and three of ship.sigma either way, where it is not 0."
-    ]
-    assert captions(found) == ["The whole flight", "To the scale of the last quarter"]  # 11.5 deg first, then 0.35 deg
+    assert notes(found) == ["Line: ship.estimate minus ship.truth; shaded: ±1 and ±3 ship.sigma where it is not 0."]
+    assert captions(found) == ["Time history", "Scaled to the last quarter"]  # 11.5 deg first, then 0.35 deg
 
 
 def test_an_error_without_sigma():
     signals = errors()
     found = one(ERROR, flown(**(signals | {"sigma": 0.0 * TIME})))
     assert findings(found) == []
-    assert notes(found) == ["Line: ship.estimate less ship.truth; ship.sigma states no deviation, it is 0 throughout."]
+    assert notes(found) == ["Line: ship.estimate minus ship.truth; ship.sigma is 0 throughout, no standard deviation."]
     bare = one(replace(ERROR, sigma=None, notes=("Left out: sigma.",)), flown(**signals))
-    assert notes(bare) == ["Line: ship.estimate less ship.truth.", "Left out: sigma."]
+    assert notes(bare) == ["Line: ship.estimate minus ship.truth.", "Left out: sigma."]
     assert findings(one(replace(ERROR, after=1000.0), flown(**signals))) == []
 
 
@@ -229,7 +231,7 @@ def test_errors_of_a_vector():
     parts = {name: vector(f"ship.{name}", 2, RADIAN) for name in ("estimate", "truth", "sigma")}
     found = one(replace(ERROR, **parts, labels=("[1]", "[2]")), result)
     assert [words[:12] for words in findings(found)] == ["[1]: from 50", "[2]: from 50"]
-    assert captions(found)[2:] == ["[2], the whole flight", "[2], to the scale of the last quarter"]
+    assert captions(found)[2:] == ["[2], time history", "[2], scaled to the last quarter"]
 
 
 @pytest.mark.parametrize("rows", [1, 2])
@@ -272,8 +274,8 @@ def test_a_flight_of_the_orbital_attitude(use, parameters):
         assert repr(settled(time, *conditions)) in values
     fired = np.array([result[f"pulses.pulse_lengths[{k}]"] for k in (1, 2, 3)])[:, :-1]
     fired[:, 1:] *= np.diff(result["pulses.pulse_count"])[:-1] != 0
-    assert count_of(sections[2].drawn.wide) == np.count_nonzero(fired) > 20
-    (told,) = re.findall(r'pulses, <data value="([^"]+)">[^<]+</data> s in all', sections[2].findings[0])
+    assert count_of(sections[2].plot.wide) == np.count_nonzero(fired) > 20
+    (told,) = re.findall(r'pulses, <data value="([^"]+)">[^<]+</data> s ', sections[2].findings[0])
     assert float(told) == pytest.approx(result["plant.jet_seconds"][-1], abs=1e-9)  # what is drawn was fired
     later = (time >= 60.0) & (result["observer.yaw_sigma"] > 0.0)
     off = np.abs(result["observer.estimated_angles[2]"] - result["plant.angles[2]"])
@@ -300,9 +302,9 @@ def test_a_band_less_a_signal_shaded_and_against_another():
         roll=roll + 0.3, target=np.full(ROWS, 0.3), clock=TIME, pressure=np.exp(0.1 * TIME), height=1e5 - TIME
     )
     (section,) = figure_sections([band], result)
-    assert 'from <data value="50.0">50</data> s on' in str(section.findings[0])
-    assert [panel.label for panel in section.panels][-2:] == ["Against pressure", "Against height"]
+    assert 'time <data value="50.0">50</data> s' in str(section.findings[0])
+    assert [panel.label for panel in section.panels][-2:] == ["Versus pressure", "Versus height"]
     words = " ".join(map(str, section.notes))
-    assert "less ship.target" in words
+    assert "minus ship.target" in words
     assert "grey: ship.clock below" in words
     assert "mathdefault" not in str(section.panels[-2].figure)

@@ -16,7 +16,7 @@ from perilune.analysis.reports.figures.declaration.values import Arc, Rows
 from perilune.analysis.reports.figures.figure_sections import figure_sections
 from perilune.analysis.reports.figures.limits import limit_entries, limit_lines
 from perilune.analysis.reports.figures.phase_figure import spans_of, statuses_of
-from perilune.analysis.reports.figures.section import evenly
+from perilune.analysis.reports.figures.section import align
 from perilune.analysis.reports.flight.run_report import write_run_report
 from tests.support.pages.checks import assert_self_contained, parse
 from tests.support.pages.mission_samples import (  # fmt: skip
@@ -69,7 +69,7 @@ def test_all_of_them_are_on_a_page(tmp_path):
     assert titles == ["Phases", "Budget", "Contact", "Plan view", "Tilt"]
     tables = parse(page).xpath("//h2[text()='System-specific plots']/following-sibling::div/table")
     assert [len(table.xpath("tbody/tr")) for table in tables] == [6, 5, 3]
-    assert tables[0].xpath("thead/tr/th/text()") == ["phase", "begins, s", "takes, s", "uses up, kg"]
+    assert tables[0].xpath("thead/tr/th/text()") == ["phase", "start, s", "duration, s", "propellant, kg"]
 
 
 def test_phases_as_they_were_flown():
@@ -112,8 +112,8 @@ def test_statuses_with_times_of_their_own():
 def test_the_table_of_phases():
     found = cells(one(PHASES, mission()))
     expected = [[name, f"{begin:g}", f"{end - begin:g}", f"{spent:.3f}"] for name, begin, end, spent in SPANS]
-    assert found == [*expected, ["all", "0", "200", "24.000"]]
-    assert one(replace(PHASES, spent=None), mission()).table.heads == ("phase", "begins, s", "takes, s")
+    assert found == [*expected, ["total", "0", "200", "24.000"]]
+    assert one(replace(PHASES, spent=None), mission()).table.heads == ("phase", "start, s", "duration, s")
 
 
 def bars(figure):
@@ -129,19 +129,19 @@ def bars(figure):
 def test_the_long_phase_is_cut_and_the_others_are_to_scale():
     """From the status at 30 s to the end of the coast, 120 of 200 s, nothing happens; 6 % of the other 80 s is left."""
     section = one(PHASES, mission())
-    assert notes(section) == ["A bar for each phase with how long it takes, s. The time is cut by 110.4 s."]
-    lanes = bars(section.drawn.wide)
+    assert notes(section) == ["Bars: phases with their duration, s. Axis break: 110.4 s omitted."]
+    lanes = bars(section.plot.wide)
     assert [len(lane) for lane in lanes] == [1, 2, 1, 1, 1]
     widths = [sum(right - left for left, right in lane) for lane in lanes]
     np.testing.assert_allclose(widths[2:], np.array([15.0, 15.0, 20.0]) * widths[0] / 20.0, rtol=0.02)
     np.testing.assert_allclose(widths[1], (130.0 - 110.4) * widths[0] / 20.0, rtol=0.03)
-    assert {"burn", "coast", "capture", "hover", "descent", "130", "15", "2", "6"} <= set(texts(section.drawn.wide))
+    assert {"burn", "coast", "capture", "hover", "descent", "130", "15", "2", "6"} <= set(texts(section.plot.wide))
 
 
 def test_phases_of_like_length_are_not_cut():
     section = one(PHASES, mission(phase=np.where(TIME < 100.0, 1, 2), status=0.0 * TIME))
-    assert notes(section) == ["A bar for each phase with how long it takes, s."]
-    (first,), (second,) = bars(section.drawn.wide)
+    assert notes(section) == ["Bars: phases with their duration, s."]
+    (first,), (second,) = bars(section.plot.wide)
     assert first[1] - first[0] == pytest.approx(second[1] - second[0], rel=0.01)
     assert first[1] == pytest.approx(second[0], abs=1.0)
 
@@ -149,22 +149,22 @@ def test_phases_of_like_length_are_not_cut():
 def test_a_budget_beside_its_bound():
     """9.5; 3 + 8 - 9.5; 3: together 14, which is what these phases used up."""
     section = one(BUDGET, mission())
-    assert section.table.heads == ("", "kg", "from")
+    assert section.table.heads == ("item", "kg", "sum of")
     assert cells(section) == [
         ["bound", "9.500", "bound of landing"],
-        ["capture and descent over it", "1.500", "capture + descent less bound of landing"],
+        ["capture and descent over it", "1.500", "capture + descent \N{MINUS SIGN} bound of landing"],
         ["hover", "3.000", "hover"],
-        ["together", "14.000", ""],
-        ["used up in these phases", "14.000", "capture, descent, hover"],
+        ["total", "14.000", ""],
+        ["consumption in these phases", "14.000", "capture, descent, hover"],
     ]
 
 
 def test_a_budget_without_bound_and_of_phases_that_were_not_flown():
     bare = one(replace(BUDGET, bound=BoundValues(("landing",), {}, "it is not there; make it")), mission())
     assert [row[1] for row in cells(bare)] == ["\N{EN DASH}", "\N{EN DASH}", "3.000", "\N{EN DASH}", "14.000"]
-    assert notes(bare) == ["Without the bound: it is not there; make it."]
+    assert notes(bare) == ["Bound not available: it is not there; make it."]
     short = one(BUDGET, mission(done=0.0 * TIME))
-    assert notes(short) == ["Not flown: hover."]
+    assert notes(short) == ["Phase did not occur: hover."]
     assert [row[1] for row in cells(short)][2:] == ["\N{EN DASH}"] * 3
 
 
@@ -213,23 +213,23 @@ def test_a_path_has_one_scale_and_its_site_twice():
     """From (500, 300) to (8, 0) m, where the phase is 4 or more."""
     section = one(PATH, mission())
     assert notes(section) == [
-        "Ring: the end; marks: site (ship.site_x, ship.site_y) wherever it stood, large where it stands last; where "
-        "ship.phase is at least 4; both axes to one scale."
+        "Circle: end; marks: site (ship.site_x, ship.site_y), large: final; samples where ship.phase is at least 4; "
+        "equal scales."
     ]
-    line = max(lines_of(section.drawn.wide, "#0072b2"), key=lambda points: np.ptp(points[:, 0]))
+    line = max(lines_of(section.plot.wide, "#0072b2"), key=lambda points: np.ptp(points[:, 0]))
     width, height = np.ptp(line, axis=0)
     assert height / width == pytest.approx(300.0 / 492.0, rel=0.01)
-    uses = etree.fromstring(section.drawn.wide).xpath("//*[local-name()='use'][contains(@style, '#d55e00')]")
+    uses = etree.fromstring(section.plot.wide).xpath("//*[local-name()='use'][contains(@style, '#d55e00')]")
     assert len(uses) == 2 + 1 + 1  # both places, the last one large, and the legend
-    assert {"ship.x, m", "ship.y, m", "site"} <= set(texts(section.drawn.wide))
+    assert {"ship.x, m", "ship.y, m", "site"} <= set(texts(section.plot.wide))
 
 
 def test_a_long_path_is_in_km_and_keeps_its_detail():
     y = 2e4 * np.sin(TIME)
     section = one(replace(PATH, rows=None, points=(), equal=False), mission(x=TIME, y=y))
-    assert "ship.y, km" in texts(section.drawn.wide)
-    assert "ship.x, m" in texts(section.drawn.wide)
-    line = max(lines_of(section.drawn.wide, "#0072b2"), key=len)
+    assert "ship.y, km" in texts(section.plot.wide)
+    assert "ship.x, m" in texts(section.plot.wide)
+    line = max(lines_of(section.plot.wide, "#0072b2"), key=len)
     turns = np.count_nonzero(np.diff(np.sign(np.diff(line[:, 1]))))
     assert turns >= np.count_nonzero(np.diff(np.sign(np.diff(y)))) > 60
 
@@ -240,9 +240,9 @@ def test_a_path_over_the_ground():
     place = np.zeros((3, TIME.size))
     place[0], place[2] = 1000.0 + TIME, -1000.0
     section = one(replace(PATH, x=arc, points=(), equal=False), mission(place=place))
-    np.testing.assert_allclose(arc.shown(mission(place=place)), 500.0 * math.pi, rtol=1e-15)
-    np.testing.assert_array_equal(arc.shown(mission(place=np.stack([0.0 * TIME, 0.0 * TIME, TIME]))), 0.0)
-    assert notes(section)[0].endswith("range: along the ground, from the origin to below ship.place.")
+    np.testing.assert_allclose(arc.plot_values(mission(place=place)), 500.0 * math.pi, rtol=1e-15)
+    np.testing.assert_array_equal(arc.plot_values(mission(place=np.stack([0.0 * TIME, 0.0 * TIME, TIME]))), 0.0)
+    assert notes(section)[0].endswith("range: ground range of ship.place from the origin.")
 
 
 def test_a_range_goes_on_beyond_half_the_circumference():
@@ -251,24 +251,24 @@ def test_a_range_goes_on_beyond_half_the_circumference():
     radius = 1000.0
     for across in (0.0, 1e-4):
         place = np.stack([radius * np.sin(angle), np.full(TIME.size, radius * across), radius * (np.cos(angle) - 1.0)])
-        shown = Arc(vector("ship.place", 3, METRE), radius).shown(mission(place=place))[0]
+        shown = Arc(vector("ship.place", 3, METRE), radius).plot_values(mission(place=place))[0]
         np.testing.assert_allclose(shown, radius * angle, atol=2.0 * radius * across)
         assert np.all(np.diff(shown) < 0.0)
     section = one(replace(PATH, x=Arc(vector("ship.place", 3, METRE), radius), rows=None, points=(), equal=False),
                   mission(place=place))  # fmt: skip
-    assert notes(section)[0].endswith("along the great circle of the track.")
+    assert notes(section)[0].endswith("along the great circle of the track beyond a quarter of the circumference.")
 
 
 def test_curves_each_and_together():
     apart = one(CURVE, mission())
     assert [panel.label for panel in apart.panels] == ["tilt", "lean"]
-    assert notes(apart) == ["Line: ship.tilt, ship.lean; dashed: 5 deg; where ship.phase is at least 4."]
+    assert notes(apart) == ["Line: ship.tilt, ship.lean; dashed: limits 5 deg; samples where ship.phase is at least 4."]
     joined = one(replace(CURVE, together=True), mission())
     assert joined.panels == []
     assert [label for _, label in joined.legend] == ["tilt", "lean"]
     alone = one(replace(CURVE, signals=CURVE.signals[:1], labels=("tilt",)), mission())
     assert alone.legend == []
-    words = texts(alone.drawn.wide)
+    words = texts(alone.plot.wide)
     ticks = [float(text.replace(MINUS, "-")) for text in words if re.fullmatch(rf"{MINUS}?[\d.]+", text)]
     assert 160.0 in ticks
     assert not any(100.0 < tick < 150.0 for tick in ticks)  # 150 s is where phase 4 begins
@@ -277,8 +277,8 @@ def test_curves_each_and_together():
 @pytest.mark.parametrize("figure", [PATH, CURVE, replace(ERROR, rows=WHERE)])
 def test_where_nothing_was_flown(figure):
     section = one(replace(figure, rows=Rows(scalar("ship.phase"), 8.0, 9.0)), mission())
-    assert notes(section) == ["Not drawn: in no row ship.phase is 8 to 9."]
-    assert section.drawn is None
+    assert notes(section) == ["Not plotted: no sample where ship.phase is 8 to 9."]
+    assert section.plot is None
     assert section.panels == []
 
 
@@ -287,9 +287,9 @@ def test_an_error_in_some_rows_only():
     estimate = np.where(TIME < 150.0, 5.0, 0.5)
     result = mission(estimate=estimate, truth=0.0 * TIME, sigma=1.0 + 0.0 * TIME)
     assert findings(one(replace(ERROR, after=None, rows=WHERE), result))[0].startswith(
-        "From 150 s on 100 % of the time"
+        "From 150 s, 100 % of the samples"
     )
-    assert findings(one(replace(ERROR, after=None), result))[0].startswith("From 0 s on 25.2 % of the time")
+    assert findings(one(replace(ERROR, after=None), result))[0].startswith("From 0 s, 25.2 % of the samples")
 
 
 @pytest.mark.parametrize("rows", [1, 2])
@@ -301,9 +301,9 @@ def test_short_runs(rows):
 
 
 def test_columns_have_the_decimals_of_their_largest():
-    assert [plain(cell) for cell in evenly([400.821, 0.00234, -7.5, None, 0.0], "kg")] == [
+    assert [plain(cell) for cell in align([400.821, 0.00234, -7.5, None, 0.0], "kg")] == [
         "400.82", "0.00", f"{MINUS}7.50", "\N{EN DASH}", "0.00"
     ]  # fmt: skip
-    assert [plain(cell) for cell in evenly([123456.7, 1.0, math.inf], "kg")] == ["123457", "1", "\N{INFINITY}"]
-    assert [plain(cell) for cell in evenly([math.pi], "rad")] == ["180.00"]
-    assert str(evenly([math.pi], "rad")[0]).startswith(f'<data value="{math.pi!r}">')
+    assert [plain(cell) for cell in align([123456.7, 1.0, math.inf], "kg")] == ["123457", "1", "\N{INFINITY}"]
+    assert [plain(cell) for cell in align([math.pi], "rad")] == ["180.00"]
+    assert str(align([math.pi], "rad")[0]).startswith(f'<data value="{math.pi!r}">')

@@ -16,7 +16,7 @@ from perilune.analysis.design.trajectories.stored_bound import MissingBound, Sto
 from perilune.analysis.reports.figures.declaration import stage_readers
 from perilune.analysis.reports.figures.declaration.figures import BoundValues, Budget, Curve, Item, Limits, Path, Phases
 from perilune.analysis.reports.figures.declaration.reading import read_figures
-from perilune.analysis.reports.figures.declaration.values import Arc, Undrawn
+from perilune.analysis.reports.figures.declaration.values import Arc, Unavailable
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
 from perilune.fmus_src.paths import SYSTEMS
@@ -176,10 +176,10 @@ WRONG = {
     ),
     "times of a status that are none": (
         f'<Phases signal="plant.status" status_times="plant.angles">{ONE}</Phases>',
-        "Phases", "status_times plant.angles: its unit is rad, asked for is s",
+        "Phases", "status_times plant.angles: its unit is rad, required is s",
     ),
     "a value that is not whole": (
-        '<Phases signal="plant.status"><Phase value="1.5" name="a"/></Phases>', "Phase", "value 1.5 is not a whole"
+        '<Phases signal="plant.status"><Phase value="1.5" name="a"/></Phases>', "Phase", "value 1.5 is not an integer"
     ),
     "a name twice": (
         f'<Phases signal="plant.status">{ONE}<Phase value="2" name="a"/></Phases>', "Phase", "name a is there twice"
@@ -218,7 +218,7 @@ WRONG = {
     ),
     "less in another unit": (
         '<Limits><Limit signal="plant.angles" less="regulator.angle_poles" measure="length" most="1"/></Limits>',
-        "Limit", "less regulator.angle_poles: its unit is 1/s, asked for is rad",
+        "Limit", "less regulator.angle_poles: its unit is 1/s, required is rad",
     ),
     "less of nothing": (
         '<Limits><Limit signal="plant.angles" less="plant.target" measure="length" most="1"/></Limits>',
@@ -229,13 +229,13 @@ WRONG = {
         "Limit", "about and less; give one of them",
     ),
     "a limit in another unit": (
-        f'<Limits><Limit signal="{SPACE}" most="1" unit="s"/></Limits>', "Limit", "its unit is rad, asked for is s"
+        f'<Limits><Limit signal="{SPACE}" most="1" unit="s"/></Limits>', "Limit", "its unit is rad, required is s"
     ),
-    "a path without x": (f'<Path y="{SPACE}"/>', "Path", "neither x nor arc with its radius"),
-    "a path with both": (f'<Path x="{SPACE}" arc="plant.angles" radius="a" y="{SPACE}"/>', "Path", "or more than that"),
-    "an arc without radius": (f'<Path arc="plant.angles" y="{SPACE}"/>', "Path", "neither x nor arc with its radius"),
+    "a path without x": (f'<Path y="{SPACE}"/>', "Path", "either x, or arc and radius"),
+    "a path with both": (f'<Path x="{SPACE}" arc="plant.angles" radius="a" y="{SPACE}"/>', "Path", "either x, or"),
+    "an arc without radius": (f'<Path arc="plant.angles" y="{SPACE}"/>', "Path", "either x, or arc and radius"),
     "an arc of angles": (
-        f'<Path arc="plant.angles" radius="plant.orbital_rate" y="{SPACE}"/>', "Path", "its unit is rad, asked for is m"
+        f'<Path arc="plant.angles" radius="plant.orbital_rate" y="{SPACE}"/>', "Path", "its unit is rad, required is m"
     ),
     "unlike axes to one scale": (
         f'<Path x="{SPACE}" y="plant.jet_seconds" equal="true"/>', "Path", "differ in unit; leave equal out"
@@ -243,7 +243,7 @@ WRONG = {
     "neither true nor false": (f'<Path x="{SPACE}" y="{SPACE}" equal="yes"/>', "Path", "equal 'yes' is neither true"),
     "a point of another unit": (
         f'<Path x="{SPACE}" y="{SPACE}"><Point x="{SPACE}" y="plant.jet_seconds" name="a"/></Path>',
-        "Point", "y plant.jet_seconds: its unit is s, asked for is rad",
+        "Point", "y plant.jet_seconds: its unit is s, required is rad",
     ),
     "a point without name": (
         f'<Path x="{SPACE}" y="{SPACE}"><Point x="{SPACE}" y="{SPACE}"/></Path>', "Point", "no name"
@@ -255,10 +255,10 @@ WRONG = {
     ),
     "a curve of a vector": ('<Curve signals="plant.angles"/>', "Curve", "signals plant.angles: no such scalar"),
     "curves of two units": (
-        f'<Curve signals="{SPACE} plant.jet_seconds"/>', "Curve", "plant.jet_seconds: its unit is s, asked for is rad"
+        f'<Curve signals="{SPACE} plant.jet_seconds"/>', "Curve", "plant.jet_seconds: its unit is s, required is rad"
     ),
     "labels of another number": (
-        f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 words, signals 1; give as many"
+        f'<Curve signals="{SPACE}" labels="a b"/>', "Curve", "labels has 2 names, signals 1; give as many"
     ),
     "a curve's limits swapped": (f'<Curve signals="{SPACE}" low="1" high="0"/>', "Curve", "low 1 is not below high 0"),
     "a budget without phases": ('<Budget><Item name="a" plus="x"/></Budget>', "Budget", "0 Phases before it"),
@@ -270,7 +270,7 @@ OF_PHASES = {
         '<Budget><Item name="a" phases="first, next"/></Budget>', "Item",
         "phases next: no such phase; use one of first, last, then this",
     ),
-    "a phase twice": ('<Budget><Item name="a" phases="last, last"/></Budget>', "Item", "a word is empty or twice"),
+    "a phase twice": ('<Budget><Item name="a" phases="last, last"/></Budget>', "Item", "a name is empty or repeated"),
     "a bound that is not declared": (
         '<Budget><Item name="a" plus="landing"/></Budget>', "Item", "landing, but the SSD declares no bound"
     ),
@@ -323,11 +323,11 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said(tiny_folder, tmp_path):
 
     assert [type(figure) for figure in figures("ramp.y", {})] == [Phases, Budget]
     phases, budget = figures("ramp.y", {"ramp": "gain"})
-    assert phases == Undrawn("Steps", ("signal ramp.count: no such signal, with gain as ramp",))
-    assert budget == Undrawn("Budget", ("what phases use up is left out",))
+    assert phases == Unavailable("Steps", ("signal ramp.count: no such signal, with gain as ramp",))
+    assert budget == Unavailable("Budget", ("the consumption of phases is not available",))
     phases, budget = figures("body.y", {"body": "whole"})
     assert phases.notes == ("Left out: spent body.y: no such signal, with whole as body.",)
-    assert budget == Undrawn("Budget", ("what phases use up is left out",))
+    assert budget == Unavailable("Budget", ("the consumption of phases is not available",))
 
 
 def test_limits_that_an_event_has_to_happen_for(folder, loaded):

@@ -86,7 +86,7 @@ def test_constants_copies_and_spikes_are_said(page):
 
 def test_figures_are_labelled(page):
     labels = parse(page).xpath("//*[local-name()='svg']/@aria-label")
-    assert labels[0].startswith("Plan of the path of ship")
+    assert labels[0].startswith("Plan view of ship")
     assert any("tilt" in label for label in labels)
     assert "tilt, deg" in text_of(page)
 
@@ -197,7 +197,7 @@ def test_a_side_view_over_a_round_body_is_altitude_over_the_ground(way, tmp_path
     x, y = axes.lines[0].get_data()
     np.testing.assert_allclose(x, 1737.4 * np.linspace(-way, 0.0, x.size), atol=1e-3)
     np.testing.assert_allclose(y, np.linspace(50.0, 0.0, y.size), atol=1e-3)
-    assert [axes.get_xlabel(), axes.get_ylabel()] == ["downrange of the origin, km", "altitude, km"]
+    assert [axes.get_xlabel(), axes.get_ylabel()] == ["downrange from the origin, km", "altitude, km"]
     assert any(np.all(np.asarray(line.get_ydata()) == 0.0) for line in axes.lines)  # the surface
     text = text_of(write(over_the_moon(way), tmp_path / "run.html"))
     assert "a sphere of 1737.4 km radius" in text

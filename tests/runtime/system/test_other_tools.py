@@ -193,7 +193,7 @@ def test_a_campaign_may_name_the_file_of_its_system(tiny, tmp_path):
         'system = "s.ssp"\ntrials = 2\nseed = 1\n\n[success]\nexpression = "out > 0"\n\n'
         '[metric.out]\nexpression = "gain.y"\nreduction = "final"\n'
     )
-    assert perilune.batch(path, campaign, workers=1).summary["default"]["success_rate"] == 1.0
+    assert perilune.batch(path, campaign, workers=1).summary["default"].success_rate == 1.0
 
 
 def test_a_step_that_does_not_advance_time(tiny, tmp_path):

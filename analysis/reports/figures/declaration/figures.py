@@ -9,16 +9,16 @@ import numpy as np
 
 from ....runtime.flight.results import Flight
 from ...common.quantities import shown_factor
-from .values import Arc, Own, Rows, Signal, Undrawn
+from .values import Arc, BaseFigure, Rows, Signal, Unavailable
 
 
 @dataclass(frozen=True)
-class Band(Own):
-    """A signal that is to come into a band and stay: from ``low`` to ``high`` in its unit, None for no limit.
+class Band(BaseFigure):
+    """A signal with a tolerance band from ``low`` to ``high`` in its unit, None for no limit.
 
-    ``name`` says in a word what it is when it has: "settled". ``about`` is what was subtracted, in the signal's unit;
-    empty: nothing; ``less`` is a signal that is subtracted. ``labels`` name the elements of a vector. Where ``shade``
-    is below ``shade_below`` the time is shaded; the signal is drawn against each of ``against``, too.
+    ``name`` describes a signal within the band: "settled". ``about`` are the constants that were subtracted, in the
+    signal's unit, if any; ``less`` is a signal that is subtracted. ``labels`` name the elements of a vector. Times
+    with ``shade`` below ``shade_below`` are shaded; the signal is also plotted against each of ``against``.
     """
 
     signal: Signal
@@ -33,22 +33,22 @@ class Band(Own):
     against: tuple[Signal, ...] = ()
 
     def values(self, flight: Flight) -> np.ndarray:
-        """What is to come into the band, in the signal's unit, elements by rows of time."""
+        """Values to be compared with the band, in the signal's unit, [elements, samples]."""
         values = self.signal.values(flight)
         return values if self.less is None else values - self.less.values(flight)
 
-    def shown(self, flight: Flight) -> np.ndarray:
-        """Likewise as it is drawn: angles in deg, nan for what is not finite."""
+    def plot_values(self, flight: Flight) -> np.ndarray:
+        """The same values to be plotted: angles in deg, nan where not finite."""
         values = self.values(flight)
         return np.where(np.isfinite(values), values, np.nan) * shown_factor(self.signal.unit_name)
 
 
 @dataclass(frozen=True)
-class Pulses(Own):
-    """Pulses of jets: ``lengths`` with their sign (s), one for each axis, which start in the row and act after it.
+class Pulses(BaseFigure):
+    """Pulses of jets: signed ``lengths`` (s), one for each axis, which start at a sample and act after it.
 
-    ``count`` tells new ones by its changes; None: every row has new ones. ``remainder`` (s, as many) is what was
-    demanded and not fired, ``total`` what was spent so far.
+    A change of ``count`` signals new pulses; None: every sample has new pulses. ``remainder`` (s, one for each axis) is
+    demanded and not fired, ``total`` the thruster on-time so far.
     """
 
     lengths: Signal
@@ -59,10 +59,10 @@ class Pulses(Own):
 
 
 @dataclass(frozen=True)
-class Error(Own):
+class Error(BaseFigure):
     """An estimate less the truth, with the standard deviation that the estimator states, all in one unit.
 
-    Where ``sigma`` is 0 none is stated. Shares of time within it are counted from ``after`` (s) on; None: the start.
+    Where ``sigma`` is 0 it is not evaluated. Fractions of time within it count from ``after`` (s); None: the start.
     """
 
     estimate: Signal
@@ -74,10 +74,10 @@ class Error(Own):
 
 
 @dataclass(frozen=True)
-class Curve(Own):
-    """Scalars of one unit over time, each in a panel of its own or all ``together``, by their ``labels``.
+class Curve(BaseFigure):
+    """Scalars of one unit over time, each in its own panel or all ``together``, with their ``labels``.
 
-    ``low`` and ``high`` in their unit are drawn as lines, None for none.
+    ``low`` and ``high`` in their unit are plotted as lines, None for none.
     """
 
     signals: tuple[Signal, ...]
@@ -90,7 +90,7 @@ class Curve(Own):
 
 @dataclass(frozen=True)
 class Point:
-    """A position that two scalars name, in the units of the path."""
+    """A position given by two scalars, in the units of the path."""
 
     x: Signal
     y: Signal
@@ -98,8 +98,8 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Path(Own):
-    """A scalar over another one or an arc; ``equal`` draws both to one scale. ``points`` are positions beside it."""
+class Path(BaseFigure):
+    """A scalar over another one or an arc; ``equal``: with equal scales. ``points`` are further positions."""
 
     x: Signal | Arc
     y: Signal
@@ -109,7 +109,7 @@ class Path(Own):
 
 
 LANDING = "landing"
-# What a vector is measured by, as a number: its length, or the largest size of its elements.
+# Norms of a vector: its length, or the largest magnitude of its elements.
 MEASURES: Mapping[str, Callable[[np.ndarray], float]] = {
     "length": lambda vector: float(np.linalg.norm(vector)),
     "largest": lambda vector: float(np.max(np.abs(vector))),
@@ -118,10 +118,10 @@ MEASURES: Mapping[str, Callable[[np.ndarray], float]] = {
 
 @dataclass(frozen=True)
 class Phase:
-    """What the sequencer's ``value`` is called.
+    """The name of a sequencer's ``value``.
 
-    Where several have one value they follow each other, and each but the last ends at the first row in which its
-    ``until`` is not 0.
+    Phases with the same value follow each other; each but the last ends at the first sample in which its ``until`` is
+    not 0.
     """
 
     value: int
@@ -130,12 +130,12 @@ class Phase:
 
 
 @dataclass(frozen=True)
-class Phases(Own):
-    """The phases that an Integer ``signal`` tells.
+class Phases(BaseFigure):
+    """The phases given by an Integer ``signal``.
 
-    What a phase uses up is by how much ``spent`` falls over it. ``status`` is an Integer whose first rises are marked;
-    or the elements of ``status_times`` (s) are the times at which statuses 1, 2 ... were there first, below 0 for
-    never. ``meanings`` say a status in words.
+    The consumption of a phase is the decrease of ``spent`` over it. ``status`` is an Integer whose first rises are
+    marked; or the elements of ``status_times`` (s) are the times at which statuses 1, 2 ... first occurred, below 0 for
+    never. ``meanings`` are the texts of statuses.
     """
 
     signal: Signal
@@ -148,10 +148,10 @@ class Phases(Own):
 
 @dataclass(frozen=True)
 class Limit:
-    """What a number may be at the end of the run: from ``least`` to ``most`` in its unit, None for no limit.
+    """The permitted range of a final value: from ``least`` to ``most`` in its unit, None for no limit.
 
-    The number is the ``signal``, or the ``measure`` of it where it is a vector. ``less`` is a signal that is subtracted
-    first, element by element; constants that are subtracted are in the signal's offsets.
+    The value is the ``signal``, or the ``measure`` of a vector. ``less`` is a signal that is subtracted first, element
+    by element; constants that are subtracted are in the signal's offsets.
     """
 
     signal: Signal
@@ -162,7 +162,7 @@ class Limit:
     measure: str | None = None
 
     def value(self, flight: Flight) -> float:
-        """The number at the last row of a flight that has one."""
+        """The value at the last sample; the flight has one."""
         last = self.signal.values(flight)[:, -1]
         if self.less is not None:
             last = last - self.less.values(flight)[:, -1]
@@ -170,14 +170,14 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Limits(Own):
-    """Limits that hold at the end of the run; with ``when`` only of a run at whose end this scalar is not 0."""
+class Limits(BaseFigure):
+    """Limits on final values; with ``when`` only for a run at whose end this scalar is not 0."""
 
     limits: tuple[Limit, ...]
     when: Signal | None = None
 
     def obstacle(self, flight: Flight) -> str:
-        """Why a flight cannot be held against them; empty where it can."""
+        """Why the limits of a flight cannot be evaluated; empty where they can."""
         if not flight.complete:
             return f"the flight did not reach its end: {flight.status}"
         if self.when is not None and not self.when.values(flight)[0, -1]:
@@ -188,8 +188,9 @@ class Limits(Own):
 
 @dataclass(frozen=True)
 class BoundValues:
-    """What no flight can beat: propellant (kg) of braking and landing in one, `LANDING`, and of pieces of it, by
-    ``names``; where the ``values`` are not there ``missing`` says why, and what to do.
+    """Lower bounds of propellant (kg) by ``names``: of single-burn braking and landing, `LANDING`, and of its parts.
+
+    Where there are no ``values``, ``missing`` says why, and what to do.
     """
 
     names: tuple[str, ...]
@@ -199,7 +200,7 @@ class BoundValues:
 
 @dataclass(frozen=True)
 class Item:
-    """A row of a budget: what ``phases`` used up, and numbers of the bound that are added and taken off."""
+    """A row of a budget: the consumption of ``phases``, ``plus`` and ``minus`` values of the bound."""
 
     name: str
     phases: tuple[str, ...]
@@ -208,12 +209,12 @@ class Item:
 
 
 @dataclass(frozen=True)
-class Budget(Own):
-    """What was used up, item by item, in ``unit``; ``of`` are the phases that the items name."""
+class Budget(BaseFigure):
+    """Consumption item by item; ``of`` are the phases that the items name."""
 
     of: Phases
     items: tuple[Item, ...]
     bound: BoundValues | None
 
 
-Figure = Band | Pulses | Error | Curve | Path | Phases | Limits | Budget | Undrawn
+Figure = Band | Pulses | Error | Curve | Path | Phases | Limits | Budget | Unavailable

@@ -1,4 +1,4 @@
-"""Figures of signals over time, or one over another, as elements of the annotation."""
+"""Read figures of signals over time, or over one another, from elements of the annotation."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ CURVE = ("low", "high", "unit", "together", "labels", "title", *ROWS)
 
 
 def read_band(reader: SignalReader, element: etree._Element) -> Band:
-    found = reader.attributes(element, ("signal",), BAND)
+    attributes = reader.attributes(element, ("signal",), BAND)
     low, high = reader.limits(element, "low", "high")
     if low is None and high is None:
         raise reader.refuse(element, "neither low nor high", "give one of them, or both")
-    unit = reader.unit(element, found["unit"], found["signal"]) if "unit" in found else None
+    unit = reader.unit(element, attributes["unit"], attributes["signal"]) if "unit" in attributes else None
     signal = reader.signal(element, "signal", unit=unit)
     about = tuple(signal.factor * value for value in reader.numbers(element, "about"))
     signal = reader.about(element, signal)
-    if ("shade" in found) != ("shade_below" in found):
+    if ("shade" in attributes) != ("shade_below" in attributes):
         raise reader.refuse(element, "shade and shade_below belong together", "give both, or neither")
     return Band(
         title=reader.title(element, signal.label),
@@ -34,13 +34,13 @@ def read_band(reader: SignalReader, element: etree._Element) -> Band:
         signal=signal,
         low=low,
         high=high,
-        name=found.get("name") or INSIDE,
+        name=attributes.get("name") or INSIDE,
         about=about,
         labels=reader.labels(element, signal),
-        less=reader.signal(element, "less", like=signal) if "less" in found else None,
-        shade=reader.scalar(element, "shade") if "shade" in found else None,
+        less=reader.signal(element, "less", like=signal) if "less" in attributes else None,
+        shade=reader.scalar(element, "shade") if "shade" in attributes else None,
         shade_below=reader.number(element, "shade_below") or 0.0,
-        against=tuple(reader.named(element, "against", name) for name in found.get("against", "").split()),
+        against=tuple(reader.named(element, "against", name) for name in attributes.get("against", "").split()),
     )
 
 
@@ -76,24 +76,24 @@ def read_error(reader: SignalReader, element: etree._Element) -> Error:
 
 def _sigma(reader: SignalReader, element: etree._Element, attribute: str, estimate: Signal) -> Signal:
     """A standard deviation, which as a difference of values has no offset."""
-    found = reader.signal(element, attribute, like=estimate)
-    return replace(found, offsets=(0.0,) * len(found.names))
+    sigma = reader.signal(element, attribute, like=estimate)
+    return replace(sigma, offsets=(0.0,) * len(sigma.names))
 
 
 def read_curve(reader: SignalReader, element: etree._Element) -> Curve:
-    found = reader.attributes(element, ("signals",), CURVE)
-    names = found["signals"].split()
+    attributes = reader.attributes(element, ("signals",), CURVE)
+    names = attributes["signals"].split()
     first = reader.named(element, "signals", names[0])
-    unit = reader.unit(element, found["unit"], names[0]) if "unit" in found else first.unit
+    unit = reader.unit(element, attributes["unit"], names[0]) if "unit" in attributes else first.unit
     signals = [
         reader.converted(element, f"signals {name}", reader.named(element, "signals", name), unit) for name in names
     ]
     labels = tuple(element.get("labels", "").split())
     if labels and len(labels) != len(signals):
-        raise reader.refuse(element, f"labels has {len(labels)} words, signals {len(signals)}", "give as many")
+        raise reader.refuse(element, f"labels has {len(labels)} names, signals {len(signals)}", "give as many")
     low, high = reader.limits(element, "low", "high")
     return Curve(
-        title=reader.title(element, found["signals"]),
+        title=reader.title(element, attributes["signals"]),
         signals=tuple(signals),
         labels=labels or tuple(names),
         low=low,
@@ -105,20 +105,20 @@ def read_curve(reader: SignalReader, element: etree._Element) -> Curve:
 
 
 def read_path(reader: SignalReader, element: etree._Element) -> Path:
-    found = reader.attributes(element, ("y",), ("x", "arc", "radius", "equal", "title", *ROWS))
-    if ("x" in found) == ("arc" in found) or ("arc" in found) != ("radius" in found):
-        raise reader.refuse(element, "neither x nor arc with its radius, or more than that", "give x, or the other two")
-    x = reader.scalar(element, "x") if "x" in found else _arc(reader, element)
+    attributes = reader.attributes(element, ("y",), ("x", "arc", "radius", "equal", "title", *ROWS))
+    if ("x" in attributes) == ("arc" in attributes) or ("arc" in attributes) != ("radius" in attributes):
+        raise reader.refuse(element, "it needs either x, or arc and radius", "give one of the two")
+    x = reader.scalar(element, "x") if "x" in attributes else _arc(reader, element)
     y = reader.scalar(element, "y")
     equal = reader.truth(element, "equal")
     if equal and x.unit_name != y.unit_name:
         raise reader.refuse(element, f"equal, but {x.label} and {y.label} differ in unit", "leave equal out")
     points = []
-    for item in reader.parts(element, ("Point",))["Point"]:
+    for child in reader.parts(element, ("Point",))["Point"]:
         if isinstance(x, Arc):
-            raise reader.refuse(item, "a position beside an arc", "leave it out, or give the Path an x")
-        name = reader.attributes(item, ("x", "y", "name"))["name"]
-        points.append(Point(reader.scalar(item, "x", like=x), reader.scalar(item, "y", like=y), name))
+            raise reader.refuse(child, "a Point in a Path with an arc", "leave it out, or give the Path an x")
+        name = reader.attributes(child, ("x", "y", "name"))["name"]
+        points.append(Point(reader.scalar(child, "x", like=x), reader.scalar(child, "y", like=y), name))
     return Path(
         title=reader.title(element, f"{y.label} over {x.label}"),
         x=x,

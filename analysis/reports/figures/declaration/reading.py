@@ -1,4 +1,4 @@
-"""The figures that a system asks for, from the `org.perilune.report` annotation of its SSD."""
+"""Read the figures that a system declares: the `org.perilune.report` annotation of its SSD."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from ....runtime.ssp.documents import tag
 from ....runtime.system.prepared import PreparedSystem
 from .figures import Figure
 from .history_readers import read_band, read_curve, read_error, read_path, read_pulses
-from .signal_reader import LackingError, SignalReader
+from .signal_reader import MissingSignalError, SignalReader
 from .stage_readers import read_budget, read_limits, read_phases
-from .values import Undrawn
+from .values import Unavailable
 
 ANNOTATION = "org.perilune.report"
 BUDGET, LIMITS = "Budget", "Limits"
@@ -28,10 +28,9 @@ READERS: Mapping[str, Callable[[SignalReader, etree._Element], Figure]] = {
 
 
 def read_figures(prepared: PreparedSystem) -> list[Figure]:
-    """What the SSD asks for, in its order, none where it asks for nothing. Raises InputError naming the line.
+    """The figures of the SSD in their order. Raises InputError with the line.
 
-    What an FMU lacks that was put in by ``use`` is no fault of the SSD: its figure is an `Undrawn` one, or does
-    without.
+    Where an FMU substituted by ``use`` lacks a signal, its figure is `Unavailable`, or leaves an optional signal out.
     """
     annotation = prepared.network.description.annotations.get(ANNOTATION)
     if annotation is None:
@@ -39,12 +38,12 @@ def read_figures(prepared: PreparedSystem) -> list[Figure]:
     reader = SignalReader(prepared)
     report = reader.content(annotation, "Report")
     reader.parts(report, (*READERS, BUDGET))
-    found: list[Figure] = []
+    figures: list[Figure] = []
     for element in report.iterchildren(etree.Element):
         reader.notes = []
         name = tag(element)
         try:
-            found.append(read_budget(reader, element, found) if name == BUDGET else READERS[name](reader, element))
-        except LackingError as lacking:
-            found.append(Undrawn(reader.title(element, name), (str(lacking),), name == LIMITS))
-    return found
+            figures.append(read_budget(reader, element, figures) if name == BUDGET else READERS[name](reader, element))
+        except MissingSignalError as error:
+            figures.append(Unavailable(reader.title(element, name), (str(error),), name == LIMITS))
+    return figures

@@ -1,4 +1,4 @@
-"""Figures of a flight that goes through phases, as elements of the annotation."""
+"""Read figures of a flight with phases, limits and budgets, from elements of the annotation."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from ....runtime.ssp.documents import tag
 from ....runtime.system.prepared import PreparedSystem
 from .figures import LANDING, MEASURES, BoundValues, Budget, Figure, Item, Limit, Limits, Phase, Phases
 from .history_readers import SECOND
-from .signal_reader import NUMBERS, LackingError, SignalReader
+from .signal_reader import NUMBERS, MissingSignalError, SignalReader
 
 
 def bound_values(prepared: PreparedSystem) -> BoundValues | None:
-    """What is stored with a system for its values; None where its SSD declares no bound. Raises InputError."""
-    inputs, found = read_inputs(prepared), find_bound(prepared)
-    if inputs is None or found is None:
+    """The stored bound of a system and its values; None where its SSD declares none. Raises InputError."""
+    inputs, bound = read_inputs(prepared), find_bound(prepared)
+    if inputs is None or bound is None:
         return None
     names = tuple(dict.fromkeys([LANDING, *(name.partition(".")[0] for name in inputs if "." in name)]))
-    if isinstance(found, MissingBound):
-        return BoundValues(names, {}, found.reason)
-    return BoundValues(names, {LANDING: found.propellant, **found.pieces})
+    if isinstance(bound, MissingBound):
+        return BoundValues(names, {}, bound.reason)
+    return BoundValues(names, {LANDING: bound.propellant, **bound.pieces})
 
 
 def read_phases(reader: SignalReader, element: etree._Element) -> Phases:
-    found = reader.attributes(element, ("signal",), ("spent", "status", "status_times", "title"))
-    if "status" in found and "status_times" in found:
+    attributes = reader.attributes(element, ("signal",), ("spent", "status", "status_times", "title"))
+    if "status" in attributes and "status_times" in attributes:
         raise reader.refuse(element, "status and status_times", "give one of them")
     parts = reader.parts(element, ("Phase", "Meaning"))
     signal = reader.scalar(element, "signal", ("Integer",))
@@ -70,14 +70,14 @@ def _phases(reader: SignalReader, element: etree._Element, parts: Sequence[etree
 
 
 def _meanings(reader: SignalReader, parts: Sequence[etree._Element]) -> dict[int, str]:
-    found: dict[int, str] = {}
+    meanings: dict[int, str] = {}
     for part in parts:
         says = reader.attributes(part, ("value", "says"))["says"]
         value = reader.integer(part, "value")
-        if value in found:
+        if value in meanings:
             raise reader.refuse(part, f"value {value} is there twice", "say each status once")
-        found[value] = says
-    return found
+        meanings[value] = says
+    return meanings
 
 
 def read_limits(reader: SignalReader, element: etree._Element) -> Limits:
@@ -95,23 +95,23 @@ def read_limits(reader: SignalReader, element: etree._Element) -> Limits:
 
 
 def _limit(reader: SignalReader, element: etree._Element) -> Limit:
-    found = reader.attributes(element, ("signal",), ("least", "most", "unit", "name", "measure", "about", "less"))
-    measure = found.get("measure")
+    attributes = reader.attributes(element, ("signal",), ("least", "most", "unit", "name", "measure", "about", "less"))
+    measure = attributes.get("measure")
     if measure is not None and measure not in MEASURES:
         raise reader.refuse(element, f"measure {measure} is unknown", suggestion(measure, MEASURES))
     least, most = reader.limits(element, "least", "most")
     if least is None and most is None:
         raise reader.refuse(element, "neither least nor most", "give one of them, or both")
-    unit = reader.unit(element, found["unit"], found["signal"]) if "unit" in found else None
+    unit = reader.unit(element, attributes["unit"], attributes["signal"]) if "unit" in attributes else None
     signal = reader.signal(element, "signal", unit=unit)
     if measure is None and len(signal.names) > 1:
         remedy = f"name a scalar, or write measure={' or '.join(f'{name!r}' for name in MEASURES)}"
         raise reader.unfit(element, signal.label, f"signal {signal.label} is a vector", remedy)
-    if "about" in found and "less" in found:
+    if "about" in attributes and "less" in attributes:
         raise reader.refuse(element, "about and less", "give one of them")
     signal = reader.about(element, signal)
     signal, less = reader.less(element, signal)
-    return Limit(signal, found.get("name") or signal.label, least, most, less, measure)
+    return Limit(signal, attributes.get("name") or signal.label, least, most, less, measure)
 
 
 def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[Figure]) -> Budget:
@@ -119,12 +119,12 @@ def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[
     reader.attributes(element, (), ("title",))
     declared = [item for item in element.itersiblings(preceding=True) if tag(item) == "Phases"]
     if len(declared) != 1:
-        raise reader.refuse(element, f"{len(declared)} Phases before it", "write one, with what they use up as spent")
+        raise reader.refuse(element, f"{len(declared)} Phases before it", "write one, with the attribute spent")
     if "spent" not in declared[0].attrib:
         raise reader.refuse(element, "the Phases before it have no spent", 'give them spent="..."')
     phases = [figure for figure in before if isinstance(figure, Phases) and figure.spent is not None]
     if not phases:
-        raise LackingError("what phases use up is left out")
+        raise MissingSignalError("the consumption of phases is not available")
     parts = reader.parts(element, ("Item",))["Item"]
     if not parts:
         raise reader.refuse(element, "no Item", 'write <Item name="..." phases="..."/>')
@@ -135,7 +135,7 @@ def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[
 
 
 def _item(reader: SignalReader, element: etree._Element, phases: Sequence[str], bound: BoundValues | None) -> Item:
-    found = reader.attributes(element, ("name",), ("phases", "plus", "minus"))
+    attributes = reader.attributes(element, ("name",), ("phases", "plus", "minus"))
     named, plus, minus = (reader.words(element, name) for name in ("phases", "plus", "minus"))
     if not named and not plus and not minus:
         raise reader.refuse(element, "nothing to sum up", "give phases, plus or minus")
@@ -149,4 +149,4 @@ def _item(reader: SignalReader, element: etree._Element, phases: Sequence[str], 
             )
         if name not in bound.names:
             raise reader.refuse(element, f"{name}: no such bound", suggestion(name, bound.names))
-    return Item(found["name"], named, plus, minus)
+    return Item(attributes["name"], named, plus, minus)

@@ -1,4 +1,4 @@
-"""What all figures that a system asks for are made of: signals, some of their rows, a title."""
+"""What all declared figures consist of: signals, selections of samples, a title."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ...common.round_body import ground_range
 
 @dataclass(frozen=True)
 class Signal:
-    """A Real or Integer scalar, or a vector of them, as a figure takes it.
+    """A Real or Integer scalar, or a vector of them, in the unit of a figure.
 
     ``label`` is its name, ``names`` those of its elements in the record. A recorded value x of element k stands for
     ``factor`` * x + ``offsets[k]`` in ``unit``, None where there is none.
@@ -27,12 +27,12 @@ class Signal:
     offsets: tuple[float, ...]
 
     def values(self, flight: Flight) -> np.ndarray:
-        """Values in ``unit``, elements by rows of time; nan and infinite ones as they are."""
+        """Values in ``unit``, [elements, samples]; nan and infinite values unchanged."""
         recorded = np.stack([flight[name] for name in self.names])
         return self.factor * recorded + np.array(self.offsets)[:, None]
 
-    def shown(self, flight: Flight) -> np.ndarray:
-        """Values as they are drawn: angles in deg, nan for what is not finite."""
+    def plot_values(self, flight: Flight) -> np.ndarray:
+        """Values to be plotted: angles in deg, nan where not finite."""
         values = self.values(flight)
         return np.where(np.isfinite(values), values, np.nan) * shown_factor(self.unit_name)
 
@@ -43,7 +43,7 @@ class Signal:
 
 @dataclass(frozen=True)
 class Arc:
-    """How far along the ground a ``position`` is from the origin of its frame, see kit/round_body.py.
+    """Ground range of a ``position`` from the origin of its frame, see common/round_body.py.
 
     The origin is on a sphere of ``radius`` (m) around (0, 0, -radius); the position has three elements in m.
     """
@@ -59,14 +59,14 @@ class Arc:
     def unit_name(self) -> str:
         return "m"
 
-    def shown(self, flight: Flight) -> np.ndarray:
-        """In m, one row as of a scalar; nan for what is not finite."""
-        return ground_range(self.position.shown(flight), self.radius)[None]
+    def plot_values(self, flight: Flight) -> np.ndarray:
+        """Values to be plotted, in m, as of a scalar; nan where not finite."""
+        return ground_range(self.position.plot_values(flight), self.radius)[None]
 
 
 @dataclass(frozen=True)
-class Own:
-    """What all figures have: ``title``; ``notes``: what they do without, since an FMU that was put in lacks it."""
+class BaseFigure:
+    """The ``title`` of a figure, and ``notes`` on signals that are left out since a substituted FMU lacks them."""
 
     title: str
     notes: tuple[str, ...]
@@ -74,24 +74,24 @@ class Own:
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows in which a scalar is from ``low`` to ``high``, in its own unit; None for no limit."""
+    """The samples in which a scalar is from ``low`` to ``high``, in its own unit; None for no limit."""
 
     signal: Signal
     low: float | None
     high: float | None
 
-    def chosen(self, flight: Flight) -> np.ndarray:
-        """True for each of these rows."""
+    def select(self, flight: Flight) -> np.ndarray:
+        """Whether each sample is selected."""
         values = self.signal.values(flight)[0]
         low, high = (-np.inf if self.low is None else self.low), (np.inf if self.high is None else self.high)
         return (values >= low) & (values <= high)
 
 
 @dataclass(frozen=True)
-class Undrawn(Own):
-    """A figure that is asked for and cannot be had, since an FMU that was put in lacks what it is made of.
+class Unavailable(BaseFigure):
+    """A declared figure that cannot be plotted, since a substituted FMU lacks a signal of it.
 
-    ``has_limits`` says that it is one of `Limits`, which then nobody evaluates.
+    ``has_limits`` is true of `Limits`, which are then not evaluated.
     """
 
     has_limits: bool = False

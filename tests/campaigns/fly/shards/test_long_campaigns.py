@@ -16,10 +16,9 @@ import pytest
 import perilune
 from perilune.analysis.campaigns import plotted_sample as shown_trials
 from perilune.analysis.campaigns import statistics, summary
-from perilune.analysis.campaigns.fly.runner import open_folder
+from perilune.analysis.campaigns.fly.campaign import open_folder
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.plotted_sample import FIRST, shown
-from perilune.analysis.campaigns.requirement_verdicts import add_verdicts
 from perilune.analysis.campaigns.spec.campaign import Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.groups import Group
@@ -180,7 +179,7 @@ class Made:
 
 def test_summing_up_takes_no_more_memory_for_more_trials(monkeypatch):
     for module in (statistics, summary):
-        monkeypatch.setattr(module, "HELD", 20_000)
+        monkeypatch.setattr(module, "IN_MEMORY", 20_000)
     metrics = [Metric("miss", Expression("p.x"), "final", unit="m")]
     requirement = Requirement("near", Expression("miss < 3"), 0.99, 0.9, "miss")
     groups = [Group("1", 1.0)]
@@ -188,12 +187,11 @@ def test_summing_up_takes_no_more_memory_for_more_trials(monkeypatch):
     def most(trials):
         rows = Made(trials)
         tracemalloc.start()
-        found = summarise({"made": rows}, metrics, groups, "case")
-        add_verdicts(found, [requirement], {"made": rows})
+        found = summarise({"made": rows}, metrics, groups, "case", requirements=[requirement])
         figures = shown(rows, ["case"], ["miss"])
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
-        assert found["made"]["trials"] == trials
+        assert found["made"].trials == trials
         assert figures.first.success.size == FIRST
         return peak
 
