@@ -10,11 +10,11 @@ from ...common.errors import InputError, suggestion
 from ..draws.declared import Draw
 from ..draws.given import stream_component
 from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting
-from .distributions import read_draw
+from .distributions.reading import read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
 from .requirements import read_requirements
-from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, read_toml, sequence, text
+from .toml.table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, read_toml, sequence, text
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 # of records, of the results' table and of files of draws

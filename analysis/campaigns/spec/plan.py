@@ -26,7 +26,7 @@ from .faults import drawn_fault
 from .file import parse_campaign
 from .groups import Group, groups_of
 from .sweeps import with_sweeps
-from .toml_table import Table
+from .toml.table import Table
 
 PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
 

@@ -13,7 +13,7 @@ from ...campaigns.spec.campaign import Campaign
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.file import SYNTHESIS, parse_campaign
 from ...campaigns.spec.plan import BatchPlan
-from ...campaigns.spec.toml_table import Table, expression, integer, number, read_toml, text
+from ...campaigns.spec.toml.table import Table, expression, integer, number, read_toml, text
 from ...common.errors import InputError
 from ...runtime.system.options import SystemOptions
 from ..laws.law import Law, named_law, read_law

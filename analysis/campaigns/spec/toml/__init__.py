@@ -1,0 +1,1 @@
+"""TOML files: checked reading, files that extend others, the line of each value."""
