@@ -10,7 +10,7 @@ from ...common.errors import InputError, suggestion
 from ..draws.declared import Draw
 from ..draws.given import stream_component
 from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting
-from .distributions import read_draw
+from .distributions.reading import read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
 from .requirements import read_requirements

@@ -82,11 +82,11 @@ class Table:
                 else:
                     yield prefix + key, value
 
-        found: set[str] = set()
+        seen: set[str] = set()
         for name, value in walk("", self.content):
-            if name in found:
+            if name in seen:
                 raise self.error(name, "there twice, written with and without quotes", "keep one of the two")
-            found.add(name)
+            seen.add(name)
             yield name, value
 
 
@@ -118,10 +118,10 @@ def bound(table: Table, key: str, value: Any) -> float:
 
 def number(table: Table, key: str, value: Any) -> float:
     """A finite number, or a text that is a constant expression."""
-    found = bound(table, key, value)
-    if not math.isfinite(found):
+    read = bound(table, key, value)
+    if not math.isfinite(read):
         raise table.error(key, f"{value!r} is not finite", "write a finite number")
-    return found
+    return read
 
 
 def sequence(kind: Callable[[Table, str, Any], T]) -> Callable[[Table, str, Any], tuple[T, ...]]:
@@ -135,13 +135,18 @@ def sequence(kind: Callable[[Table, str, Any], T]) -> Callable[[Table, str, Any]
     return read
 
 
+def numbers(table: Table, key: str, value: Any) -> tuple[float, ...]:
+    """An array of at least one finite number."""
+    return sequence(number)(table, key, value)
+
+
 def names(table: Table, key: str, value: Any) -> tuple[str, ...]:
     """An array of at least one text, none of them twice."""
-    found = sequence(text)(table, key, value)
-    for name in found:
-        if found.count(name) > 1:
+    listed = sequence(text)(table, key, value)
+    for name in listed:
+        if listed.count(name) > 1:
             raise table.error(key, f"{name!r} is there twice", "name it once")
-    return found
+    return listed
 
 
 def expression(table: Table, key: str, value: Any) -> Expression:
