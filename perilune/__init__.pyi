@@ -3,15 +3,9 @@ editors and `perilune/__init__.py`.
 """
 
 from . import modal as modal
-from .analysis.api.comparison import Comparison as Comparison
-from .analysis.api.comparison import compare as compare
-from .analysis.api.export import Exported as Exported
-from .analysis.api.export import export as export
 from .analysis.api.laws import Law as Law
 from .analysis.api.laws import law as law
 from .analysis.api.laws import synthesize as synthesize
-from .analysis.api.own import new_block as new_block
-from .analysis.api.own import new_system as new_system
 from .analysis.api.plans import (
     HoverPlan as HoverPlan,
 )
@@ -39,9 +33,15 @@ from .analysis.runtime.system.fault import Fault as Fault
 from .analysis.stability.injection.bench import StudyError as StudyError
 from .analysis.verbs.batch import BatchResult as BatchResult
 from .analysis.verbs.batch import batch as batch
+from .analysis.verbs.compare import Comparison as Comparison
+from .analysis.verbs.compare import compare as compare
 from .analysis.verbs.describe import describe as describe
+from .analysis.verbs.export import Exported as Exported
+from .analysis.verbs.export import export as export
 from .analysis.verbs.inventory import inventory as inventory
 from .analysis.verbs.merge import merge as merge
+from .analysis.verbs.new import new_block as new_block
+from .analysis.verbs.new import new_system as new_system
 from .analysis.verbs.prepare import PreparedCampaign as PreparedCampaign
 from .analysis.verbs.prepare import prepare as prepare
 from .analysis.verbs.rare import RareResult as RareResult

@@ -37,7 +37,7 @@ class InputError(ValueError):
         return call_by_flags(self.text, flags)
 
     def lines(self, flags: Mapping[str, str]) -> list[str]:
-        """What the command line prints: one line, of `InputErrors` one for each."""
+        """What the command line prints: one line, of `SeveralProblemsError` one for each."""
         return [self.line(flags)]
 
     @property
@@ -45,6 +45,23 @@ class InputError(ValueError):
         """The error in one line, parameters between backquotes."""
         location = ": ".join(part for part in (self.file, self.element, self.problem) if part)
         return " ".join(f"{location}; {self.remedy}".split())
+
+
+class SeveralProblemsError(InputError):
+    """Several things that are wrong with one input, a line each."""
+
+    def __init__(self, *texts: str) -> None:
+        ValueError.__init__(self, *texts)
+        self.texts = texts
+
+    @property
+    def text(self) -> str:
+        """All lines, parameters between backquotes."""
+        return "\n".join(self.texts)
+
+    def lines(self, flags: Mapping[str, str]) -> list[str]:
+        """A line for each."""
+        return [call_by_flags(text, flags) for text in self.texts]
 
 
 def call_by_flags(text: str, flags: Mapping[str, str]) -> str:

@@ -80,7 +80,8 @@ def present(verb: Verb, result: VerbResult, files: Mapping[str, Any]) -> ExitSta
     else:
         if target is not None:
             written.write(Path(target), lambda path: write_atomically(path, _json_text(result).encode()))
-        print(call_by_flags("\n".join(result.lines()), flags))
+        for line in result.lines():
+            print(call_by_flags(line, flags))
     for name, path in files.items():
         writer = declared[name].option.writer or WRITERS.get(name)
         if writer and path is not None:

@@ -68,7 +68,7 @@ def offered(tmp_path):
 
 def test_verbs(offered):
     verbs, one = offered("perilune ", "perilune sta")
-    assert set(VERBS) <= verbs
+    assert {name.split()[0] for name in VERBS} <= verbs
     assert one == {"stability"}
 
 

@@ -56,6 +56,14 @@ class BatchOptions(CampaignOptions, TrialsOptions, ExecutionOptions, RequireOpti
     until_decided: Annotated[bool, Option("stop as soon as the campaign's requirements are met, or are not", False)]
 
 
+class CompareOptions(TypedDict, total=False):
+    """Options of compare"""
+
+    reference: Annotated[
+        str | None, Option("variant that others are compared with; default: the first", metavar="VARIANT")
+    ]
+
+
 class PrepareOptions(CampaignOptions, TrialsOptions, total=False):
     """Options of prepare"""
 
@@ -156,4 +164,18 @@ REPLAY = Verb(
         ),
     ),
     "as of run; or the trial is no success, or differs from the stored one",
+)
+
+COMPARE = Verb(
+    "compare",
+    "Study",
+    "compare the variants of one or several stored campaigns on the same trials",
+    ("compare", "compare"),
+    (Argument("results", "RESULT", "a folder that batch wrote to its output", many=True),),
+    CompareOptions,
+    ReportFiles,
+    (
+        ("perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results", "what is compared"),
+        ("perilune compare results --report compare.html", "rates, pairs of variants, trajectories, distributions"),
+    ),
 )

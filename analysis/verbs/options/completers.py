@@ -16,6 +16,7 @@ from ...runtime.ssp.archive import SystemArchive, open_system, system_names
 from ...runtime.ssp.description import Component
 from ...runtime.ssp.reading import read_description
 
+SLOT_TEMPLATES = Path(__file__).parents[2] / "authoring" / "new" / "templates" / "slots"
 Completer = Callable[..., Iterable[str]]
 
 
@@ -48,7 +49,8 @@ def systems_and_fmus(prefix: str, **_: Any) -> list[str]:
 
 
 def campaigns(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    return [*_inside(parsed_args, ".toml", stem=True), *_paths(prefix, "toml")]
+    archive = _system(parsed_args)
+    return [*(archive.campaign_names() if archive is not None else ()), *_paths(prefix, "toml")]
 
 
 def parameter_sets(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
@@ -76,6 +78,10 @@ def laws(prefix: str, **_: Any) -> list[str]:
 
 def searches(prefix: str, **_: Any) -> list[str]:
     return [*(path.stem for path in SEARCHES.glob("*.toml")), *_paths(prefix, "toml")]
+
+
+def block_slots(prefix: str, **_: Any) -> list[str]:
+    return sorted(path.name.partition(".")[0] for path in SLOT_TEMPLATES.glob("*.py.jinja"))
 
 
 def _system(parsed_args: argparse.Namespace) -> SystemArchive | None:

@@ -34,7 +34,8 @@ def add_verb(parser: argparse.ArgumentParser, verb: Verb, is_complete: bool) -> 
 
 def _usage(argument: Argument) -> str:
     if argument.is_option:
-        return f"--{argument.name} {argument.metavar}"
+        usage = f"--{argument.name} {argument.metavar}"
+        return f"[{usage}]" if argument.optional else usage
     return f"[{argument.metavar}]" if argument.optional else f"{argument.metavar}{' ...' if argument.many else ''}"
 
 

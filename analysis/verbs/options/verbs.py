@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from .campaigns import BATCH, MERGE, PREPARE, REPLAY, SHARD
+from .campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, SHARD
 from .flights import RUN
 from .looking import DESCRIBE, LIST, VALIDATE
+from .making import EXPORT, NEW_BLOCK, NEW_SYSTEM
 from .stability import STABILITY
 from .studies import RARE, SENSITIVITY, WORST
 from .verb import Verb
@@ -13,22 +14,24 @@ PURPOSES = ("Simulate", "Study", "Look", "Make", "Share")  # headings of `perilu
 VERBS: dict[str, Verb] = {
     verb.name: verb
     for verb in (
-        *(RUN, BATCH, REPLAY, STABILITY, RARE, WORST, SENSITIVITY, PREPARE, SHARD, MERGE),
+        *(RUN, BATCH, REPLAY),
+        *(COMPARE, STABILITY, RARE, WORST, SENSITIVITY),
         *(LIST, DESCRIBE, VALIDATE),
+        *(NEW_BLOCK, NEW_SYSTEM),
+        *(EXPORT, PREPARE, SHARD, MERGE),
     )
 }
-GROUPS: dict[str, str] = {}  # what the verbs of a group do, by its first word
+GROUPS: dict[str, str] = {
+    "new": "write a block or a system of your own to start from"
+}  # what the verbs of a group do, by its first word
 
 # Verbs of earlier releases, and what to write for them.
 RENAMED: dict[str, str] = {}
 
 # Verbs that are not declared yet.
 OLD = {
-    "compare": "compare the variants of one or several stored batches on the same trials",
     "law": "print a network operator's law as a formula, or write it as parameter set or drawing",
     "synthesize": "search for a control law, every candidate flown in its system",
     "plan": "plan a transfer between hovers, or bound what a landing takes",
     "benchmark": "time a communication step against other importers",
-    "new": "write a block or a system of your own to start from",
-    "export": "build an FMU, or a self-contained .ssp of a system, for a chosen platform",
 }

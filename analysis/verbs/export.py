@@ -1,20 +1,22 @@
-"""FMUs, systems with their FMUs inside, and the blocks of a file, built to fly here or elsewhere."""
+"""`perilune.export` and `perilune export`: an FMU, a system with its FMUs inside, or the blocks of a file, built."""
 
 from __future__ import annotations
 
 import os
 import shutil
 import tempfile
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal, Unpack
 
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.archive import read_zip, write_zip
 from ...fmus_src.export.available import fmu_file
 from ...fmus_src.export.compilers import PLATFORMS, CompilationFailed, CompilerMissing, available_platforms
+from ...fmus_src.export.judge.subset import SubsetError
 from ...fmus_src.export.native_fmu import build_native_fmu
 from ...fmus_src.export.own_blocks import build_own_blocks, defines, files_with, own_blocks
 from ...fmus_src.export.pythonfmu_fmu import build_python_fmu
@@ -22,11 +24,13 @@ from ...fmus_src.export.sources import record_source, remove_outdated
 from ...fmus_src.export.ssp_package import SSD_NAMESPACE, pack_system
 from ...fmus_src.paths import FLAVOURS, IS_CHECKOUT, built_fmu, own_fmu, own_fmus
 from ..common.atomic import write_atomically
-from ..common.errors import InputError, suggestion
+from ..common.errors import InputError, SeveralProblemsError, suggestion
 from ..common.targets import check_file
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.documents import parse_xml
-from .options import FilePath
+from .options.making import EXPORT, ExportOptions
+from .options.option import FilePath
+from .options.verb import verb
 
 Flavour = Literal["native", "python"]
 
@@ -39,42 +43,60 @@ class Exported:
     flavours: tuple[str, ...]
     platforms: tuple[str, ...]
 
+    def lines(self) -> list[str]:
+        """What `perilune export` prints: a path each."""
+        return [str(path) for path in self.paths]
 
-def export(
-    name: FilePath,
-    *,
-    platforms: Sequence[str] | None = None,
-    flavour: Flavour | None = None,
-    output: FilePath | None = None,
-) -> Exported:
+    def to_json(self) -> dict[str, Any]:
+        """The same for other programs."""
+        return {"paths": self.lines(), "flavours": list(self.flavours), "platforms": list(self.platforms)}
+
+    def problems(self) -> list[str]:
+        """None."""
+        return []
+
+
+@verb(EXPORT)
+def export(name: FilePath, **options: Unpack[ExportOptions]) -> Exported:
     """Build an FMU, a system as one .ssp with its FMUs, or the blocks of a .py file: `perilune export`.
 
-    ``name`` is a block's, a system's (or its folder), or a file; a block of one's own is found by its name in the .py
-    files of the working folder. ``platforms`` of native FMUs (linux64, win64,
-    darwin64), by default those that come built, or that a compiler here serves; ``flavour`` native, of a file both as
-    far as a compiler is here; ``output`` NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises
-    InputError, and ValueError with one line for what is wrong with a block.
+    ``name`` is a block's, a system's (or its folder), or a file; a block of one's own is looked up by its name in the
+    .py files of the working folder. ``platforms`` are of native FMUs (linux64, win64, darwin64), by default those that
+    come built, or that a compiler here serves; ``flavour`` is native by default, of a file both as far as a compiler is
+    here; ``output`` is NAME.fmu or NAME.ssp in the working folder, of a file its build/fmus. Raises InputError, with a
+    line for each thing that is wrong with a block.
     """
+    platforms, flavour = options["platforms"], options["flavour"]
     text = os.fspath(name)
-    target = None if output is None else Path(output)
-    for platform in platforms or ():
-        if platform not in PLATFORMS:
-            raise InputError("platforms", platform, "no such platform", suggestion(platform, PLATFORMS))
+    target = None if options["output"] is None else Path(options["output"])
     if platforms and flavour == "python":
-        raise InputError("--platform", platforms[0], "Python FMUs have no platform to choose", "leave it out")
-    check_file("--output", target)
+        raise InputError("`platforms`", platforms[0], "Python FMUs have no platform to choose", "leave it out")
+    check_file("`output`", target)
     try:
-        if text.endswith(".py"):
-            _check_there(Path(text))
-            return _export_file(Path(text), platforms, flavour, target)
-        own = _own_file(text)
-        if own is not None:
-            return _export_file(own, platforms, flavour, target, text if text in defines(own) else None)
-        return _export_named(text, platforms, flavour or "native", target)
+        exported = _export(text, platforms, flavour, target)
     except CompilerMissing as error:
         raise InputError("export", text, "cannot be compiled here", str(error)) from error
     except CompilationFailed as error:
         raise InputError("export", text, "the compiler refused it", " ".join(str(error).split())) from error
+    except InputError:
+        raise
+    except SubsetError as error:
+        raise SeveralProblemsError(*(f"{error.block}: {violation}" for violation in error.violations)) from error
+    except ValueError as error:  # of a block: its declaration, its imports
+        raise SeveralProblemsError(" ".join(str(error).split())) from error
+    if flavour is None and "native" not in exported.flavours and not available_platforms():
+        warnings.warn("no C compiler here: the Python flavour only; pip install ziglang for both", stacklevel=2)
+    return exported
+
+
+def _export(text: str, platforms: Sequence[str], flavour: Flavour | None, target: Path | None) -> Exported:
+    if text.endswith(".py"):
+        _check_there(Path(text))
+        return _export_file(Path(text), platforms, flavour, target)
+    own = _own_file(text)
+    if own is not None:
+        return _export_file(own, platforms, flavour, target, text if text in defines(own) else None)
+    return _export_named(text, platforms, flavour or "native", target)
 
 
 def _check_there(file: Path) -> None:
@@ -103,17 +125,17 @@ def _own_file(name: str) -> Path | None:
     return files[0] if files else None
 
 
-def _export_named(name: str, asked: Sequence[str] | None, flavour: Flavour, output: Path | None) -> Exported:
+def _export_named(name: str, requested: Sequence[str], flavour: Flavour, output: Path | None) -> Exported:
     """An FMU or a system of this repository or of a folder."""
-    platforms = [] if flavour == "python" else _platforms(asked, own=False)
+    platforms = [] if flavour == "python" else _platforms(requested, own=False)
     blocks = catalogue()
     if name in blocks:
         path = output or Path(f"{name}.fmu")
-        check_file("--output", path, (".fmu",))
+        check_file("`output`", path, (".fmu",))
         _build(blocks[name], path, flavour, platforms)
     elif name in system_names() or Path(name).is_dir():
         path = output or Path(f"{Path(name).resolve().name}.ssp")
-        check_file("--output", path, (".ssp",))
+        check_file("`output`", path, (".ssp",))
         _export_system(open_system(name), path, flavour, platforms)
     else:
         problem = "neither an FMU, a system nor a .py file, and no block of a .py file here"
@@ -122,9 +144,9 @@ def _export_named(name: str, asked: Sequence[str] | None, flavour: Flavour, outp
     return Exported((path,), (flavour,), tuple(platforms))
 
 
-def _platforms(asked: Sequence[str] | None, *, own: bool) -> list[str]:
-    if asked:
-        return list(asked)
+def _platforms(requested: Sequence[str], *, own: bool) -> list[str]:
+    if requested:
+        return list(requested)
     return available_platforms() if IS_CHECKOUT or own else list(PLATFORMS)
 
 
@@ -133,13 +155,15 @@ def _build(block: type[Block], path: Path, flavour: str, platforms: list[str]) -
     if flavour == "python":
         build_python_fmu(block, path)
     elif block.python_only:
-        raise InputError("export", block.fmu_name, "needs Python and has no native form", "give --flavour python")
+        raise InputError("export", block.fmu_name, "needs Python and has no native form", "give `flavour` python")
     elif not IS_CHECKOUT:
         files = read_zip(built_fmu(block.fmu_name, flavour))
         left_out = tuple(f"binaries/{name}/" for name in PLATFORMS if name not in platforms)
         write_zip(path, {name: content for name, content in files.items() if not name.startswith(left_out)})
     elif not platforms:
-        raise InputError("export", block.fmu_name, "no C compiler here", "pip install ziglang, or --flavour python")
+        raise InputError(
+            "export", block.fmu_name, "no C compiler here", "pip install ziglang, or give `flavour` python"
+        )
     else:
         build_native_fmu(block, path, platforms=platforms, portable=_zig_is_here())
 
@@ -170,29 +194,29 @@ def _export_system(archive: SystemArchive, path: Path, flavour: str, platforms: 
                     element = f"{component.get('name')} (line {component.sourceline})"
                     places = " or ".join(map(str, own_fmus(target.stem, flavour, archive.path)))
                     problem = f"no {source} in the system, no FMU of this repository, no {places}"
-                    remedy = f"build your own with perilune export FILE.py --flavour {flavour}, or add the FMU"
+                    remedy = f"build your own with perilune export FILE.py and `flavour` {flavour}, or add the FMU"
                     raise InputError(f"{archive.label}/{entry}", element, problem, remedy)
         packed = pack_system(archive.path, [folder], folder / "packed")
         write_atomically(path, packed.read_bytes())
 
 
 def _export_file(
-    file: Path, asked: Sequence[str] | None, flavour: Flavour | None, output: Path | None, only: str | None = None
+    file: Path, requested: Sequence[str], flavour: Flavour | None, output: Path | None, only: str | None = None
 ) -> Exported:
     """The blocks of a file, or ``only`` one, into the working folder's build/fmus, where ``use`` finds them by name."""
-    platforms = _platforms(asked, own=True)
+    platforms = _platforms(requested, own=True)
     flavours = [flavour] if flavour else [name for name in FLAVOURS if platforms or name == "python"]
     blocks = [block for block in own_blocks(file) if only in (None, block.fmu_name)]
-    if asked and all(block.python_only for block in blocks):
+    if requested and all(block.python_only for block in blocks):
         problem = f"{', '.join(block.fmu_name for block in blocks)}: needs Python and has no native form"
-        raise InputError("--platform", asked[0], problem, "leave it out")
+        raise InputError("`platforms`", requested[0], problem, "leave it out")
     if output is None:
         for each in flavours:
             check_file("export", own_fmu(file.stem, each), new_folders=3)  # build/fmus/FLAVOUR
         folder = own_fmu("x", "x").parents[1]
         written = build_own_blocks(file, folder, flavours, platforms, only=only, portable=_zig_is_here())
         if not written:
-            raise InputError(file, only or file.stem, "needs Python and has no native form", "give --flavour python")
+            raise InputError(file, only or file.stem, "needs Python and has no native form", "give `flavour` python")
         record_source(folder, file, written, files_with(file))
         for block in own_blocks(file) if "native" in flavours else ():
             if block.python_only:
@@ -202,12 +226,12 @@ def _export_file(
         return Exported(paths, built, tuple(platforms) if "native" in built else ())
     if output.suffix != ".fmu" or len(blocks) > 1:
         problem = "not an .fmu" if output.suffix != ".fmu" else f"the {len(blocks)} blocks of {file} are no one FMU"
-        raise InputError("--output", str(output), problem, "leave it out: FMUs go to build/fmus")
+        raise InputError("`output`", str(output), problem, "leave it out: FMUs go to build/fmus")
     if flavour is None and blocks[0].python_only:
         flavours = ["python"]
     with tempfile.TemporaryDirectory() as name:
         written = build_own_blocks(file, Path(name), flavours[:1], platforms, only=only, portable=_zig_is_here())
         if not written:
-            raise InputError(file, blocks[0].__name__, "needs Python and has no native form", "give --flavour python")
+            raise InputError(file, blocks[0].__name__, "needs Python and has no native form", "give `flavour` python")
         write_atomically(output, written[0].read_bytes())
     return Exported((output,), tuple(flavours[:1]), tuple(platforms) if flavours[0] == "native" else ())

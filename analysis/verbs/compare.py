@@ -1,17 +1,16 @@
-"""Stored batches compared from Python: `compare`, and its result with page, plots and tables."""
+"""`perilune.compare` and `perilune compare`: variants of stored campaigns side by side, on the same trials."""
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 from matplotlib.figure import Figure as Plot
 
 from ..campaigns.compare import comparison
-from ..campaigns.compare.side_by_side import compare as side_by_side
+from ..campaigns.compare.side_by_side import compare_folders
 from ..campaigns.summary import summary_rows
 from ..campaigns.tables import who_cells, who_heads
 from ..common.errors import InputError, suggestion
@@ -20,7 +19,11 @@ from ..reports.common.notebook import Grid, metric_grid, notebook_view
 from ..reports.compare.metrics import metric_plot, varying_metrics
 from ..reports.compare.page import write_comparison_page
 from ..runtime.flight.results import require_pandas
-from .options import FilePath, path_list
+from .common.paths import path_list
+from .options.campaigns import COMPARE, CompareOptions
+from .options.command import write_command
+from .options.option import FilePath
+from .options.verb import verb
 
 MOST_PLOTTED = 6  # metrics, in a notebook
 
@@ -47,9 +50,21 @@ class Comparison(comparison.Comparison):
 
     def report(self, path: FilePath) -> None:
         """Write the page of `perilune compare --report`: one HTML file."""
-        folders = [str(batch.folder) for batch in self.batches.values()]
-        words = ["perilune", "compare", *folders, "--reference", self.reference]
-        write_comparison_page(self, Path(path), shlex.join(words))
+        folders = [batch.folder for batch in self.batches.values()]
+        command = write_command(COMPARE, {"results": folders}, {"reference": self.reference})
+        write_comparison_page(self, Path(path), command)
+
+    def lines(self) -> list[str]:
+        """What `perilune compare` prints."""
+        return self.text().splitlines()
+
+    def to_json(self) -> dict[str, Any]:
+        """Provenance of every batch, numbers of every variant and of every pair, for other programs."""
+        return self.document()
+
+    def problems(self) -> list[str]:
+        """None."""
+        return []
 
     def plot(self, *metrics: str) -> Plot:
         """How metrics are distributed over successful trials, contender over contender; of none named all that vary.
@@ -86,13 +101,14 @@ class Comparison(comparison.Comparison):
         return notebook_view(system, words, grids, metric_plot(self, drawn) if drawn else None)
 
 
-def compare(*results: FilePath | Sequence[FilePath], reference: str | None = None) -> Comparison:
-    """Put the variants of stored batches side by side: `perilune compare`.
+@verb(COMPARE)
+def compare(*results: FilePath | Sequence[FilePath], **options: Unpack[CompareOptions]) -> Comparison:
+    """Put the variants of stored campaigns side by side: `perilune compare`.
 
-    ``results`` are folders that `batch` wrote to its ``output``, or a list of them, all flown on the same draws;
-    ``reference`` names the variant that others are put against, by default the first. Raises InputError.
+    ``results`` are folders that `batch` wrote to its ``output``, or a list of them, all simulated on the same draws;
+    ``reference`` names the variant that others are compared with, by default the first. Raises InputError.
     """
     folders = [Path(folder) for folder in path_list(results)]
     if not folders:
         raise InputError("compare", "", "no folder of results", "name what batch(..., output=...) wrote")
-    return Comparison(**vars(side_by_side(folders, reference)))
+    return compare_folders(Comparison, folders, options["reference"])

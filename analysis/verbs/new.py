@@ -1,0 +1,45 @@
+"""`perilune.new_block`, `perilune.new_system` and `perilune new`: a block or a system of one's own to start from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ..authoring.new import block, system
+from .options.making import NEW_BLOCK, NEW_SYSTEM
+from .options.verb import verb
+
+
+class NewFiles(block.Written):
+    """The ``paths`` that were written, and the ``commands`` that come next."""
+
+    def lines(self) -> list[str]:
+        """What `perilune new` prints."""
+        names = ", ".join(map(str, self.paths))
+        return [f"written: {names}", "next:", *(f"  {command}" for command in self.commands)]
+
+    def to_json(self) -> dict[str, Any]:
+        """The same for other programs."""
+        return {"paths": [Path(path).as_posix() for path in self.paths], "next": self.commands}
+
+    def problems(self) -> list[str]:
+        """None."""
+        return []
+
+
+@verb(NEW_BLOCK)
+def new_block(name: str, slot: str | None = None) -> NewFiles:
+    """Write NAME.py with a block in the working folder: `perilune new block`.
+
+    ``slot`` is the interface of the guidance, filter or allocation that it is to be. Raises InputError.
+    """
+    return NewFiles(**vars(block.new_block(name, slot)))
+
+
+@verb(NEW_SYSTEM)
+def new_system(name: str) -> NewFiles:
+    """Write a folder NAME with a plant, a controller and what is needed to simulate them: `perilune new system`.
+
+    Raises InputError.
+    """
+    return NewFiles(**vars(system.new_system(name)))
