@@ -145,13 +145,13 @@ class Variable:
         """The values of any sequence as elements; raises TypeError where their number or type does not fit."""
         where = f"{block.fmu_name}.{self.name}"
         try:
-            found = list(values)
+            elements = list(values)
         except TypeError:
-            found = []
-        if len(found) != self.size:
+            elements = []
+        if len(elements) != self.size:
             raise TypeError(f"{where}: give a list of {self.size}, or another sequence; got {values!r}")
         try:
-            return [CONVERSIONS[type(self.elements[0])](value) for value in found]
+            return [CONVERSIONS[type(self.elements[0])](value) for value in elements]
         except (TypeError, ValueError) as error:
             raise TypeError(f"{where}: its elements are of type {self.type_name}; got {values!r}") from error
 

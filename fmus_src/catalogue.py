@@ -19,12 +19,12 @@ KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", 
 
 def blocks_of(module: ModuleType) -> list[type[Block]]:
     """The blocks that a module itself defines, in order of definition; interfaces are left out."""
-    found = [
+    blocks = [
         value
         for value in vars(module).values()
         if inspect.isclass(value) and issubclass(value, Block) and value.__module__ == module.__name__
     ]
-    return [block for block in found if not block.is_interface]
+    return [block for block in blocks if not block.is_interface]
 
 
 def catalogue() -> dict[str, type[Block]]:
@@ -37,16 +37,16 @@ def catalogue() -> dict[str, type[Block]]:
 
 @cache
 def _catalogue() -> dict[str, type[Block]]:
-    found: dict[str, type[Block]] = {}
+    blocks: dict[str, type[Block]] = {}
     for kind in KINDS:
         for module in pkgutil.iter_modules([str(HERE / kind)]):
             for block in blocks_of(importlib.import_module(f"{__package__}.{kind}.{module.name}")):
-                if block.fmu_name in found:
+                if block.fmu_name in blocks:
                     raise ValueError(
                         f"{block.__module__}.{block.__name__}: FMU name {block.fmu_name} is taken; rename it"
                     )
-                found[block.fmu_name] = block
-    return found
+                blocks[block.fmu_name] = block
+    return blocks
 
 
 def blocks_in_file(path: Path) -> list[type[Block]]:
@@ -63,15 +63,15 @@ def blocks_in_file(path: Path) -> list[type[Block]]:
         # Python 3.11 wraps what a declaration raises
         reason = error.__cause__ if isinstance(error.__cause__, DeclarationError) else error
         raise ValueError(f"{path}: importing it failed: {type(reason).__name__}: {reason}") from error
-    found = blocks_of(module)
-    if not found:
+    blocks = blocks_of(module)
+    if not blocks:
         raise ValueError(f"{path}: defines no block; derive a class from perilune.Block or an interface of it")
     names: dict[str, str] = {}
-    for block in found:
+    for block in blocks:
         other = names.setdefault(block.fmu_name, block.__name__)
         if other != block.__name__:
             raise ValueError(f"{path}: {other} and {block.__name__} are both the FMU {block.fmu_name}; rename one")
-    return found
+    return blocks
 
 
 def _check_names(path: Path) -> None:

@@ -52,14 +52,14 @@ class Component:
     def accesses(self, references: list[int]) -> list[Access]:
         """Variables behind value references, in order; those of which all elements are named come as wholes."""
         key = tuple(references)
-        found = self.known.get(key)
-        if found is None:
-            found = self.known[key] = self.find_accesses(key)
-        return found
+        accesses = self.known.get(key)
+        if accesses is None:
+            accesses = self.known[key] = self.find_accesses(key)
+        return accesses
 
     def find_accesses(self, references: tuple[int, ...]) -> list[Access]:
         """What `accesses` gives, worked out."""
-        found: list[Access] = []
+        accesses: list[Access] = []
         position = 0
         while position < len(references):
             first = references[position]
@@ -73,9 +73,9 @@ class Component:
                 index = VECTOR if variable.is_vector else LIST
             else:
                 end = position + 1
-            found.append((name, index, position, end))
+            accesses.append((name, index, position, end))
             position = end
-        return found
+        return accesses
 
     def get(self, references: list[int]) -> list:
         """Values at the given value references, settled first if initialisation is under way."""

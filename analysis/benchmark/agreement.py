@@ -30,14 +30,14 @@ def strangers(contestants: Iterable[Contestant], final: Mapping[str, Values]) ->
         for each in by_name.values()
         if each.is_ours and each.name in final
     }
-    found: dict[str, str] = {}
+    versions: dict[str, str] = {}
     for name, values in final.items():
         reference = ours.get((by_name[name].flavour, by_name[name].algorithm))
         if reference is None:
             if by_name[name].exact:
-                found[name] = "ours did not fly, so that its values cannot be compared"
+                versions[name] = "ours did not fly, so that its values cannot be compared"
         elif by_name[name].exact and differ(values, reference):
-            found[name] = f"{differ(values, reference)} of its values at the end differ from ours in their bits"
+            versions[name] = f"{differ(values, reference)} of its values at the end differ from ours in their bits"
         elif not difference(values, reference) <= TOLERANCE:
-            found[name] = f"its values at the end differ from ours by {difference(values, reference):.2g}"
-    return found
+            versions[name] = f"its values at the end differ from ours by {difference(values, reference):.2g}"
+    return versions

@@ -78,8 +78,8 @@ def _pack(system: str, folder: Path, unavailable: dict[str, str]) -> dict[str, P
     archives: dict[str, Path] = {}
     for flavour in OURS:
         try:
-            found = [fmu_file(Path(source).stem, flavour) for source in named_fmus(SYSTEMS / system)]
-            folders = [*dict.fromkeys(path.parent for path in found if path), built_fmu("x", flavour).parent]
+            files = [fmu_file(Path(source).stem, flavour) for source in named_fmus(SYSTEMS / system)]
+            folders = [*dict.fromkeys(path.parent for path in files if path), built_fmu("x", flavour).parent]
             archives[flavour] = pack_system(SYSTEMS / system, folders, folder / flavour)
         except ValueError as error:
             unavailable |= {each.name: str(error) for each in CONTESTANTS if each.flavour == flavour}

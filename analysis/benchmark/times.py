@@ -49,9 +49,9 @@ class Times:
 
 def promised_ratios(times: Mapping[str, Times], trials: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
     """Ratios by ``first/second``, of those that flew; for the workers trials per second, by flavour."""
-    found = {
+    ratios = {
         f"{slow}/{fast}": times[slow].ratio(times[fast]) for slow, fast in PROMISED if slow in times and fast in times
     }
     for flavour, rates in trials.items():
-        found[f"two_workers/one_worker_{flavour}"] = rates["2"] / rates["1"]
-    return found
+        ratios[f"two_workers/one_worker_{flavour}"] = rates["2"] / rates["1"]
+    return ratios

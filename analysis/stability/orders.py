@@ -19,7 +19,10 @@ from .results.loop import JointReport, LoopReport
 from .results.report import Orders, StabilityReport, Unstudied
 from .results.requirement import Requirement
 
-NOT_STUDIED, DIFFERENT = "not studied", "not known, since the routes differ"  # notes of requirements without a verdict
+NOT_STUDIED, DIFFERENT = (
+    "not studied",
+    "not known, since linearised and measured responses differ",
+)  # notes of requirements without a verdict
 
 
 def in_both_orders(request: Request, make: Callable[[Request], StabilityReport]) -> StabilityReport:
@@ -117,7 +120,7 @@ def _judged(report: StabilityReport, orders: Orders) -> StabilityReport:
 
 
 def _loop(loop: LoopReport, other: LoopReport | None) -> LoopReport:
-    """A loop with the requirements of both orders; where the routes differ in the other order, nothing passes in it."""
+    """A loop with the requirements of both orders; where the responses differ in the other order, nothing passes."""
     note = "" if other is None or not other.doubted else DIFFERENT
     judged = replace(loop, requirements=_both(loop.requirements, () if other is None else other.requirements, note))
     if loop.dispersion is not None:

@@ -59,16 +59,16 @@ def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
     points = [point for point in request.declaration.points if request.loops_at(point)]
     if min(count, len(points)) > 1:
         with heard(tell) as queue, _processes(min(count, len(points)), queue) as pool:
-            found = list(pool.map(_study_in_process, [request] * len(points), points))
+            results = list(pool.map(_study_in_process, [request] * len(points), points))
     else:
-        found = [study_point(request, point, tell) for point in points]
-    cells = {point.name: result.cells for point, result in zip(points, found, strict=True)}
-    unstudied = [item for result in found for item in result.unstudied]
+        results = [study_point(request, point, tell) for point in points]
+    cells = {point.name: result.cells for point, result in zip(points, results, strict=True)}
+    unstudied = [item for result in results for item in result.unstudied]
     sweeps = []
     for sweep in request.declaration.sweeps:
         known = cells[sweep.point]
         has_loop = any(
-            (item.loop, item.point) == (sweep.loop, sweep.point) for result in found for item in result.loops
+            (item.loop, item.point) == (sweep.loop, sweep.point) for result in results for item in result.loops
         )
         if known is None or not has_loop:
             unstudied.append(Unstudied(sweep.name, sweep.point, "sweep", "its loop has no linear model there"))
@@ -81,11 +81,11 @@ def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
             unstudied.append(Unstudied(sweep.name, sweep.point, "sweep", str(error)))
     return StabilityReport(
         system=request.name,
-        provenance=found[0].provenance,
+        provenance=results[0].provenance,
         limits=asdict(request.declaration.limits),
-        points=tuple(result.report for result in found),
-        loops=tuple(loop for result in found for loop in result.loops),
-        joint=tuple(joint for result in found for joint in result.joint),
+        points=tuple(result.report for result in results),
+        loops=tuple(loop for result in results for loop in result.loops),
+        joint=tuple(joint for result in results for joint in result.joint),
         sweeps=tuple(sweeps),
         unstudied=tuple(unstudied),
         seconds=time.monotonic() - begun,
@@ -127,8 +127,8 @@ def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
             if any(channel.loop == loop.name and channel.name in lost for channel in work.channels):
                 continue
             try:
-                found = work.joint(loop, limits)
-                joint += [] if found is None else [found]
+                joint_report = work.joint(loop, limits)
+                joint += [] if joint_report is None else [joint_report]
             except StudyError as error:
                 unstudied.append(Unstudied(loop.name, point.name, "channels at once", str(error)))
         step = work.prepared.step
@@ -146,15 +146,15 @@ def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
 
 
 def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channel) -> LoopReport:
-    """One channel by both routes, with its amplitudes and elements."""
+    """One channel by linearisation and frequency-response test, with its amplitudes and elements."""
     work = point.loop_study(channel, request.declaration.limits)
     work.measure()
     work.refuse_what_is_no_loop()
     report = work.report([item.name for item in point.channels if item is not channel])
     crossings = [crossing.frequency for crossing in report.classical.phase]
-    found = work.amplitudes(min(crossings, default=0.1 * work.nyquist))
-    if found is not None:
-        report.amplitudes, report.amplitude_frequency = found
+    amplitudes = work.amplitudes(min(crossings, default=0.1 * work.nyquist))
+    if amplitudes is not None:
+        report.amplitudes, report.amplitude_frequency = amplitudes
     assessment, response = work.assessed
     low, high = assessment.curve.frequency[0], assessment.curve.frequency[-1]
 
@@ -178,7 +178,7 @@ def _vary(
     unstudied: list[Unstudied],
     tell: Tell,
 ) -> None:
-    """What needs route A with something changed: the step, the campaign."""
+    """What needs the linearisation with something changed: the step, the campaign."""
     loops = [loop for loop in request.loops_at(point) if any(report.loop == loop.name for report in reports)]
     steps = sampled(subject, point, loops, step, cells, [report.name for report in reports], tell)
     spread: dict[str, Dispersion] = {}

@@ -9,8 +9,10 @@ from typing import Any, Unpack
 
 from matplotlib.figure import Figure as Plot
 
-from ..campaigns.fly import results, runner
+from ..campaigns.fly import results
+from ..campaigns.fly.campaign import open_campaign
 from ..campaigns.fly.cluster.connection import cluster
+from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.rows import whole_column
 from ..campaigns.spec.expressions import Expression
 from ..campaigns.summary import CONFIDENCE, summary_rows
@@ -156,12 +158,6 @@ def batch(system: FilePath, campaign: FilePath, **options: Unpack[BatchOptions])
         resume_hint(folder),
         cluster(options["scheduler"], workers=workers, engine=engine) as elsewhere,
     ):
-        result = runner.run_batch(
-            plan, workers=workers, output=folder, resume=options["resume"], engine=engine, elsewhere=elsewhere
-        )
-    return batch_result(result, requirements)
-
-
-def batch_result(result: results.BatchResult, requirements: list[Expression]) -> BatchResult:
-    """A result with what users have of it."""
-    return BatchResult(result.plan, result.rows, result.summary, result.provenance, result.folder, tuple(requirements))
+        opened = open_campaign(plan, folder, resume=options["resume"], engine=engine, workers=workers)
+        rows = fly_campaign(opened, opened.missing(), workers=workers, engine=engine, elsewhere=elsewhere)
+        return BatchResult.finish(opened, rows, requirements=tuple(requirements))

@@ -10,7 +10,7 @@ from typing import Any, Unpack
 from matplotlib.figure import Figure as Plot
 
 from ..campaigns.compare import comparison
-from ..campaigns.compare.side_by_side import compare as side_by_side
+from ..campaigns.compare.side_by_side import compare_folders
 from ..campaigns.summary import summary_rows
 from ..campaigns.tables import who_cells, who_heads
 from ..common.errors import InputError, suggestion
@@ -111,4 +111,4 @@ def compare(*results: FilePath | Sequence[FilePath], **options: Unpack[CompareOp
     folders = [Path(folder) for folder in path_list(results)]
     if not folders:
         raise InputError("compare", "", "no folder of results", "name what batch(..., output=...) wrote")
-    return Comparison(**vars(side_by_side(folders, options["reference"])))
+    return compare_folders(Comparison, folders, options["reference"])

@@ -6,8 +6,9 @@ from contextlib import chdir
 from pathlib import Path
 from typing import Unpack
 
-from ..campaigns.fly import runner
-from .batch import BatchResult, batch_result
+from ..campaigns.fly.campaign import open_folder
+from ..campaigns.fly.runner import merged_rows
+from .batch import BatchResult
 from .common.campaign_text import campaign_requirements
 from .common.plans import resume_hint
 from .options.campaigns import MERGE
@@ -20,6 +21,6 @@ from .options.verb import verb
 def merge(folder: FilePath, **options: Unpack[RequireOptions]) -> BatchResult:
     """Merge the shards of a campaign's folder: `perilune merge`. Raises InputError where some are missing."""
     with chdir(Path.cwd()), resume_hint(Path(folder)):
-        campaign = runner.open_folder(Path(folder))
+        campaign = open_folder(Path(folder))
         requirements = campaign_requirements(campaign.plan, options["require"])
-        return batch_result(runner.merge(campaign), requirements)
+        return BatchResult.finish(campaign, merged_rows(campaign), requirements=tuple(requirements))

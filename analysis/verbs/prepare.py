@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Unpack
 
-from ..campaigns.fly.runner import open_campaign
+from ..campaigns.fly.campaign import open_campaign
 from ..common.errors import InputError
 from ..common.targets import check_folder
 from .common.plans import read_campaign

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Unpack
 
+from ..campaigns.fly.campaign import open_folder
 from ..campaigns.fly.cluster.connection import cluster
-from ..campaigns.fly.runner import fly_campaign, open_folder
+from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.fly.shards.numbering import numbers_of
 from .common.campaign_text import failed_flights, failure_lines
 from .common.plans import resume_hint

@@ -159,7 +159,7 @@ def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> Stabilit
         Path(system),
         system_options(options),
         loops=options["loops"],
-        at=(at,) if isinstance(at, int | float) else at,
+        at=(at,) if isinstance(at, int | float) else tuple(at),
         campaign=None if campaign is None else os.fspath(campaign),
         trials=options["trials"],
         seed=options["seed"],

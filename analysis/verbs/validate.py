@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Unpack, overload
 from fmpy.validation import validate_fmu
 
 from ..campaigns.spec.file import SYNTHESIS, read_campaign
-from ..campaigns.spec.toml_table import read_toml
+from ..campaigns.spec.toml.source import read_source_file
 from ..common.errors import InputError
 from ..common.exit_status import ExitStatus
 from ..design.laws.law import read_law
@@ -113,7 +113,7 @@ def _check(path: str, options: System) -> FileCheck:
         elif path.endswith(".json"):
             read_law(Path(path))
         elif path.endswith(".toml"):
-            is_search = SYNTHESIS in read_toml(Path(path)).content
+            is_search = SYNTHESIS in read_source_file(Path(path)).table().content
             (read_synthesis if is_search else read_campaign)(Path(path))
         else:
             notes += _check_system(path, options)

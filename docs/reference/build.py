@@ -14,6 +14,7 @@ from typing import Any
 from perilune.analysis.common.errors import InputError
 from perilune.fmus_src.paths import BUILD, PACKAGE, ROOT
 
+from .formulas import typeset
 from .links import broken_links
 from .pages import derived_pages, reference_navigation
 
@@ -45,6 +46,8 @@ def build_site(output: Path, sources: Path) -> None:
         path = sources / "docs" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
+    for path in (sources / "docs").rglob("*.md"):
+        path.write_text(typeset(path.read_text(encoding="utf-8")), encoding="utf-8")
     settings = site_settings()
     written = {path.relative_to(sources / "docs").as_posix() for path in (sources / "docs").rglob("*.md")}
     for name in sorted(written - set(pages_of(settings["nav"]))):

@@ -32,15 +32,15 @@ def fmu_file(name: str, flavour: str, system: Path | None = None) -> Path | None
 
 def fmu_flavours() -> dict[str, dict[str, Path | None]]:
     """All FMUs by name, with the flavours there are; a file is None until it is asked for and built."""
-    found: dict[str, dict[str, Path | None]] = {}
+    files: dict[str, dict[str, Path | None]] = {}
     for flavour in FLAVOURS:
         if not IS_CHECKOUT and flavour == "python":
             for name in catalogue():
-                found.setdefault(name, {})[flavour] = None
+                files.setdefault(name, {})[flavour] = None
         for folder in (built_fmu("x", flavour).parent, own_fmu("x", flavour).parent):
             for path in sorted(folder.glob("*.fmu")):
-                found.setdefault(path.stem, {}).setdefault(flavour, path)
-    return found
+                files.setdefault(path.stem, {}).setdefault(flavour, path)
+    return files
 
 
 @cache

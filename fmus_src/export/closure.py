@@ -152,17 +152,17 @@ def _check_siblings(node: ast.ImportFrom, path: Path) -> None:
 def _imported(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> tuple[str, ...]:
     """Modules of the source package that a file imports, as dotted names below it."""
     package = module.rsplit(".", 1)[0].split(".") if "." in module else []
-    found: list[str] = []
+    modules: list[str] = []
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.ImportFrom) and node.level > 0 and package == [OUTSIDE]:
             _check_siblings(node, path)
         elif isinstance(node, ast.ImportFrom) and node.level > 0:
             base = package[: len(package) - (node.level - 1)]
-            found += _with_submodules([*base, *(node.module or "").split(".")], node.names)
+            modules += _with_submodules([*base, *(node.module or "").split(".")], node.names)
         elif isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith(f"{SOURCE_PACKAGE}."):
-            found += _with_submodules((node.module or "").removeprefix(SOURCE_PACKAGE).split("."), node.names)
+            modules += _with_submodules((node.module or "").removeprefix(SOURCE_PACKAGE).split("."), node.names)
         elif isinstance(node, ast.ImportFrom) and node.module == FACE_PACKAGE:
-            found += [_home(alias.name, path, node.lineno) for alias in node.names]
+            modules += [_home(alias.name, path, node.lineno) for alias in node.names]
         elif isinstance(node, ast.Import | ast.ImportFrom):
             names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else [node.module or ""]
             for name in names:
@@ -171,4 +171,4 @@ def _imported(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> 
                         f"{path}:{node.lineno}: import of {name}: not packed into the FMU; "
                         f"import from {FACE_PACKAGE} or a file next to this, or name the library in requires"
                     )
-    return tuple(found)
+    return tuple(modules)

@@ -78,14 +78,14 @@ def compilers_for(platform: str, portable: bool = False) -> list[list[str]]:
 
 def available_platforms() -> list[str]:
     """The usual platforms that some compiler here serves: linux64 and win64 with zig, else the local one."""
-    found = []
+    platforms = []
     for platform in ("linux64", "win64"):
         try:
             compilers_for(platform)
         except CompilerMissing:
             continue
-        found.append(platform)
-    return found
+        platforms.append(platform)
+    return platforms
 
 
 @cache

@@ -16,13 +16,13 @@ from .pythonfmu_fmu import build_python_fmu
 
 def own_blocks(path: Path) -> list[type[Block]]:
     """The blocks of a file. Raises ValueError for a file without any, and for names of the repository's own."""
-    found = blocks_in_file(path)
-    for block in found:
+    blocks = blocks_in_file(path)
+    for block in blocks:
         if block.fmu_name in catalogue():
             raise ValueError(
                 f"{path}: {block.__name__}: {block.fmu_name} is an FMU of this repository; rename the class"
             )
-    return found
+    return blocks
 
 
 def defines(path: Path) -> list[str]:

@@ -30,8 +30,8 @@ def system_files(folder: Path) -> dict[str, Path]:
             files[name] = path
         elif path.parent == folder and path.suffix in RESOURCE_SUFFIXES:
             files[f"resources/{name}"] = path
-        elif path.parent == folder / "campaigns":
-            files[f"{CAMPAIGN_FOLDER}/{path.name}"] = path
+        elif name.startswith("campaigns/"):
+            files[f"{CAMPAIGN_FOLDER}/{name.removeprefix('campaigns/')}"] = path
         elif name == "README.md":
             files["documentation/README.md"] = path
         elif name.startswith(("resources/", "documentation/", "extra/")):
@@ -42,13 +42,13 @@ def system_files(folder: Path) -> dict[str, Path]:
 def named_fmus(folder: Path) -> dict[str, str]:
     """FMUs that the SSDs of a system name and its folder does not hold: source -> the SSD that names it first."""
     files = system_files(folder)
-    found: dict[str, str] = {}
+    sources: dict[str, str] = {}
     for name in [name for name in files if name.endswith(".ssd")]:
         for component in etree.fromstring(files[name].read_bytes()).iter(f"{{{SSD_NAMESPACE}}}Component"):
             source = component.get("source", "")
             if source not in files:
-                found.setdefault(source, name)
-    return found
+                sources.setdefault(source, name)
+    return sources
 
 
 def pack_system(folder: Path, fmus: Sequence[Path], target: Path) -> Path:

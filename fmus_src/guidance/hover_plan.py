@@ -167,8 +167,8 @@ class HoverPlan(Block, interface=True):
                 self.along = level / norm(level)
             if kind == VERTICAL:
                 self.origin = self.goal - y * self.up
-            found = shape(self.programme, self.vehicle[SWING], self.times)
-            if found:
+            is_feasible = shape(self.programme, self.vehicle[SWING], self.times)
+            if is_feasible:
                 self.plan_kind = kind
                 self.duration = self.programme[END]
                 self.predicted_propellant = self.mass * propellant(self.times, self.vehicle, self.duration)

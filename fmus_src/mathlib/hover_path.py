@@ -34,8 +34,8 @@ def vertical(y: float, vehicle: list, p: list) -> bool:
     p[RETURN] = p[END]
     if not p[END] < math.inf:
         return False
-    found = solve(VERTICAL, p, vehicle, 0.0, y)
-    return found
+    is_feasible = solve(VERTICAL, p, vehicle, 0.0, y)
+    return is_feasible
 
 
 def little_aside(x: float, vehicle: list, p: list) -> bool:
@@ -94,10 +94,10 @@ def aside(x: float, y: float, vehicle: list, p: list) -> float:
     place = x
     if place > -NEAR * y:
         place = -NEAR * y
-    found = little_aside(place, vehicle, p)
-    if found:
-        found = solve(WITHOUT_FIRST_BURN, p, vehicle, place, y)
-    if not found:
+    is_feasible = little_aside(place, vehicle, p)
+    if is_feasible:
+        is_feasible = solve(WITHOUT_FIRST_BURN, p, vehicle, place, y)
+    if not is_feasible:
         return 0.0
     growth = GROWTH
     trial = [0.0] * UNKNOWNS
@@ -107,8 +107,8 @@ def aside(x: float, y: float, vehicle: list, p: list) -> float:
             if goal > x:
                 goal = x
             widened(p, math.sqrt(goal / place), trial)
-            found = solve(WITHOUT_FIRST_BURN, trial, vehicle, goal, y)
-            if found:
+            is_feasible = solve(WITHOUT_FIRST_BURN, trial, vehicle, goal, y)
+            if is_feasible:
                 copy(trial, p)
                 place = goal
             else:
@@ -122,8 +122,8 @@ def ending(end: float, x: float, y: float, vehicle: list, p: list, other: list) 
     Propellant is over the mass at the start.
     """
     lengthened(p, end, other)
-    found = solve(WITH_FIRST_BURN, other, vehicle, x, y)
-    if not found:
+    is_feasible = solve(WITH_FIRST_BURN, other, vehicle, x, y)
+    if not is_feasible:
         return math.inf
     return propellant_fraction(other, vehicle)
 
@@ -154,15 +154,15 @@ def further(reached: float, x: float, y: float, vehicle: list, p: list) -> bool:
     trial = [0.0] * UNKNOWNS
     place = 0.9 * reached
     widened(p, math.sqrt(0.9), trial)
-    found = solve(WITHOUT_FIRST_BURN, trial, vehicle, place, y)
-    if not found:
+    is_feasible = solve(WITHOUT_FIRST_BURN, trial, vehicle, place, y)
+    if not is_feasible:
         return False
     copy(trial, p)
     p[WIDTH] = 0.1
     end = p[END]
     lengthened(p, 1.01 * end, trial)
-    found = solve(WITH_FIRST_BURN, trial, vehicle, place, y)
-    if not found:
+    is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, place, y)
+    if not is_feasible:
         return False
     copy(trial, p)
     longer = stretched(ROOM * end, place, y, vehicle, p)
@@ -173,8 +173,8 @@ def further(reached: float, x: float, y: float, vehicle: list, p: list) -> bool:
             if goal > x:
                 goal = x
             widened(p, math.sqrt(goal / place), trial)
-            found = solve(WITH_FIRST_BURN, trial, vehicle, goal, y)
-            if found:
+            is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, goal, y)
+            if is_feasible:
                 copy(trial, p)
                 place = goal
             else:

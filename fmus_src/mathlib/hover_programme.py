@@ -21,10 +21,10 @@ LARGEST_PATH = 60  # programmes
 def programme(x: float, y: float, vehicle: list, p: list) -> int:
     """p[5] = the programme to (x, y) on least propellant; returns its kind, NONE if none was found."""
     clear(p)
-    found = possible(x, y, vehicle)
-    if found:
-        found = vertical(y, vehicle, p)
-    if not found:
+    is_feasible = possible(x, y, vehicle)
+    if is_feasible:
+        is_feasible = vertical(y, vehicle, p)
+    if not is_feasible:
         clear(p)
         return NONE
     if x < STRAIGHT:
@@ -35,18 +35,18 @@ def programme(x: float, y: float, vehicle: list, p: list) -> int:
         copy(p, trial)
         trial[END] = p[END] + 0.2
         trial[WIDTH] = FIRST_WIDTH
-        found = solve(WITH_FIRST_BURN, trial, vehicle, x, y)
-        if found:
+        is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, x, y)
+        if is_feasible:
             gain = propellant_fraction(p, vehicle) - propellant_fraction(trial, vehicle)
-            found = gain > 0.0
-        if not found:
+            is_feasible = gain > 0.0
+        if not is_feasible:
             return WITHOUT_FIRST_BURN
         copy(trial, p)
     else:
-        found = reached > 0.0
-        if found:
-            found = further(reached, x, y, vehicle, p)
-        if not found:
+        is_feasible = reached > 0.0
+        if is_feasible:
+            is_feasible = further(reached, x, y, vehicle, p)
+        if not is_feasible:
             clear(p)
             return NONE
     least_propellant(x, y, vehicle, p)
@@ -61,12 +61,12 @@ def programme_of_duration(x: float, y: float, duration: float, vehicle: list, p:
     kind = programme(x, y, vehicle, p)
     if kind == NONE or p[END] == duration:
         return kind
-    found = kind != VERTICAL and math.isfinite(duration)
-    if found and kind == WITHOUT_FIRST_BURN:
+    is_feasible = kind != VERTICAL and math.isfinite(duration)
+    if is_feasible and kind == WITHOUT_FIRST_BURN:
         p[WIDTH] = FIRST_WIDTH
-    if found:
-        found = stretched(duration, x, y, vehicle, p)
-    if not found:
+    if is_feasible:
+        is_feasible = stretched(duration, x, y, vehicle, p)
+    if not is_feasible:
         clear(p)
         return NONE
     return WITH_FIRST_BURN

@@ -91,8 +91,8 @@ def sensitivities(kind: int, p: list, vehicle: list, x: float, y: float, r: list
             return False
         for i in range(n):
             slopes[n * i + j] = (ahead[i] - r[i]) / change
-    found = inverse(slopes, inverted, n)
-    return found
+    is_regular = inverse(slopes, inverted, n)
+    return is_regular
 
 
 def advance(kind: int, p: list, vehicle: list, x: float, y: float, r: list, inverted: list, part: float) -> float:

@@ -49,13 +49,13 @@ class Vector:
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
         """numpy's functions give arrays, but a number of numpy's times a vector is a vector."""
-        found = getattr(ufunc, method)(
+        result = getattr(ufunc, method)(
             *[list(each) if isinstance(each, Vector) else each for each in inputs], **options
         )
         numbers = [
             each for each in inputs if not isinstance(each, Vector | list | tuple) and not getattr(each, "ndim", 0)
         ]
-        return vector(*found.tolist()) if len(inputs) == 2 and len(numbers) == 1 else found
+        return vector(*result.tolist()) if len(inputs) == 2 and len(numbers) == 1 else result
 
     def __reduce__(self) -> tuple:
         return vector, self.elements()

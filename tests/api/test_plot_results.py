@@ -41,7 +41,7 @@ def test_lines_are_empirical_distributions(folders):
 
 def test_folders_and_what_was_opened_or_flown_are_alike(folders):
     made = sample_batch(trials=50, variants=("alpha",), seed=9, noise=2.0)
-    flown = BatchResult(made.plan, made.rows, made.summary, made.provenance)
+    flown = BatchResult(made.plan, made.rows, made.provenance)
     given = {"one": perilune.open_results(folders["one"]), "two": flown}
     lines = [
         [line.get_xydata() for axes in perilune.plot_results(results).axes for line in axes.lines]

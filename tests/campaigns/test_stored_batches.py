@@ -216,7 +216,7 @@ def test_what_cannot_be_compared_is_refused_in_one_line(original, tmp_path, opti
 def test_other_refusals(original, tmp_path):
     with pytest.raises(InputError, match=r"given twice; give each folder once"):
         compare([original, original.parent / "." / original.name])
-    with pytest.raises(InputError, match=r"--reference: delta: no such variant; use one of beta, alpha, gamma"):
+    with pytest.raises(InputError, match=r"reference: delta: no such variant; use one of beta, alpha, gamma"):
         compare([original], "delta")
     with pytest.raises(InputError, match=r"summary\.json: not found"):
         compare([tmp_path / "nothing"])

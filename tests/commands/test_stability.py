@@ -119,7 +119,7 @@ def test_page_json_file_and_talk_to_the_terminal(plain, tmp_path, capsys):
     line, last, written = captured.out.splitlines()
     assert written == f"written: {page}, {file}"
     assert line.startswith(f"loop at there: {loop['gain_margin_db']:.2f} dB, {loop['phase_margin_deg']:.2f} deg, ")
-    assert line.endswith("routes agree: pass")
+    assert line.endswith("linearised and measured responses agree: pass")
     assert re.fullmatch(r"late_double_integrator: pass, \d+\.\d s", last)
     assert captured.err == ""
     assert page.read_text().lower().startswith("<!doctype html")

@@ -1,4 +1,4 @@
-"""The stability of robot_rendezvous and lunar_landing as they fly, both routes, against the same loops in closed form.
+"""The stability of robot_rendezvous and lunar_landing, by both methods, against the same loops in closed form.
 
 Truth: support/loops/exact_robot.py and exact_lunar.py, which know nothing of the FMUs, with margins by
 python-control; the robot's published designs with means taken as interpolated delays; the double integrator under
@@ -84,9 +84,9 @@ def assert_routes_agree(loop):
     assert loop.agreement.agrees
     assert DECIBEL * np.log(loop.agreement.gain) < 1e-3
     assert np.degrees(loop.agreement.phase) < 1e-2
-    assert loop.route_a.plateau < 1e-3
-    assert loop.route_b.half_amplitude_change < 1e-6
-    assert loop.route_b.unexcited < 1e-5
+    assert loop.linearised.plateau < 1e-3
+    assert loop.measured_response.half_amplitude_change < 1e-6
+    assert loop.measured_response.unexcited < 1e-5
 
 
 def relative_error(curve, response, lowest, highest):
@@ -126,7 +126,7 @@ def test_robot_responses_by_both_routes(channels, name):
     for loop in channels[name]:
         assert_routes_agree(loop)
         lowest, highest = 0.1 * exact.margins.phase_frequency, 0.5 * np.pi / exact.period
-        for curve, tolerance in ((loop.curve, 1e-4), (loop.route_b.curve, 1e-7)):
+        for curve, tolerance in ((loop.curve, 1e-4), (loop.measured_response.curve, 1e-7)):
             assert max(relative_error(curve, exact.response, lowest, highest)[1]) < tolerance
 
 
@@ -137,7 +137,7 @@ def test_robot_poles_and_encirclements(channels, name):
     for loop in channels[name]:
         assert loop.stable
         assert loop.classical.encirclements == loop.unstable_open == 0
-        periods = round(loop.route_a.period / exact.period)
+        periods = round(loop.linearised.period / exact.period)
         for pole in exact.poles**periods:
             if abs(pole) > 1e-4:
                 assert np.min(abs(loop.poles_z - pole)) < 1e-5
@@ -200,7 +200,7 @@ def test_hover_responses_by_both_routes(hover, time_to_go, axis):
     loop = hover(time_to_go)[0][axis]
     assert_routes_agree(loop)
     response = response_of(HoverLoop(time_to_go, axis == "z").state_space)
-    for curve in (loop.curve, loop.route_b.curve):
+    for curve in (loop.curve, loop.measured_response.curve):
         frequency, error = relative_error(curve, response, 0.42 / time_to_go, 0.5 * np.pi / STEP)
         assert np.all(error < 1e-5 + 0.3 * STEP**3 * frequency**2 / time_to_go)
 
@@ -213,7 +213,7 @@ def test_hover_poles_and_encirclements(hover, time_to_go, axis):
     assert loop.stable
     unstable = outside(exact.state_space, 0.0)
     assert loop.classical.encirclements == loop.unstable_open == unstable == (1 if axis == "z" else 0)
-    periods = round(loop.route_a.period / STEP)
+    periods = round(loop.linearised.period / STEP)
     for pole in exact.poles[:2] ** periods:
         assert np.min(abs(loop.poles_z - pole)) < 2e-6
 

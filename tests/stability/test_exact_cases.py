@@ -92,14 +92,14 @@ def test_the_routes_agree(studied, name):
         assert loop.agreement.agrees
         assert DECIBEL * np.log(loop.agreement.gain) < 1e-3
         assert np.degrees(loop.agreement.phase) < 1e-2
-        assert loop.route_a.plateau < 1e-6
-        assert loop.route_a.periodicity < 1e-9
-        assert loop.route_b.half_amplitude_change < 1e-9
+        assert loop.linearised.plateau < 1e-6
+        assert loop.linearised.periodicity < 1e-9
+        assert loop.measured_response.half_amplitude_change < 1e-9
         truth = response_of(exact.loop if len(report.loops) == 1 else opened(exact.loop, place))
         exactly = truth(loop.curve.frequency)
         assert (abs(loop.curve.value - exactly) < 1e-6 * abs(exactly) + 1e-9).all()
-        low = loop.route_b.curve.frequency < 0.5 * np.pi / exact.period
-        measured = loop.route_b.curve.value / truth(loop.route_b.curve.frequency)
+        low = loop.measured_response.curve.frequency < 0.5 * np.pi / exact.period
+        measured = loop.measured_response.curve.value / truth(loop.measured_response.curve.frequency)
         assert abs(measured[low] - 1.0).max() < 2e-4
 
 
@@ -142,7 +142,7 @@ def test_a_pendulum_that_falls(exact_fmus, tmp_path):
 
 
 def test_routes_that_differ_do_not_pass(studied):
-    """The same loop, whose routes agree, with a difference of 6 dB written into it."""
+    """The same loop, whose linearised and measured responses agree, with a difference of 6 dB written into it."""
     _, report = studied("resonance, control at every 1")
     (loop,) = report.loops
     doubted = replace(loop, agreement=replace(loop.agreement, gain=2.0, agrees=False))

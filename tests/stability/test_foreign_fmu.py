@@ -48,19 +48,19 @@ def test_by_injection_wherever_it_is_cut(path, cut):
     assert_margins(loop)
     assert (loop.cut, loop.unit, loop.sample_period) == (cut, None, pytest.approx(STEP))
     assert loop.classical.gain_margin.frequency == pytest.approx(math.pi / 3.0 / STEP, rel=1e-4)
-    assert loop.route_b.half_amplitude_change < 1e-9
-    assert loop.route_b.unexcited < 1e-9
-    frequency, value = loop.route_b.curve.frequency, loop.route_b.curve.value
+    assert loop.measured_response.half_amplitude_change < 1e-9
+    assert loop.measured_response.unexcited < 1e-9
+    frequency, value = loop.measured_response.curve.frequency, loop.measured_response.curve.value
     z = np.exp(1j * frequency * STEP)
     assert abs(value * z * (z - 1.0) / G - 1.0).max() < 1e-4
 
 
-def test_route_a_is_not_applicable_and_says_why(path):
+def test_linearised_is_not_applicable_and_says_why(path):
     report = perilune.stability(path, loops=["law.y"], at=1.0, feedthrough=["law"])
     (loop,) = report.loops
-    assert "law.fmu" in loop.not_applicable["route A"]
-    assert "does not tell how it serialises its memory" in loop.not_applicable["route A"]
-    assert (loop.route_a, loop.agreement, loop.structure, loop.dispersion) == (None, None, None, None)
+    assert "law.fmu" in loop.not_applicable["linearisation"]
+    assert "does not tell how it serialises its memory" in loop.not_applicable["linearisation"]
+    assert (loop.linearised, loop.agreement, loop.structure, loop.dispersion) == (None, None, None, None)
     assert (loop.modes, loop.sampling, len(loop.poles_z)) == ((), (), 0)
     assert (loop.stable, loop.unstable_open, loop.classical.encirclements) == (None, None, None)
     judged = {requirement.title: requirement.passed for requirement in loop.requirements}
@@ -78,7 +78,7 @@ def test_the_command_line(path, tmp_path, capsys):
     assert loop["gain_margin_db"] == pytest.approx(GAIN_MARGIN, abs=0.01)
     assert loop["phase_margin_deg"] == pytest.approx(PHASE_MARGIN, abs=0.05)
     assert loop["delay_margin_s"] == pytest.approx(math.radians(PHASE_MARGIN) * STEP / (2.0 * math.asin(0.5 * G)), 1e-3)
-    assert "law.fmu" in loop["not_applicable"]["route A"]
+    assert "law.fmu" in loop["not_applicable"]["linearisation"]
     assert loop["poles_z"] == []
     assert page.read_text().lower().startswith("<!doctype html")
     assert "law.y at t = 1 s: 7.96 dB, 55.39 deg" in capsys.readouterr().out
@@ -100,8 +100,11 @@ def test_exit_status_1_and_one_line_per_failed_requirement(path, capsys):
 @pytest.mark.parametrize(
     ("gain", "words"),
     [
-        (10.05, "route B: the answer still changes by"),  # slowly: g is 1.005, the square of the poles' size
-        (21.0, "route B: the flight for point t = 1 s ended early (nonfinite"),
+        (
+            10.05,
+            "the frequency-response test: the answer still changes by",
+        ),  # slowly: g is 1.005, the square of the poles' size
+        (21.0, "the frequency-response test: the flight for point t = 1 s ended early (nonfinite"),
     ],
 )
 def test_an_unstable_loop_that_injection_cannot_measure(path, capsys, gain, words):
@@ -109,7 +112,7 @@ def test_an_unstable_loop_that_injection_cannot_measure(path, capsys, gain, word
     report = perilune.stability(path, loops=["law.y"], at=1.0, set={"law.gain": gain}, feedthrough=["law"])
     (lost,) = report.unstudied
     assert (report.loops, lost.name, lost.what) == ((), "law.y", "loop")
-    assert lost.reason.startswith("law.y: route A: ")
+    assert lost.reason.startswith("law.y: the linearisation: ")
     assert words in lost.reason
     assert main(["stability", str(path), "--loop", "law.y", "--at", "1", "--set", f"law.gain={gain}", *DIRECT]) == 1
     (line,) = capsys.readouterr().err.splitlines()

@@ -74,14 +74,14 @@ def test_both_routes_of_a_periodic_system(exact_fmus, tmp_path):
     report = perilune.stability(pack(tmp_path / "s.ssp", exact_fmus, with_stability(description(), declared)))
     exact = exact_model()
     for axis, (loop, port) in enumerate(zip(report.loops, exact.ports, strict=True)):
-        frequency = loop.route_b.curve.frequency
+        frequency = loop.measured_response.curve.frequency
         truth = exact.response((port,), frequency)[:, 0, 0]
         assert loop.sample_period == pytest.approx(port.seconds)
         low = frequency < 0.5 * np.pi / port.seconds
-        assert abs(loop.route_b.curve.value / truth - 1.0)[low].max() < 1e-6
+        assert abs(loop.measured_response.curve.value / truth - 1.0)[low].max() < 1e-6
         assert loop.agreement.agrees
-        assert loop.route_a.period == pytest.approx(HYPERPERIOD * STEP)
-        assert loop.route_a.periodicity > 1e-5
+        assert loop.linearised.period == pytest.approx(HYPERPERIOD * STEP)
+        assert loop.linearised.periodicity > 1e-5
         truth = exact.response((port,), loop.curve.frequency)[:, 0, 0]
         assert (abs(loop.curve.value - truth) < 1e-6 * abs(truth) + 1e-9).all()
         assert loop.poles_z == pytest.approx(exact.poles(), abs=1e-8)
@@ -103,7 +103,7 @@ def test_noise_is_the_same_in_every_flight(bench_of, exact_fmus, tmp_path):
     assert abs(response - truth).max() < 1e-7 * abs(truth).max()
     path = pack(tmp_path / "noisy.ssp", exact_fmus, ring(NOISY, 0.25, 60.0))
     (report,) = perilune.stability(path, loops=["plant.position"], at=10.0).loops
-    assert report.route_b.half_amplitude_change < 1e-6
+    assert report.measured_response.half_amplitude_change < 1e-6
 
 
 def test_known_cells_give_the_same_model_sooner(bench_of, exact_fmus):

@@ -141,7 +141,7 @@ def test_a_foreign_loop_has_its_measurement_and_says_why_there_is_no_model(conte
     (foreign,) = (loop for loop in content["loops"] if loop["name"] == "law.y")
     assert foreign["A"] == foreign["L"] == []
     assert len(foreign["measured_L"]) > 3
-    assert "route A" in foreign["note"]
+    assert "linearisation" in foreign["note"]
 
 
 def test_an_unstable_loop_has_its_response_and_no_margins(studies, tmp_path):
@@ -168,7 +168,7 @@ def test_a_mat_file_says_nothing_of_when_and_where():
 
 
 def lifted(loop, samples):
-    """The closed loop of a state space over several of its samples, as route A has it; states in other units."""
+    """The closed loop of a state space over several samples, as the linearisation has it; states in other units."""
     back = np.linalg.solve(np.eye(1) + loop.D, np.hstack([-loop.C, -loop.D]))
     c, d = back[:, : loop.nstates], back[:, loop.nstates :]
     a, b = loop.A + loop.B @ c, loop.B @ (np.eye(1) + d)

@@ -195,8 +195,8 @@ def test_where_not_all_can_be_direct_all_but_one_are(folder, reports):
     orders = report.orders
     assert (orders.direct, orders.without, orders.cuts) == (("second",), ("first",), ("control.y -> first.u",))
     (without,), (direct,) = report.loops, orders.report.loops
-    frequency, slow = without.route_b.curve.frequency, without.route_b.curve.value
-    quick = np.interp(frequency, direct.route_b.curve.frequency, direct.route_b.curve.value)
+    frequency, slow = without.measured_response.curve.frequency, without.measured_response.curve.value
+    quick = np.interp(frequency, direct.measured_response.curve.frequency, direct.measured_response.curve.value)
     assert np.max(abs(quick * np.exp(-0.1j * frequency) / slow - 1.0)) < 0.01  # a step apart
 
 

@@ -54,7 +54,7 @@ def test_its_command_says_so(exact_fmus, tmp_path, capsys):
     (loop,) = json.loads(found.read_text())["loops"]
     assert (loop["stable"], loop["gain_margin_db"], loop["verdict"]) == (False, "unstable", "fail")
     captured = capsys.readouterr()
-    assert f"unstable, spectral radius {falling(1):.4g}, routes agree: fail" in captured.out
+    assert f"unstable, spectral radius {falling(1):.4g}, linearised and measured responses agree: fail" in captured.out
     assert "nothing of what is added comes back" in captured.out
     assert "what grows is outside of this loop: plant." in captured.err
 

@@ -25,13 +25,13 @@ def connectors_of(block: type[Block]) -> set[Demand]:
 
 @cache
 def _all_connectors() -> Mapping[str, set[Demand]]:
-    found = {name: connectors_of(block) for name, block in catalogue().items()}
+    demands = {name: connectors_of(block) for name, block in catalogue().items()}
     for name, flavours in fmu_flavours().items():
         path = next((path for path in flavours.values() if path is not None), None)
-        if name not in found and path is not None:
+        if name not in demands and path is not None:
             variables = read_model_description(str(path), validate=False).modelVariables
-            found[name] = {(variable.name, variable.causality, variable.type) for variable in variables}
-    return found
+            demands[name] = {(variable.name, variable.causality, variable.type) for variable in variables}
+    return demands
 
 
 def fitting(demanded: Iterable[Demand]) -> list[str]:
@@ -42,12 +42,12 @@ def fitting(demanded: Iterable[Demand]) -> list[str]:
 
 def slots() -> dict[str, type[Block]]:
     """The interfaces that make blocks swappable, by name in snake case; thin bases between them and a block too."""
-    found: dict[str, type[Block]] = {}
+    interfaces: dict[str, type[Block]] = {}
     for block in catalogue().values():
         for base in block.__mro__[1:]:
             if issubclass(base, Block) and base is not Block and base.is_interface:
-                found.setdefault(base.fmu_name, base)
-    return found
+                interfaces.setdefault(base.fmu_name, base)
+    return interfaces
 
 
 def blocks_of_slot(slot: type[Block]) -> list[type[Block]]:

@@ -67,15 +67,15 @@ def _component(prepared: PreparedSystem, name: str) -> dict[str, Any]:
 
 def connections(prepared: PreparedSystem) -> list[dict[str, Any]]:
     """What leads from where to where, the elements of a vector brought together."""
-    found: dict[tuple[str, str, str, str], dict[str, Any]] = {}
+    by_ends: dict[tuple[str, str, str, str], dict[str, Any]] = {}
     for link in prepared.network.driver.values():
         ends = []
         for node in (link.source, link.target):
             whole = ELEMENT.fullmatch(node.variable)
             ends.append((node.component or "", whole.group(1) if whole else node.variable))
         (source, left), (target, right) = ends
-        row = found.setdefault(
+        row = by_ends.setdefault(
             (source, left, target, right), {"from": source, "output": left, "to": target, "input": right, "elements": 0}
         )
         row["elements"] += 1
-    return list(found.values())
+    return list(by_ends.values())

@@ -42,11 +42,11 @@ def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Map
             "from": origins.get(name),
             "description": variable.description or "",
         }
-    found = list(rows.values())
-    for row in found:
+    variables = list(rows.values())
+    for row in variables:
         if isinstance(row["size"], list) and len(row["size"]) == 1:
             row["size"] = row["size"][0]
-    return sorted(found, key=lambda row: CAUSALITIES.index(row["causality"]))
+    return sorted(variables, key=lambda row: CAUSALITIES.index(row["causality"]))
 
 
 def of_causality(rows: list[dict[str, Any]], *causalities: str) -> list[dict[str, Any]]:

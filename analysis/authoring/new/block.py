@@ -54,14 +54,14 @@ def new_block(name: str, slot: str | None) -> Written:
 def where_it_flies(slot: str) -> tuple[str, str]:
     """The system of fewest components that has a slot, and the component it is."""
     blocks, interface = catalogue(), slots()[slot]
-    found = []
+    candidates = []
     for name in system_names():
         elements = read_description(open_system(name)).system.elements
         for element in elements.values():
             block = blocks.get(Path(element.source).stem) if isinstance(element, Component) else None
             if block is not None and issubclass(block, interface):
-                found.append((len(elements), name, element.name))
-    if not found:
+                candidates.append((len(elements), name, element.name))
+    if not candidates:
         raise InputError("`slot`", slot, f"no system's {DESCRIPTION} has it", suggestion(slot, block_slots()))
-    _, system, component = min(found)
+    _, system, component = min(candidates)
     return system, component

@@ -49,5 +49,5 @@ def part_of(block: type[Block]) -> Part:
 def units_of(parts: Collection[Part], more: Collection[str] = ()) -> list[NamedUnit]:
     """The units of all connectors and ``more``, by name."""
     names = {connector.unit for part in parts for connector in part.connectors} | set(more)
-    found = [(name, unit_definition(name)) for name in sorted(name for name in names if name is not None)]
-    return [NamedUnit(name, definition) for name, definition in found if definition is not None]
+    units = [(name, unit_definition(name)) for name in sorted(name for name in names if name is not None)]
+    return [NamedUnit(name, definition) for name, definition in units if definition is not None]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -22,10 +23,18 @@ DIFFERENCES = {
 DEFINITION = ("expression", "reduction", "condition", "delay")  # of a metric
 
 
-def compare(folders: Sequence[Path], reference: str | None = None) -> Comparison:
-    """Read the batches of some folders and put their variants side by side.
+Result = TypeVar("Result", bound=Comparison)
 
-    ``reference`` names a variant; the first one by default. Raises InputError for what is no batch,
+
+def compare(folders: Sequence[Path], reference: str | None = None) -> Comparison:
+    """See `compare_folders`."""
+    return compare_folders(Comparison, folders, reference)
+
+
+def compare_folders(make: type[Result], folders: Sequence[Path], reference: str | None = None) -> Result:
+    """Read the batches of some folders and put their variants side by side, as a ``make``.
+
+    ``reference`` names a variant; the first one by default. Raises InputError for a folder without a batch,
     and for batches that did not fly the same draws.
     """
     resolved = [folder.resolve() for folder in folders]
@@ -45,7 +54,7 @@ def compare(folders: Sequence[Path], reference: str | None = None) -> Comparison
         for variant in batch.variants:
             label = _label(name, variant, several=len(batches) > 1, single=len(variants) == 1)
             contenders[label] = Contender(label, batch, variant, index, variants.index(variant))
-    return Comparison(contenders, named, reference or variants[0], tuple(_notes(named)))
+    return make(contenders, named, reference or variants[0], tuple(_notes(named)))
 
 
 def _label(folder: str, variant: str, *, several: bool, single: bool) -> str:

@@ -1,6 +1,6 @@
 """Draws without a table: those of any trials are made by themselves, from seed, name and number of the trial.
 
-Trials are parted into blocks of 1024, whatever shards there are. The values of a draw in a block come from Philox
+Trials are divided into blocks of 1024, whatever shards there are. The values of a draw in a block come from Philox
 (Salmon et al. 2011) with the key of the draw's name and a counter that begins with the block's number: no two blocks
 and no two names share a number, and nothing has to be drawn before. They are others than a table's.
 """
@@ -10,13 +10,11 @@ from __future__ import annotations
 import numpy as np
 
 from ...common.errors import InputError
-from .declared import Columns, Declared
-from .designs import DESIGNS, check_grid, grid_columns
-from .independent import generator_at, independent_columns, stream_of
+from .declared import Columns, Declared, Design, designs_of
+from .generators import generator_at, independent_draws, sample_columns, stream_of
 from .table import DrawTable, table_of
 
 BLOCK = 1024  # trials
-WHOLE = ("latin_hypercube", "sobol")  # designs that need all trials at once
 
 
 class CountedDraws:
@@ -24,15 +22,19 @@ class CountedDraws:
 
     def __init__(self, campaign: Declared) -> None:
         for draw in campaign.draws:
-            if draw.distribution in WHOLE:
-                problem = f"a {draw.distribution} is a design of all trials, which a counter does not have at once"
+            if isinstance(draw.distribution, Design) and not draw.distribution.is_periodic:
+                problem = (
+                    f"a {draw.distribution.keyword} is a design of all trials, which a counter does not have at once"
+                )
                 remedy = 'use "uniform", or draw_scheme = "table"'
                 raise InputError(campaign.file, f"draw.{draw.name}", problem, remedy)
         self._campaign = campaign
         ordered = sorted(campaign.draws, key=lambda draw: draw.names)
-        self._grid = [draw for draw in ordered if draw.distribution == "grid"]
-        self._independent = [draw for draw in ordered if draw.distribution not in DESIGNS]
-        check_grid(self._grid, campaign.trials, campaign.file)
+        self._designs = [
+            kind.design(draws, campaign.trials, campaign.seed, campaign.file)
+            for kind, draws in designs_of(ordered).items()
+        ]
+        self._independent = independent_draws(ordered)
 
     def of_first(self, trials: int) -> CountedDraws:
         """Those of the first ``trials`` trials, which are the same in every campaign of as many or more."""
@@ -43,11 +45,14 @@ class CountedDraws:
         first = trials.start // BLOCK
         blocks = [self._block(block) for block in range(first, -(-trials.stop // BLOCK))]
         rows = slice(trials.start - first * BLOCK, trials.stop - first * BLOCK)
-        found = {name: np.concatenate([block[name] for block in blocks])[rows] for name in blocks[0]}
-        return table_of(self._campaign, found | grid_columns(self._grid, trials), trials)
+        columns = {name: np.concatenate([block[name] for block in blocks])[rows] for name in blocks[0]}
+        for design in self._designs:
+            columns |= design(trials)
+        return table_of(self._campaign, columns, trials)
 
     def _block(self, block: int) -> Columns:
-        found: Columns = {}
-        for draw in self._independent:
-            found |= independent_columns(draw, BLOCK, generator_at(self._campaign.seed, stream_of(draw), block))
-        return found
+        columns: Columns = {}
+        for draw, distribution in self._independent:
+            source = generator_at(self._campaign.seed, stream_of(draw), block)
+            columns |= sample_columns(draw, distribution, BLOCK, source)
+        return columns

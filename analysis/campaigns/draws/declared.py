@@ -1,27 +1,106 @@
-"""What drawing needs to know of a campaign: its draws, and what is derived of them."""
+"""What sampling needs to know of a campaign: its draws with their distributions, and what is derived of them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
+
+Columns = dict[str, np.ndarray]
+
+
+class Distribution(ABC):
+    """A distribution with its arguments, which are the fields of a frozen dataclass under the keys of the file.
+
+    ``keyword`` is its name in a campaign's file, ``size`` the number of its independent coordinates: 0 where it has
+    single values only.
+    """
+
+    keyword: ClassVar[str]
+
+    @property
+    def size(self) -> int:
+        return 0
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Its arguments, floats or tuples of floats, under the keys of the campaign file."""
+        return {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]
+
+    def describe(self) -> str:
+        """Its arguments as a text, long lists shortened."""
+        return ", ".join(f"{key} {_number_text(value)}" for key, value in self.arguments.items())
+
+
+class Independent(Distribution):
+    """A distribution whose trials are independent of each other."""
+
+    @abstractmethod
+    def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
+        """The next ``trials`` values from a stream, an array (trials,) for each name that the draw fills.
+
+        Parts of any size give what one part of all gives.
+        """
+
+
+class Design(Distribution):
+    """A distribution whose draws are one design of all trials, of all draws with this distribution together.
+
+    ``alternative`` is the distribution with independent trials, ``is_periodic`` whether any part of the trials can be
+    made without the others.
+    """
+
+    alternative: ClassVar[str]
+    is_periodic: ClassVar[bool] = False
+
+    @classmethod
+    @abstractmethod
+    def design(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> Callable[[range], Columns]:
+        """What gives the columns of some trials, of ``draws`` in order of their names. Raises InputError."""
+
+
+class Continuous(Distribution):
+    """A distribution with coordinates: independent standard normal variables (points, size), or a unit cube.
+
+    The cube spans intervals, and normal distributions within ``sigmas`` standard deviations along their axes. Columns
+    are arrays (points,), one for each name that the draw fills.
+    """
+
+    @abstractmethod
+    def from_normals(self, u: np.ndarray) -> list[np.ndarray]:
+        """Columns at standard normal values ``u``: the isoprobabilistic transformation."""
+
+    @abstractmethod
+    def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
+        """The inverse of `from_normals`; infinite at the ends of an interval."""
+
+    @abstractmethod
+    def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
+        """Columns at ``points`` of the unit cube."""
+
+    @abstractmethod
+    def to_box(self, columns: Sequence[np.ndarray], sigmas: float) -> np.ndarray:
+        """The inverse of `from_box`; below 0 or above 1 outside of the box."""
+
+    @abstractmethod
+    def ranges(self, sigmas: float) -> list[tuple[float, float]]:
+        """Minimum and maximum of each column in the box, reached one at a time where columns are correlated."""
 
 
 @dataclass(frozen=True)
 class Draw:
-    """One draw: the values it fills (``names``), its distribution and that one's arguments.
+    """One dispersed input: the values it fills (``names``) and its distribution.
 
-    ``names`` is the draw's own name, except for correlated_normal, which fills several. A name
-    with a dot is a component's parameter; others are for [derive] and the metrics only.
-    ``arguments`` are floats, or tuples of floats, under the keys of the campaign file.
+    ``names`` is the draw's name, except for correlated_normal, which fills several. A name with a dot is a component's
+    parameter; others are for [derive] and the metrics only.
     """
 
     name: str
-    distribution: str
     names: tuple[str, ...]
-    arguments: Mapping[str, Any]
+    distribution: Distribution
 
 
 class Formula(Protocol):
@@ -49,9 +128,23 @@ class Declared(Protocol):
     def derived(self) -> Mapping[str, Formula]: ...
 
 
-Columns = dict[str, np.ndarray]
-
-
 def drawn_names(campaign: Declared) -> list[str]:
     """The values that the draws fill, in their order."""
     return [name for draw in campaign.draws for name in draw.names]
+
+
+def designs_of(draws: Sequence[Draw]) -> dict[type[Design], list[Draw]]:
+    """The draws of each kind of design, in their order."""
+    groups: dict[type[Design], list[Draw]] = {}
+    for draw in draws:
+        if isinstance(draw.distribution, Design):
+            groups.setdefault(type(draw.distribution), []).append(draw)
+    return groups
+
+
+def _number_text(value: Any) -> str:
+    """A number, or numbers in brackets, shortened where they are many."""
+    if not isinstance(value, tuple | list):
+        return f"{value:.10g}"
+    inner = [_number_text(entry) for entry in value]
+    return f"[{', '.join(inner if len(inner) <= 12 else [*inner[:5], '…', *inner[-2:]])}]"

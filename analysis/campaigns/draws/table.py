@@ -14,10 +14,9 @@ from typing import Protocol
 import numpy as np
 
 from ...common.errors import InputError
-from .declared import Columns, Declared, Draw, drawn_names
-from .designs import DESIGNS, check_grid, grid_columns, latin_hypercube_columns, sobol_columns
+from .declared import Columns, Declared, designs_of, drawn_names
+from .generators import generator, independent_draws, sample_columns, stream_of
 from .given import stream_component
-from .independent import generator, independent_columns, stream_of
 
 MOST = 10**6  # trials of a table
 
@@ -79,17 +78,15 @@ def draw_parts(campaign: Declared, size: int) -> Iterator[DrawTable]:
         problem = f"{trials} trials, of {MOST} at most that are drawn as one table"
         raise InputError(file, "trials", problem, 'give fewer, or write draw_scheme = "counter", and other draws fly')
     ordered = sorted(campaign.draws, key=lambda draw: draw.names)
-    designs: dict[str, list[Draw]] = {kind: [draw for draw in ordered if draw.distribution == kind] for kind in DESIGNS}
-    check_grid(designs["grid"], trials, file)
-    whole = latin_hypercube_columns(designs["latin_hypercube"], trials, seed)
-    whole |= sobol_columns(designs["sobol"], trials, seed, file)
-    sources = [(draw, generator(seed, stream_of(draw))) for draw in ordered if draw.distribution not in DESIGNS]
+    designs = [kind.design(draws, trials, seed, file) for kind, draws in designs_of(ordered).items()]
+    sources = [(*pair, generator(seed, stream_of(pair[0]))) for pair in independent_draws(ordered)]
     for part in parted(trials, size):
-        found: Columns = {name: column[part.start : part.stop] for name, column in whole.items()}
-        found |= grid_columns(designs["grid"], part)
-        for draw, source in sources:
-            found |= independent_columns(draw, len(part), source)
-        yield table_of(campaign, found, part)
+        columns: Columns = {}
+        for design in designs:
+            columns |= design(part)
+        for draw, distribution, source in sources:
+            columns |= sample_columns(draw, distribution, len(part), source)
+        yield table_of(campaign, columns, part)
 
 
 def draw_table(campaign: Declared) -> DrawTable:

@@ -1,9 +1,12 @@
-"""What a stored batch says of its own columns: units, types, expressions, targets. For readers of its files."""
+"""What a stored batch states of itself: what its numbers depend on, and units, types, expressions of its columns."""
 
 from __future__ import annotations
 
+import hashlib
+import json
 import re
 from collections.abc import Mapping
+from importlib.metadata import version
 from typing import Any
 
 from ...runtime.system.prepared import PreparedSystem
@@ -13,8 +16,49 @@ from ..spec.plan import BatchPlan
 TARGET = re.compile(r"(.+\.)?target_(position|velocity)\[[123]\]")
 
 
-def campaign_facts(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
-    """Facts of a batch that its numbers do not show; ``systems`` are the prepared ones by variant.
+def provenance(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
+    """What a batch's numbers depend on, apart from the trials themselves."""
+    first = next(iter(systems.values()))
+    options = plan.options
+    assumptions = list(dict.fromkeys(note for prepared in systems.values() for note in prepared.assumptions))
+    return {
+        "system": first.archive.name,
+        "system_sha256": first.archive.digest,
+        "campaign": plan.campaign.file,
+        "campaign_sha256": plan.campaign_sha256,
+        "parameter_sets": [*plan.campaign.parameters, *plan.options.parameters],
+        "set": {**plan.campaign.settings, **plan.options.set},
+        "variant": plan.options.variant,
+        "start_time": first.start,
+        "steps": first.steps,
+        "trials": plan.campaign.trials,
+        "seed": plan.campaign.seed,
+        "step": first.step,
+        "algorithm": first.algorithm,
+        **({"feedthrough": list(options.feedthrough)} if options.feedthrough else {}),
+        **({"no_feedthrough": list(options.no_feedthrough)} if options.no_feedthrough else {}),
+        **({"assumptions": assumptions} if assumptions else {}),
+        **(first.drive.facts() if first.drive is not None else {}),
+        **({"timeout": plan.watch.timeout} if plan.watch.timeout is not None else {}),
+        "fmus": {
+            variant: {name: fmu.digest for name, fmu in prepared.network.fmus.items()}
+            for variant, prepared in systems.items()
+        },
+        "perilune": version("perilune"),
+        **campaign_metadata(plan, systems),
+    }
+
+
+def batch_digest(provenance: Mapping[str, Any]) -> str:
+    """The SHA-256 that identifies a batch: of its provenance as JSON with sorted keys.
+
+    It is the same for any number of trials, since a batch can be resumed with more.
+    """
+    return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
+
+
+def campaign_metadata(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> dict[str, Any]:
+    """Properties of a batch that its numbers do not show; ``systems`` are the prepared ones by variant.
 
     ``group``, ``faults``, ``sweep``, ``draws_sha256`` of given draws and a ``draw_scheme`` that is no table (each where
     there is any), ``description``, ``success`` (expression), ``metrics`` (expression, reduction, unit, description,

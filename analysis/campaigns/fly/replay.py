@@ -12,9 +12,9 @@ from ...runtime.system.prepared import PreparedSystem
 from ..spec.campaign import Variant
 from ..spec.checks import check_plan
 from ..spec.plan import BatchPlan
+from .campaign import Campaign, open_folder
 from .manifest.manifest import read_manifest
 from .manifest.restore import restore
-from .runner import Campaign, open_folder
 from .shards.files import is_flown
 from .shards.rows import ShardRows
 from .workers.flyer import Flyer, TrialResult

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import pyarrow
 
@@ -19,6 +18,9 @@ from ..spec.plan import BatchPlan
 from ..summary import Summary, summarise
 from ..tables import assumption_lines, faults_line, summary_text
 from ..trials import Trials
+from .campaign import Campaign
+from .manifest.folder import tidy
+from .metadata import batch_digest
 from .shards.files import SUMMARY, clear, trial_table, write_draws, write_shard
 from .shards.numbering import Numbering, shard_size
 from .store import FlownRows
@@ -26,16 +28,41 @@ from .store import FlownRows
 
 @dataclass
 class BatchResult:
-    """All trials of all variants, ``rows`` in order of trial, which may lie in a folder and not in memory.
+    """All trials of all variants, ``rows`` in order of trial, which may be stored in a folder and not in memory.
 
     ``folder`` is the campaign's, as its user names it, None where it has none.
     """
 
     plan: BatchPlan
     rows: Mapping[str, FlownRows]
-    summary: Summary
     provenance: dict[str, Any]
     folder: Path | None = None
+
+    @classmethod
+    def finish(cls, campaign: Campaign, rows: Mapping[str, FlownRows], **more: Any) -> Self:
+        """The result of a campaign's first trials, by variant; its summary completes the campaign's folder.
+
+        ``more`` are further fields of a derived class.
+        """
+        campaign = campaign.of_first(len(next(iter(rows.values()))))
+        result = cls(campaign.plan, rows, campaign.provenance, campaign.named, **more)
+        if campaign.folder is not None:
+            result.write_summary(campaign.folder)
+            tidy(campaign.folder)
+        return result
+
+    @cached_property
+    def summary(self) -> Summary:
+        """Success rates, statistics of metrics and verdicts on requirements, by variant."""
+        campaign = self.plan.campaign
+        return summarise(
+            self.rows,
+            campaign.metrics,
+            self.plan.groups,
+            campaign.group or "",
+            requirements=campaign.requirements,
+            until_decided=self.plan.until_decided,
+        )
 
     @cached_property
     def trials(self) -> dict[str, Trials]:
@@ -79,30 +106,6 @@ class BatchResult:
         self.write_summary(folder)
 
     def write_summary(self, folder: Path) -> None:
-        """Write summary.json, which makes the folder whole: the shards lie there already."""
+        """Write summary.json, which completes the folder: the shards are stored there already."""
         text = json.dumps(self.document(), indent=1, allow_nan=False)
         write_atomically(folder / SUMMARY, f"{text}\n".encode())
-
-
-def batch_digest(provenance: dict[str, Any]) -> str:
-    """The SHA-256 that tells a batch from others: of its provenance as JSON with sorted keys.
-
-    It is the same for any number of trials, since a batch can be gone on with.
-    """
-    return hashlib.sha256(json.dumps({**provenance, "trials": None}, sort_keys=True).encode()).hexdigest()
-
-
-def make_result(
-    plan: BatchPlan, rows: Mapping[str, FlownRows], provenance: dict[str, Any], folder: Path | None = None
-) -> BatchResult:
-    """The result with its summary; ``rows`` by variant, each in order of trial."""
-    campaign = plan.campaign
-    summary = summarise(
-        rows,
-        campaign.metrics,
-        plan.groups,
-        campaign.group or "",
-        requirements=campaign.requirements,
-        until_decided=plan.until_decided,
-    )
-    return BatchResult(plan, rows, summary, provenance, folder)

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from ...common.errors import InputError
+from ..fly.campaign import open_folder
 from ..fly.manifest.manifest import FILE as MANIFEST
 from ..fly.manifest.manifest import WRITE
-from ..fly.results import batch_digest
-from ..fly.runner import open_folder
+from ..fly.metadata import batch_digest
 from ..fly.shards.files import FOLDER, SUMMARY, described
 from ..fly.shards.reading import AGAIN, trials_in
 from .stored import read_summary

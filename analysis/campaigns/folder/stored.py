@@ -18,7 +18,7 @@ from ...common.errors import InputError
 from ...runtime.system.names import parted
 from ..fly.manifest.manifest import FILE as MANIFEST
 from ..fly.manifest.manifest import WRITE
-from ..fly.results import batch_digest
+from ..fly.metadata import batch_digest
 from ..fly.shards.files import DRAWS, FOLDER, SUMMARY, about_of, described, shard_path, trace_path
 from ..fly.shards.reading import AGAIN, numbers, read_table, trials_in, trials_of
 from ..spec.campaign import Metric

@@ -10,11 +10,12 @@ from ...common.errors import InputError, suggestion
 from ..draws.declared import Draw
 from ..draws.given import stream_component
 from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting
-from .distributions import read_draw
+from .distributions.reading import read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
 from .requirements import read_requirements
-from .toml_table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, read_toml, sequence, text
+from .toml.source import read_source_file
+from .toml.table import REQUIRED, Table, bound, choice_of, expression, integer, names, number, sequence, text
 
 SYNTHESIS = "network_operator"  # a table of analysis.synthesis.synthesis_file
 # of records, of the results' table and of files of draws
@@ -40,7 +41,7 @@ def _draws(table: Table) -> tuple[Draw, ...]:
     for name, content in table.flat(of_tables=True):
         if not isinstance(content, dict):
             raise table.error(name, "not a table", f'write [draw."{name}"] with distribution = ... below it')
-        draw = read_draw(name, Table(content, table.file, table.place(name)))
+        draw = read_draw(name, Table(content, table.file, table.place(name), table.origins))
         for filled in draw.names:
             _check_name(table, filled, taken)
             taken.append(filled)
@@ -227,4 +228,4 @@ def parse_campaign(table: Table) -> Campaign:
 
 def read_campaign(path: Path) -> Campaign:
     """The campaign in a TOML file. Raises InputError."""
-    return parse_campaign(read_toml(path))
+    return parse_campaign(read_source_file(path).table())

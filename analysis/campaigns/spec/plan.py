@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -26,7 +24,7 @@ from .faults import drawn_fault
 from .file import parse_campaign
 from .groups import Group, groups_of
 from .sweeps import with_sweeps
-from .toml_table import Table
+from .toml.source import CampaignSource, read_source
 
 PART = 32768  # trials whose draws are looked at together; so few that their number costs no memory
 
@@ -52,13 +50,16 @@ class BatchPlan:
     watch: Watch = UNWATCHED
     given: GivenDraws | None = None
     compared_by: str = ""  # what errors name for the compared FMUs: --compare, or the campaign's file
-    campaign_data: bytes = b""  # the campaign's file
+    source: CampaignSource | None = None  # the campaign's file, with those that it extends
     until_decided: bool = False  # whether it ends as soon as the campaign's requirements are decided
     archive: SystemArchive | None = None  # flown instead of what `system` names, for which it stands
+    known_draws: Draws | None = field(default=None, compare=False, repr=False)  # of all trials, made before
 
     @cached_property
     def draws(self) -> Draws:
         """What is drawn for all trials. Raises InputError."""
+        if self.known_draws is not None:
+            return self.known_draws
         if self.given is not None:
             return table_of(self.campaign, self.given.table)
         return CountedDraws(self.campaign) if self.is_counted else draw_table(self.campaign)
@@ -70,7 +71,7 @@ class BatchPlan:
 
     def draw_parts(self, size: int = PART) -> Iterator[DrawTable]:
         """What is drawn for all trials, ``size`` of them at a time, none of it held. Raises InputError."""
-        if self.given is None and not self.is_counted and "draws" not in self.__dict__:
+        if self.given is None and not self.is_counted and self.known_draws is None:
             yield from draw_parts(self.campaign, size)
             return
         for part in parted(self.campaign.trials, size):
@@ -92,15 +93,16 @@ class BatchPlan:
     def of_part(self, trials: range) -> BatchPlan:
         """A plan of trials in a row, with the draws that they have in this one; from 1 on, those must be given."""
         given = None if self.given is None else self.given.of_part(trials)
-        part = replace(self, campaign=replace(self.campaign, trials=len(trials)), given=given)
-        if not self.is_counted:
-            # in cached_property's place: drawn anew they may differ
-            part.__dict__["draws"] = self.draws.of_part(trials) if trials.start else self.draws.of_first(trials.stop)
-        return part
+        draws = None
+        if not self.is_counted:  # made anew for fewer trials they may differ
+            draws = self.draws.of_part(trials) if trials.start else self.draws.of_first(trials.stop)
+        campaign = replace(self.campaign, trials=len(trials))
+        return replace(self, campaign=campaign, given=given, known_draws=draws)
 
     def of_samples(self, given: GivenDraws) -> BatchPlan:
         """A plan that flies given draws, a trial for each: values derived of them, faults and metrics follow."""
-        return replace(self, campaign=replace(self.campaign, trials=given.trials), given=given)
+        campaign = replace(self.campaign, trials=given.trials)
+        return replace(self, campaign=campaign, given=given, known_draws=None)
 
     @cached_property
     def groups(self) -> list[Group]:
@@ -143,15 +145,6 @@ class BatchPlan:
         return drawn | {f"{name}.{number}" for name in with_streams(prepared) for number in StreamNumbers._fields}
 
 
-def campaign_of(data: bytes, label: str) -> Campaign:
-    """The campaign that a file declares, which ``label`` names in messages. Raises InputError."""
-    try:
-        table = Table(tomllib.loads(data.decode("utf-8")), label)
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
-    return parse_campaign(table)
-
-
 def read_plan(
     system: str | Path,
     campaign: str,
@@ -174,7 +167,8 @@ def read_plan(
     """
     archive = open_system(system)
     data, label = archive.campaign(campaign)
-    read = campaign_of(data, label)
+    source = read_source(data, label, archive)
+    read = parse_campaign(source.table())
     if read.system.removesuffix(".ssp").removesuffix(".fmu") != archive.name:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")
     changes: dict = {}
@@ -198,12 +192,12 @@ def read_plan(
         str(system),
         changed,
         options,
-        hashlib.sha256(data).hexdigest(),
+        source.sha256,
         faults=tuple(faults),
         series=series,
         watch=watch or UNWATCHED,
         compared_by=f"{label}: compare" if compare is None else "`compare`",
-        campaign_data=data,
+        source=source,
         until_decided=until_decided,
     )
     return plan if draws is None else plan.of_samples(read_given(draws, changed))

@@ -7,18 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...common.errors import suggestion
-from ..draws.declared import Draw
+from ..draws.declared import Design, Draw
 from .expressions import Expression
-from .toml_table import REQUIRED, Table, choice_of, expression, number, text
+from .toml.table import REQUIRED, Table, choice_of, expression, number, text
 
 KEYS = ("expression", "share", "confidence", "metric", "bound", "description")
 SIDES = ("upper", "lower")
 SUCCESS = "success"  # whether the trial is a success, for expressions of requirements
-TOGETHER = {  # designs of the whole table of draws, and what to draw by instead
-    "grid": "choice",
-    "latin_hypercube": "uniform",
-    "sobol": "uniform",
-}
 
 
 @dataclass(frozen=True)
@@ -47,9 +42,9 @@ def read_requirements(table: Table, metrics: Collection[str], draws: Iterable[Dr
     Verdicts are on independent trials, so draws that are designed for all trials together are refused.
     """
     for draw in draws:
-        if table.content and draw.distribution in TOGETHER:
-            problem = f"{draw.name} is drawn by {draw.distribution}, and verdicts need independent trials"
-            remedy = f"draw it by {TOGETHER[draw.distribution]}, or drop the requirements"
+        if table.content and isinstance(draw.distribution, Design):
+            problem = f"{draw.name} is drawn by {draw.distribution.keyword}, and verdicts need independent trials"
+            remedy = f"draw it by {draw.distribution.alternative}, or drop the requirements"
             raise table.error("", problem, remedy)
     for name in table.content:
         if not name.isidentifier():

@@ -11,6 +11,7 @@ from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import SystemOptions
 from ..draws.declared import Draw
 from .campaign import Campaign
+from .distributions.discrete import Grid
 from .groups import MOST as MOST_GROUPS
 
 MOST = 10_000  # points of a sweep
@@ -38,7 +39,8 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
     if not sweeps:
         return campaign
     drawn = campaign.drawn_names()
-    draws = [Draw(name, "grid", (name,), {"values": _values(name, text)}) for name, text in sweeps.items()]
+    grids = {name: Grid(_values(name, text)) for name, text in sweeps.items()}
+    draws = [Draw(name, (name,), grid) for name, grid in grids.items()]
     for name, text in sweeps.items():
         if "." not in name:
             raise InputError(SINGLE, f"{name}={text}", "a sweep of what is no component's", "give component.variable")
@@ -56,7 +58,7 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
     )
     _check_trials(swept)
     (first, *others) = draws
-    if others or campaign.group is not None or len(first.arguments["values"]) > MOST_GROUPS:
+    if others or campaign.group is not None or len(grids[first.name].values) > MOST_GROUPS:
         return swept
     return replace(swept, group=first.name)
 
@@ -91,7 +93,8 @@ def _values(name: str, text: str) -> tuple[float, ...]:
 
 def _check_trials(campaign: Campaign) -> None:
     """Refuse trials that are not as many for each point of the grid, which has the campaign's own grids in it too."""
-    points = math.prod(len(draw.arguments["values"]) for draw in campaign.draws if draw.distribution == "grid")
+    grids = [draw.distribution for draw in campaign.draws if isinstance(draw.distribution, Grid)]
+    points = math.prod(len(grid.values) for grid in grids)
     if campaign.trials % points:
         swept = ", ".join(f"{name}={text}" for name, text in campaign.sweeps.items())
         below = campaign.trials // points * points

@@ -13,7 +13,8 @@ from ...campaigns.spec.campaign import Campaign
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.file import SYNTHESIS, parse_campaign
 from ...campaigns.spec.plan import BatchPlan
-from ...campaigns.spec.toml_table import Table, expression, integer, number, read_toml, text
+from ...campaigns.spec.toml.source import read_source_file
+from ...campaigns.spec.toml.table import Table, expression, integer, number, text
 from ...common.errors import InputError
 from ...runtime.system.options import SystemOptions
 from ..laws.law import Law, named_law, read_law
@@ -79,14 +80,14 @@ def named_search(name: str) -> Path:
 
 def read_synthesis(path: Path) -> Synthesis:
     """The synthesis in a TOML file. Raises InputError."""
-    whole = read_toml(path)
+    whole = read_source_file(path).table()
     if SYNTHESIS not in whole.content:
         raise whole.error(SYNTHESIS, "missing", f"add [{SYNTHESIS}] with component, law and objectives")
     for key, reason in REFUSED.items():
         if key in whole.content:
             raise whole.error(key, f"not for a synthesis: {reason}", "drop it; perilune batch flies what was found")
     rest = {key: value for key, value in whole.content.items() if key != SYNTHESIS}
-    campaign = parse_campaign(Table(rest, whole.file))
+    campaign = parse_campaign(Table(rest, whole.file, origins=whole.origins))
     table = whole.table(SYNTHESIS)
     settings_keys = [field.name for field in fields(SearchSettings)]
     table.only([*OWN_KEYS, *settings_keys])

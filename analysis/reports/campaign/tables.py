@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ...campaigns.draws.declared import drawn_names
 from ...campaigns.fly.results import BatchResult
@@ -110,17 +110,9 @@ def draw_rows(campaign: Campaign) -> list[tuple[str, str, str]]:
     """Name, distribution and arguments of every draw, then every derived value with its expression."""
     rows = []
     for draw in campaign.draws:
-        arguments = ", ".join(f"{key} {_plain(value)}" for key, value in draw.arguments.items())
-        rows.append((", ".join(draw.names), draw.distribution.replace("_", " "), arguments))
+        distribution = draw.distribution
+        rows.append((", ".join(draw.names), distribution.keyword.replace("_", " "), distribution.describe()))
     return rows + [(name, "derived", " ".join(formula.text.split())) for name, formula in campaign.derived.items()]
-
-
-def _plain(value: Any) -> str:
-    """A draw's argument: a number, or numbers in brackets, shortened where they are many."""
-    if not isinstance(value, tuple | list):
-        return f"{value:.10g}"
-    inner = [_plain(entry) for entry in value]
-    return f"[{', '.join(inner if len(inner) <= 12 else [*inner[:5], '…', *inner[-2:]])}]"
 
 
 def fmu_rows(fmus: dict[str, dict[str, str]]) -> list[tuple[str, str, str]]:

@@ -61,21 +61,21 @@ def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
     unstable = loop.margins.unstable
     modulus = margin_words(loop) if unstable else f"modulus margin {number(float(loop.robust.modulus_margin), 3)}"
     words = f"Nyquist diagram of {loop.name}: {modulus}"
-    found = [panel("Nyquist", f"{name}-nyquist", words, lambda axes: draw_nyquist(loop, axes), HEIGHT)]
+    panels = [panel("Nyquist", f"{name}-nyquist", words, lambda axes: draw_nyquist(loop, axes), HEIGHT)]
     poles = poles_of(loop)
     if poles.size:
         outside = int(np.sum(np.abs(poles) >= 1.0))
         words = f"{poles.size} closed-loop poles of {loop.name}, {outside} on or outside the unit circle"
-        found.append(panel("Poles", f"{name}-poles", words, lambda axes: draw_poles(loop, axes, near=False), HEIGHT))
+        panels.append(panel("Poles", f"{name}-poles", words, lambda axes: draw_poles(loop, axes, near=False), HEIGHT))
         if crowded(poles):
             words = f"Closed-loop poles of {loop.name} near z = 1"
             draw = lambda axes: draw_poles(loop, axes, near=True)  # noqa: E731
-            found.append(panel("Poles near z = 1", f"{name}-poles-near", words, draw, HEIGHT))
+            panels.append(panel("Poles near z = 1", f"{name}-poles-near", words, draw, HEIGHT))
     if loop.step is not None:
         last = float(loop.step[1][-1])
         words = f"Step response of {loop.name}, {number(last, 3)} at {number(float(loop.step[0][-1]))} s"
-        found.append(panel("Step response", f"{name}-step", words, lambda axes: draw_step(loop, axes), HEIGHT))
-    return found
+        panels.append(panel("Step response", f"{name}-step", words, lambda axes: draw_step(loop, axes), HEIGHT))
+    return panels
 
 
 def part_panels(loop: LoopReport, name: str) -> dict[str, list[Panel]]:
@@ -98,23 +98,23 @@ def sensitivity_panel(loop: LoopReport, name: str) -> Panel:
 
 def dispersion_panels(loop: LoopReport, name: str) -> list[Panel]:
     """Histograms of the margins over the trials of a campaign, and the cloud of poles."""
-    found = loop.dispersion
-    if found is None:
+    dispersion = loop.dispersion
+    if dispersion is None:
         return []
-    limits = {item.quantity: item.limit for item in found.requirements}
+    limits = {item.quantity: item.limit for item in dispersion.requirements}
     panels = []
     for quantity in MARGINS:
-        sizes = found.sizes(quantity)
+        sizes = dispersion.sizes(quantity)
 
         def draw(axes: Axes, sizes: np.ndarray = sizes, quantity: Quantity = quantity) -> None:
             unit = "" if quantity.unit == "1" else f", {quantity.unit}"
-            draw_histogram(sizes, axes, f"{quantity}{unit}", limits.get(quantity), found.worst)
+            draw_histogram(sizes, axes, f"{quantity}{unit}", limits.get(quantity), dispersion.worst)
 
-        words = f"Histogram of the {quantity} of {loop.name} over {found.trials} trials, {_least(sizes)}"
+        words = f"Histogram of the {quantity} of {loop.name} over {dispersion.trials} trials, {_least(sizes)}"
         label = f"{quantity.capitalize()} over trials"
         panels.append(panel(label, f"{name}-trials-{quantity.replace(' ', '-')}", words, draw, LOW))
-    if np.any(np.isfinite(found.poles)):
-        words = f"Closed-loop poles of {loop.name} in {found.trials} trials"
+    if np.any(np.isfinite(dispersion.poles)):
+        words = f"Closed-loop poles of {loop.name} in {dispersion.trials} trials"
         near = ", near z = 1" if crowded(poles_of(loop)) else ""
         draw_poles_of_all = lambda axes: draw_cloud(loop, axes)  # noqa: E731
         panels.append(panel(f"Poles over trials{near}", f"{name}-cloud", words, draw_poles_of_all, LOW))

@@ -27,14 +27,14 @@ class OverTime:
 
 def over_time(report: StabilityReport) -> OverTime | None:
     """None where no loop is studied at two times of one flight."""
-    found = courses(report)
-    if not found:
+    histories = courses(report)
+    if not histories:
         return None
-    seen = {loop.point for course in found for loops in course.loops for loop in loops}
+    seen = {loop.point for course in histories for loops in course.loops for loop in loops}
     points = sorted((point for point in report.points if point.name in seen), key=lambda point: point.time)
     return OverTime(
-        [_panel(found, quantity, f"over-time-{index + 1}") for index, quantity in enumerate(QUANTITIES)],
-        [(swatch(course_look(index)), _names(course)) for index, course in enumerate(found)],
+        [_panel(histories, quantity, f"over-time-{index + 1}") for index, quantity in enumerate(QUANTITIES)],
+        [(swatch(course_look(index)), _names(course)) for index, course in enumerate(histories)],
         [(point.name, numeral(point.time)) for point in points],
     )
 
@@ -43,14 +43,13 @@ def _names(course: Course) -> str:
     return together([loops[0] for loops in course.loops])
 
 
-def _panel(found: list[Course], quantity: Quantity, name: str) -> Panel:
-    sizes = [size for course in found for size in course.sizes[quantity].tolist()]
+def _panel(histories: list[Course], quantity: Quantity, name: str) -> Panel:
+    sizes = [size for course in histories for size in course.sizes[quantity].tolist()]
     least = min(sizes)
-    words = (
-        f"{quantity.capitalize()} of {sum(len(course.loops) for course in found)} loops over the time of flight, least "
-    )
+    loops = sum(len(course.loops) for course in histories)
+    words = f"{quantity.capitalize()} of {loops} loops over the time of flight, minimum "
     words += (
         number(least, 3) if abs(least) < float("inf") else "that of an unstable loop" if least < 0.0 else "unlimited"
     )
-    draw: Any = lambda axes: draw_over_time(found, quantity, axes)  # noqa: E731
+    draw: Any = lambda axes: draw_over_time(histories, quantity, axes)  # noqa: E731
     return panel(quantity.capitalize(), name, words, draw)

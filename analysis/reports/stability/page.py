@@ -149,10 +149,10 @@ def _card(report: StabilityReport, summary: Table, index: int, shared: Shared, p
 
 def _elsewhere(report: StabilityReport, shared: Shared, *, seen: bool) -> list[tuple[Markup, list[str]]]:
     """Where the figures are that are drawn for another loop: those ``seen`` at first sight, or the others."""
-    found = {
+    linked = {
         other: [label for label in labels if (label in SEEN) == seen] for other, labels in shared.elsewhere.items()
     }
-    return [(link(report, other), labels) for other, labels in found.items() if labels]
+    return [(link(report, other), labels) for other, labels in linked.items() if labels]
 
 
 def _blocks(shown: list[Part]) -> list[list[Part]]:

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from ...stability.loops.margin_values import MARGINS
 from ...stability.results.loop import LoopReport
 from ...stability.results.nonlinear import Nonlinearity
-from ...stability.results.routes import Mode
+from ...stability.results.responses import Mode
 from ...stability.results.varied import LEVELS, Dispersion
 from ..common.panels import Panel
 from ..common.quantities import MINUS, NONE, shown_unit
@@ -47,10 +47,10 @@ class Part:
 
 
 def method(loop: LoopReport) -> Part:
-    """Both routes side by side, and whether they agree."""
+    """Linearised and measured response side by side, and whether they agree."""
     rows: list[tuple[Cell, ...]] = []
-    if loop.route_a is not None:
-        a = loop.route_a
+    if loop.linearised is not None:
+        a = loop.linearised
         rows += [
             ("A, linearisation", "states", numeral(a.states)),
             ("", "period, s", numeral(a.period)),
@@ -58,8 +58,8 @@ def method(loop: LoopReport) -> Part:
             ("", "states with non-smooth dynamics", ", ".join(a.doubtful) or "none"),
             ("", "response at other frequencies, %", per_cent(a.periodicity)),
         ]
-    if loop.route_b is not None:
-        b = loop.route_b
+    if loop.measured_response is not None:
+        b = loop.measured_response
         rows += [
             (
                 "B, frequency-response test",
@@ -73,39 +73,39 @@ def method(loop: LoopReport) -> Part:
             ("", "response on other lines, %", per_cent(b.unexcited)),
         ]
     if loop.agreement is not None:
-        found = loop.agreement
+        compared = loop.agreement
         rows += [
-            ("A compared with B", "largest difference of gain, dB", in_decibels(found.gain, absolute=True)),
-            ("", "largest difference of phase, deg", in_degrees(found.phase)),
-            ("", "compared up to, rad/s", numeral(found.frequency)),
-            ("", "linearised and measured responses agree", "yes" if found.agrees else "no"),
+            ("A compared with B", "largest difference of gain, dB", in_decibels(compared.gain, absolute=True)),
+            ("", "largest difference of phase, deg", in_degrees(compared.phase)),
+            ("", "compared up to, rad/s", numeral(compared.frequency)),
+            ("", "linearised and measured responses agree", "yes" if compared.agrees else "no"),
         ]
     return Part("method", "Method", Table(("method", "quantity", "value"), "ttn", rows))
 
 
 def classical(loop: LoopReport) -> Part:
     """Every crossing, the delay margin and the encirclements."""
-    found = loop.classical
+    margins = loop.classical
     rows: list[tuple[Cell, ...]] = []
     kind = "crossing" if loop.margins.unstable else "margin"
-    for crossing in found.gain:
-        name = f"gain {kind} {'up' if crossing.value >= 1.0 else 'down'}"
+    for crossing in margins.gain:
+        name = f"{'upper' if crossing.value >= 1.0 else 'lower'} gain {kind}"
         rows.append((name, in_decibels(crossing.value, absolute=True), "dB", numeral(crossing.frequency)))
-    if not found.gain:
+    if not margins.gain:
         rows.append((f"gain {kind}", NO_CROSSING, "", ""))
-    for crossing in found.phase:
+    for crossing in margins.phase:
         name = f"phase {kind}" if crossing.value >= 0.0 else f"phase {kind}, lead"
         rows.append((name, in_degrees(crossing.value), "deg", numeral(crossing.frequency)))
-    if not found.phase:
+    if not margins.phase:
         rows.append((f"phase {kind}", NO_CROSSING, "", ""))
     if loop.margins.unstable:
         rows.append(("delay margin", UNSTABLE_WORD, "", ""))
-    elif math.isfinite(found.delay_margin):
-        rows.append(("delay margin", numeral(found.delay_margin), "s", numeral(found.delay_frequency)))
-        rows.append(("", samples(found.delay_margin, loop.sample_period), "samples", ""))
+    elif math.isfinite(margins.delay_margin):
+        rows.append(("delay margin", numeral(margins.delay_margin), "s", numeral(margins.delay_frequency)))
+        rows.append(("", samples(margins.delay_margin, loop.sample_period), "samples", ""))
     else:
         rows.append(("delay margin", NO_CROSSING, "", ""))
-    encircled = numeral(found.encirclements) if found.encirclements is not None else "not counted"
+    encircled = numeral(margins.encirclements) if margins.encirclements is not None else "not counted"
     rows.append((f"encirclements of {MINUS}1 (+ counter-clockwise)", encircled, "", ""))
     unstable = numeral(loop.unstable_open) if loop.unstable_open is not None else "not known"
     rows.append(("unstable poles of the open loop", unstable, "", ""))
@@ -121,19 +121,19 @@ def classical(loop: LoopReport) -> Part:
 
 def robust(loop: LoopReport) -> Part:
     """Distances from the critical point."""
-    found = loop.robust
+    margins = loop.robust
     word = state(loop.margins)
     rows: list[tuple[Cell, ...]] = [
-        ("modulus margin", word or numeral(found.modulus_margin), numeral(found.sensitivity_frequency)),
-        ("peak of S, dB", in_decibels(found.sensitivity_peak), numeral(found.sensitivity_frequency)),
-        ("peak of T, dB", in_decibels(found.complementary_peak), numeral(found.complementary_frequency)),
-        ("disk margin", word or numeral(found.disk_margin), numeral(found.disk_frequency)),
-        ("— gain, up and down, dB", word or in_decibels(found.disk_gain, "without limit"), ""),
-        ("— phase, deg", word or in_degrees(found.disk_phase), ""),
+        ("modulus margin", word or numeral(margins.modulus_margin), numeral(margins.sensitivity_frequency)),
+        ("peak of S, dB", in_decibels(margins.sensitivity_peak), numeral(margins.sensitivity_frequency)),
+        ("peak of T, dB", in_decibels(margins.complementary_peak), numeral(margins.complementary_frequency)),
+        ("disk margin", word or numeral(margins.disk_margin), numeral(margins.disk_frequency)),
+        ("— gain, upper and lower, dB", word or in_decibels(margins.disk_gain, "without limit"), ""),
+        ("— phase, deg", word or in_degrees(margins.disk_phase), ""),
     ]
-    note = "Within the disk margin gain and phase may change at once."
+    note = "Gain and phase may vary simultaneously within the disk margin."
     if loop.margins.unstable:
-        note = "Peaks are those of the response: of an unstable closed loop they bound nothing."
+        note = "The closed loop is unstable: peaks of the response bound nothing."
     return Part("robust", "Robust", Table(("quantity", "value", "at rad/s"), "tnn", rows), note)
 
 
@@ -160,7 +160,7 @@ def modes(loop: LoopReport) -> Part:
         for mode in upper(loop.modes)
     ]
     head = ("z", "|z|", "s, rad/s", "damping", "frequency, rad/s", "kind", "controllability", "observability")
-    note = "A pair of conjugate modes is one line, with ±."
+    note = "A conjugate pair is one row, with ±."
     if any(mode.z.imag == 0.0 and mode.z.real < 0.0 for mode in loop.modes):
         note += (
             " A real z below 0 is one pole, no pair: it changes its sign with every sample and shrinks to |z| in each, "
@@ -171,45 +171,53 @@ def modes(loop: LoopReport) -> Part:
 
 def structure(loop: LoopReport) -> Part:
     """Controllability and observability."""
-    found = loop.structure
-    assert found is not None
+    margins = loop.structure
+    assert margins is not None
     rows: list[tuple[Cell, ...]] = [
-        ("states of the whole system", numeral(found.states), ""),
-        ("controllable from the break point", numeral(found.controllable), numeral(found.least_controllable)),
-        ("observable at the break point", numeral(found.observable), numeral(found.least_observable)),
-        ("both: order of the loop", numeral(found.order), ""),
+        ("states of the whole system", numeral(margins.states), ""),
+        ("controllable from the break point", numeral(margins.controllable), numeral(margins.least_controllable)),
+        ("observable at the break point", numeral(margins.observable), numeral(margins.least_observable)),
+        ("both: order of the loop", numeral(margins.order), ""),
     ]
-    return Part("structure", "Structure", Table(("part", "rank", "least kept singular value"), "tnn", rows))
+    return Part("structure", "Structure", Table(("part", "rank", "smallest retained singular value"), "tnn", rows))
 
 
-def dispersed(found: Dispersion) -> Part:
+def dispersed(dispersion: Dispersion) -> Part:
     """Least, 5 % and median margins over the campaign, and the command that studies the worst case again."""
     rows: list[tuple[Cell, ...]] = []
     for quantity in MARGINS:
         unit = "" if quantity.unit == "1" else f", {quantity.unit}"
-        cells = [size(value) for value in found.levels(quantity).values()]
-        rows.append((f"{quantity}{unit}", *cells, size(found.margins[found.worst].size(quantity))))
-    head = ("margin", *LEVELS, f"trial {found.worst}, the worst")
-    unstable = f"{found.unstable} of {found.trials} trials are unstable" if found.unstable else "all trials are stable"
+        cells = [size(value) for value in dispersion.levels(quantity).values()]
+        rows.append((f"{quantity}{unit}", *cells, size(dispersion.margins[dispersion.worst].size(quantity))))
+    head = ("margin", *LEVELS, f"trial {dispersion.worst}, the worst")
+    unstable = (
+        f"{dispersion.unstable} of {dispersion.trials} trials are unstable"
+        if dispersion.unstable
+        else "all trials are stable"
+    )
     note = Markup(
         "Campaign {}: {}. Levels are margins of single trials, over all of them; an unstable trial counts below every "
         "number, one without a crossing above. The worst trial has the least disk margin{}. Replay command:"
-    ).format(found.campaign, unstable, ", of the unstable ones the largest spectral radius" if found.unstable else "")
-    return Part("dispersed", "Dispersed", Table(head, "tnnnn", rows), note, found.replay)
+    ).format(
+        dispersion.campaign,
+        unstable,
+        ", of the unstable ones the largest spectral radius" if dispersion.unstable else "",
+    )
+    return Part("dispersed", "Dispersed", Table(head, "tnnnn", rows), note, dispersion.replay)
 
 
-def nonlinear(found: Nonlinearity, index: int) -> Part:
+def nonlinear(nonlinearity: Nonlinearity, index: int) -> Part:
     """Limit cycles that harmonic balance predicts, and what the simulation shows."""
-    unit = shown_unit(found.unit)
+    unit = shown_unit(nonlinearity.unit)
     rows: list[tuple[Cell, ...]] = []
-    for cycle in found.cycles:
+    for cycle in nonlinearity.cycles:
         lasting = cycle.simulated_amplitude is not None
         rows.append(
             (
-                numeral(cycle.amplitude, found.unit),
+                numeral(cycle.amplitude, nonlinearity.unit),
                 numeral(cycle.period),
                 "stable" if cycle.stable else "unstable",
-                numeral(cycle.simulated_amplitude, found.unit) if lasting else "no lasting oscillation",
+                numeral(cycle.simulated_amplitude, nonlinearity.unit) if lasting else "no lasting oscillation",
                 numeral(cycle.simulated_period),
             )
         )
@@ -219,9 +227,11 @@ def nonlinear(found: Nonlinearity, index: int) -> Part:
         f"amplitude, {unit}" if unit else "amplitude", "period, s", "predicted to be",
         f"simulated amplitude, {unit}" if unit else "simulated amplitude", "simulated period, s",
     )  # fmt: skip
-    values = ", ".join(f"{name} {value:.6g}" for name, value in found.parameters.items())
-    about = f"{found.kind}{': ' + values if values else ''}. Amplitudes at the element's input. {found.note}"
-    return Part(f"nonlinear-{index}", f"Nonlinear: {found.name}", Table(head, "nntnn", rows), about.strip())
+    values = ", ".join(f"{name} {value:.6g}" for name, value in nonlinearity.parameters.items())
+    about = (
+        f"{nonlinearity.kind}{': ' + values if values else ''}. Amplitudes at the element's input. {nonlinearity.note}"
+    )
+    return Part(f"nonlinear-{index}", f"Nonlinear: {nonlinearity.name}", Table(head, "nntnn", rows), about.strip())
 
 
 NO_CYCLE = "no limit cycle predicted"
@@ -264,28 +274,28 @@ def sampling(loop: LoopReport) -> Part:
 
 def parts(loop: LoopReport) -> list[Part]:
     """Everything that is known about a loop, in the order of the page."""
-    found = [method(loop), classical(loop), robust(loop)]
+    sections = [method(loop), classical(loop), robust(loop)]
     if loop.structure is not None:
-        found.append(structure(loop))
+        sections.append(structure(loop))
     if loop.modes:
-        found.append(modes(loop))
+        sections.append(modes(loop))
     if loop.dispersion is not None:
-        found.append(dispersed(loop.dispersion))
+        sections.append(dispersed(loop.dispersion))
     if loop.amplitudes:
-        found.append(amplitudes(loop))
-    found += [nonlinear(item, index) for index, item in enumerate(loop.nonlinearities)]
+        sections.append(amplitudes(loop))
+    sections += [nonlinear(item, index) for index, item in enumerate(loop.nonlinearities)]
     if loop.sampling:
-        found.append(sampling(loop))
-    return [part for part in found if part.table.rows]
+        sections.append(sampling(loop))
+    return [part for part in sections if part.table.rows]
 
 
 def without(loop: LoopReport) -> list[str]:
     """Parts that this loop has not, and for which no reason is given either: they were not asked for."""
     there = {
-        "route A": loop.route_a is not None,
-        "route B": loop.route_b is not None,
-        "modes": bool(loop.modes) or loop.route_a is None,
-        "structure": loop.structure is not None or loop.route_a is None,
+        "linearisation": loop.linearised is not None,
+        "frequency-response test": loop.measured_response is not None,
+        "modes": bool(loop.modes) or loop.linearised is None,
+        "structure": loop.structure is not None or loop.linearised is None,
         "step response": loop.step is not None,
         "dispersion": loop.dispersion is not None,
         "amplitude sweep": bool(loop.amplitudes),

@@ -50,9 +50,9 @@ def picture_of(figure: Markup) -> Picture:
     """A figure without the names of its elements, which differ between all figures of a page."""
     places: list[str] = []
 
-    def keep(found: re.Match[str]) -> str:
-        places.extend(NUMBER.findall(found[2]))
-        return f'{found[1]}="{NUMBER.sub("", found[2])}"'
+    def keep(match: re.Match[str]) -> str:
+        places.extend(NUMBER.findall(match[2]))
+        return f'{match[1]}="{NUMBER.sub("", match[2])}"'
 
     strokes = PLACES.sub(keep, NAMES.sub("", figure))
     return Picture(strokes, np.array(places, dtype=float))
@@ -84,7 +84,7 @@ def share(loops: Sequence[LoopReport], figures: Sequence[Panels]) -> list[Shared
                     same.loops.append(index)
                     elsewhere[index].setdefault(same.loops[0], []).append(panel.label)
     return [
-        Shared({key: [_titled(one, loops) for one in found] for key, found in parts.items()}, away)
+        Shared({key: [_titled(one, loops) for one in pictures] for key, pictures in parts.items()}, away)
         for parts, away in zip(kept, elsewhere, strict=True)
     ]
 

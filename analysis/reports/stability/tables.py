@@ -135,7 +135,7 @@ def summary_table(report: StabilityReport) -> Table:
 def joint_table(report: StabilityReport) -> Table:
     """Disk margins of several channels that vary at once and independently."""
     head = (
-        "channels", "operating point", "disk margin", "gain, dB, up and down", "phase, deg", "at rad/s", "verdict",
+        "channels", "operating point", "disk margin", "gain, dB, upper and lower", "phase, deg", "at rad/s", "verdict",
     )  # fmt: skip
     rows: list[tuple[Cell, ...]] = []
     for joint in report.joint:
@@ -159,7 +159,7 @@ def point_table(points: tuple[PointReport, ...]) -> Table:
     )  # fmt: skip
     rows: list[tuple[Cell, ...]] = []
     for point in points:
-        fastest = _changed(*point.trim[0]) if point.trim else Markup("nothing changes")
+        fastest = _changed(*point.trim[0]) if point.trim else Markup("none")
         holds = numeral(point.holds, infinite="does not change")
         rows.append((point.name, point.phase, numeral(point.time, digits=6), fastest, per_cent(point.drift), holds))
     return Table(head, "slnlnn", rows, "operating points")

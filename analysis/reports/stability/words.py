@@ -108,7 +108,7 @@ def directed(factor: float) -> Markup:
     """A factor on the gain in dB with its direction; inf: there is none."""
     if not math.isfinite(factor):
         return Markup("<span>{}</span>").format(NO_CROSSING)
-    return in_decibels(factor, absolute=True) + Markup(" {}").format("up" if factor >= 1.0 else "down")
+    return in_decibels(factor, absolute=True) + Markup(" ({})").format("upper" if factor >= 1.0 else "lower")
 
 
 def phase_margin(margins: Margins) -> Markup:
@@ -116,7 +116,7 @@ def phase_margin(margins: Margins) -> Markup:
     if margins.unstable or not math.isfinite(margins.phase):
         return state(margins) or Markup("<span>{}</span>").format(NO_CROSSING)
     shown = _data(float(margins.phase), degree_size(margins.phase), 4, NO_CROSSING)
-    return shown + Markup("" if margins.phase >= 0.0 else " lead")
+    return shown + Markup("" if margins.phase >= 0.0 else " (lead)")
 
 
 def size(value: float | None) -> Markup:

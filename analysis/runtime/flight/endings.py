@@ -116,8 +116,8 @@ def in_words(
     if code == codes.NOT_TAKEN:
         parameters = layout.parameters
         component, variable = parameters.keys[subject]
-        given, found = (parameters.value_in(values, subject) for values in (parameters.values, buffers.read_back))
-        words = f"{component}.{variable}: was set to {given}, and its FMU has {found} after initialisation"
+        given, actual = (parameters.value_in(values, subject) for values in (parameters.values, buffers.read_back))
+        words = f"{component}.{variable}: was set to {given}, and its FMU has {actual} after initialisation"
         return status, " | ".join([f"{words}: it did not take it", *instances[component].messages])
     if code == codes.FAILED:
         component = list(instances)[subject]

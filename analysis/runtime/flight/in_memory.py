@@ -30,13 +30,13 @@ def runs_in_memory(
     None where the FMU does not say where one of them is.
     """
     ends = [0, *(np.flatnonzero(np.diff(references.astype(np.int64)) != 1) + 1).tolist(), references.size]
-    found = []
+    runs = []
     for start, end in itertools.pairwise(ends):
         address = instance.place(references[start:end], kind, to_set=to_set)
         if not address:
             return []
-        found.append(Run(address, first + start, end - start))
-    return found
+        runs.append(Run(address, first + start, end - start))
+    return runs
 
 
 def with_moves(rows: Sequence[list[int]], runs: Sequence[Run], component: int, instance: int) -> list[list[int]]:

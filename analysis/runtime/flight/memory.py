@@ -144,10 +144,10 @@ class Memory:
 def _layout(fmu: Fmu, component: str) -> tuple[str, set[int]]:
     """Encoding of an FMU's serialised state, and the value references that are no cells."""
     description = etree.parse(fmu.folder / "modelDescription.xml")
-    found = description.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/SerializedState")
-    if found is None or found.get("encoding") not in ENCODINGS:
+    declared = description.find(f"VendorAnnotations/Tool[@name='{STATE_ANNOTATION}']/SerializedState")
+    if declared is None or declared.get("encoding") not in ENCODINGS:
         raise InputError(fmu.label, component, "does not tell how it serialises its memory", "measure by injection")
-    return found.get("encoding"), {int(item) for item in found.get("frozen", "").split()}
+    return declared.get("encoding"), {int(item) for item in declared.get("frozen", "").split()}
 
 
 def _write_word(serialized: bytes, reference: int, value: float) -> bytes:

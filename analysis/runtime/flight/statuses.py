@@ -13,7 +13,7 @@ from .results import Flight
 
 def status_lines(network: Network, flight: Flight) -> list[str]:
     """A line for every component that reported a status other than 0: the worst, for how long, and the last."""
-    found = []
+    lines = []
     for name, values in flight.signals.items():
         component, variable = parted(name, network.fmus)
         if variable != STATUS or not component or flight.types[name] != "Integer" or not values.any():
@@ -25,8 +25,8 @@ def status_lines(network: Network, flight: Flight) -> list[str]:
         words = (
             f"{name}: {worst}{f' ({meaning})' if meaning else ''} from t = {first:g} s, {_percent(share)} of the rows"
         )
-        found.append(words if last == worst else f"{words}, {last} at the end")
-    return found
+        lines.append(words if last == worst else f"{words}, {last} at the end")
+    return lines
 
 
 def _percent(share: float) -> str:

@@ -22,21 +22,21 @@ class AnnotationReader:
 
     def content(self, annotation: etree._Element, name: str) -> etree._Element:
         """The one element, ``name``, that an annotation holds."""
-        found = self.parts(annotation, (name,))[name]
-        if len(found) != 1:
-            raise self.refuse(annotation, f"{len(found)} elements {name}", "write one")
-        return found[0]
+        elements = self.parts(annotation, (name,))[name]
+        if len(elements) != 1:
+            raise self.refuse(annotation, f"{len(elements)} elements {name}", "write one")
+        return elements[0]
 
     def parts(self, element: etree._Element, known: Collection[str]) -> dict[str, list[etree._Element]]:
         """The children by tag; refuses unknown ones."""
-        found: dict[str, list[etree._Element]] = {name: [] for name in known}
+        by_name: dict[str, list[etree._Element]] = {name: [] for name in known}
         for item in element:
             if not isinstance(item.tag, str):
                 continue  # a comment
             if tag(item) not in known:
                 raise self.refuse(item, "unknown element", suggestion(tag(item), known))
-            found[tag(item)].append(item)
-        return found
+            by_name[tag(item)].append(item)
+        return by_name
 
     def attributes(self, element: etree._Element, needed: Collection[str], more: Collection[str] = ()) -> dict:
         """The attributes of an element; refuses missing and unknown ones."""

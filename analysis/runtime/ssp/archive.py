@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from multiprocessing import parent_process
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from urllib.parse import unquote
 
 from ....fmus_src.export.available import fmu_file
@@ -60,6 +60,7 @@ class SystemArchive:
     description: str = DESCRIPTION
     elsewhere: Mapping[str, Path] = field(default_factory=dict)
     besides: dict[str, None] = field(default_factory=dict)
+    known_digest: str | None = None
 
     @property
     def is_fmu(self) -> bool:
@@ -146,6 +147,11 @@ class SystemArchive:
         places = (f"{CAMPAIGN_FOLDER}/{name}", f"{CAMPAIGN_FOLDER}/{name}.toml")
         return self._named(name, places, "`campaign`", ".toml")
 
+    def campaign_names(self) -> list[str]:
+        """The system's own campaigns; files in folders below theirs are parts that campaigns extend."""
+        files = (PurePosixPath(name) for name in self.files)
+        return [file.stem for file in files if file.suffix == ".toml" and str(file.parent) == CAMPAIGN_FOLDER]
+
     def _named(self, name: str, places: tuple[str, ...], option: str, suffix: str) -> tuple[bytes, str]:
         for place in places:
             if place in self.files:
@@ -163,7 +169,9 @@ class SystemArchive:
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 over names and contents."""
+        """SHA-256 over names and contents, or the one that was computed before."""
+        if self.known_digest is not None:
+            return self.known_digest
         total = hashlib.sha256()
         for name in sorted(self.files):
             total.update(name.encode() + b"\0" + hashlib.sha256(self._content(name, name)).digest())

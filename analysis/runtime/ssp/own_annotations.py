@@ -36,6 +36,6 @@ def _check_content(annotation: etree._Element, kind: str, file: str) -> None:
             continue  # a comment
         namespace = etree.QName(item).namespace
         if namespace != OURS[kind]:
-            found = f"of the namespace {namespace}" if namespace else "of no namespace"
-            problem = f"{found} in an annotation of type {kind}"
+            actual = f"of the namespace {namespace}" if namespace else "of no namespace"
+            problem = f"{actual} in an annotation of type {kind}"
             raise InputError(file, f"{tag(item)} (line {item.sourceline})", problem, f'write xmlns="{OURS[kind]}"')

@@ -48,10 +48,10 @@ def read_parameter_set(root: etree._Element, file: str) -> list[Assignment]:
     """The values of a ParameterSet element, valid already or not."""
     check_schema(root, "ssv", file)
     units = units_of_document(root, "ssv")
-    found: dict[str, Assignment] = {}
+    assignments: dict[str, Assignment] = {}
     for parameter in children(child(root, "ssv:Parameters"), "ssv:Parameter"):
         name, line = parameter.get("name", ""), parameter.sourceline
-        if name in found:
+        if name in assignments:
             raise InputError(file, f"{name} (line {line})", "given twice in one parameter set", "remove one")
         for item in parameter:
             if tag(item) == "Binary":
@@ -63,8 +63,8 @@ def read_parameter_set(root: etree._Element, file: str) -> list[Assignment]:
                         file, f"{name} (line {line})", f"unit {unit_name} is not defined here", "add it under Units"
                     )
                 value = parse_value(item.get("value", ""), tag(item), file, f"{name} (line {line})")
-                found[name] = Assignment(name, value, tag(item), units.get(unit_name or ""), file, line)
-    return list(found.values())
+                assignments[name] = Assignment(name, value, tag(item), units.get(unit_name or ""), file, line)
+    return list(assignments.values())
 
 
 def parse_value(text: str, type_name: str, file: str, element: str) -> ParameterValue:

@@ -53,24 +53,24 @@ class Unit:
 
 def units_of_fmu(description: Any) -> dict[str, Unit]:
     """Units that an FMU defines, by name (fmpy ModelDescription)."""
-    found: dict[str, Unit] = {}
+    units: dict[str, Unit] = {}
     for definition in description.unitDefinitions:
         base = definition.baseUnit
         if base is None:
-            found[definition.name] = Unit(definition.name, None)
+            units[definition.name] = Unit(definition.name, None)
         else:
             exponents = tuple(int(getattr(base, name, 0) or 0) for name in BASE_UNITS)
-            found[definition.name] = Unit(definition.name, exponents, float(base.factor), float(base.offset))
-    return found
+            units[definition.name] = Unit(definition.name, exponents, float(base.factor), float(base.offset))
+    return units
 
 
 def units_of_document(root: etree._Element, prefix: str) -> dict[str, Unit]:
     """Units defined in an SSP document; ``prefix`` is its namespace prefix (ssd, ssv, ssb)."""
-    found = {}
+    units = {}
     for element in children(child(root, f"{prefix}:Units"), "ssc:Unit"):
         base = child(element, "ssc:BaseUnit")
         assert base is not None  # the schema requires it
         exponents = tuple(int(base.get(name, "0")) for name in BASE_UNITS)
         name = element.get("name", "")
-        found[name] = Unit(name, exponents, float(base.get("factor", "1")), float(base.get("offset", "0")))
-    return found
+        units[name] = Unit(name, exponents, float(base.get("factor", "1")), float(base.get("offset", "0")))
+    return units

@@ -56,11 +56,11 @@ def _new(file: str, element: etree._Element, what: str) -> InputError:
 @cache
 def _names() -> frozenset[str]:
     """Names of all elements of SSP 1.0."""
-    found: set[str] = set()
+    names: set[str] = set()
     for path in sorted(SCHEMAS.glob("*.xsd")):
         if path.stem.endswith("11"):
             continue  # a draft of 1.1, which no document names
         for element in etree.parse(path).iter("{http://www.w3.org/2001/XMLSchema}element"):
             if element.get("name"):
-                found.add(element.get("name", ""))
-    return frozenset(found)
+                names.add(element.get("name", ""))
+    return frozenset(names)

@@ -107,16 +107,16 @@ def _bound(
     network: Network, settings: Settings, archive: SystemArchive, bindings: list[Binding], place: str
 ) -> list[Assignment]:
     """Assignments of parameter bindings in order; ``place`` stands before their names in the flat network."""
-    found: list[Assignment] = []
+    assignments: list[Assignment] = []
     for binding in bindings:
         values, without = read_binding(archive, network.file, binding)
-        found += values
+        assignments += values
         settings.left_out |= {place + value.name: f"{value.name} of {value.origin}" for value in without}
         if without:
             names = ", ".join(value.name for value in without)
             where = f"{place}ParameterBinding (line {binding.line})"
             network.notes.append(f"{where}: its mapping has no entry for {names}: not applied")
-    return found
+    return assignments
 
 
 def _resolve(network: Network, path: str, name: str) -> Node | tuple[str, str] | None:
@@ -223,10 +223,10 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
             [parse_value(text, type_name, assignment.file, assignment.where) for text in entry]
             for entry in transformation.table
         ]
-        found = [target for source, target in table if source == value]
-        if not found:
+        targets = [target for source, target in table if source == value]
+        if not targets:
             raise InputError(assignment.file, assignment.where, f"the mapping has no entry for {value}", "add one")
-        value = found[-1]
+        value = targets[-1]
     if type_name == "Enumeration":
         by_value = {str(number): number for number in node.enumeration.values()}  # as OMSimulator writes items
         items = by_value | node.enumeration

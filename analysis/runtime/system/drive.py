@@ -45,7 +45,7 @@ def driven_inputs(network: Network, series: InputSeries, alone: str | None) -> d
         if variable.causality == "input" and variable.type != "String"
         if f"{component}.{variable.name}" not in network.driver
     }
-    found: dict[str, str] = {}
+    columns: dict[str, str] = {}
     for column in series.columns:
         name = f"{alone}.{column}" if alone is not None and f"{alone}.{column}" in types else column
         where = (series.file, f"column {column}")
@@ -55,11 +55,11 @@ def driven_inputs(network: Network, series: InputSeries, alone: str | None) -> d
         if name not in types:
             known = types if alone is None else [text.removeprefix(f"{alone}.") for text in types]
             raise InputError(*where, "no such input", suggestion(column, known))
-        if name in found:
-            raise InputError(*where, f"drives {name}, as column {found[name]} does", "leave one of them out")
+        if name in columns:
+            raise InputError(*where, f"drives {name}, as column {columns[name]} does", "leave one of them out")
         _check_type(series, column, types[name])
-        found[name] = column
-    return found
+        columns[name] = column
+    return columns
 
 
 def _is_free(network: Network, name: str) -> bool:
@@ -116,7 +116,7 @@ def interpolated(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, af
     """
     last = time.size - 1
     right = np.searchsorted(time, points)
-    found = values[np.clip(right, 0, last)]
+    samples = values[np.clip(right, 0, last)]
     inner = (right > 0) & (right <= last)
     behind = right[inner]
     moments = points[inner]
@@ -129,8 +129,8 @@ def interpolated(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, af
     after = behind[between]
     weight = (time[after] - moments[between]) / (time[after] - time[after - 1])
     inside[between] = weight * values[after - 1] + (1.0 - weight) * values[after]
-    found[inner] = inside
-    return found
+    samples[inner] = inside
+    return samples
 
 
 def held(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
@@ -140,15 +140,15 @@ def held(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_even
     """
     last = time.size - 1
     right = np.searchsorted(time, points)
-    found = np.clip(right - 1, 0, last)
+    indices = np.clip(right - 1, 0, last)
     inner = (right > 0) & (right <= last)
     while after_event:
-        ahead = np.minimum(found + 1, last)
-        moves = inner & (found < last) & _close(points, time[ahead])
+        ahead = np.minimum(indices + 1, last)
+        moves = inner & (indices < last) & _close(points, time[ahead])
         if not moves.any():
             break
-        found = np.where(moves, ahead, found)
-    return values[np.where(right > last, last, found)]
+        indices = np.where(moves, ahead, indices)
+    return values[np.where(right > last, last, indices)]
 
 
 def _close(left: np.ndarray, right: np.ndarray) -> np.ndarray:

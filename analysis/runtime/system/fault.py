@@ -59,17 +59,17 @@ def parse_fault(text: str, option: str = "`faults`") -> Fault:
 
     ``option`` is what errors name. Raises InputError.
     """
-    found = WRITTEN.fullmatch(text.strip())
-    if found is None:
+    match = WRITTEN.fullmatch(text.strip())
+    if match is None:
         raise InputError(option, text, f"not of the form {FORM}", "write it so")
-    name, kind = found["name"].strip(), found["kind"].strip()
-    if kind == "freeze" and found["value"] is not None:
+    name, kind = match["name"].strip(), match["kind"].strip()
+    if kind == "freeze" and match["value"] is not None:
         raise InputError(option, text, "a freeze has no value", "leave it out: what was there is held")
-    if kind in ("override", "bias") and found["value"] is None:
+    if kind in ("override", "bias") and match["value"] is None:
         raise InputError(option, text, f"{kind} lacks its value", f"write {kind}:VALUE")
     try:
-        stop = float(found["stop"]) if found["stop"] else math.inf
-        return Fault(name, kind, _value(found["value"] or "0"), float(found["start"]), stop)
+        stop = float(match["stop"]) if match["stop"] else math.inf
+        return Fault(name, kind, _value(match["value"] or "0"), float(match["start"]), stop)
     except InputError as error:
         raise InputError(option, text, error.problem, error.remedy) from error
     except ValueError as error:

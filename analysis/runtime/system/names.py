@@ -24,7 +24,7 @@ def elements(name: str, known: Container[str]) -> list[str]:
     """The known names that one stands for: its own, or name[1], name[2] ... of a vector; none where it is unknown."""
     if name in known:
         return [name]
-    found: list[str] = []
-    while f"{name}[{len(found) + 1}]" in known:
-        found.append(f"{name}[{len(found) + 1}]")
-    return found
+    names: list[str] = []
+    while f"{name}[{len(names) + 1}]" in known:
+        names.append(f"{name}[{len(names) + 1}]")
+    return names

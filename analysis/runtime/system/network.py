@@ -128,12 +128,12 @@ def _unit(network: Network, name: str, fmu: Fmu | None, connector: Connector) ->
     unit = connector.unit
     if unit is None:
         return None
-    found = network.description.units.get(unit) or (fmu.units.get(unit) if fmu is not None else None)
-    if found is None:
+    known = network.description.units.get(unit) or (fmu.units.get(unit) if fmu is not None else None)
+    if known is None:
         raise InputError(
             network.file, connector.at(name), f"unit {unit} is not defined", "define it under Units of the SSD"
         )
-    return found
+    return known
 
 
 def _plain_node(network: Network, name: str, connector: Connector) -> Node:

@@ -16,7 +16,7 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
 
     Raises InputError.
     """
-    found = [
+    open_inputs = [
         node
         for node in network.nodes.values()
         if node.kind == "input"
@@ -25,22 +25,23 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
         and node.name not in settings.nodes
         and (node.component or "", node.variable) not in settings.variables
     ]
-    if not found:
+    if not open_inputs:
         return
     if not keep_starts:
-        one = len(found) == 1
-        problem = f"{'input is' if one else f'{len(found)} inputs are'} neither connected nor given a value"
-        remedy = f"connect {'it' if one else 'them'}, give a value: `set` {found[0].name}=VALUE, or `open_inputs` start"
-        given = next((settings.left_out[node.name] for node in found if node.name in settings.left_out), None)
+        one = len(open_inputs) == 1
+        problem = f"{'input is' if one else f'{len(open_inputs)} inputs are'} neither connected nor given a value"
+        setting = f"`set` {open_inputs[0].name}=VALUE"
+        remedy = f"connect {'it' if one else 'them'}, give a value: {setting}, or `open_inputs` start"
+        given = next((settings.left_out[node.name] for node in open_inputs if node.name in settings.left_out), None)
         if given is not None:
             remedy = f"map {given} too, whose mapping leaves it out; or {remedy}"
-        raise InputError(network.file, ", ".join(node.where for node in found), problem, remedy)
-    without = {node.name for node in found}
+        raise InputError(network.file, ", ".join(node.where for node in open_inputs), problem, remedy)
+    without = {node.name for node in open_inputs}
     readers: dict[str, list[Link]] = {}
     for link in network.driver.values():
         readers.setdefault(link.source.name, []).append(link)
-    while found:
-        node = found.pop()
+    while open_inputs:
+        node = open_inputs.pop()
         if node.component is not None:
             start = network.fmus[node.component].variables[node.variable].start
             network.notes.append(f"{node.name}: open input, keeps {start}")
@@ -48,7 +49,7 @@ def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: boo
             del network.driver[link.target.name]
             if link.target.name not in without:
                 without.add(link.target.name)
-                found.append(link.target)
+                open_inputs.append(link.target)
 
 
 def check_signals(network: Network, settings: Settings) -> None:

@@ -58,10 +58,10 @@ class SystemOptions(Layer):
 
     def among(self, **layers: Layer) -> SystemOptions:
         """These options, the command line's, with what others ask, by the names of `LAYERS`."""
-        found: dict[str, Layer] = {"command_line": self, **layers}
-        ordered = [found.pop(name) for name in LAYERS if name in found]
-        if found:
-            raise TypeError(f"no such layer: {', '.join(found)}")
+        remaining: dict[str, Layer] = {"command_line": self, **layers}
+        ordered = [remaining.pop(name) for name in LAYERS if name in remaining]
+        if remaining:
+            raise TypeError(f"no such layer: {', '.join(remaining)}")
         return replace(
             self,
             use={slot: fmu for layer in ordered for slot, fmu in layer.use.items()},

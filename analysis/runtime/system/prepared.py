@@ -209,13 +209,13 @@ def locate_fmu(
 def _assignments(
     archive: SystemArchive, options: SystemOptions, elsewhere: dict[str, Callable[[], bytes]]
 ) -> list[Assignment]:
-    found: list[Assignment] = []
+    assignments: list[Assignment] = []
     for name in options.parameters:
         data, label = archive.parameter_set(name)
         if not label.startswith(f"{archive.label}!"):
             elsewhere[parameters_asked(name)] = partial(bytes, data)
-        found += read_parameter_file(data, label)
-    return found + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]
+        assignments += read_parameter_file(data, label)
+    return assignments + [single_value(name, value, options.places.get(name)) for name, value in options.set.items()]
 
 
 @contextmanager

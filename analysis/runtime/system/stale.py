@@ -41,8 +41,8 @@ def _file(name: str, flavour: str | None, system: Path) -> Path | None:
     """The FMU that a name means where one is flown."""
     if name.endswith(".fmu") or Path(name).name != name:
         return Path(name) if Path(name).is_file() else None
-    found = (fmu_file(name, each, system) for each in (FLAVOURS if flavour is None else (flavour,)))
-    return next((path for path in found if path is not None), None)
+    files = (fmu_file(name, each, system) for each in (FLAVOURS if flavour is None else (flavour,)))
+    return next((path for path in files if path is not None), None)
 
 
 def _components(system: System, path: str = "") -> Iterator[tuple[str, Component]]:

@@ -56,7 +56,7 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
     A component whose own step is none of ``step`` takes as many whole ones as fit into it, as libcosim does; a remark
     says so. Raises InputError.
     """
-    found = {}
+    periods = {}
     for name, component in network.components():
         own = component.step
         if own is None and options.step is None:
@@ -68,13 +68,13 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
         if own is not None and abs(own - period * step) > 1e-9 * own:
             network.notes.append(f"{name}: steps by {period * step:g} s, not by {own:g} s as it asks")
         if period > 1:
-            found[name] = period
-    if math.lcm(*found.values()) > LONGEST_PERIOD:
+            periods[name] = period
+    if math.lcm(*periods.values()) > LONGEST_PERIOD:
         problem = (
             f"the steps of its components come round together after more than {LONGEST_PERIOD} steps of {step:g} s"
         )
         raise InputError(network.file, "steps", problem, "give a longer `step`")
-    return found
+    return periods
 
 
 def _described(network: Network) -> float | None:

@@ -1,4 +1,4 @@
-"""Route B: a loop's frequency response measured by a multisine added at the cut while the loop is closed.
+"""Frequency-response test: a multisine is added at the cut while the loop is closed, and the response measured.
 
 It needs no memory, only inputs and outputs, so it serves anyone's FMUs. Every flight starts at the beginning; the
 same flight without the multisine is subtracted, so that the motion along the trajectory and the sensors' noise, which
@@ -18,7 +18,7 @@ from ..loops.curves import quotient
 from ..loops.multisine import Multisine, line_spectrum, multisine, unexcited_share
 from ..loops.readings import Curve
 from ..request.channels import Channel
-from ..results.routes import RouteB
+from ..results.responses import Measured
 from .bench import Bench, StudyError
 
 SEED = 1  # of the multisine's phases
@@ -52,7 +52,7 @@ class Injector:
             raise NotMeasurableError(f"{self.lowest:g} rad/s needs {samples} samples a period, more than {MOST}")
         # A periodic loop also answers at frequencies apart by those of the hyperperiod. Over a whole number of
         # hyperperiods, of which a period of the signal is none, these fall between the lines. Nor is a line at
-        # a multiple of the hyperperiod's frequency, where what stays constant answers in route A.
+        # a multiple of the hyperperiod's frequency, where what stays constant answers in the linearisation.
         rounds = self.bench.period // self.channel.period
         while math.gcd(samples, rounds) > 1:
             samples += 1
@@ -63,13 +63,13 @@ class Injector:
         self._transient = 1
         self._base: dict[str, np.ndarray] = {}
 
-    def measure(self) -> RouteB:
+    def measure(self) -> Measured:
         """L with the declared amplitude and with half of it. Raises NotMeasurableError, StudyError."""
         peak = self.peak()
         value, unexcited = self.spectrum(peak)
         half, _ = self.spectrum(0.5 * peak)
         low = self.frequency <= 0.5 * np.pi / self.seconds
-        return RouteB(
+        return Measured(
             amplitude=peak / float(np.max(abs(self.signal.signal))),
             lines=len(self.signal.lines),
             periods=self.periods,

@@ -1,1 +1,1 @@
-"""Route A: the linear model over one hyperperiod from the memory of the FMUs."""
+"""Linearisation: the linear model over one hyperperiod from the memory of the FMUs."""

@@ -1,4 +1,4 @@
-"""Route A: the linear model over one hyperperiod from the complete memory of a system."""
+"""Linearisation: the linear model over one hyperperiod from the complete memory of a system."""
 
 from __future__ import annotations
 
@@ -119,10 +119,10 @@ def _blocks(jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequ
         signals = np.arange(count + port.first, count + port.first + port.count)
         moved.append(_moved(arrows, driven[port.rows]))
         moves.append(_moves(arrows, np.any(arrows[np.concatenate([signals, signals + inputs])] != 0.0, axis=0)))
-    found = []
+    blocks = []
     for cells in circles(matrices[0][:count]):
         values, neighbours = (multipliers(matrix, cells) for matrix in matrices)
-        found.append(
+        blocks.append(
             Block(
                 names=tuple(jacobian.memory.cells[cell].name for cell in cells),
                 multipliers=values,
@@ -131,4 +131,4 @@ def _blocks(jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequ
                 moves=tuple(bool(np.any(cell[cells])) for cell in moves),
             )
         )
-    return tuple(found)
+    return tuple(blocks)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.linalg
 
-from ..results.routes import Mode, Structure
+from ..results.responses import Mode, Structure
 from .lifted import LiftedModel, Port
 
 APART = 1e-4  # of the largest: a mode that answers less does not belong to the loop, or it is rounding
@@ -25,15 +25,15 @@ def modes(model: LiftedModel, port: Port) -> tuple[Mode, ...]:
     residue = into * out / np.maximum(overlap, np.finfo(float).tiny)
     residue = residue / (np.max(residue) or 1.0)
     into, out = into / (np.max(into) or 1.0), out / (np.max(out) or 1.0)
-    found = []
+    classified = []
     for place in np.argsort(-abs(values), kind="stable"):
         z = complex(values[place])
         moved, seen = into[place] > APART, out[place] > APART
         if residue[place] <= APART:  # the weaker side is the one that is missing
             moved, seen = moved and into[place] >= out[place], seen and out[place] > into[place]
         kind = KINDS.get((bool(moved), bool(seen)), "neither")
-        found.append(_mode(z, model.period, kind, float(into[place]), float(out[place])))
-    return tuple(found)
+        classified.append(_mode(z, model.period, kind, float(into[place]), float(out[place])))
+    return tuple(classified)
 
 
 def unseen_mode(z: complex, period: float, moved: bool, moves: bool) -> Mode:

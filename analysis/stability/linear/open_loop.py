@@ -46,7 +46,7 @@ def _opened(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
     c = -(model.cv[rows] - model.dv[np.ix_(rows, rows)] @ inside @ model.cu[rows])
     names = [port.channel.name for port in ports]
     marks = [f" at sample {sample + 1}" if samples > 1 else "" for sample in range(samples)]
-    found = StateSpace(
+    opened = StateSpace(
         a=(model.a - model.b[:, rows] @ inside @ model.cu[rows]) * scale[:, None] / scale,
         b=model.b[:, rows] @ inside * scale[:, None],
         c=c / scale,
@@ -60,7 +60,7 @@ def _opened(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
         signal_units=tuple(port.channel.unit for port in ports) * samples,
         error=0.0,
     )
-    return replace(found, error=_error(found, model, ports))
+    return replace(opened, error=_error(opened, model, ports))
 
 
 def _at_every_sample(lifted: StateSpace, model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
@@ -105,8 +105,8 @@ def _waves(lifted: StateSpace, ports: tuple[Port, ...], frequency: np.ndarray) -
     return np.einsum("fs,fsitj,ft->fij", wave.conj(), blocks, wave) / lifted.samples
 
 
-def _difference(found: np.ndarray, expected: np.ndarray) -> float:
+def _difference(actual: np.ndarray, expected: np.ndarray) -> float:
     size = np.linalg.norm(expected, axis=(1, 2))
     seen = (size > SMALLEST_GAIN) & (size < 1.0 / SMALLEST_GAIN)
-    change = np.linalg.norm(found - expected, axis=(1, 2))[seen] / size[seen]
+    change = np.linalg.norm(actual - expected, axis=(1, 2))[seen] / size[seen]
     return float(np.max(np.where(np.isfinite(change), change, 1.0), initial=0.0))

@@ -141,8 +141,8 @@ def _halve(
     response: Response, frequency: np.ndarray, value: np.ndarray, intervals: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     middle = 0.5 * (frequency[intervals] + frequency[intervals + 1])
-    found = _finite(response, middle)
-    return np.insert(frequency, intervals + 1, middle), np.insert(value, intervals + 1, found)
+    middle_values = _finite(response, middle)
+    return np.insert(frequency, intervals + 1, middle), np.insert(value, intervals + 1, middle_values)
 
 
 def _refined(response: Response, frequency: np.ndarray, value: np.ndarray, most: int) -> Curve:

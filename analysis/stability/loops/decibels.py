@@ -14,8 +14,8 @@ def decibels(factor: np.ndarray) -> np.ndarray: ...
 def decibels(factor: complex | np.ndarray) -> float | np.ndarray:
     """The size of a gain, real or complex, in dB; 0 is minus infinity."""
     with np.errstate(divide="ignore"):
-        found = 20.0 * np.log10(np.abs(factor))
-    return found if isinstance(factor, np.ndarray) else float(found)
+        level = 20.0 * np.log10(np.abs(factor))
+    return level if isinstance(factor, np.ndarray) else float(level)
 
 
 def decibel_size(factor: float) -> float:

@@ -54,15 +54,15 @@ class _Loop:
     def critical(self, turn: complex) -> list[tuple[float, complex]]:
         """Frequencies, and turn L there, at which turn L is real and negative."""
         imaginary = (turn * self.curve).imag
-        found = []
+        points = []
         for i in np.flatnonzero((imaginary[1:] < 0.0) != (imaginary[:-1] < 0.0)):
             lower, upper = self.frequency[i], self.frequency[i + 1]
             frequency = brentq(lambda w: (turn * self.linear(w)).imag, lower, upper, xtol=1e-14 * upper, rtol=1e-14)
             value = turn * self.linear(frequency)
             # a change of sign through a pole on the axis is none
             if value.real < 0.0 and abs(value.imag) < 1e-6 * abs(value):
-                found.append((frequency, value))
-        return found
+                points.append((frequency, value))
+        return points
 
     def slope(self, frequency: float) -> complex:
         """d ln L / dw."""
@@ -110,7 +110,7 @@ class _Loop:
 
 def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
     """N real: the phase of L alone gives the frequencies, then the size of N the amplitudes."""
-    found = []
+    balances = []
     for frequency, value in loop.critical(1.0 + 0j):
         wanted = 1.0 / abs(value)
 
@@ -136,15 +136,15 @@ def _real_balances(loop: _Loop) -> list[tuple[float, float]]:
         grid = np.unique(np.append(grid, tops))
         below = loop.gains(grid).real < wanted
         for i in np.flatnonzero(below[1:] != below[:-1]):
-            found.append((float(brentq(excess, grid[i], grid[i + 1], rtol=1e-13)), frequency))
-    return found
+            balances.append((float(brentq(excess, grid[i], grid[i + 1], rtol=1e-13)), frequency))
+    return balances
 
 
 def _crossing_segments(first: np.ndarray, second: np.ndarray) -> list[tuple[int, int]]:
     """Indices of the segments of two complex polylines that intersect. A jump of the angle by over pi is no segment."""
     p, r = first[:-1], np.diff(first)
     q, s = second[:-1], np.diff(second)
-    found = []
+    segments = []
     for i in np.flatnonzero(abs(r.imag) < math.pi):
         across = (np.conj(r[i]) * s).imag
         gap = q - p[i]
@@ -152,8 +152,8 @@ def _crossing_segments(first: np.ndarray, second: np.ndarray) -> list[tuple[int,
             along_first = (np.conj(gap) * s).imag / across
             along_second = (np.conj(gap) * r[i]).imag / across
         inside = (along_first >= 0.0) & (along_first < 1.0) & (along_second >= 0.0) & (along_second < 1.0)
-        found += [(int(i), int(j)) for j in np.flatnonzero(inside & (abs(s.imag) < math.pi))]
-    return found
+        segments += [(int(i), int(j)) for j in np.flatnonzero(inside & (abs(s.imag) < math.pi))]
+    return segments
 
 
 def _complex_balances(loop: _Loop) -> list[tuple[float, float]]:
@@ -168,7 +168,7 @@ def _complex_balances(loop: _Loop) -> list[tuple[float, float]]:
         value = np.log(-loop.gain(math.exp(unknown[0])) * loop.linear(math.exp(unknown[1])))
         return np.array([value.real, value.imag])
 
-    found: list[tuple[float, float]] = []
+    balances: list[tuple[float, float]] = []
     for i, j in _crossing_segments(np.log(loop.gains(grid)), np.log(-1.0 / loop.curve)):
         lower = np.log([grid[max(i - 1, 0)], w[max(j - 1, 0)]])
         upper = np.log([grid[min(i + 2, len(grid) - 1)], w[min(j + 2, len(w) - 1)]])
@@ -180,10 +180,10 @@ def _complex_balances(loop: _Loop) -> list[tuple[float, float]]:
             continue  # the chords of a curve that jumps there crossed, not the curve
         amplitude, frequency = (float(value) for value in np.exp(solution.x))
         if not any(
-            math.isclose(amplitude, a, rel_tol=1e-6) and math.isclose(frequency, f, rel_tol=1e-6) for a, f in found
+            math.isclose(amplitude, a, rel_tol=1e-6) and math.isclose(frequency, f, rel_tol=1e-6) for a, f in balances
         ):
-            found.append((amplitude, frequency))
-    return found
+            balances.append((amplitude, frequency))
+    return balances
 
 
 def predict(

@@ -94,6 +94,8 @@ def order_statistic(sizes: Sequence[float], level: float) -> float:
     return sorted(sizes)[quantile_rank(level, len(sizes))]
 
 
-def worst_of(found: Sequence[Margins]) -> int:
+def worst_of(margins: Sequence[Margins]) -> int:
     """The place of the least disk margin; among unstable loops that of the largest multiplier."""
-    return min(range(len(found)), key=lambda place: (found[place].size(Quantity.DISK), -(found[place].largest or 0.0)))
+    return min(
+        range(len(margins)), key=lambda place: (margins[place].size(Quantity.DISK), -(margins[place].largest or 0.0))
+    )

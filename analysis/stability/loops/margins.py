@@ -142,7 +142,7 @@ def highest(size: Callable[[np.ndarray], np.ndarray], frequency: np.ndarray) -> 
     """The highest value and its frequency (rad/s), refined between the points of a grid that shows every peak."""
     values = size(frequency)
     best = int(np.argmax(values))
-    found = [(float(values[best]), float(frequency[best]))]
+    candidates = [(float(values[best]), float(frequency[best]))]
     neighbours = np.concatenate([[-np.inf], values, [-np.inf]])
     before, after = neighbours[:-2], neighbours[2:]
     # of a level stretch only its ends: within it, as in a loop without gain, there is nothing to refine
@@ -156,8 +156,8 @@ def highest(size: Callable[[np.ndarray], np.ndarray], frequency: np.ndarray) -> 
             method="bounded",
             options={"xatol": 1e-9 * left},
         )
-        found.append((-float(result.fun), float(result.x)))
-    return max(found)
+        candidates.append((-float(result.fun), float(result.x)))
+    return max(candidates)
 
 
 def _at(response: Response, angular: float) -> complex:
@@ -173,13 +173,13 @@ def _roots(
     """Zeros of ``function`` between points of different sign; points within rounding of zero have none."""
     kept = np.abs(values) > _ROUNDING
     frequency, values = frequency[kept], values[kept]
-    found = []
+    roots = []
     for i in np.flatnonzero(values[1:] * values[:-1] < 0.0):
         if crossing(values[i], values[i + 1]):
             root = float(brentq(function, frequency[i], frequency[i + 1], xtol=_FINEST * frequency[i], rtol=_FINEST))
             if abs(function(root)) < 1e-3:  # else a jump, at a pole on the unit circle
-                found.append(root)
-    return found
+                roots.append(root)
+    return roots
 
 
 def _at_nyquist(response: Response, high: float, sample_period: float) -> Crossing | None:

@@ -119,8 +119,8 @@ def _descend(
     while True:
         trial = start.copy()
         trial[:, 1:] += step * length[:, None]
-        found = _norm(np.linalg.svd(_scaled(matrix, trial), compute_uv=False), half)
-        uphill = found > value + 0.1 * length * slope + 1e-15
+        norms = _norm(np.linalg.svd(_scaled(matrix, trial), compute_uv=False), half)
+        uphill = norms > value + 0.1 * length * slope + 1e-15
         if not uphill.any():
             return trial
         length[uphill] *= 0.4

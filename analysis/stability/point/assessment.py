@@ -61,7 +61,7 @@ def assess(
     while True:
         lowest = low <= LOWEST * high
         try:
-            found = classical(response, low, high, sample_period, unstable_open, undamped=undamped, include=include)
+            crossings = classical(response, low, high, sample_period, unstable_open, undamped=undamped, include=include)
             if lowest or unstable_open is None or slower(low) == 0:
                 break
         except ValueError as error:  # mostly slow poles that are not yet told from integrators
@@ -69,7 +69,7 @@ def assess(
                 raise
             if lowest:
                 notes["encirclements"] = str(error)
-                found = classical(response, low, high, sample_period, None, undamped=undamped, include=include)
+                crossings = classical(response, low, high, sample_period, None, undamped=undamped, include=include)
                 break
         low = max(LOWEST * high, LOWER * low)
     if unstable_open is not None and (left := slower(low)) and "encirclements" not in notes:
@@ -77,22 +77,23 @@ def assess(
             f"{left} unstable open-loop poles are slower than {low:.2g} rad/s: taken as integrators"
         )
     curve = dense(response, low, high, include=include)
-    return Assessment(curve, found, robust(response, low, high, include=include), notes)
+    return Assessment(curve, crossings, robust(response, low, high, include=include), notes)
 
 
-def requirements(found: Margins, limits: Limits, outside: Sequence[str] = ()) -> tuple[Requirement, ...]:
+def requirements(margins: Margins, limits: Limits, outside: Sequence[str] = ()) -> tuple[Requirement, ...]:
     """The project's limits against one loop; ``outside`` names what grows without a part in it."""
-    if found.stable is None:
-        note = "poles are not known without route A"
+    if margins.stable is None:
+        note = "poles are not known without a linearisation"
         stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, None, 1.0, None, note)
     else:
-        note = "" if found.stable else grows(outside) or "the closed loop is unstable"
-        stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, found.largest, 1.0, found.stable, note)
+        note = "" if margins.stable else grows(outside) or "the closed loop is unstable"
+        stability = Requirement(Scope.NOMINAL, Quantity.STABILITY, margins.largest, 1.0, margins.stable, note)
     wanted = {
         Quantity.GAIN: limits.gain_margin_db,
         Quantity.PHASE: limits.phase_margin_deg,
         Quantity.MODULUS: limits.modulus_margin,
     }
     return stability, *(
-        Requirement.at_least(Scope.NOMINAL, quantity, found.size(quantity), limit) for quantity, limit in wanted.items()
+        Requirement.at_least(Scope.NOMINAL, quantity, margins.size(quantity), limit)
+        for quantity, limit in wanted.items()
     )

@@ -93,5 +93,5 @@ def _flown(prepared: PreparedSystem, channel: Channel, integrated: bool) -> tupl
             half = flight.time.size // 2
             held = np.append(0.0, np.cumsum(values[:-1] * np.diff(flight.time)))
             values = held - np.polyval(np.polyfit(flight.time[half:], held[half:], 1), flight.time)
-        found = find_oscillation(flight.time, values)
-    return (found.amplitude, found.period) if found else None
+        oscillation = find_oscillation(flight.time, values)
+    return (oscillation.amplitude, oscillation.period) if oscillation else None

@@ -1,4 +1,4 @@
-"""Everything about one channel at one operating point, both routes put together."""
+"""Everything about one channel at one operating point, linearisation and frequency-response test put together."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from ..request.channels import Channel
 from ..request.declaration import Limits
 from ..results.loop import LoopReport
 from ..results.nonlinear import AmplitudePoint
-from ..results.routes import RouteB
+from ..results.responses import Measured
 from .assessment import Assessment, assess, requirements
-from .routes import DOUBTFUL, NOT_LINEAR, LoopModel, agreement, disagreement
+from .responses import DOUBTFUL, NOT_LINEAR, LoopModel, agreement, disagreement
 
 SILENT = "nothing of what is added comes back: L is 0"
 FACTORS = (0.25, 4.0, 16.0)  # of the declared amplitude, beside itself
-FIRST_LOOK = 1e-3  # of the Nyquist frequency: where a measurement without route A begins
+FIRST_LOOK = 1e-3  # of the Nyquist frequency: where a measurement without a linearisation begins
 LOOP_GAIN = 5.0  # a measurement begins low enough when the gain of its lowest line is at least this
 LINES_FROM = 10.0  # of the lowest frequency that is looked at: a fifth of the lowest gain crossover
 STEP_LENGTH = 12.0  # over the lowest crossover: length of a step response
@@ -40,29 +40,29 @@ class LoopStudy:
     limits: Limits
     notes: dict[str, str] = field(default_factory=dict)
     injector: Injector | None = None
-    measured: RouteB | None = None
+    measured: Measured | None = None
 
     def __post_init__(self) -> None:
         self.seconds = self.channel.period * self.bench.prepared.step
         self.nyquist = np.pi / self.seconds
 
     def measure(self) -> None:
-        """Route B, from well below the crossover on."""
+        """Frequency-response test, from well below the crossover on."""
         try:
             if self.model is not None:
                 self._measure_from(LINES_FROM * self.model.lowest)
                 return
             lowest = FIRST_LOOK * self.nyquist
             while True:
-                found = self._measure_from(lowest)
-                if abs(found.curve.value[0]) > LOOP_GAIN:
+                measured = self._measure_from(lowest)
+                if abs(measured.curve.value[0]) > LOOP_GAIN:
                     return
                 lowest *= 0.25
         except (NotMeasurableError, StudyError) as error:
             if self.measured is None:
-                self.notes["route B"] = str(error)
+                self.notes["frequency-response test"] = str(error)
 
-    def _measure_from(self, lowest: float) -> RouteB:
+    def _measure_from(self, lowest: float) -> Measured:
         injector = Injector(self.bench, self.channel, lowest)
         self.measured = injector.measure()
         self.injector = injector
@@ -77,22 +77,24 @@ class LoopStudy:
         return self.measured is not None and self.measured.half_amplitude_change > NOT_LINEAR
 
     def refuse_what_is_no_loop(self) -> None:
-        """Raises StudyError where nothing comes back and no pole is known, or where neither route finds it linear.
+        """Raises StudyError where nothing comes back and no pole is known, or where neither method finds it linear.
 
         Of what is not linear the error has L over the amplitude.
         """
         if self.model is None and self.measured is not None and not np.any(self.measured.curve.value):
-            raise StudyError(f"{SILENT}, and no poles are known without route A ({self.notes['route A']})")
+            raise StudyError(
+                f"{SILENT}, and no poles are known without a linearisation ({self.notes['linearisation']})"
+            )
         if self._doubtful and self.measured is None:
             assert self.model is not None
             names = ", ".join(self.model.facts.doubtful)
-            reason = self.notes.get("route B", "it is not measured")
+            reason = self.notes.get("frequency-response test", "it is not measured")
             raise StudyError(f"its derivatives have no plateau ({names}), and there is no measurement: {reason}")
         if (self._doubtful or self.model is None) and self._bent:
             assert self.injector is not None
-            found = self.amplitudes(float(np.sqrt(self.injector.frequency[0] * self.injector.frequency[-1])))
-            assert found is not None
-            points, frequency = found
+            amplitudes = self.amplitudes(float(np.sqrt(self.injector.frequency[0] * self.injector.frequency[-1])))
+            assert amplitudes is not None
+            points, frequency = amplitudes
             sizes = "; ".join(
                 f"{decibels(item.value):.2f} dB, {np.degrees(np.angle(item.value)):.1f} deg with {item.amplitude:g}"
                 for item in points
@@ -101,7 +103,7 @@ class LoopStudy:
 
     @cached_property
     def assessed(self) -> tuple[Assessment, Response]:
-        """Margins, by route A where it can be trusted, else by route B, once `measure` has run.
+        """Margins, by linearisation where it can be trusted, else by the frequency-response test, after `measure`.
 
         Raises StudyError where there is neither, or where the response is no loop's that margins could be read from.
         """
@@ -113,7 +115,7 @@ class LoopStudy:
     def _assess(self) -> tuple[Assessment, Response]:
         if self.model is not None and not (self._doubtful and self.measured is not None and not self._bent):
             undamped, include = self.model.lightly_damped()
-            found = assess(
+            assessment = assess(
                 self.model.response,
                 self.model.lowest,
                 self.nyquist,
@@ -123,23 +125,25 @@ class LoopStudy:
                 include,
                 self.model.slower,
             )
-            return found, self.model.response
+            return assessment, self.model.response
         if self.measured is None:
             raise StudyError(f"{self.channel.name}: " + "; ".join(f"{name}: {why}" for name, why in self.notes.items()))
         if self.model is not None:
             names = ", ".join(self.model.facts.doubtful)
-            self.notes["route A"] = f"its derivatives have no plateau ({names}), so margins are those of route B"
+            self.notes["linearisation"] = (
+                f"its derivatives have no plateau ({names}), so margins are those of the frequency-response test"
+            )
         curve = self.measured.curve
         response = interpolated(curve.frequency, curve.value, self.seconds)
         return assess(response, curve.frequency[0], curve.frequency[-1], self.seconds, None), response
 
     def report(self, closed: Sequence[str]) -> LoopReport:
-        """The report without what needs other flights than the two routes'."""
+        """The report without what needs other flights than the two methods'."""
         assessment, _ = self.assessed
         if not np.any(assessment.curve.value):
             self.notes["loop"] = SILENT
         # what grows outside does so whether or not the loop's own derivatives can be trusted
-        trusted = self.model is not None and ("route A" not in self.notes or self.model.outside)
+        trusted = self.model is not None and ("linearisation" not in self.notes or self.model.outside)
         model = self.model if trusted else None
         poles = np.array([mode.z for mode in model.modes]) if model else np.zeros(0, dtype=complex)
         stable = model.stable if model else None
@@ -163,18 +167,18 @@ class LoopStudy:
             modes=model.modes if model else (),
             poles_z=poles,
             structure=structure(model.model, model.port, model.facts.states) if model else None,
-            open_loop=open_loop(model.model, (model.port,)) if model and "route A" not in self.notes else None,
-            route_a=self.model.facts if self.model else None,
-            route_b=self.measured,
+            open_loop=open_loop(model.model, (model.port,)) if model and "linearisation" not in self.notes else None,
+            linearised=self.model.facts if self.model else None,
+            measured_response=self.measured,
             not_applicable={**self.notes, **assessment.notes},
             step=self._step(assessment) if model and stable else None,
         )
         report.requirements = requirements(report.margins, self.limits, report.outside)
         if self.model is not None and self.measured is not None:
-            found = agreement(self.model.response, self.measured, self.seconds)
-            report.agreement = found
-            if not found.agrees:
-                report.not_applicable["agreement"] = disagreement(found, self.model.facts, self.measured)
+            compared = agreement(self.model.response, self.measured, self.seconds)
+            report.agreement = compared
+            if not compared.agrees:
+                report.not_applicable["agreement"] = disagreement(compared, self.model.facts, self.measured)
         return report
 
     def _step(self, assessment: Assessment) -> tuple[np.ndarray, np.ndarray]:
@@ -198,14 +202,14 @@ class LoopStudy:
             return None
         peak = self.injector.peak()
         line = int(np.argmin(abs(np.log(self.injector.frequency / frequency))))
-        found = {1.0: self.measured.curve.value}
+        by_amplitude = {1.0: self.measured.curve.value}
         for factor in FACTORS:
             value = measured(self.injector, factor * peak)
             if value is not None:
-                found[factor] = value
-        reference = found[min(found)][line]
+                by_amplitude[factor] = value
+        reference = by_amplitude[min(by_amplitude)][line]
         points = tuple(
             AmplitudePoint(factor * peak, complex(value[line]), float(abs(quotient(value[line], reference) - 1.0)))
-            for factor, value in sorted(found.items())
+            for factor, value in sorted(by_amplitude.items())
         )
         return points, float(self.injector.frequency[line])

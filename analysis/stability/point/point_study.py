@@ -23,7 +23,7 @@ from ..results.report import PointReport
 from ..results.requirement import Requirement, Scope
 from .assessment import lowest_frequency
 from .loop_study import LoopStudy
-from .routes import DOUBTFUL, LoopModel, loop_model
+from .responses import DOUBTFUL, LoopModel, loop_model
 
 MOST_TRIM = 8  # of the memory that changes most
 TENTH = 0.1  # relative change of L at which the frozen view no longer holds
@@ -49,7 +49,7 @@ class PointStudy:
         return self.bench.channels
 
     def linearise(self, cells: Sequence[int] | None = None, steps: Sequence[float] = STEPS) -> None:
-        """Route A, or why it cannot be taken; ``cells`` and ``steps`` as in `linearise`."""
+        """Linearisation, or why it cannot be taken; ``cells`` and ``steps`` as in `linearise`."""
         try:
             self._start = OperatingPoint(self.bench)
             self.linear = linearise(self._start, cells, steps)
@@ -57,7 +57,7 @@ class PointStudy:
             self.why_not = str(error)
 
     def model(self, channel: Channel) -> LoopModel | None:
-        """Route A of one channel; None where there is none."""
+        """Linearisation of one channel; None where there is none."""
         if self.linear is None:
             return None
         if channel.name not in self._models:
@@ -66,7 +66,7 @@ class PointStudy:
         return self._models[channel.name]
 
     def loop_study(self, channel: Channel, limits: Limits) -> LoopStudy:
-        notes = {} if self.linear is not None else {"route A": self.why_not}
+        notes = {} if self.linear is not None else {"linearisation": self.why_not}
         return LoopStudy(self.bench, channel, self.model(channel), limits, notes)
 
     def report(self) -> PointReport:
@@ -131,26 +131,26 @@ class PointStudy:
 
         low = lowest_frequency(single, seconds)
         try:
-            found = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
+            margin = joint_disk_margin(lambda frequency: model.response(ports, frequency), low, np.pi / seconds)
         except ValueError as error:
             raise StudyError(str(error)) from error
         models = [self.model(port.channel) for port in ports]
         stable = all(item is not None and item.stable for item in models)
         wanted = {
-            Quantity.DISK_GAIN: (decibel_size(found.gain), limits.dispersed_gain_margin_db),
-            Quantity.DISK_PHASE: (degree_size(found.phase), limits.dispersed_phase_margin_deg),
+            Quantity.DISK_GAIN: (decibel_size(margin.gain), limits.dispersed_gain_margin_db),
+            Quantity.DISK_PHASE: (degree_size(margin.phase), limits.dispersed_phase_margin_deg),
         }
         return JointReport(
             name=loop.name,
             point=self.point.name,
             channels=tuple(port.channel.name for port in ports),
             stable=stable,
-            disk_margin=found.alpha,
-            disk_gain=found.gain,
-            disk_phase=found.phase,
-            disk_frequency=found.frequency,
-            frequency=found.frequencies,
-            disk_margins=found.alphas,
+            disk_margin=margin.alpha,
+            disk_gain=margin.gain,
+            disk_phase=margin.phase,
+            disk_frequency=margin.frequency,
+            frequency=margin.frequencies,
+            disk_margins=margin.alphas,
             open_loop=open_loop(model, ports) if all(map(_has_plateau, models)) else None,
             requirements=tuple(
                 Requirement.at_least(Scope.JOINT, quantity, size if stable else UNSTABLE, limit)

@@ -128,21 +128,21 @@ def _period(loop: Loop, network: Network, step: float, where: str) -> int:
 
 
 def _vector(network: Network, name: str, where: str) -> list[str]:
-    found = _connectors(network, name, where)
-    if len(found) != len(AXES):
+    connectors = _connectors(network, name, where)
+    if len(connectors) != len(AXES):
         raise InputError(network.file, where, f"{name} has not three components", "name a vector of three")
-    return found
+    return connectors
 
 
 def _connectors(network: Network, name: str, where: str) -> list[str]:
     """The Real connectors that a name stands for: its own, or those of the vector of this name."""
-    found = elements(name, network.nodes)
-    if not found:
+    connectors = elements(name, network.nodes)
+    if not connectors:
         known = [node.name for node in network.nodes.values() if node.component is not None]
         raise InputError(network.file, where, f"no connector {name}", suggestion(name, known))
-    for item in found:
+    for item in connectors:
         node = network.nodes[item]
         if node.component is None or node.kind not in ("output", "input") or node.type_name != "Real":
             problem = f"{item} is no Real input or output of a component"
             raise InputError(network.file, where, problem, "name one as component.connector")
-    return found
+    return connectors

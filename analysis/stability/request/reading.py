@@ -49,20 +49,20 @@ class _Reader(AnnotationReader):
         return Limits(**values)  # type: ignore[arg-type]
 
     def point(self, element: etree._Element) -> Point:
-        found = self.attributes(element, ("name",), ("time", "signal", "falls_to", "until", "phase"))
-        if ("signal" in found) != ("falls_to" in found) or ("signal" in found) == ("time" in found):
+        values = self.attributes(element, ("name",), ("time", "signal", "falls_to", "until", "phase"))
+        if ("signal" in values) != ("falls_to" in values) or ("signal" in values) == ("time" in values):
             raise self.refuse(element, "neither a time nor a signal that falls_to a value, or both", "give one of them")
         time, until = self.number(element, "time"), self.number(element, "until")
         if time is not None and until is not None and until <= time:
             raise self.refuse(element, f"it lasts until {until:g} s but is at {time:g} s", "give a later end")
         parts = self.parts(element, ("Use", "ParameterSet", "Set"))
         return Point(
-            name=found["name"],
+            name=values["name"],
             time=time,
-            signal=found.get("signal"),
+            signal=values.get("signal"),
             falls_to=self.number(element, "falls_to"),
             until=until,
-            phase=found.get("phase", ""),
+            phase=values.get("phase", ""),
             layer=Layer(
                 use=self.uses(parts["Use"]),
                 parameters=tuple(self.attributes(item, ("source",))["source"] for item in parts["ParameterSet"]),
@@ -76,36 +76,36 @@ class _Reader(AnnotationReader):
 
     def pairs(self, elements: list[etree._Element], key: str, value: str) -> dict[str, str]:
         """Two attributes of each element as a mapping; what is given twice is refused."""
-        found: dict[str, str] = {}
+        values: dict[str, str] = {}
         for element in elements:
             item = self.attributes(element, (key, value))
-            if item[key] in found:
+            if item[key] in values:
                 raise self.refuse(element, f"{item[key]} is given twice", "give it once")
-            found[item[key]] = item[value]
-        return found
+            values[item[key]] = item[value]
+        return values
 
     def loop(self, element: etree._Element, points: set[str]) -> Loop:
-        found = self.attributes(
+        values = self.attributes(
             element,
             ("name", "cut", "points"),
             ("direction", "direction_rate", "ahead", "returned", "period", "amplitude"),
         )
-        if ("direction_rate" in found) != ("ahead" in found) or ("ahead" in found and "direction" not in found):
+        if ("direction_rate" in values) != ("ahead" in values) or ("ahead" in values and "direction" not in values):
             raise self.refuse(element, "direction_rate and ahead come together, with a direction", "give all three")
-        names = tuple(found["points"].split())
+        names = tuple(values["points"].split())
         for name in names:
             if name not in points:
                 raise self.refuse(element, f"no point {name}", suggestion(name, points))
         if len(set(names)) < len(names):
             raise self.refuse(element, "a point is given twice", "give it once")
         return Loop(
-            name=found["name"],
-            cut=found["cut"],
+            name=values["name"],
+            cut=values["cut"],
             points=names,
-            direction=found.get("direction"),
-            direction_rate=found.get("direction_rate"),
+            direction=values.get("direction"),
+            direction_rate=values.get("direction_rate"),
             ahead=self.number(element, "ahead") or 0.0,
-            returned=found.get("returned"),
+            returned=values.get("returned"),
             period=self.number(element, "period", positive=True),
             amplitude=self.number(element, "amplitude", positive=True),
             elements=tuple(self.element(item) for item in self.parts(element, ("Element",))["Element"]),
@@ -128,11 +128,11 @@ class _Reader(AnnotationReader):
         return Element(name, kind, values, use)
 
     def sweep(self, element: etree._Element, loops: dict[str, Loop]) -> Sweep:
-        found = self.attributes(element, ("name", "loop", "point", "parameter", "low", "high"))
-        loop = loops.get(found["loop"])
-        if loop is None or found["point"] not in loop.points:
-            raise self.refuse(element, "no such loop at this point", suggestion(found["loop"], loops))
+        values = self.attributes(element, ("name", "loop", "point", "parameter", "low", "high"))
+        loop = loops.get(values["loop"])
+        if loop is None or values["point"] not in loop.points:
+            raise self.refuse(element, "no such loop at this point", suggestion(values["loop"], loops))
         low, high = self.number(element, "low"), self.number(element, "high")
         if low is None or high is None or not low < high:
             raise self.refuse(element, f"low {low} is not below high {high}", "swap them")
-        return Sweep(found["name"], found["loop"], found["point"], found["parameter"], low, high)
+        return Sweep(values["name"], values["loop"], values["point"], values["parameter"], low, high)

@@ -134,7 +134,7 @@ def _chosen(description: Description, names: Sequence[str], at: Sequence[float])
 
 def _moved(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
     """Points with the settings of declared ones at other times. Raises InputError where one lies behind their end."""
-    found = []
+    moved = []
     for point in points:
         for time in at:
             if point.until is not None and time >= point.until:
@@ -144,8 +144,8 @@ def _moved(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
                 )
             name = _name_at(point.name, time)
             phase = f"settings of {point.name}"
-            found.append(replace(point, name=name, time=time, signal=None, falls_to=None, phase=phase))
-    return found
+            moved.append(replace(point, name=name, time=time, signal=None, falls_to=None, phase=phase))
+    return moved
 
 
 def _with_settings_of(point: Point, points: Sequence[Point]) -> str:

@@ -19,7 +19,7 @@ from .document import document
 from .loop import JointReport, LoopReport
 from .mat_file import mat_bytes, struct_array
 from .report import Orders, StabilityReport
-from .routes import RouteB
+from .responses import Measured
 from .state_space import StateSpace
 
 JSON, MAT, CSV = "loops.json", "loops.mat", "responses.csv"
@@ -61,8 +61,8 @@ def _results(report: StabilityReport) -> dict[str, list[dict[str, Any]]]:
     facts = document(report)
     times = {point.name: point.time for point in report.points}
     return {
-        "loops": [_loop(loop, found, times) for loop, found in zip(report.loops, facts["loops"], strict=True)],
-        "joint": [_joint(item, found, times) for item, found in zip(report.joint, facts["joint"], strict=True)],
+        "loops": [_loop(loop, content, times) for loop, content in zip(report.loops, facts["loops"], strict=True)],
+        "joint": [_joint(item, content, times) for item, content in zip(report.joint, facts["joint"], strict=True)],
     }
 
 
@@ -76,7 +76,7 @@ def _assumption(orders: Orders) -> str:
     return words
 
 
-def _loop(loop: LoopReport, found: dict[str, Any], times: dict[str, float]) -> dict[str, Any]:
+def _loop(loop: LoopReport, entry: dict[str, Any], times: dict[str, float]) -> dict[str, Any]:
     """One channel, ``found`` being what the document says of it."""
     curves = {name: (frequency, value) for name, frequency, value in _curves(loop)}
     empty = np.zeros(0), np.zeros(0, dtype=complex)
@@ -93,7 +93,7 @@ def _loop(loop: LoopReport, found: dict[str, Any], times: dict[str, float]) -> d
         "other_loops_closed": list(loop.closed),
         "stable": "not known" if loop.stable is None else "yes" if loop.stable else "no",
         "verdict": str(loop.verdict),
-        **{key: _margin(found[key]) for key in MARGINS},
+        **{key: _margin(entry[key]) for key in MARGINS},
         "frequency_rad_s": linearised[0],
         "L": linearised[1],
         "measured_frequency_rad_s": measured[0],
@@ -103,7 +103,7 @@ def _loop(loop: LoopReport, found: dict[str, Any], times: dict[str, float]) -> d
     }
 
 
-def _joint(joint: JointReport, found: dict[str, Any], times: dict[str, float]) -> dict[str, Any]:
+def _joint(joint: JointReport, entry: dict[str, Any], times: dict[str, float]) -> dict[str, Any]:
     """All channels of one loop open at once."""
     return {
         "name": joint.name,
@@ -111,7 +111,7 @@ def _joint(joint: JointReport, found: dict[str, Any], times: dict[str, float]) -
         "time_s": times[joint.point],
         "channels": list(joint.channels),
         "stable": "yes" if joint.stable else "no",
-        "disk_margin": _margin(found["disk_margin"]),
+        "disk_margin": _margin(entry["disk_margin"]),
         **_model(joint.open_loop),
     }
 
@@ -122,33 +122,33 @@ def _margin(value: float | str | None) -> float | str:
 
 def _curves(loop: LoopReport) -> Curves:
     """The linearised and the measured response, as far as there are."""
-    route_b: RouteB | None = loop.route_b
+    measured_response: Measured | None = loop.measured_response
     curves: list[tuple[str, np.ndarray, np.ndarray]] = []
     if loop.open_loop is not None:
         curves.append((LINEARISED, loop.curve.frequency, loop.curve.value))
-    if route_b is not None:
-        curves.append((MEASURED, route_b.curve.frequency, route_b.curve.value))
+    if measured_response is not None:
+        curves.append((MEASURED, measured_response.curve.frequency, measured_response.curve.value))
     return tuple(curves)
 
 
-def _model(found: StateSpace | None) -> dict[str, Any]:
-    if found is None:
+def _model(model: StateSpace | None) -> dict[str, Any]:
+    if model is None:
         nothing = np.zeros((0, 0))
-        found = StateSpace(nothing, nothing, nothing, nothing, 0.0, 0, (), (), (), (), (), 0.0)
+        model = StateSpace(nothing, nothing, nothing, nothing, 0.0, 0, (), (), (), (), (), 0.0)
     return {
-        "A": found.a,
-        "B": found.b,
-        "C": found.c,
-        "D": found.d,
-        "model_period_s": found.period,
-        "samples": found.samples,
-        "model_error": found.error,
-        "state_names": list(found.states),
-        "state_units": [unit or "1" for unit in found.state_units],
-        "input_names": list(found.inputs),
-        "input_units": [unit or "1" for unit in found.signal_units],
-        "output_names": list(found.outputs),
-        "output_units": [unit or "1" for unit in found.signal_units],
+        "A": model.a,
+        "B": model.b,
+        "C": model.c,
+        "D": model.d,
+        "model_period_s": model.period,
+        "samples": model.samples,
+        "model_error": model.error,
+        "state_names": list(model.states),
+        "state_units": [unit or "1" for unit in model.state_units],
+        "input_names": list(model.inputs),
+        "input_units": [unit or "1" for unit in model.signal_units],
+        "output_names": list(model.outputs),
+        "output_units": [unit or "1" for unit in model.signal_units],
     }
 
 

@@ -25,11 +25,11 @@ KEYS = {
 
 
 def document(report: StabilityReport) -> dict[str, Any]:
-    """The whole report without route A's curves, ready for strict JSON.
+    """The whole report without the linearisation's curves, ready for strict JSON.
 
     No number is infinite: a margin is a number, "unstable", "unlimited", or null where it is not known.
     """
-    found: dict[str, Any] = {
+    content: dict[str, Any] = {
         "system": report.system,
         "verdict": report.verdict,
         "limits": report.limits,
@@ -41,14 +41,14 @@ def document(report: StabilityReport) -> dict[str, Any]:
         "provenance": report.provenance,
     }
     if (orders := report.orders) is not None:
-        found["feedthrough_orders"] = {
+        content["feedthrough_orders"] = {
             "undeclared": orders.undeclared,
             "direct": list(orders.direct),
             "without": list(orders.without),
             "cuts": list(orders.cuts),
             "as_feedthrough": None if orders.report is None else document(orders.report),
         }
-    return _finite(found)
+    return _finite(content)
 
 
 def _finite(value: Any) -> Any:
@@ -67,9 +67,9 @@ def _size(value: float | None) -> float | str | None:
     return {UNSTABLE: "unstable", UNLIMITED: "unlimited"}.get(value, float(value))
 
 
-def _margins(found: Margins | None) -> dict[str, Any]:
+def _margins(margins: Margins | None) -> dict[str, Any]:
     """The four margins; null where there are none to be had."""
-    return {name: _size(None if found is None else found.size(quantity)) for name, quantity in KEYS.items()}
+    return {name: _size(None if margins is None else margins.size(quantity)) for name, quantity in KEYS.items()}
 
 
 def _complex(values: np.ndarray) -> list[list[float]]:
@@ -82,7 +82,7 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
     def held(value: float) -> float | str | None:
         return _size(UNSTABLE if margins.unstable else value)
 
-    found: dict[str, Any] = {
+    entry: dict[str, Any] = {
         "name": loop.name,
         "loop": loop.loop,
         "point": loop.point,
@@ -127,18 +127,18 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
             for item in loop.amplitudes
         ],
     }
-    if loop.route_a is not None:
-        facts = loop.route_a
-        found["route_a"] = {
+    if loop.linearised is not None:
+        facts = loop.linearised
+        entry["linearised"] = {
             "states": facts.states,
             "period_s": facts.period,
             "plateau": facts.plateau,
             "doubtful": list(facts.doubtful),
             "periodicity": facts.periodicity,
         }
-    if loop.route_b is not None:
-        facts_b = loop.route_b
-        found["route_b"] = {
+    if loop.measured_response is not None:
+        facts_b = loop.measured_response
+        entry["measured_response"] = {
             "amplitude": facts_b.amplitude,
             "lines": facts_b.lines,
             "period_s": facts_b.period,
@@ -148,14 +148,14 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
             "L": _complex(facts_b.curve.value),
         }
     if loop.agreement is not None:
-        found["agreement"] = {
+        entry["agreement"] = {
             "gain_db": decibels(loop.agreement.gain),
             "phase_deg": math.degrees(loop.agreement.phase),
             "agrees": loop.agreement.agrees,
         }
     if loop.dispersion is not None:
-        found["dispersion"] = _dispersion(loop.dispersion)
-    return found
+        entry["dispersion"] = _dispersion(loop.dispersion)
+    return entry
 
 
 def _requirement(item: Requirement) -> dict[str, Any]:

@@ -10,14 +10,14 @@ from ..loops.margin_values import Margins
 from ..loops.readings import Classical, Curve, Robust
 from .nonlinear import AmplitudePoint, Nonlinearity
 from .requirement import Requirement, Verdict, combined
-from .routes import Agreement, Mode, RouteA, RouteB, Structure
+from .responses import Agreement, Linearised, Measured, Mode, Structure
 from .state_space import StateSpace
 from .varied import Dispersion, Sampled
 
 
 @dataclass
 class LoopReport:
-    """One loop at one operating point. ``curve`` is route A's, where there is one, else route B's."""
+    """One loop at one operating point. ``curve`` is the linearisation's, where there is one, else the test's."""
 
     name: str
     loop: str  # name of the declaration
@@ -39,10 +39,12 @@ class LoopReport:
     poles_z: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=complex))
     structure: Structure | None = None
     open_loop: StateSpace | None = None  # None: no linear model that can be trusted
-    route_a: RouteA | None = None
-    route_b: RouteB | None = None
+    linearised: Linearised | None = None
+    measured_response: Measured | None = None
     agreement: Agreement | None = None
-    not_applicable: dict[str, str] = field(default_factory=dict)  # "route A", "route B", ...: why not
+    not_applicable: dict[str, str] = field(
+        default_factory=dict
+    )  # "linearisation", "frequency-response test", ...: why not
     step: tuple[np.ndarray, np.ndarray] | None = None  # time (s) and response of T to a step at the cut
     amplitudes: tuple[AmplitudePoint, ...] = ()
     amplitude_frequency: float | None = None
@@ -63,13 +65,13 @@ class LoopReport:
 
     @property
     def doubted(self) -> bool:
-        """Whether the two routes differ: then nothing that was read off one of them can pass."""
+        """Whether linearised and measured response differ: then nothing that was read off one of them can pass."""
         return self.agreement is not None and not self.agreement.agrees
 
     @property
     def verdict(self) -> Verdict:
-        found = combined(self.judged)
-        return Verdict.NOT_APPLICABLE if found is Verdict.PASS and self.doubted else found
+        verdict = combined(self.judged)
+        return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and self.doubted else verdict
 
 
 @dataclass(frozen=True)

@@ -26,11 +26,11 @@ def mat_bytes(variables: Mapping[str, Any]) -> bytes:
 def struct_array(records: Sequence[Mapping[str, Any]]) -> np.ndarray:
     """Records with the same keys as a MATLAB struct array, one by n; lists of texts are cell arrays."""
     names = list(records[0]) if records else []
-    found = np.empty((1, len(records)), dtype=[(name, object) for name in names])
+    array = np.empty((1, len(records)), dtype=[(name, object) for name in names])
     for place, record in enumerate(records):
         for name, value in record.items():
-            found[name][0, place] = _cells(value) if isinstance(value, list) else value
-    return found
+            array[name][0, place] = _cells(value) if isinstance(value, list) else value
+    return array
 
 
 def _cells(texts: Sequence[str]) -> np.ndarray:

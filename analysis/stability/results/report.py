@@ -98,7 +98,7 @@ class StabilityReport:
 
     @property
     def verdict(self) -> Verdict:
-        """What could not be studied, or what the routes differ on, is not passed."""
-        found = combined([item.requirement for item in self.judged()])
+        """What could not be studied, or what linearised and measured responses differ on, is not passed."""
+        verdict = combined([item.requirement for item in self.judged()])
         open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)
-        return Verdict.NOT_APPLICABLE if found is Verdict.PASS and open_to_doubt else found
+        return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and open_to_doubt else verdict

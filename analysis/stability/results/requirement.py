@@ -48,8 +48,8 @@ class Requirement:
 
     @property
     def verdict(self) -> Verdict:
-        found = {True: Verdict.PASS, False: Verdict.FAIL, None: Verdict.NOT_APPLICABLE}[self.passed]
-        return found if self.as_feedthrough is None or self.as_feedthrough.passed is self.passed else Verdict.WITHHELD
+        verdict = {True: Verdict.PASS, False: Verdict.FAIL, None: Verdict.NOT_APPLICABLE}[self.passed]
+        return verdict if self.as_feedthrough is None or self.as_feedthrough.passed is self.passed else Verdict.WITHHELD
 
     @property
     def unit(self) -> str:

@@ -12,7 +12,7 @@ from ..injection.operating_point import OperatingPoint
 from ..linear.linearise import linearise
 from ..loops.margin_values import Margins, Quantity, worst_of
 from ..point.point_study import PointStudy
-from ..point.routes import LoopModel
+from ..point.responses import LoopModel
 from ..request.declaration import Limits, Loop, Point
 from ..request.subject import Subject
 from ..results.requirement import Requirement, Scope

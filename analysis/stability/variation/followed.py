@@ -8,7 +8,7 @@ from ..injection.bench import StudyError
 from ..linear.linearise import Linearisation
 from ..loops.margin_values import Margins
 from ..point.assessment import assess, lowest_frequency
-from ..point.routes import LoopModel, loop_model
+from ..point.responses import LoopModel, loop_model
 
 ONE_STEP = (1e-6,)  # of differences, where a plateau has been seen at the same point already
 
@@ -24,10 +24,10 @@ def margins_of(model: LoopModel) -> Margins:
     low = lowest_frequency(model.response, seconds)
     try:
         undamped, near = model.lightly_damped()
-        found = assess(model.response, low, np.pi / seconds, seconds, None, (), [*undamped, *near])
+        assessment = assess(model.response, low, np.pi / seconds, seconds, None, (), [*undamped, *near])
     except ValueError as error:
         raise StudyError(f"{model.port.channel.name}: {error}") from error
-    return Margins.of(found.classical, found.robust, model.stable, model.largest)
+    return Margins.of(assessment.classical, assessment.robust, model.stable, model.largest)
 
 
 def poles_of(model: LoopModel) -> np.ndarray:

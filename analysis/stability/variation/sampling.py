@@ -30,7 +30,7 @@ def sampled(
     how many steps are expected and done.
     """
     tell(len(FACTORS), 0)
-    found: dict[str, list[Sampled]] = {name: [] for name in names}
+    by_name: dict[str, list[Sampled]] = {name: [] for name in names}
     for factor in FACTORS:
         try:
             with PointStudy(subject.changed(step=factor * step), point, loops) as study:
@@ -41,6 +41,6 @@ def sampled(
         except (InputError, StudyError) as error:
             rows = [Sampled(factor * step, None, str(error))] * len(names)
         for name, row in zip(names, rows, strict=True):
-            found[name].append(row)
+            by_name[name].append(row)
         tell(0, 1)
-    return found
+    return by_name

@@ -87,13 +87,13 @@ def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -
     Where the loop becomes unstable in between, limits are looked for on the stable side only: a margin that is still
     above its limit there does not reach it, it ends.
     """
-    found: list[SweepCrossing] = []
+    crossings: list[SweepCrossing] = []
     if at(low).unstable and at(high).unstable:
-        return found
+        return crossings
     if at(low).unstable != at(high).unstable:
         below = at(low).unstable
         left, right = _bisected(lambda value: at(value).unstable == below, low, high)
-        found.append(SweepCrossing(Quantity.STABILITY, 0.5 * (left + right), below))
+        crossings.append(SweepCrossing(Quantity.STABILITY, 0.5 * (left + right), below))
         low, high = (right, high) if below else (low, left)
     for quantity, limit in wanted.items():
 
@@ -103,8 +103,8 @@ def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -
         below = excess(low) < 0.0
         if below != (excess(high) < 0.0):
             value = float(brentq(excess, low, high, rtol=CROSSING, xtol=CROSSING * max(abs(low), abs(high))))
-            found.append(SweepCrossing(quantity, value, below))
-    return found
+            crossings.append(SweepCrossing(quantity, value, below))
+    return crossings
 
 
 def _bisected(is_low: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:

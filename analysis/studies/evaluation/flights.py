@@ -10,7 +10,7 @@ import numpy as np
 
 from ...campaigns.draws.declared import Columns
 from ...campaigns.draws.given import ALL, GivenDraws, Streams
-from ...campaigns.fly.runner import provenance
+from ...campaigns.fly.metadata import provenance
 from ...campaigns.fly.workers.flyer import Flyer
 from ...campaigns.fly.workers.workers import FlyerPool, worker_count
 from ...campaigns.spec.campaign import Record

@@ -12,7 +12,7 @@ from loky import ProcessPoolExecutor
 
 from ...campaigns.draws.declared import Columns
 from ...campaigns.draws.given import ALL, GivenDraws, Streams
-from ...campaigns.fly.runner import provenance
+from ...campaigns.fly.metadata import provenance
 from ...campaigns.fly.workers.workers import worker_count
 from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.checks import check_draws

@@ -38,7 +38,7 @@ def stability_problems(report: StabilityReport) -> list[str]:
     lines += [withheld_line(report, subject, requirement) for subject, requirement in withheld]
     for loop in report.loops:
         if loop.doubted and loop.verdict is Verdict.NOT_APPLICABLE:
-            why = f"the routes differ, {loop.not_applicable['agreement']}"
+            why = f"linearised and measured responses differ, {loop.not_applicable['agreement']}"
             lines.append(f"loop {loop.name} at {loop.point}: not passed: {why}")
     lines += [f"{lost.what} {lost.name} at {lost.point}: not studied: {lost.reason}" for lost in report.unstudied]
     if not lines and report.verdict is not Verdict.PASS:
@@ -48,9 +48,9 @@ def stability_problems(report: StabilityReport) -> list[str]:
 
 def _failure_line(subject: LoopReport | JointReport, item: Requirement) -> str:
     where = f"{'loops' if isinstance(subject, JointReport) else 'loop'} {subject.name} at {subject.point}"
-    found = "of an unstable loop" if item.unstable else f"{item.value:.4g} {_unit(item)}".strip()
+    text = "of an unstable loop" if item.unstable else f"{item.value:.4g} {_unit(item)}".strip()
     note = f": {item.note}" if item.note else ""
-    return f"{where}: {item.title} {found} misses the limit {item.limit:g} {_unit(item)}".strip() + note
+    return f"{where}: {item.title} {text} misses the limit {item.limit:g} {_unit(item)}".strip() + note
 
 
 def _unit(item: Requirement) -> str:
@@ -58,22 +58,24 @@ def _unit(item: Requirement) -> str:
 
 
 def _words(sizes: Mapping[Quantity, float], sides: Mapping[Quantity, str] | None = None) -> str:
-    """Sizes of margins: ``12.39 dB, 44.28 deg, modulus 0.597, disk 0.761``, with words for those that are one-sided."""
+    """Sizes of margins, ``gain margin 12.39 dB, phase margin 44.28 deg``, and which of them are one-sided."""
     words = []
     for quantity, size in sizes.items():
-        name = quantity.split()[0]
         if size == UNLIMITED:
-            words.append(f"no {name} crossing")
+            words.append(f"no {quantity.split()[0]} crossing")
         else:
-            found = f"{name} {size:.3f}" if quantity.unit == "1" else f"{size:.2f} {quantity.unit}"
-            words.append(f"{found} {(sides or {}).get(quantity, '')}".strip())
+            text = f"{quantity} {size:.3f}" if quantity.unit == "1" else f"{quantity} {size:.2f} {quantity.unit}"
+            words.append(f"{text} {(sides or {}).get(quantity, '')}".strip())
     return ", ".join(words)
 
 
 def _margins(loop: LoopReport) -> str:
     margins = loop.margins
     sizes = {quantity: margins.size(quantity) for quantity in MARGINS}
-    sides = {Quantity.GAIN: "down" if margins.gain < 1.0 else "", Quantity.PHASE: "lead" if margins.phase < 0.0 else ""}
+    sides = {
+        Quantity.GAIN: "(lower)" if margins.gain < 1.0 else "",
+        Quantity.PHASE: "(lead)" if margins.phase < 0.0 else "",
+    }
     return f"unstable, spectral radius {margins.largest:.4g}" if margins.unstable else _words(sizes, sides)
 
 
@@ -81,19 +83,23 @@ def _lines(loop: LoopReport) -> Iterator[str]:
     """A loop's line, and below it one for each thing that could not be had, and one for the campaign."""
     words = _margins(loop)
     if loop.agreement is not None:
-        words += ", routes agree" if loop.agreement.agrees else ", routes differ"
+        words += (
+            ", linearised and measured responses agree"
+            if loop.agreement.agrees
+            else ", linearised and measured responses differ"
+        )
     yield f"{loop.name} at {loop.point}: {words}: {loop.verdict}"
     for name, reason in loop.not_applicable.items():
         if name != "agreement":  # which has a line of its own
             yield f"  {name}: {reason}"
     if (spread := loop.dispersion) is not None:
         if spread.unstable:
-            again = f"the worst, trial {spread.worst}, again: {spread.replay}"
-            found = f"{spread.unstable} of {spread.trials} trials unstable; {again}"
+            again = f"worst trial {spread.worst}: {spread.replay}"
+            text = f"{spread.unstable} of {spread.trials} trials unstable; {again}"
         else:
             least = {quantity: spread.levels(quantity)["least"] for quantity in MARGINS}
-            found = f"{spread.trials} trials stable, least {_words(least)}"
-        yield f"  over {Path(spread.campaign).name}: {found}"
+            text = f"{spread.trials} trials stable, minimum {_words(least)}"
+        yield f"  over {Path(spread.campaign).name}: {text}"
 
 
 def _crossing_line(sweep: SweepReport, crossing: SweepCrossing) -> str:

@@ -49,7 +49,8 @@ def systems_and_fmus(prefix: str, **_: Any) -> list[str]:
 
 
 def campaigns(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    return [*_inside(parsed_args, ".toml", stem=True), *_paths(prefix, "toml")]
+    archive = _system(parsed_args)
+    return [*(archive.campaign_names() if archive is not None else ()), *_paths(prefix, "toml")]
 
 
 def parameter_sets(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:

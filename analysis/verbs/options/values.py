@@ -87,7 +87,7 @@ def check_value(declared: Declared, value: Any) -> Any:
             )
         for each in value if declared.choices else ():
             _check_choice(declared, each)
-        return tuple(value)
+        return (value,) if isinstance(value, int | float) else tuple(value)
     if declared.kind is Kind.PAIRS and isinstance(value, Mapping):
         return dict(value)
     if declared.choices:

@@ -42,26 +42,26 @@ class CallTypes(ExpressionTypes):
 
     def infer_call(self, node: ast.Call) -> Type | None:
         """Type of a call used as a value; calls without a value are statements."""
-        found = self._value_of(node)
-        if not isinstance(found, Several):
-            return found
-        self.report(node, "several values", name=ast.unparse(node.func), got=found)
+        returned = self._value_of(node)
+        if not isinstance(returned, Several):
+            return returned
+        self.report(node, "several values", name=ast.unparse(node.func), got=returned)
         return None
 
     def infer_several(self, node: ast.expr) -> Type | Several | None:
         """Type of what is returned or assigned to several targets, which may be several values."""
         if not isinstance(node, ast.Call):
             return self.infer(node)
-        self.function.types[node] = found = self._value_of(node)
-        return found
+        self.function.types[node] = returned = self._value_of(node)
+        return returned
 
     def _value_of(self, node: ast.Call) -> Type | Several | None:
-        found = self.call(node)
-        if not isinstance(found, Function):
-            return found
-        if found.returns is None:
-            self.report(node, "number", name="the value", got=f"{found.name}, which returns None")
-        return found.returns
+        returned = self.call(node)
+        if not isinstance(returned, Function):
+            return returned
+        if returned.returns is None:
+            self.report(node, "number", name="the value", got=f"{returned.name}, which returns None")
+        return returned.returns
 
     def call(self, node: ast.Call) -> Function | Type | None:
         """Resolve a call; the callee for a kernel function, else the type of its value."""
@@ -102,13 +102,13 @@ class CallTypes(ExpressionTypes):
         """What a call means: a Python function with its class, or the name of an allowed built-in or math function."""
         source = self.function.source
         if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
-            found = find_global(source.function, node.id)
-            if isinstance(found, FunctionType):
-                return found, None
-            if found is None and hasattr(builtins, node.id):
+            value = find_global(source.function, node.id)
+            if isinstance(value, FunctionType):
+                return value, None
+            if value is None and hasattr(builtins, node.id):
                 return node.id if node.id in BUILTIN_FUNCTIONS else None, None
-            is_math = found is not None and getattr(math, getattr(found, "__name__", ""), None) is found
-            return (found.__name__ if is_math else None), None
+            is_math = value is not None and getattr(math, getattr(value, "__name__", ""), None) is value
+            return (value.__name__ if is_math else None), None
         if not isinstance(node, ast.Attribute):
             return None, None
         if source.owner is not None:
@@ -118,8 +118,8 @@ class CallTypes(ExpressionTypes):
         module = self._module(node.value)
         if module is math:
             return node.attr, None
-        found = getattr(module, node.attr, None) if module else None
-        return (found if isinstance(found, FunctionType) else None), None
+        value = getattr(module, node.attr, None) if module else None
+        return (value if isinstance(value, FunctionType) else None), None
 
     def _builtin(self, node: ast.Call, name: str) -> Type | None:
         self.function.calls[node] = BuiltinCall(name)

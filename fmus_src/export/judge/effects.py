@@ -150,15 +150,15 @@ class _Effects:
 
     def _in_order(self, nodes: list[ast.expr], conditional: bool, always: bool = False) -> Outcomes:
         """Operands evaluated from left to right; those that must not wait for later ones are hoisted."""
-        found = [self.visit(node, conditional) for node in nodes]
+        outcomes = [self.visit(node, conditional) for node in nodes]
         for position, node in enumerate(nodes):
-            mine = found[position]
-            later = [other for other in found[position + 1 :] if other and len(mine | other) > 1]
+            mine = outcomes[position]
+            later = [other for other in outcomes[position + 1 :] if other and len(mine | other) > 1]
             if mine and (always or later):
                 self.function.hoisted.add(node)
                 if conditional:
                     self.kernel.report(self.function.source, node, "conditional order")
-        return frozenset().union(*found)
+        return frozenset().union(*outcomes)
 
 
 def operands(node: ast.expr) -> list[ast.expr]:

@@ -47,12 +47,12 @@ class ExpressionTypes(VectorTypes):
     def infer(self, node: ast.expr) -> Type | None:
         """The type of an expression; every part's type is kept in the function."""
         if isinstance(node, EXPRESSIONS):
-            found = getattr(self, f"infer_{type(node).__name__.lower()}")(node)
+            inferred = getattr(self, f"infer_{type(node).__name__.lower()}")(node)
         else:
             self.refuse_syntax(node)
-            found = None
-        self.function.types[node] = found
-        return found
+            inferred = None
+        self.function.types[node] = inferred
+        return inferred
 
     def fixed_size(self, node: ast.expr) -> int | None:
         """Value of an int literal, an int constant or a length, for the size of a list or a part of one."""
@@ -63,23 +63,23 @@ class ExpressionTypes(VectorTypes):
         if node in self.function.constants:
             return self.function.constants[node].value
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "len":
-            found = self.function.types[node.args[0]]
-            return found.size if isinstance(found, List | Vector) else None
+            kind = self.function.types[node.args[0]]
+            return kind.size if isinstance(kind, List | Vector) else None
         return None
 
     def infer_condition(self, node: ast.expr) -> None:
         """Check an operand that must be a bool."""
-        found = self.infer(node)
-        if found not in (BOOL, None):
-            self.report(node, "condition", got=found)
+        kind = self.infer(node)
+        if kind not in (BOOL, None):
+            self.report(node, "condition", got=kind)
 
     def infer_constant(self, node: ast.Constant) -> Type | None:
-        found = SCALARS.get(type(node.value))
-        if found is None:
+        kind = SCALARS.get(type(node.value))
+        if kind is None:
             self.report(node, "string")
-        elif found is INT and node.value > INT64_MAX:  # type: ignore[operator]
+        elif kind is INT and node.value > INT64_MAX:  # type: ignore[operator]
             self.report(node, "int literal")
-        return found
+        return kind
 
     def infer_name(self, node: ast.Name) -> Type | None:
         if node.id in self.function.parameters:
@@ -132,8 +132,8 @@ class ExpressionTypes(VectorTypes):
     def _module(self, node: ast.expr) -> ModuleType | None:
         """The module that a name means, if it means one."""
         if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
-            found = find_global(self.function.source.function, node.id)
-            return found if isinstance(found, ModuleType) else None
+            value = find_global(self.function.source.function, node.id)
+            return value if isinstance(value, ModuleType) else None
         return None
 
     def _constant(self, node: ast.expr, module: str, name: str, value: Any) -> Type | None:
@@ -200,12 +200,12 @@ class ExpressionTypes(VectorTypes):
             self.infer_condition(node.operand)
             return BOOL
         if isinstance(node.op, ast.USub | ast.UAdd):
-            found = self.infer(node.operand)
-            minus_vector = isinstance(found, Vector) and isinstance(node.op, ast.USub)
-            if found in (FLOAT, INT) or minus_vector:
-                return found
-            if found is not None:
-                self.report(node.operand, "number", name="a sign", got=found)
+            kind = self.infer(node.operand)
+            minus_vector = isinstance(kind, Vector) and isinstance(node.op, ast.USub)
+            if kind in (FLOAT, INT) or minus_vector:
+                return kind
+            if kind is not None:
+                self.report(node.operand, "number", name="a sign", got=kind)
             return None
         self.refuse_syntax_at(node, node.op)
         return None

@@ -192,8 +192,8 @@ class Kernel:
 
     def report_at(self, path: Path, line: int, rule: str | Rule, **details: object) -> None:
         """Add a violation at a line of a file, once."""
-        found = RULES[rule] if isinstance(rule, str) else rule
-        violation = Violation(path, line, found.what.format(**details), found.remedy.format(**details))
+        text = RULES[rule] if isinstance(rule, str) else rule
+        violation = Violation(path, line, text.what.format(**details), text.remedy.format(**details))
         if violation not in self.violations:
             self.violations.append(violation)
 

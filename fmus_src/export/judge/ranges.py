@@ -57,9 +57,9 @@ class _Ranges:
             rounds += 1
             changed = False
             for node in parts:
-                for name, found in self._assigned(node):
-                    before = self.function.ranges.get(name, found)
-                    after = before.join(found)
+                for name, interval in self._assigned(node):
+                    before = self.function.ranges.get(name, interval)
+                    after = before.join(interval)
                     if after != before and rounds > ROUNDS_BEFORE_WIDENING:
                         after = INT64
                     if after != self.function.ranges.get(name):
@@ -150,10 +150,10 @@ class _Ranges:
     def _judge_index(self, node: ast.Subscript) -> None:
         container = self.function.types[node.value]
         assert isinstance(container, List | Vector)
-        found = self.of(node.slice)
-        if not found.within(Interval(0, container.size - 1)):
+        interval = self.of(node.slice)
+        if not interval.within(Interval(0, container.size - 1)):
             self.function.unproven.add(node)
-        if found.high < -container.size or found.low >= container.size:
+        if interval.high < -container.size or interval.low >= container.size:
             self.kernel.report(
                 self.function.source,
                 node,
@@ -178,13 +178,13 @@ class _Ranges:
     def _pass_on(self, callee: Function, arguments: list[ast.expr]) -> None:
         for (name, kind), argument in zip(callee.parameters.items(), arguments, strict=True):
             if kind is INT:
-                found = self.of(argument)
-                callee.parameter_ranges[name] = callee.parameter_ranges.get(name, found).join(found)
+                interval = self.of(argument)
+                callee.parameter_ranges[name] = callee.parameter_ranges.get(name, interval).join(interval)
 
 
 def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:
     """For each read of a loop's variable inside the loop, where nothing else assigns it there: the loop's range."""
-    found: dict[ast.expr, ast.Call] = {}
+    by_read: dict[ast.expr, ast.Call] = {}
     loops = [node for node in ast.walk(function.source.node) if isinstance(node, ast.For)]
     for loop in loops:  # outer loops first, so that inner ones overwrite them
         if isinstance(loop.target, ast.Name) and isinstance(loop.iter, ast.Call):
@@ -192,13 +192,13 @@ def _loops_of_reads(function: Function) -> dict[ast.expr, ast.Call]:
             uses = [part for child in loop.body for part in ast.walk(child)]
             named = [part for part in uses if isinstance(part, ast.Name) and part.id == name]
             if all(isinstance(part.ctx, ast.Load) for part in named):
-                found |= dict.fromkeys(named, loop.iter)
-    return found
+                by_read |= dict.fromkeys(named, loop.iter)
+    return by_read
 
 
-def _clamp(found: Interval) -> Interval:
+def _clamp(interval: Interval) -> Interval:
     """Values beyond 64 bits end the call, so no variable ever holds them."""
-    return Interval(min(max(found.low, INT64.low), INT64.high), max(min(found.high, INT64.high), INT64.low))
+    return Interval(min(max(interval.low, INT64.low), INT64.high), max(min(interval.high, INT64.high), INT64.low))
 
 
 def _combine(operator: ast.operator, left: Interval, right: Interval) -> Interval:

@@ -61,8 +61,8 @@ def find_method(block_class: type, name: str, after: type | None = None) -> tupl
         order = order[order.index(after) + 1 :]
     for owner in order:
         if name in vars(owner):
-            found = vars(owner)[name]
-            return (found, owner) if isinstance(found, FunctionType) else None
+            method = vars(owner)[name]
+            return (method, owner) if isinstance(method, FunctionType) else None
     return None
 
 
@@ -102,11 +102,11 @@ def comments_of(path: Path) -> dict[int, str]:
 
 @cache
 def _comments(text: str) -> dict[int, str]:
-    found = {}
+    comments = {}
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT and token.line.strip() == token.string:
-            found[token.start[0]] = token.string.lstrip("# ").replace("*/", "* /")
-    return found
+            comments[token.start[0]] = token.string.lstrip("# ").replace("*/", "* /")
+    return comments
 
 
 def _tree(path: Path) -> ast.Module:

@@ -39,8 +39,8 @@ class StatementTypes(CallTypes):
 
     def check_expr(self, node: ast.Expr) -> None:
         if isinstance(node.value, ast.Call):
-            found = self.call(node.value)
-            if not isinstance(found, Function) and found is not None:
+            returned = self.call(node.value)
+            if not isinstance(returned, Function) and returned is not None:
                 self.report(node, "no effect")
         elif isinstance(node.value, ast.Constant):
             self.report(node, "no effect")
@@ -67,32 +67,32 @@ class StatementTypes(CallTypes):
         if is_list_binding(value):
             self.bind_list(node, target, value)
             return
-        found = self.infer(value)
-        if isinstance(found, List):
+        kind = self.infer(value)
+        if isinstance(kind, List):
             name = ast.unparse(target)
             if is_self_attribute(target) and isinstance(self.infer(target), Vector):
                 self.report(node, "list stored", name=name)
                 return
             self.report(node, "list shared" if name in self.bound else "list rebound", name=name)
             return
-        self.store(target, found)
+        self.store(target, kind)
 
     def unpack(self, node: ast.stmt, targets: list[ast.expr], value: ast.expr) -> None:
         """Check ``a, b = function(...)`` and ``x, y, z = v``."""
         if isinstance(value, ast.Tuple | ast.List):
             self.report(node, "one target")
             return
-        found = self.infer_several(value)
-        if isinstance(found, Several):
-            kinds: list[Scalar | Vector] = list(found.parts)
-        elif isinstance(found, Vector):
-            kinds = [FLOAT] * found.size
+        unpacked = self.infer_several(value)
+        if isinstance(unpacked, Several):
+            kinds: list[Scalar | Vector] = list(unpacked.parts)
+        elif isinstance(unpacked, Vector):
+            kinds = [FLOAT] * unpacked.size
         else:
-            if found is not None:
+            if unpacked is not None:
                 self.report(node, "one target")
             return
         if len(kinds) != len(targets):
-            self.report(node, "number of targets", targets=len(targets), got=found)
+            self.report(node, "number of targets", targets=len(targets), got=unpacked)
             return
         for target, kind in zip(targets, kinds, strict=True):
             if isinstance(target, ast.Name) and target.id == UNUSED:
@@ -102,12 +102,12 @@ class StatementTypes(CallTypes):
             else:
                 self.report(target, "target")
 
-    def store(self, target: ast.expr, found: Type | None) -> None:
+    def store(self, target: ast.expr, kind: Type | None) -> None:
         """Check that a scalar of the given type can go to a target."""
         if isinstance(target, ast.Name):
             expected = self.function.parameters.get(target.id) or self.function.locals.get(target.id)
-            if expected is None and found is not None:
-                self.function.locals[target.id] = found
+            if expected is None and kind is not None:
+                self.function.locals[target.id] = kind
         elif self._is_component(target):
             self.report(target, "component assigned", name=ast.unparse(target.value))  # type: ignore[attr-defined]
             return
@@ -124,8 +124,8 @@ class StatementTypes(CallTypes):
             return
         if isinstance(expected, List):
             self.report(target, "list rebound", name=ast.unparse(target))
-        elif expected is not None and found is not None and found != expected:
-            self.report(target, "type change", name=ast.unparse(target), before=expected, after=found)
+        elif expected is not None and kind is not None and kind != expected:
+            self.report(target, "type change", name=ast.unparse(target), before=expected, after=kind)
 
     def _is_component(self, target: ast.expr) -> bool:
         """Whether a target is an element or a component of a vector."""
@@ -165,11 +165,11 @@ class StatementTypes(CallTypes):
             return
         if any(isinstance(part, ast.Name) and part.id == target.id for item in items for part in ast.walk(item)):
             self.report(node, "list replaces itself", name=target.id)
-        found = List(kinds.pop(), size)  # type: ignore[arg-type]
-        before = self.function.locals.setdefault(target.id, found)
-        if before != found:
-            self.report(node, "type change", name=target.id, before=before, after=found)
-        self.function.types[value] = found
+        bound = List(kinds.pop(), size)  # type: ignore[arg-type]
+        before = self.function.locals.setdefault(target.id, bound)
+        if before != bound:
+            self.report(node, "type change", name=target.id, before=before, after=bound)
+        self.function.types[value] = bound
 
     def check_if(self, node: ast.If) -> None:
         self.infer_condition(node.test)
@@ -188,9 +188,9 @@ class StatementTypes(CallTypes):
             self.report(node, "for range")
         else:
             for argument in call.args:
-                found = self.infer(argument)
-                if found not in (INT, None):
-                    self.report(argument, "argument type", name="range", expected=INT, argument="a bound", got=found)
+                kind = self.infer(argument)
+                if kind not in (INT, None):
+                    self.report(argument, "argument type", name="range", expected=INT, argument="a bound", got=kind)
             if len(call.args) == 3 and not range_step(call):
                 self.report(call, "range step")
             self.store(node.target, INT)
@@ -205,16 +205,16 @@ class StatementTypes(CallTypes):
                 if None not in kinds:
                     self.report(node, "return value", got="a list", expected=self.function.returns)
                 return
-            found: Type | Several | None = Several(tuple(kinds))  # type: ignore[arg-type]
-            self.function.types[node.value] = found
+            returned: Type | Several | None = Several(tuple(kinds))  # type: ignore[arg-type]
+            self.function.types[node.value] = returned
         else:
-            found = self.infer_several(node.value) if node.value is not None else None
-        if node.value is not None and found is None:
+            returned = self.infer_several(node.value) if node.value is not None else None
+        if node.value is not None and returned is None:
             return
-        if self.function.returns == ANY_VECTOR and isinstance(found, Vector):
-            self.function.returns = found  # of the size that it turns out to have
-        if found != self.function.returns:
-            self.report(node, "return value", got=found, expected=self.function.returns)
+        if self.function.returns == ANY_VECTOR and isinstance(returned, Vector):
+            self.function.returns = returned  # of the size that it turns out to have
+        if returned != self.function.returns:
+            self.report(node, "return value", got=returned, expected=self.function.returns)
 
 
 def is_list_binding(value: ast.expr) -> bool:

@@ -22,11 +22,11 @@ def typed_kernel(block_class: type[Block]) -> Kernel:
     if not block_class.variables:
         kernel.report_block("no variables")
     for name, types in (("initialize", []), ("step", [FLOAT, FLOAT])):
-        found = find_method(block_class, name)
-        if found is None or (name, found[1]) == ("step", Block):
+        method = find_method(block_class, name)
+        if method is None or (name, method[1]) == ("step", Block):
             kernel.report_block(f"no {name}")
         else:
-            setattr(kernel, name, finder.find(*found, None, None, types))
+            setattr(kernel, name, finder.find(*method, None, None, types))
     return kernel
 
 
@@ -55,7 +55,7 @@ class _Finder:
         parameters = self._parameters(source, caller, call, types)
         if parameters is None:
             return None
-        key = (function, owner, tuple(found for found in parameters.values() if isinstance(found, List | Vector)))
+        key = (function, owner, tuple(kind for kind in parameters.values() if isinstance(kind, List | Vector)))
         if key in self.under_way:
             self.kernel.report(source, source.node, "recursion", name=source.name)
             return None
@@ -125,13 +125,13 @@ class _Finder:
             parts = [_annotation(part) for part in several]
             if len(parts) > 1 and all(isinstance(part, Scalar | Vector) and part != ANY_VECTOR for part in parts):
                 return Several(tuple(parts))  # type: ignore[arg-type]
-            found = None
+            returned = None
         else:
-            found = _annotation(annotation)
-        if not isinstance(found, Scalar | Vector):
+            returned = _annotation(annotation)
+        if not isinstance(returned, Scalar | Vector):
             self.kernel.report(source, source.node, "return type", name=source.name)
             return None
-        return found
+        return returned
 
 
 def _fits(given: Type, declared: Scalar | Vector | str) -> bool:

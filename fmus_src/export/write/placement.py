@@ -41,13 +41,13 @@ class Placement:
         for loop in loops:
             assert isinstance(loop.target, ast.Name)
             by_name.setdefault(loop.target.id, []).append(loop)
-        for name, found in by_name.items():
-            inside = [part for loop in found for child in loop.body for part in ast.walk(child)]
+        for name, same_target in by_name.items():
+            inside = [part for loop in same_target for child in loop.body for part in ast.walk(child)]
             reads = {part for part in ast.walk(root) if _is_use(part, name, ast.Load)}
             stores = {part for part in ast.walk(root) if _is_use(part, name, ast.Store)}
             nested = any(_is_use(part, name, ast.Store) for part in inside)
-            if reads <= set(inside) and stores == {loop.target for loop in found} and not nested:
-                self.plain_loops |= set(found)
+            if reads <= set(inside) and stores == {loop.target for loop in same_target} and not nested:
+                self.plain_loops |= set(same_target)
 
     def _collect(self, statements: list[ast.stmt], outer: Path) -> None:
         block = id(statements)

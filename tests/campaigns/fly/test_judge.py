@@ -15,7 +15,7 @@ from perilune.analysis.campaigns.spec.checks import VariantNames
 from perilune.analysis.campaigns.spec.drawn import DrawnTrials
 from perilune.analysis.campaigns.spec.file import parse_campaign
 from perilune.analysis.campaigns.spec.metrics import evaluate_metric
-from perilune.analysis.campaigns.spec.toml_table import Table
+from perilune.analysis.campaigns.spec.toml.table import Table
 from perilune.analysis.runtime.flight.results import Flight
 
 TEXT = """

@@ -14,7 +14,7 @@ import pytest
 
 import perilune
 from perilune.analysis.campaigns.draws.table import draw_table
-from perilune.analysis.campaigns.fly.results import batch_digest
+from perilune.analysis.campaigns.fly.metadata import batch_digest
 from perilune.analysis.campaigns.fly.runner import run_batch
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.file import read_campaign

@@ -7,7 +7,7 @@ import pytest
 
 from perilune.analysis.campaigns.spec.campaign import Campaign
 from perilune.analysis.campaigns.spec.file import parse_campaign
-from perilune.analysis.campaigns.spec.toml_table import Table
+from perilune.analysis.campaigns.spec.toml.table import Table
 
 HEAD = 'system = "s"\ntrials = {trials}\nseed = {seed}\n[success]\nexpression = "1"\n'
 

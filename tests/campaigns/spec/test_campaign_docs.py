@@ -8,12 +8,12 @@ import numpy as np
 import perilune
 from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.analysis.campaigns.spec.campaign import REDUCTIONS, TRACES
-from perilune.analysis.campaigns.spec.distributions import DISTRIBUTIONS
+from perilune.analysis.campaigns.spec.distributions.reading import DISTRIBUTIONS
 from perilune.analysis.campaigns.spec.expressions import FUNCTIONS
 from perilune.analysis.campaigns.spec.faults import KEYS
 from perilune.analysis.campaigns.spec.file import REDUCTION_OF, SCATTER
 from perilune.analysis.campaigns.spec.requirements import KEYS as REQUIREMENT
-from perilune.analysis.campaigns.spec.requirements import SIDES, TOGETHER
+from perilune.analysis.campaigns.spec.requirements import SIDES
 from perilune.analysis.runtime.system.fault import KINDS
 
 TEXT = (Path(__file__).parents[3] / "docs" / "campaigns.md").read_text(encoding="utf-8")
@@ -33,9 +33,9 @@ def test_the_example_is_a_campaign(parse):
 
 def test_every_word_is_documented():
     words = set(re.findall(r"[a-z_0-9]+", " ".join(re.findall(r"`([^`\n]+)`", TEXT))))
-    keys = {key for arguments, _ in DISTRIBUTIONS.values() for key in arguments}
+    keys = {key for kind in DISTRIBUTIONS.values() for key in kind.keys}
     assert {*DISTRIBUTIONS, *keys, *REDUCTIONS, *REDUCTION_OF, *TRACES, *FUNCTIONS, *KINDS, *KEYS, *SCATTER} <= words
-    assert {*REQUIREMENT, *SIDES, *TOGETHER, *TOGETHER.values()} <= words
+    assert {*REQUIREMENT, *SIDES} <= words
 
 
 def test_the_requirements_of_the_example(campaign):

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 import perilune
 from perilune.analysis.campaigns.draws.table import draw_table
 from perilune.analysis.campaigns.spec.campaign import Campaign
+from perilune.analysis.campaigns.spec.distributions.discrete import Grid
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.sweeps import part_sweeps, with_sweeps
 from perilune.analysis.cli import main
@@ -29,7 +30,7 @@ ONE = {"guidance": ["analytic_guidance"]}
 
 
 def grid(campaign):
-    return {draw.name: draw.arguments["values"] for draw in campaign.draws if draw.distribution == "grid"}
+    return {draw.name: draw.distribution.values for draw in campaign.draws if isinstance(draw.distribution, Grid)}
 
 
 @given(st.integers(-2000, 2000), st.integers(1, 300), st.integers(1, 60), st.integers(0, 299), st.integers(0, 3))

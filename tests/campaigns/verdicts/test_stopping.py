@@ -162,7 +162,7 @@ def test_systems_off_the_limit_are_decided():
 
 
 def test_flights_that_99_87_at_90_takes():
-    """What docs/campaigns.md says of it, by the recursion of this file."""
+    """What docs/theory/stopping.md says of it, by the recursion of this file."""
     assert RULE.look == 100
     assert RULE.flights_to_meet(0, 0) == {0: 2300, 1: 4000, 2: 5600}
     assert RULE.flights_to_meet(2000, 1) == {0: 2000, 1: 3600, 2: 5200}

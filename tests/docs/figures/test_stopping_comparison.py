@@ -1,4 +1,4 @@
-"""docs.figures.stopping_comparison: the tables of docs/campaigns.md.
+"""docs.figures.stopping_comparison: the tables of docs/theory/stopping.md.
 
 Truth: campaigns flown by dice, many of each kind; the page.
 """
@@ -35,6 +35,6 @@ def test_courses_are_those_of_campaigns_flown(compared, place, rate):
 def test_the_page_has_what_is_printed(capsys):
     main()
     printed = capsys.readouterr().out
-    page = (ROOT / "docs" / "campaigns.md").read_text(encoding="utf-8").replace("20 000", "20000")
+    page = (ROOT / "docs" / "theory" / "stopping.md").read_text(encoding="utf-8").replace("20 000", "20000")
     for line in printed.splitlines():
         assert line in page

@@ -14,7 +14,7 @@ from perilune.analysis.reports.common.quantities import NONE
 from perilune.analysis.reports.stability.parts import classical, modes
 from perilune.analysis.reports.stability.words import left_out
 from perilune.analysis.stability.loops.encirclements import encirclements
-from perilune.analysis.stability.results.routes import Mode
+from perilune.analysis.stability.results.responses import Mode
 
 
 def plain(markup):

@@ -31,7 +31,7 @@ from perilune.analysis.stability.loops.margin_values import UNLIMITED, UNSTABLE,
 from perilune.analysis.stability.loops.readings import Classical, Curve
 from perilune.analysis.stability.results.report import StabilityReport
 from perilune.analysis.stability.results.requirement import Requirement, Scope
-from perilune.analysis.stability.results.routes import Mode
+from perilune.analysis.stability.results.responses import Mode
 from tests.support.lengths import either
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.loops.exact_systems import late_double_integrator
@@ -135,7 +135,7 @@ def test_what_is_not_applicable_is_said_with_its_reason(report, page, studies, t
     for part, reason in reasons:
         assert f"{part} is not applicable: {reason}" in text
     for words in (
-        "poles are not known without route A",
+        "poles are not known without a linearisation",
         "not counted",
         "Not part of this study for late: nonlinear elements.",
         "no lasting oscillation",
@@ -315,8 +315,8 @@ def extreme(studies):
     zero = replace(loop.classical, gain=(*loop.classical.gain, start))
     bare = replace(
         loop, name="bare", classical=zero, curve=Curve(np.array([0.1, 1.0]), np.array([1.0 + 0j, 0.5 - 0.5j])),
-        route_a=None, route_b=None, agreement=None, modes=(), poles_z=np.zeros(0), structure=None, step=None,
-        nonlinearities=(), sampling=(), requirements=(), dispersion=None,
+        linearised=None, measured_response=None, agreement=None, modes=(), poles_z=np.zeros(0), structure=None,
+        step=None, nonlinearities=(), sampling=(), requirements=(), dispersion=None,
     )  # fmt: skip
     point = replace(studies.late.points[0], drift=None, holds=None)
     return StabilityReport("x", {"faults": [], "seed": None}, {}, (point,), (free, bare), (), (), (), 0.0)

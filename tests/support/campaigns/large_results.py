@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from perilune.analysis.campaigns.fly.results import batch_digest
+from perilune.analysis.campaigns.fly.metadata import batch_digest
 from perilune.analysis.campaigns.fly.shards.files import write_shard
 from tests.support.pages.comparison_samples import sample_batch
 

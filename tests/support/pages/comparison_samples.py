@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from perilune.analysis.campaigns.fly.results import BatchResult, make_result
+from perilune.analysis.campaigns.fly.results import BatchResult
 from perilune.analysis.campaigns.fly.shards.files import write_draws
 from perilune.analysis.campaigns.spec.file import parse_campaign
 from perilune.analysis.campaigns.spec.plan import BatchPlan
-from perilune.analysis.campaigns.spec.toml_table import Table
+from perilune.analysis.campaigns.spec.toml.table import Table
 from perilune.analysis.campaigns.trials import Trials
 from perilune.analysis.runtime.system.options import SystemOptions
 
@@ -172,7 +172,7 @@ def sample_batch(
         "fmus": {variant: {"ship": DIGEST, "pilot": variant.ljust(64, "0")} for variant in variants},
     } | facts(campaign, variants, targets)  # fmt: skip
     drawn = plan.draws.columns
-    return make_result(plan, {name: replace(rows, draws=drawn) for name, rows in found.items()}, provenance)
+    return BatchResult(plan, {name: replace(rows, draws=drawn) for name, rows in found.items()}, provenance)
 
 
 def write_sample(folder: Path, **options) -> BatchResult:

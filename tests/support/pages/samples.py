@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from perilune.analysis.campaigns.fly.results import BatchResult, make_result
+from perilune.analysis.campaigns.fly.results import BatchResult
 from perilune.analysis.campaigns.spec.file import parse_campaign
 from perilune.analysis.campaigns.spec.plan import BatchPlan
-from perilune.analysis.campaigns.spec.toml_table import Table
+from perilune.analysis.campaigns.spec.toml.table import Table
 from perilune.analysis.campaigns.trials import Trials
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.runtime.system.options import SystemOptions
@@ -129,7 +129,7 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
     }
     plan = BatchPlan("ship", campaign, SystemOptions())
     drawn = plan.draws.columns
-    return make_result(plan, {name: replace(rows, draws=drawn) for name, rows in found.items()}, provenance)
+    return BatchResult(plan, {name: replace(rows, draws=drawn) for name, rows in found.items()}, provenance)
 
 
 def grouped_batch(trials: int = 60) -> BatchResult:

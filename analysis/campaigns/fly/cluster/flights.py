@@ -12,7 +12,7 @@ from typing import Any
 from ....common.errors import InputError
 from ....runtime.flight.interruptible import PATIENCE
 from ...trials import Trials
-from ..runner import Campaign
+from ..campaign import Campaign
 from ..shards.parts import Parts
 from ..workers.workers import WorkersDiedError
 from . import work

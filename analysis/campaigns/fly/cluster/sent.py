@@ -10,12 +10,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ....common.errors import InputError
+from ..campaign import Campaign
 from ..manifest.contents import stored
 from ..manifest.gather import gather
 from ..manifest.manifest import CONTENTS, Manifest
-from ..runner import Campaign
 from ..shards.files import DRAWS, write_draws
-from ..workers.engines import in_threads
+from ..workers.workers import in_threads
 from .identity import Identity, identity
 
 

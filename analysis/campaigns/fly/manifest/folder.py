@@ -27,7 +27,7 @@ def begin(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: Ba
     return manifest
 
 
-def go_on(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> Manifest:
+def resume_folder(folder: Path, manifest: Manifest, contents: dict[str, bytes], plan: BatchPlan) -> Manifest:
     """A folder that holds this campaign already, or its first trials. Raises InputError for another one."""
     held = read_manifest(folder)
     manifest = replace(manifest, shard_size=held.shard_size)  # which followed from fewer trials

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import chdir
 from dataclasses import asdict
 from importlib.metadata import version
@@ -17,6 +17,7 @@ from ....runtime.flight.instances.reset_check import reset_verdict
 from ....runtime.ssp.archive import SystemArchive
 from ....runtime.system.prepared import PreparedSystem
 from ...spec.plan import BatchPlan
+from ...spec.toml.source import CampaignSource
 from ..shards.numbering import shard_size
 from .contents import name_of
 from .manifest import Manifest
@@ -29,6 +30,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
 
     ``systems`` are those of `check_plan`, by variant. FMUs that are not ours have their reset tried here, once.
     """
+    assert plan.source is not None  # a plan that was read from a file has one
     first = next(iter(systems.values()))
     contents: dict[str, bytes] = {}
 
@@ -60,7 +62,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         elsewhere=elsewhere,
         campaign={
             "label": campaign.file,
-            "content": keep(plan.campaign_data, campaign.file),
+            **_source(plan.source, keep),
             "compare": {slot: list(names) for slot, names in campaign.compare.items()},
             "compared_by": plan.compared_by,
             **({"sweep": dict(campaign.sweeps)} if campaign.sweeps else {}),
@@ -81,6 +83,13 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         shard_size=shard_size(campaign.trials),
     )
     return manifest, contents
+
+
+def _source(source: CampaignSource, keep: Callable[[bytes, str], str]) -> dict[str, Any]:
+    """The contents of a campaign's file, and of those that it extends."""
+    extends = [{"label": part.label, **_source(part, keep)} for part in source.extends]
+    own = {"content": keep(source.data, source.label)}
+    return own | {"extends": extends, "position": source.position} if extends else own
 
 
 def _system(archive: SystemArchive) -> dict[str, Any]:

@@ -60,12 +60,17 @@ class Manifest:
 
     def names(self) -> list[str]:
         """The contents that it names, each once."""
-        tables = [table["content"] for table in (self.campaign, self.series, self.draws) if table is not None]
-        return sorted({*self.system["files"].values(), *self.elsewhere.values(), *tables})
+        tables = [table["content"] for table in (self.series, self.draws) if table is not None]
+        return sorted({*self.system["files"].values(), *self.elsewhere.values(), *_contents(self.campaign), *tables})
 
     def write(self, folder: Path) -> None:
         """Write it to ``folder``/manifest.json."""
         write_atomically(folder / FILE, f"{json.dumps(self.document(), indent=1)}\n".encode())
+
+
+def _contents(campaign: Mapping[str, Any]) -> list[str]:
+    """The contents of a campaign's file, and of those that it extends."""
+    return [campaign["content"], *(name for part in campaign.get("extends", []) for name in _contents(part))]
 
 
 def read_manifest(folder: Path) -> Manifest:

@@ -16,8 +16,10 @@ from ....runtime.system.in_flight.series import InputSeries
 from ....runtime.system.in_flight.watch import Watch
 from ....runtime.system.options import SystemOptions
 from ...draws.given import GivenDraws, part_streams
-from ...spec.plan import BatchPlan, campaign_of
+from ...spec.file import parse_campaign
+from ...spec.plan import BatchPlan
 from ...spec.sweeps import with_sweeps
+from ...spec.toml.source import CampaignSource
 from ..shards.draws import stored_draws
 from .contents import stored
 from .manifest import CONTENTS, Manifest
@@ -30,9 +32,9 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
     where that is another.
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
-    content = stored(contents, manifest.campaign["content"])
+    source = _source(contents, manifest.campaign)
     read = replace(
-        campaign_of(content.read_bytes(), manifest.campaign["label"]),
+        parse_campaign(source.table()),
         trials=manifest.trials,
         seed=manifest.seed,
         compare={slot: tuple(names) for slot, names in manifest.campaign["compare"].items()},
@@ -45,38 +47,43 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
         manifest.system["label"],
         campaign,
         SystemOptions(**options, folder=str(contents)),
-        content.stem,
+        source.sha256,
         faults=tuple(parse_fault(text) for text in manifest.faults),
         series=None if manifest.series is None else _series(contents, manifest.series),
         watch=Watch(manifest.timeout, log),
         compared_by=manifest.campaign["compared_by"],
-        campaign_data=content.read_bytes(),
+        source=source,
         until_decided=manifest.until_decided,
         archive=_archive(contents, manifest),
     )
     if manifest.draws is not None:
         plan = plan.of_samples(_given(contents, manifest.draws)).of_first(manifest.trials)
     elif not plan.is_counted:
-        held = stored_draws((draws or folder).absolute(), manifest.trials, plan.campaign.drawn_names())
-        plan.__dict__["draws"] = held  # in cached_property's place: drawn anew they could differ
+        stored_table = stored_draws((draws or folder).absolute(), manifest.trials, plan.campaign.drawn_names())
+        plan = replace(plan, known_draws=stored_table)  # made anew they could differ
     for digest, verdict in manifest.resets.items():
         known(digest, ResetVerdict(**verdict))
     return plan
 
 
+def _source(contents: Path, campaign: Mapping[str, Any]) -> CampaignSource:
+    extends = tuple(_source(contents, part) for part in campaign.get("extends", []))
+    data = stored(contents, campaign["content"]).read_bytes()
+    return CampaignSource(campaign["label"], data, extends, campaign.get("position", 0))
+
+
 def _archive(contents: Path, manifest: Manifest) -> SystemArchive:
     system: Mapping[str, Any] = manifest.system
     files = {name: stored(contents, content) for name, content in system["files"].items()}
-    archive = SystemArchive(
+    return SystemArchive(
         name=system["name"],
         label=system["label"],
         path=contents if system["fmu"] is None else files[system["fmu"]],
         files=files,
         description=system["description"],
         elsewhere={asked: stored(contents, content) for asked, content in manifest.elsewhere.items()},
+        known_digest=system["sha256"],  # without the files that were read in addition to its list of files
     )
-    archive.__dict__["digest"] = system["sha256"]  # as it was computed, without what was read besides its list of files
-    return archive
 
 
 def _series(contents: Path, series: Mapping[str, str]) -> InputSeries:

@@ -20,14 +20,16 @@ from typing import Any, TypeVar
 from loky import ProcessPoolExecutor, cpu_count
 from loky.process_executor import TerminatedWorkerError
 
-from ....common.errors import InputError, warn_in_one_line
+from ....common.errors import InputError, suggestion, warn_in_one_line
 from ....common.process_end import leave
 from ....runtime.flight.interruptible import PATIENCE, wait
+from ....runtime.system.prepared import PreparedSystem
 from ...spec.plan import BatchPlan
 from .crash_report import LastWords, hung_trials
 from .flyer import Flyer
 
 Result = TypeVar("Result")
+ENGINES = ("threads", "processes")
 WAITING = 4  # tasks that are handed out ahead, for each worker
 LOOK_UP = 1.0  # s, between looks at whether the process that is worked for is there
 MOST_DEATHS = 3  # of workers in a row, without a task done
@@ -37,6 +39,19 @@ _flyers: list[Flyer] = []  # of this process's threads
 
 class WorkersDiedError(RuntimeError):
     """Workers end one after the other, before they have done anything, or none is left."""
+
+
+def in_threads(systems: Iterable[PreparedSystem], engine: str | None) -> bool:
+    """Whether trials fly in threads: as asked, or wherever they can. Raises InputError where they cannot."""
+    can = all(prepared.flies_in_threads for prepared in systems)
+    if engine is None:
+        return can
+    if engine not in ENGINES:
+        raise InputError("`engine`", engine, "unknown", suggestion(engine, ENGINES))
+    if engine == "threads" and not can:
+        problem = "Python FMUs, and those of which a process can hold one instance, do not fly in threads"
+        raise InputError("`engine`", engine, problem, "use processes, or native FMUs")
+    return engine == "threads"
 
 
 def worker_count(workers: int | None) -> int:

@@ -41,8 +41,8 @@ def draw_bode(loop: LoopReport, gain_axes: Axes, phase_axes: Axes) -> None:
 
     A dotted line through both axes marks the frequency at which each decisive margin is read.
     """
-    curve, found = loop.curve, margin_crossings(loop)
-    gain, phase = found.gain_margin, found.phase_margin
+    curve, crossings = loop.curve, margin_crossings(loop)
+    gain, phase = crossings.gain_margin, crossings.phase_margin
     centre = phase.frequency if phase is not None else gain.frequency if gain is not None else None
     degrees = phase_of(curve, centre)
     gain_axes.plot(curve.frequency, in_db(curve.value), color=BLUE)
@@ -61,8 +61,8 @@ def draw_bode(loop: LoopReport, gain_axes: Axes, phase_axes: Axes) -> None:
         for crossing in (gain, phase):
             if crossing is not None:
                 axes.axvline(crossing.frequency, color=FAINT, linewidth=0.7, linestyle=(0, (1.2, 1.6)), zorder=1.5)
-    _draw_gain_margins(loop, found, gain_axes)
-    _draw_phase_margins(loop, found, degrees, phase_axes)
+    _draw_gain_margins(loop, crossings, gain_axes)
+    _draw_phase_margins(loop, crossings, degrees, phase_axes)
     gain_axes.set_ylim(*_gain_limits(in_db(curve.value), -decibels(gain.value) if gain is not None else 0.0))
     gain_axes.yaxis.set_major_locator(MaxNLocator(5, steps=[1, 2, 4, 5, 10]))
     gain_axes.yaxis.set_major_formatter(FuncFormatter(tick))
@@ -77,10 +77,10 @@ def draw_bode(loop: LoopReport, gain_axes: Axes, phase_axes: Axes) -> None:
     phase_axes.set_xlabel("rad/s")
 
 
-def _draw_gain_margins(loop: LoopReport, found: Classical, axes: Axes) -> None:
+def _draw_gain_margins(loop: LoopReport, crossings: Classical, axes: Axes) -> None:
     """Every crossing of -180 deg, a bar to the nearest, and the gain at which its margin would be the one required."""
-    gain, limit = found.gain_margin, limits_of(loop).gain
-    for crossing in found.gain:
+    gain, limit = crossings.gain_margin, limits_of(loop).gain
+    for crossing in crossings.gain:
         style = {**GAIN_MARK, **({**DECISIVE, "clip_on": False} if crossing is gain else OTHER)}
         axes.plot(_within(axes, crossing.frequency), -decibels(crossing.value), **style)
     if gain is None:
@@ -92,10 +92,10 @@ def _draw_gain_margins(loop: LoopReport, found: Classical, axes: Axes) -> None:
         )
 
 
-def _draw_phase_margins(loop: LoopReport, found: Classical, degrees: np.ndarray, axes: Axes) -> None:
+def _draw_phase_margins(loop: LoopReport, crossings: Classical, degrees: np.ndarray, axes: Axes) -> None:
     """Every crossing of 0 dB, a bar to the nearest, and the phase at which its margin would be the one required."""
-    phase, limit = found.phase_margin, limits_of(loop).phase
-    for crossing in found.phase:
+    phase, limit = crossings.phase_margin, limits_of(loop).phase
+    for crossing in crossings.phase:
         at = float(np.interp(crossing.frequency, loop.curve.frequency, degrees))
         axes.plot(crossing.frequency, at, **{**PHASE_MARK, **(DECISIVE if crossing is phase else OTHER)})
     if phase is None:

@@ -48,8 +48,8 @@ def phase_of(curve: Curve, at: float | None) -> np.ndarray:
 def beside(curve: Curve, phase: np.ndarray, measured: Curve) -> np.ndarray:
     """The phase (deg) of measured points, each on the branch nearest to the curve's."""
     expected = np.interp(measured.frequency, curve.frequency, phase)
-    found = np.degrees(np.angle(measured.value))
-    return found + 360.0 * np.round((expected - found) / 360.0)
+    degrees = np.degrees(np.angle(measured.value))
+    return degrees + 360.0 * np.round((expected - degrees) / 360.0)
 
 
 def frequency_axis(axes: Axes, low: float, high: float) -> None:
@@ -62,10 +62,10 @@ def frequency_axis(axes: Axes, low: float, high: float) -> None:
 
 
 def measured_too(loop: LoopReport) -> Curve | None:
-    """The response of route B where the curve is route A's."""
-    if loop.route_a is None or loop.route_b is None:
+    """The response of the frequency-response test where the curve is the linearisation's."""
+    if loop.linearised is None or loop.measured_response is None:
         return None
-    return loop.route_b.curve
+    return loop.measured_response.curve
 
 
 def margin_crossings(loop: LoopReport) -> Classical:
@@ -75,14 +75,14 @@ def margin_crossings(loop: LoopReport) -> Classical:
 
 def draw_sensitivity(loop: LoopReport, axes: Axes, modulus_limit: float | None) -> None:
     """Sensitivity and complementary sensitivity with their peaks, and the limit on the former's."""
-    curve, found = loop.curve, loop.robust
+    curve, peaks = loop.curve, loop.robust
     sensitivity = 1.0 / (1.0 + curve.value)
     s, t = in_db(sensitivity), in_db(curve.value * sensitivity)
     axes.plot(curve.frequency, s, color=BLUE, label="S")
     axes.plot(curve.frequency, t, color=GREEN, linestyle=(0, (5, 1.6)), label="T")
     for frequency, peak in (
-        (found.sensitivity_frequency, found.sensitivity_peak),
-        (found.complementary_frequency, found.complementary_peak),
+        (peaks.sensitivity_frequency, peaks.sensitivity_peak),
+        (peaks.complementary_frequency, peaks.complementary_peak),
     ):
         if not loop.margins.unstable and math.isfinite(frequency) and math.isfinite(peak) and peak > 0.0:
             axes.plot(frequency, decibels(peak), **PHASE_MARK)

@@ -25,5 +25,5 @@ class Limits:
 
 def limits_of(loop: LoopReport) -> Limits:
     """The limits among a loop's requirements."""
-    found = {item.quantity: item.limit for item in loop.requirements}
-    return Limits(found.get(Quantity.GAIN), found.get(Quantity.PHASE), found.get(Quantity.MODULUS))
+    limits = {item.quantity: item.limit for item in loop.requirements}
+    return Limits(limits.get(Quantity.GAIN), limits.get(Quantity.PHASE), limits.get(Quantity.MODULUS))

@@ -59,15 +59,15 @@ def draw_nichols(loop: LoopReport, axes: Axes) -> None:
 
 def _draw_margins(loop: LoopReport, axes: Axes) -> float:
     """All crossings, those that decide with a bar to the critical point; returns the height that shows them (dB)."""
-    found = margin_crossings(loop)
-    gain, phase = found.gain_margin, found.phase_margin
+    crossings = margin_crossings(loop)
+    gain, phase = crossings.gain_margin, crossings.phase_margin
     if gain is not None:
         axes.plot([-180.0] * 2, [0.0, -decibels(gain.value)], **MARGIN)
     if phase is not None:
         axes.plot([-180.0, _phase_at(phase)], [0.0] * 2, **MARGIN)
-    for crossing in found.gain:
+    for crossing in crossings.gain:
         axes.plot(-180.0, -decibels(crossing.value), **{**GAIN_MARK, **(DECISIVE if crossing is gain else OTHER)})
-    for crossing in found.phase:
+    for crossing in crossings.phase:
         axes.plot(_phase_at(crossing), 0.0, **{**PHASE_MARK, **(DECISIVE if crossing is phase else OTHER)})
     reach = decibel_size(gain.value) if gain is not None else 0.0
     return min(max(LOW, 1.2 * reach), HIGH)

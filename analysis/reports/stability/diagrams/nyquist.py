@@ -52,7 +52,7 @@ def _direction(axes: Axes, value: np.ndarray, left: float, right: float) -> None
 
 def draw_nyquist(loop: LoopReport, axes: Axes) -> None:
     """L near -1 with the unit circle, the circle of the modulus margin and that of its limit."""
-    value, found, limits = loop.curve.value, margin_crossings(loop), limits_of(loop)
+    value, crossings, limits = loop.curve.value, margin_crossings(loop), limits_of(loop)
     furthest = max([1.0 / item.value for item in loop.classical.gain if item.value > 0.0], default=1.0)
     left, right = -min(max(2.6, 1.15 * furthest), 8.0), 1.4
     axes.plot(value.real, value.imag, color=BLUE)
@@ -66,9 +66,9 @@ def draw_nyquist(loop: LoopReport, axes: Axes) -> None:
         axes.plot(-1.0 + around * np.cos(ANGLES), around * np.sin(ANGLES), color=GREEN, linewidth=1.2)
     if limits.modulus is not None:
         axes.plot(-1.0 + limits.modulus * np.cos(ANGLES), limits.modulus * np.sin(ANGLES), **LIMIT)
-    for crossing in found.gain:
+    for crossing in crossings.gain:
         axes.plot(-1.0 / crossing.value, 0.0, **GAIN_MARK)
-    for crossing in found.phase:
+    for crossing in crossings.phase:
         axes.plot(-math.cos(crossing.value), -math.sin(crossing.value), **PHASE_MARK)
     _complex_plane(axes, left, right)
     _direction(axes, value, left, right)

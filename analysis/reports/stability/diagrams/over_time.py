@@ -61,7 +61,7 @@ def courses(report: StabilityReport) -> list[Course]:
     for loop in report.loops:
         settings = repr(sorted((name, str(value)) for name, value in points[loop.point].settings.items()))
         flights.setdefault((loop.name, settings), []).append(loop)
-    found: list[Course] = []
+    histories: list[Course] = []
     for loops in flights.values():
         ordered = tuple(sorted(loops, key=lambda loop: points[loop.point].time))
         times = np.array([points[loop.point].time for loop in ordered])
@@ -71,13 +71,13 @@ def courses(report: StabilityReport) -> list[Course]:
         sides = {key: np.array([_sides(loop, key) for loop in ordered]) for key in QUANTITIES}
         upper, lower = ({key: pairs[:, side] for key, pairs in sides.items()} for side in (0, 1))
         one = Course((ordered,), times, upper, lower, sizes)
-        same = next((index for index, other in enumerate(found) if _alike(one, other)), None)
+        same = next((index for index, other in enumerate(histories) if _alike(one, other)), None)
         if same is None:
-            found.append(one)
+            histories.append(one)
         else:
-            other = found[same]
-            found[same] = replace(other, loops=(*other.loops, ordered))
-    return found
+            other = histories[same]
+            histories[same] = replace(other, loops=(*other.loops, ordered))
+    return histories
 
 
 def _alike(one: Course, other: Course) -> bool:
@@ -96,17 +96,17 @@ def course_look(index: int) -> Look:
     return look(index + (index >= COLOURS.index(VERMILION)))
 
 
-def draw_over_time(found: Sequence[Course], quantity: Quantity, axes: Axes) -> None:
+def draw_over_time(histories: Sequence[Course], quantity: Quantity, axes: Axes) -> None:
     """One margin of all loops over time, downwards or in lead below 0; what is less than required is shaded.
 
     The nearer margin of each loop is filled, the other hollow. A cross at 0 is an unstable loop, a triangle at the top
     one without a crossover.
     """
-    limits = {limit for course in found for key, limit in _required(course) if key is quantity}
-    below = any(np.any(np.isclose(-course.lower[quantity], course.sizes[quantity])) for course in found)
-    every = np.concatenate([course.sizes[quantity] for course in found])
+    limits = {limit for course in histories for key, limit in _required(course) if key is quantity}
+    below = any(np.any(np.isclose(-course.lower[quantity], course.sizes[quantity])) for course in histories)
+    every = np.concatenate([course.sizes[quantity] for course in histories])
     top = BEYOND * max([1e-6, *every[np.isfinite(every)].tolist(), *limits])
-    for index, course in enumerate(found):
+    for index, course in enumerate(histories):
         _draw_course(course, quantity, course_look(index), top, axes)
     unit = "" if quantity.unit == "1" else quantity.unit
     for limit in sorted(limits):

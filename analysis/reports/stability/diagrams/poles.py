@@ -71,8 +71,8 @@ def draw_poles(loop: LoopReport, axes: Axes, *, near: bool) -> None:
             drawn.append((marker, np.array([mode.z for mode in loop.modes if mode.kind == kind], dtype=complex)))
     else:
         drawn.append(("x", poles))
-    for marker, found in drawn:
-        for colour, some in ((BLUE, found[np.abs(found) < 1.0]), (VERMILION, found[np.abs(found) >= 1.0])):
+    for marker, members in drawn:
+        for colour, some in ((BLUE, members[np.abs(members) < 1.0]), (VERMILION, members[np.abs(members) >= 1.0])):
             axes.plot(
                 some.real, some.imag, linestyle="", marker=marker, color=colour, markersize=5.5,
                 markerfacecolor="none", markeredgewidth=1.3, zorder=3,

@@ -18,25 +18,25 @@ def order_sentences(report: StabilityReport) -> list[str]:
     orders = report.orders
     if orders is None:
         return []
-    found = [
+    sentences = [
         f"direct dependencies of outputs on inputs are not declared by {orders.fmus}: assumed none, and stepped with "
         "the inputs of the step's start"
     ]
     if orders.without:
         cannot = f"{', '.join(orders.without)} cannot have feedthrough{' as well' if orders.direct else ''}"
-        found.append(f"{cannot}, which would close an algebraic loop at {'; '.join(orders.cuts)}")
+        sentences.append(f"{cannot}, which would close an algebraic loop at {'; '.join(orders.cuts)}")
     if orders.report is not None:
-        found.append(
+        sentences.append(
             f"as feedthrough: {', '.join(orders.direct)} stepped with the inputs of the step's end; what an FMU makes "
             "of its inputs within a step lies between the two"
         )
-        found += [
+        sentences += [
             f"with feedthrough {item.what} {item.name} at {item.point} is not studied: {item.reason}"
             for item in orders.report.unstudied
         ]
         if report.sweeps:
-            found.append("margins over parameters are without feedthrough")
-    return found
+            sentences.append("margins over parameters are without feedthrough")
+    return sentences
 
 
 def withheld_line(report: StabilityReport, subject: LoopReport | JointReport, item: Requirement) -> str:

@@ -60,8 +60,10 @@ def _begin(instruction, program, given, read_back, span, outcome):  # type: igno
         return status
     for p in range(first, first + count):
         if code == READ_BACK:
-            asked, found = given.real[p], read_back.real[p]
-            taken = found == asked or abs(found - asked) <= KEPT * abs(asked) or (np.isnan(found) and np.isnan(asked))
+            asked, stored = given.real[p], read_back.real[p]
+            taken = (
+                stored == asked or abs(stored - asked) <= KEPT * abs(asked) or (np.isnan(stored) and np.isnan(asked))
+            )
         elif code == WHOLE_READ_BACK:
             taken = read_back.whole[p] == given.whole[p]
         else:

@@ -84,12 +84,12 @@ def _tried(fmu: Fmu) -> ResetVerdict:
         try:
             used.slave.terminate()
             used.slave.reset()
-            found = [*_flown(used, {}), _read(used.slave, fmu, "parameter")]
+            state = [*_flown(used, {}), _read(used.slave, fmu, "parameter")]
         except FMICallException as error:
             _free(used, error)
             return ResetVerdict(False, f"after a flight {_words(error)}")
         _free(used)
-        if found != expected:
+        if state != expected:
             return ResetVerdict(False, "after its reset it flies other than a fresh instance")
         return ResetVerdict(True)
     return ResetVerdict(False, "it cannot be tried: it flies only once")
@@ -188,13 +188,13 @@ def _set(slave: fmi2.FMU2Slave, fmu: Fmu, changes: dict[str, Any]) -> None:
 
 def _read(slave: fmi2.FMU2Slave, fmu: Fmu, causality: str) -> bytes:
     """The values of variables; of those that cannot be read, that they cannot."""
-    found = b""
+    content = b""
     for variable in fmu.variables.values():
         if variable.causality == causality and variable.type in CALLS:
             try:
                 value = getattr(slave, CALLS[variable.type][1])([variable.valueReference])[0]
             except FMICallException:
-                found += b"?"
+                content += b"?"
             else:
-                found += np.float64(value).tobytes()
-    return found
+                content += np.float64(value).tobytes()
+    return content

@@ -16,7 +16,7 @@ import pytest
 import perilune
 from perilune.analysis.campaigns import plotted_sample as shown_trials
 from perilune.analysis.campaigns import statistics, summary
-from perilune.analysis.campaigns.fly.runner import open_folder
+from perilune.analysis.campaigns.fly.campaign import open_folder
 from perilune.analysis.campaigns.folder.stored import read_batch
 from perilune.analysis.campaigns.plotted_sample import FIRST, shown
 from perilune.analysis.campaigns.spec.campaign import Metric

@@ -79,7 +79,7 @@ def test_every_metric_is_the_stored_one_to_the_last_bit(folder, variant):
         assert found.time[-1] == row["end_time"]
         assert found["plant.position"].shape == (found.time.size, 3)
         assert (found.stored, found.differences) == (True, ())
-        assert len(found.faults) == 2
+        assert len(found.replayed.faults) == 2
 
 
 def test_the_command(folder, tmp_path, monkeypatch, capsys):

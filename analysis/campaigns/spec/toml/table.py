@@ -3,43 +3,48 @@
 from __future__ import annotations
 
 import math
-import tomllib
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from pathlib import Path
 from typing import Any, TypeVar
 
-from ...common.errors import InputError
-from .expressions import Expression
+from ....common.errors import InputError
+from ..expressions import Expression
 
 T = TypeVar("T")
 REQUIRED: Any = object()
 
 
-def read_toml(path: Path) -> Table:
-    """The whole of a TOML file. Raises InputError when it cannot be read or is not TOML."""
-    try:
-        return Table(tomllib.loads(path.read_text(encoding="utf-8")), str(path))
-    except OSError as error:
-        raise InputError(path, "", error.strerror or str(error), "give a readable file") from error
-    except UnicodeDecodeError as error:
-        raise InputError(path, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, "", f"not TOML: {error}", "correct the file at that place") from error
-
-
 class Table:
-    """One table of a TOML file; ``element`` is its place in the file, as in ``metric.position_error``."""
+    """One table of a TOML file; ``element`` is its place in the file, as in ``metric.position_error``.
 
-    def __init__(self, content: Mapping[str, Any], file: str, element: str = "") -> None:
+    ``origins`` has file and line of values by their place, where they are written in several files.
+    """
+
+    def __init__(
+        self,
+        content: Mapping[str, Any],
+        file: str,
+        element: str = "",
+        origins: Mapping[str, tuple[str, int]] | None = None,
+    ) -> None:
         self.content = content
         self.file = file
         self.element = element
+        self.origins = origins or {}
 
     def place(self, key: str) -> str:
         return f"{self.element}.{key}" if self.element else key
 
+    def where(self, key: str) -> tuple[str, str]:
+        """File and place of a key, as errors name them."""
+        place = self.place(key) if key else self.element
+        parts = re.split(r"(?=[.\[])", place)
+        nearest = ("".join(parts[:count]) for count in range(len(parts), 0, -1))
+        file = next((self.origins[name][0] for name in nearest if name in self.origins), self.file)
+        return file, place
+
     def error(self, key: str, problem: str, remedy: str) -> InputError:
-        return InputError(self.file, self.place(key) if key else self.element, problem, remedy)
+        return InputError(*self.where(key), problem, remedy)
 
     def only(self, allowed: Iterable[str]) -> None:
         """Refuse keys that are not ``allowed``."""
@@ -61,7 +66,7 @@ class Table:
         value = self.content.get(key, {})
         if not isinstance(value, dict):
             raise self.error(key, "not a table", f"write [{self.place(key)}] and its keys below it")
-        return Table(value, self.file, self.place(key))
+        return Table(value, self.file, self.place(key), self.origins)
 
     def flat(self, of_tables: bool = False) -> Iterator[tuple[str, Any]]:
         """Name and value of the entries; nested tables become dotted names: a.b = 1 is the same as "a.b" = 1.
@@ -77,11 +82,11 @@ class Table:
                 else:
                     yield prefix + key, value
 
-        found: set[str] = set()
+        seen: set[str] = set()
         for name, value in walk("", self.content):
-            if name in found:
+            if name in seen:
                 raise self.error(name, "there twice, written with and without quotes", "keep one of the two")
-            found.add(name)
+            seen.add(name)
             yield name, value
 
 
@@ -102,7 +107,7 @@ def integer(table: Table, key: str, value: Any) -> int:
 def bound(table: Table, key: str, value: Any) -> float:
     """A number, infinite ones included, or a text that is a constant expression, such as "-pi/4"."""
     if isinstance(value, str):
-        formula = Expression(value, (table.file, table.place(key)))
+        formula = Expression(value, table.where(key))
         if formula.names:
             raise table.error(key, f"{value!r} is not constant", "use numbers, pi and e only, or [derive]")
         value = formula.evaluate({})
@@ -113,10 +118,10 @@ def bound(table: Table, key: str, value: Any) -> float:
 
 def number(table: Table, key: str, value: Any) -> float:
     """A finite number, or a text that is a constant expression."""
-    found = bound(table, key, value)
-    if not math.isfinite(found):
+    read = bound(table, key, value)
+    if not math.isfinite(read):
         raise table.error(key, f"{value!r} is not finite", "write a finite number")
-    return found
+    return read
 
 
 def sequence(kind: Callable[[Table, str, Any], T]) -> Callable[[Table, str, Any], tuple[T, ...]]:
@@ -130,18 +135,23 @@ def sequence(kind: Callable[[Table, str, Any], T]) -> Callable[[Table, str, Any]
     return read
 
 
+def numbers(table: Table, key: str, value: Any) -> tuple[float, ...]:
+    """An array of at least one finite number."""
+    return sequence(number)(table, key, value)
+
+
 def names(table: Table, key: str, value: Any) -> tuple[str, ...]:
     """An array of at least one text, none of them twice."""
-    found = sequence(text)(table, key, value)
-    for name in found:
-        if found.count(name) > 1:
+    listed = sequence(text)(table, key, value)
+    for name in listed:
+        if listed.count(name) > 1:
             raise table.error(key, f"{name!r} is there twice", "name it once")
-    return found
+    return listed
 
 
 def expression(table: Table, key: str, value: Any) -> Expression:
-    """A text that is an expression (`analysis.batch.expressions`)."""
-    return Expression(text(table, key, value), (table.file, table.place(key)))
+    """A text that is an expression, see `Expression`."""
+    return Expression(text(table, key, value), table.where(key))
 
 
 def choice_of(*allowed: str) -> Callable[[Table, str, Any], str]:

@@ -1,4 +1,4 @@
-"""The two routes to a loop's frequency response, and whether they agree."""
+"""The two methods for a loop's frequency response, and whether they agree."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..linear.modes import modes, unseen_mode
 from ..linear.whole import Block
 from ..loops.curves import Response, quotient
 from ..loops.decibels import decibels, factor_of
-from ..results.routes import Agreement, Mode, RouteA, RouteB
+from ..results.responses import Agreement, Linearised, Measured, Mode
 from .assessment import lowest_frequency
 
 GAIN_AGREES = factor_of(0.1)
@@ -30,13 +30,13 @@ BESIDE_ONE = 1e-3  # rad: poles on the unit circle at larger angles are undamped
 
 @dataclass
 class LoopModel:
-    """Route A of one channel. ``outside`` is the unstable memory that the loop has no part in, the fastest first."""
+    """Linearisation of one channel. ``outside``: unstable state variables outside of the loop, the fastest first."""
 
     model: LiftedModel
     port: Port
     modes: tuple[Mode, ...]
     poles_open: np.ndarray
-    facts: RouteA
+    facts: Linearised
     outside: tuple[Block, ...] = ()
 
     def response(self, frequency: np.ndarray) -> np.ndarray:
@@ -95,25 +95,25 @@ class LoopModel:
         return [float(w) for w in frequencies[on_circle]], [float(w) for w in frequencies[near]]
 
 
-def loop_model(found: Linearisation, port: Port) -> LoopModel:
+def loop_model(linearisation: Linearisation, port: Port) -> LoopModel:
     """The part of a linear model that belongs to one channel, and how far it can be trusted."""
-    model = found.model.reduced((port,))
-    neighbour = found.neighbour.reduced((port,))
+    model = linearisation.model.reduced((port,))
+    neighbour = linearisation.neighbour.reduced((port,))
     nyquist = np.pi / port.seconds
     look = np.geomspace(1e-3, 1.0, 40) * nyquist
     a, b = model.response((port,), look)[:, 0, 0], neighbour.response((port,), look)[:, 0, 0]
     visible = (abs(a) > LEAST_LOOK) & (abs(a) < 1.0 / LEAST_LOOK)  # margins are decided where L is about 1
     change = float(np.max(abs(b[visible] / a[visible] - 1.0), initial=0.0))
-    facts = RouteA(
-        states=found.states,
+    facts = Linearised(
+        states=linearisation.states,
         period=model.period,
         plateau=change,
         doubtful=_doubtful(model, neighbour) if change > DOUBTFUL else (),
         periodicity=model.periodicity(port, look[::8]),
     )
     own = modes(model, port)
-    outside = tuple(block for block in found.blocks if _is_outside(block, own, change))
-    place = found.model.ports.index(port)
+    outside = tuple(block for block in linearisation.blocks if _is_outside(block, own, change))
+    place = linearisation.model.ports.index(port)
     unseen = tuple(
         unseen_mode(complex(block.multipliers[0]), model.period, block.moved[place], block.moves[place])
         for block in outside
@@ -147,8 +147,8 @@ def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
     return tuple(model.names[place] for place in worst if change[place] > 0.0)
 
 
-def agreement(response: Response, measured: RouteB, sample_period: float) -> Agreement:
-    """Route A against route B on its lines below half the Nyquist frequency."""
+def agreement(response: Response, measured: Measured, sample_period: float) -> Agreement:
+    """The linearised response against the measured one on its lines below half the Nyquist frequency."""
     highest = 0.5 * np.pi / sample_period
     kept = measured.curve.frequency <= highest
     frequency = measured.curve.frequency[kept]
@@ -159,17 +159,17 @@ def agreement(response: Response, measured: RouteB, sample_period: float) -> Agr
     return Agreement(gain, phase, float(frequency[-1]), bool(gain <= GAIN_AGREES and phase <= PHASE_AGREES))
 
 
-def disagreement(found: Agreement, a: RouteA, b: RouteB) -> str:
-    """Why the routes differ, as far as each knows of itself."""
+def disagreement(compared: Agreement, a: Linearised, b: Measured) -> str:
+    """Why linearised and measured responses differ, as far as each knows of itself."""
     reasons = []
     if a.plateau > DOUBTFUL:
         names = ", ".join(a.doubtful)
-        reasons.append(f"the derivatives of route A have no plateau ({a.plateau:.2g}; {names})")
+        reasons.append(f"the derivatives of the linearisation have no plateau ({a.plateau:.2g}; {names})")
     if b.half_amplitude_change > NOT_LINEAR:
         reasons.append(f"L changes by {b.half_amplitude_change:.2g} when the amplitude is halved")
     if b.unexcited > NOT_LINEAR:
         reasons.append(f"unexcited lines answer with {b.unexcited:.2g} of the excited ones")
     if a.periodicity > NOT_LINEAR:
         reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} comes back at other frequencies)")
-    size = f"{decibels(found.gain):.2g} dB and {np.degrees(found.phase):.2g} deg apart"
-    return f"{size}: " + ("; ".join(reasons) or "neither route sees a reason; the operating point does not last")
+    size = f"{decibels(compared.gain):.2g} dB and {np.degrees(compared.phase):.2g} deg apart"
+    return f"{size}: " + ("; ".join(reasons) or "neither method sees a reason; the operating point does not last")

@@ -1,4 +1,4 @@
-"""What the two routes to a loop's response find, and how far each can be trusted. Times in s, frequencies in rad/s."""
+"""What the two methods to a loop's response find, and how far each can be trusted. Times in s, frequencies in rad/s."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Structure:
 
 
 @dataclass(frozen=True)
-class RouteA:
+class Linearised:
     """How the Jacobian was made and how far it can be trusted."""
 
     states: int
@@ -50,7 +50,7 @@ class RouteA:
 
 
 @dataclass(frozen=True)
-class RouteB:
+class Measured:
     """How the injection was made and how far it can be trusted."""
 
     amplitude: float  # of one line, in the cut's unit
@@ -64,7 +64,7 @@ class RouteB:
 
 @dataclass(frozen=True)
 class Agreement:
-    """The largest difference of the routes below half the Nyquist frequency."""
+    """The largest difference of the two methods below half the Nyquist frequency."""
 
     gain: float  # factor, at least 1
     phase: float  # rad

@@ -1,0 +1,121 @@
+"""A campaign that is ready to fly: its plan, systems and manifest, in a folder if it has one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from ...common.errors import InputError
+from ...runtime.system.prepared import PreparedSystem
+from ..spec.checks import check_plan, prepare_variants
+from ..spec.plan import BatchPlan
+from .manifest.folder import begin, cut, resume_folder
+from .manifest.gather import gather
+from .manifest.manifest import Manifest, read_manifest
+from .manifest.restore import restore
+from .metadata import batch_digest, provenance
+from .shards.files import is_flown
+from .shards.numbering import Numbering
+from .store import FlownRows, HeldShards, StoredShards
+from .workers.workers import in_threads, worker_count
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """A campaign that is ready to fly: every file of it read, in its folder if it has one (absolute).
+
+    ``plan`` is the plan as given, ``flown`` the same with the files that are stored in the folder; ``named`` is the
+    folder as its user names it.
+    """
+
+    plan: BatchPlan
+    flown: BatchPlan
+    systems: Mapping[str, PreparedSystem]
+    manifest: Manifest
+    folder: Path | None
+    named: Path | None = None
+
+    def of_first(self, trials: int) -> Campaign:
+        """The campaign of the first trials, which end with a shard; its folder holds no more either."""
+        if trials == self.manifest.trials:
+            return self
+        plan = self.plan.of_first(trials)
+        if self.folder is None:
+            return replace(self, plan=plan, manifest=replace(self.manifest, trials=trials))
+        return replace(self, plan=plan, manifest=cut(self.folder, self.manifest, plan))
+
+    @property
+    def provenance(self) -> dict[str, Any]:
+        """What its numbers depend on, apart from the trials themselves."""
+        return provenance(self.plan, self.systems) | {"manifest": self.manifest.key}
+
+    @property
+    def numbering(self) -> Numbering:
+        return Numbering(self.manifest.trials, self.manifest.shard_size)
+
+    @cached_property
+    def batch(self) -> str:
+        """What tells its files from those of others."""
+        return batch_digest(self.provenance)
+
+    def store(self) -> HeldShards | StoredShards:
+        """Where its shards go."""
+        return HeldShards(self.plan) if self.folder is None else StoredShards(self.flown, self.folder, self.batch)
+
+    def shard_rows(self, shard: int) -> Mapping[str, FlownRows]:
+        """The trials of one shard that its folder holds, by variant."""
+        if self.folder is None:
+            raise ValueError("a campaign without a folder holds no shards")
+        return StoredShards(self.flown, self.folder, self.batch).rows(self.numbering, range(shard, shard + 1))
+
+    def missing(self) -> list[int]:
+        """The shards that its folder does not hold."""
+        shards = range(self.numbering.count)
+        if self.folder is None:
+            return list(shards)
+        return [shard for shard in shards if not is_flown(self.folder, self.batch, shard, self.numbering.of(shard))]
+
+    def checked(self, shards: Iterable[int]) -> list[int]:
+        """Those of some shards that its folder does not hold. Raises InputError for a number that is none's."""
+        wanted = set(shards)
+        for shard in sorted(wanted):
+            if not 0 <= shard < self.numbering.count:
+                raise InputError("shard", str(shard), "no such shard", f"give 0 to {self.numbering.count - 1}")
+        return sorted(wanted & set(self.missing()))
+
+
+def open_campaign(
+    plan: BatchPlan,
+    output: Path | None,
+    *,
+    resume: bool = False,
+    engine: str | None = None,
+    workers: int | None = None,
+) -> Campaign:
+    """Check a plan and write down what it flies. Raises InputError before anything is written or flown.
+
+    With ``output`` a campaign begins in that folder, in place of what is there, or goes on there with ``resume``; what
+    flies are the files that the folder then holds, whatever becomes of their originals.
+    """
+    worker_count(workers)
+    systems = check_plan(plan)
+    in_threads(systems.values(), engine)  # refused before anything is written
+    manifest, contents = gather(plan, systems)
+    if output is None:
+        return Campaign(plan, plan, systems, manifest, None)
+    folder = output.absolute()  # FMUs may change the working folder
+    manifest = (resume_folder if resume else begin)(folder, manifest, contents, plan)
+    flown = restore(folder, manifest, plan.watch.log)
+    plan = replace(plan, known_draws=flown.draws)  # read from the folder, and not in memory
+    return Campaign(plan, flown, systems, manifest, folder, output)
+
+
+def open_folder(folder: Path) -> Campaign:
+    """The campaign whose manifest lies in a folder. Raises InputError."""
+    named, folder = folder, folder.absolute()
+    manifest = read_manifest(folder)
+    plan = restore(folder, manifest)  # whose draws were looked at when the folder was made
+    return Campaign(plan, plan, prepare_variants(plan), manifest, folder, named)

@@ -1,0 +1,1 @@
+"""The distributions of a campaign, a class each."""

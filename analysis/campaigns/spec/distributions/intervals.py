@@ -1,0 +1,120 @@
+"""Uniform values: independent of each other, or designed for all trials together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+import scipy
+from scipy.special import ndtr, ndtri
+
+from ....common.errors import InputError
+from ...draws.declared import Columns, Continuous, Design, Draw, Independent
+from ...draws.generators import generator
+from ..toml.table import Table, number
+
+
+@dataclass(frozen=True)
+class _Interval(Continuous):
+    """A value that is uniform between ``low`` and ``high``: low + (high - low) Phi(u) of a standard normal u."""
+
+    low: float
+    high: float
+    keys: ClassVar = ("low", "high")
+
+    @classmethod
+    def read(cls, table: Table) -> Self:
+        """From its table of a campaign. Raises InputError."""
+        table.only(["distribution", *cls.keys])
+        return cls(*read_ends(table))
+
+    @property
+    def size(self) -> int:
+        return 1
+
+    def from_normals(self, u: np.ndarray) -> list[np.ndarray]:
+        width = self.high - self.low
+        # from the nearer end, so that neither tail is rounded away
+        return [np.where(u < 0.0, self.low + width * ndtr(u), self.high - width * ndtr(-u))[:, 0]]
+
+    def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
+        values, width = columns[0][:, np.newaxis], self.high - self.low
+        low, high = (values - self.low) / width, (self.high - values) / width
+        with np.errstate(invalid="ignore"):
+            return np.where(low < high, ndtri(low), -ndtri(high))
+
+    def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
+        return [self.low + (self.high - self.low) * points[:, 0]]
+
+    def to_box(self, columns: Sequence[np.ndarray], sigmas: float) -> np.ndarray:
+        return ((columns[0] - self.low) / (self.high - self.low))[:, np.newaxis]
+
+    def ranges(self, sigmas: float) -> list[tuple[float, float]]:
+        return [(self.low, self.high)]
+
+
+class Uniform(_Interval, Independent):
+    """Independent uniform values in [low, high)."""
+
+    keyword = "uniform"
+
+    def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
+        return [source.uniform(self.low, self.high, trials)]
+
+
+class _UniformDesign(_Interval, Design):
+    """Uniform values whose whole table is designed; a part of the trials is cut from it."""
+
+    alternative: ClassVar[str] = Uniform.keyword
+
+    @classmethod
+    def design(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> Callable[[range], Columns]:
+        points = cls._points(draws, trials, seed, file)
+        whole = {}
+        for index, draw in enumerate(draws):
+            low, high = draw.distribution.arguments["low"], draw.distribution.arguments["high"]
+            whole[draw.name] = low + (high - low) * points[index]
+        return lambda part: {name: column[part.start : part.stop] for name, column in whole.items()}
+
+    @classmethod
+    def _points(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> list[np.ndarray]:
+        """Numbers in [0, 1), an array (trials,) for each draw."""
+        raise NotImplementedError
+
+
+class LatinHypercube(_UniformDesign):
+    """One value in each of as many equal strata as there are trials, shuffled independently per draw."""
+
+    keyword = "latin_hypercube"
+
+    @classmethod
+    def _points(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> list[np.ndarray]:
+        # a Latin hypercube is one such column per dimension; made singly, a column does not depend on the others
+        return [
+            scipy.stats.qmc.LatinHypercube(1, rng=generator(seed, draw.name)).random(trials)[:, 0] for draw in draws
+        ]
+
+
+class Sobol(_UniformDesign):
+    """One scrambled Sobol sequence with a dimension per draw, in order of their names."""
+
+    keyword = "sobol"
+
+    @classmethod
+    def _points(cls, draws: Sequence[Draw], trials: int, seed: int, file: str) -> list[np.ndarray]:
+        if trials & (trials - 1):
+            higher = 1 << trials.bit_length()
+            problem = f"{trials} trials leave a Sobol sequence unbalanced"
+            raise InputError(file, "trials", problem, f"use a power of two: {higher // 2} or {higher}")
+        points = scipy.stats.qmc.Sobol(len(draws), scramble=True, rng=generator(seed, "design:sobol")).random(trials)
+        return [points[:, index] for index in range(len(draws))]
+
+
+def read_ends(table: Table) -> tuple[float, float]:
+    """The ends of an interval. Raises InputError."""
+    low, high = table.get("low", number), table.get("high", number)
+    if not low < high:
+        raise table.error("high", f"{high!r} is not above low = {low!r}", "give low < high, or fix the value in [set]")
+    return low, high

@@ -1,0 +1,1 @@
+"""TOML of campaigns: checked tables, lines of keys, files that extend others."""

@@ -1,0 +1,147 @@
+"""A campaign's text: its TOML file with those that it extends, merged, and where each value is written."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import posixpath
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ....common.errors import InputError
+from ....runtime.ssp.archive import SystemArchive
+from .lines import key_lines
+from .table import Table
+
+EXTENDS = "extends"
+HERE = "."  # in its list, the position of the file's own entries; the end where it is not listed
+Origin = tuple[str, int]  # file and line
+
+
+@dataclass(frozen=True)
+class CampaignSource:
+    """A campaign's file, ``data`` with its ``label`` for messages, and the files that it ``extends``, in their order.
+
+    ``position`` is the number of those whose entries come before its own, which are the last unless it says otherwise.
+    """
+
+    label: str
+    data: bytes
+    extends: tuple[CampaignSource, ...] = ()
+    position: int = 0
+
+    @property
+    def sha256(self) -> str:
+        """Of the file, and of all that it extends."""
+        digest = hashlib.sha256(self.data)
+        for part in self.extends:
+            digest.update(bytes.fromhex(part.sha256))
+        return digest.hexdigest()
+
+    def files(self) -> Iterator[CampaignSource]:
+        """This file and all that it extends."""
+        yield self
+        for part in self.extends:
+            yield from part.files()
+
+    def table(self) -> Table:
+        """The merged content. A later file's entry takes the place of an earlier one of the same name.
+
+        The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables, those of
+        [set], [derive], [compare], [record], [group] and [success] are values. Raises InputError.
+        """
+        content: dict[str, Any] = {}
+        origins: dict[str, Origin] = {}
+        for index, part in enumerate((*self.extends, self)):
+            if index == self.position:
+                self._add_own(content, origins)
+            if part is not self:
+                inherited = part.table()
+                _merge(content, inherited.content, part.label)
+                origins |= inherited.origins
+        return Table(content, self.label, origins=origins)
+
+    def _add_own(self, content: dict[str, Any], origins: dict[str, Origin]) -> None:
+        own = parse_toml(self.data, self.label)
+        own.pop(EXTENDS, None)
+        _merge(content, own, self.label)
+        lines = key_lines(self.data.decode("utf-8"))
+        origins |= {name: (self.label, line) for name, line in lines.items() if name != EXTENDS}
+
+
+def read_source(data: bytes, label: str, archive: SystemArchive | None = None) -> CampaignSource:
+    """A campaign's file with those that it extends, perhaps in an ``archive``. Raises InputError, for a cycle too."""
+    return _read_source(data, label, archive, ())
+
+
+def read_source_file(path: Path) -> CampaignSource:
+    """A campaign's file by its path, with those that it extends. Raises InputError."""
+    try:
+        return read_source(path.read_bytes(), str(path))
+    except OSError as error:
+        raise InputError(path, "", error.strerror or str(error), "give a readable file") from error
+
+
+def _read_source(data: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...]) -> CampaignSource:
+    names = parse_toml(data, label).get(EXTENDS, [])
+    names = [names] if isinstance(names, str) else names
+    if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
+        raise InputError(label, EXTENDS, f"{names!r} is not a file", 'write extends = "FILE.toml", or a list of files')
+    if names.count(HERE) > 1:
+        raise InputError(label, EXTENDS, f"{HERE!r} is there twice", "give this file's own position once")
+    parts = []
+    for name in names:
+        if name == HERE:
+            continue
+        content, other = _find(name, label, archive)
+        if other in (*chain, label):
+            path = " -> ".join([*chain, label, other])
+            raise InputError(label, EXTENDS, f"a cycle: {path}", "remove one of these")
+        parts.append(_read_source(content, other, archive, (*chain, label)))
+    return CampaignSource(label, data, tuple(parts), names.index(HERE) if HERE in names else len(parts))
+
+
+def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
+    """A file that the file ``origin`` extends, by its path relative to that, else a campaign of the system by name."""
+    label, mark, inside = origin.partition("!")
+    if mark and archive is not None and label == archive.label:
+        place = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
+        if place in archive.files:
+            return archive.read(place, origin), f"{label}!{place}"
+    else:
+        path = Path(os.path.normpath(os.path.join(os.path.dirname(origin), name)))
+        if path.is_file():
+            return path.read_bytes(), str(path)
+    known = [] if archive is None else archive.campaign_names()
+    if archive is not None and name in known:
+        return archive.campaign(name)
+    remedy = f"give a path relative to this file{', or a campaign: ' + ', '.join(known) if known else ''}"
+    raise InputError(origin, EXTENDS, f"no file {name}", remedy)
+
+
+def parse_toml(data: bytes, label: str) -> dict[str, Any]:
+    """The content of a TOML file. Raises InputError."""
+    try:
+        return tomllib.loads(data.decode("utf-8"))
+    except UnicodeDecodeError as error:
+        raise InputError(label, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
+
+
+def _merge(content: dict[str, Any], later: Mapping[str, Any], label: str) -> None:
+    """Put the entries of a later file into ``content``: the tables entry by entry, everything else whole."""
+    for key, value in later.items():
+        if isinstance(value, Mapping):
+            table = Table(value, label, key)
+            entries = dict(table.flat(of_tables=True) if key == "draw" else table.flat() if key in FLAT else value)
+            earlier = content.get(key)
+            content[key] = {**earlier, **entries} if isinstance(earlier, Mapping) else entries
+        else:
+            content[key] = value
+
+
+FLAT = ("set", "derive", "compare")  # tables whose names have dots

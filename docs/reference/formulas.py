@@ -1,0 +1,22 @@
+"""Formulas of a page, LaTeX between dollars as GitHub reads them, as MathML that a browser shows without a script."""
+
+from __future__ import annotations
+
+import re
+
+from latex2mathml.converter import convert
+
+CODE = re.compile(r"(^```.*?^```$|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
+DISPLAYED = re.compile(r"^\$\$(.+?)\$\$$", re.MULTILINE | re.DOTALL)
+INLINE = re.compile(r"(?<![\\$\w])\$([^\s$](?:[^$\n]*[^\s$])?)\$(?![\w$])")
+
+
+def typeset(page: str) -> str:
+    """A page of Markdown with its formulas as MathML: ``$$...$$`` on lines of their own, ``$...$`` in the text."""
+    parts = CODE.split(page)
+    return "".join(part if index % 2 else _with_mathml(part) for index, part in enumerate(parts))
+
+
+def _with_mathml(text: str) -> str:
+    displayed = DISPLAYED.sub(lambda found: f'<div class="formula">{convert(found[1], display="block")}</div>', text)
+    return INLINE.sub(lambda found: convert(found[1]), displayed)
