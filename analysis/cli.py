@@ -17,7 +17,7 @@ from .common.errors import EndedError, InputError, UnwrittenError, call_by_flags
 from .common.exit_status import ExitStatus
 from .common.process_end import leave
 from .common.streams import steady_streams
-from .verbs.options.help import Parser, group_help, overview, verb_help
+from .verbs.help import Parser, group_help, overview, verb_help
 from .verbs.options.parsing import add_verb, flags_of, read_parsed
 from .verbs.options.verb import Verb
 from .verbs.options.verbs import GROUPS, RENAMED, VERBS

@@ -5,8 +5,8 @@ editors and `perilune/__init__.py`.
 from . import modal as modal
 from .analysis.common.errors import InputError as InputError
 from .analysis.design.synthesis.outcome import SynthesisResult as SynthesisResult
-from .analysis.design.trajectories.landing import Landing as Landing
 from .analysis.design.trajectories.path import PlanError as PlanError
+from .analysis.design.trajectories.vehicle import Landing as Landing
 from .analysis.design.trajectories.vehicle import Margins as Margins
 from .analysis.design.trajectories.vehicle import Transfer as Transfer
 from .analysis.design.trajectories.vehicle import Vehicle as Vehicle

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from .landing import Landing
 from .point_mass import CentralGravity, PointMassProblem, UniformGravity
-from .vehicle import Transfer, Vehicle
+from .vehicle import Landing, Transfer, Vehicle
 
 
 def transfer_problem(vehicle: Vehicle, transfer: Transfer) -> PointMassProblem:

@@ -5,8 +5,14 @@ from __future__ import annotations
 import math
 from typing import Annotated, TypedDict
 
-from ...design.trajectories.landing import LANDING
-from ...design.trajectories.vehicle import HOVER_MARGINS, HOVER_TRANSFER, HOVER_VEHICLE, LANDING_VEHICLE, Margins
+from ...design.trajectories.vehicle import (
+    HOVER_MARGINS,
+    HOVER_TRANSFER,
+    HOVER_VEHICLE,
+    LANDING,
+    LANDING_VEHICLE,
+    Margins,
+)
 from .option import FilePath, Option
 from .system import JsonFile, ReportFiles, SystemOptions
 from .verb import Argument, Verb

@@ -7,8 +7,8 @@ import shutil
 import textwrap
 from typing import Any, NoReturn
 
-from .verb import Verb
-from .verbs import GROUPS, PURPOSES, VERBS
+from .options.verb import Verb
+from .options.verbs import GROUPS, PURPOSES, VERBS
 
 WIDEST = 100  # columns of any output
 NAME = 18  # columns of a verb's name
