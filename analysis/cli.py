@@ -7,9 +7,8 @@ import importlib
 import inspect
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from importlib.metadata import version
-from types import ModuleType
 from typing import NoReturn
 
 import argcomplete
@@ -18,10 +17,10 @@ from .common.errors import EndedError, InputError, UnwrittenError, call_by_flags
 from .common.exit_status import ExitStatus
 from .common.process_end import leave
 from .common.streams import steady_streams
-from .verbs.options.help import Parser, group_help, overview, verb_help
+from .verbs.help import Parser, group_help, overview, verb_help
 from .verbs.options.parsing import add_verb, flags_of, read_parsed
 from .verbs.options.verb import Verb
-from .verbs.options.verbs import GROUPS, OLD, RENAMED, VERBS
+from .verbs.options.verbs import GROUPS, RENAMED, VERBS
 
 HELP_ALL = "--help-all"
 COMPLETING = "COMP_LINE"  # a shell's variable: the line that is being written
@@ -47,10 +46,10 @@ def _carry_out(given: Sequence[str]) -> int:
     parser = parser_of(given)
     argcomplete.autocomplete(parser)
     parsed = parser.parse_args(given)
-    verb = VERBS.get(f"{parsed.verb} {parsed.second}" if parsed.verb in GROUPS else parsed.verb)
-    flags: Mapping[str, str] = flags_of(VERBS["run"] if verb is None else verb)
+    verb = VERBS[f"{parsed.verb} {parsed.second}" if parsed.verb in GROUPS else parsed.verb]
+    flags = flags_of(verb)
     try:
-        return _module(parsed.verb).run(parsed) if verb is None else carry_out(verb, parsed)
+        return carry_out(verb, parsed)
     except InputError as error:
         for line in error.lines(flags):
             print(f"perilune: {line}", file=sys.stderr)
@@ -122,15 +121,7 @@ def parser_of(given: Sequence[str]) -> Parser:
             shown = own.add_argument_group("help")
             shown.add_argument("--help", "-h", action="help", help="show this help")
             shown.add_argument(HELP_ALL, action="help", help="show this help with the shared options")
-    for name, words in OLD.items():
-        own = verbs.add_parser(name, description=words)
-        if name in named:
-            _module(name, "asked.").add(own)
     return parser
-
-
-def _module(verb: str, of: str = "") -> ModuleType:
-    return importlib.import_module(f".commands.{of}{verb}", __package__)
 
 
 def run() -> NoReturn:

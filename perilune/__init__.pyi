@@ -3,29 +3,10 @@ editors and `perilune/__init__.py`.
 """
 
 from . import modal as modal
-from .analysis.api.laws import Law as Law
-from .analysis.api.laws import law as law
-from .analysis.api.laws import synthesize as synthesize
-from .analysis.api.plans import (
-    HoverPlan as HoverPlan,
-)
-from .analysis.api.plans import (
-    LandingBound as LandingBound,
-)
-from .analysis.api.plans import (
-    plan_hover_transfer as plan_hover_transfer,
-)
-from .analysis.api.plans import (
-    plan_landing_bound as plan_landing_bound,
-)
-from .analysis.api.results.plots import plot_results as plot_results
-from .analysis.api.results.stored import StoredResults as StoredResults
-from .analysis.api.results.stored import open_results as open_results
-from .analysis.api.timing import benchmark as benchmark
 from .analysis.common.errors import InputError as InputError
 from .analysis.design.synthesis.outcome import SynthesisResult as SynthesisResult
-from .analysis.design.trajectories.bounds import Landing as Landing
 from .analysis.design.trajectories.path import PlanError as PlanError
+from .analysis.design.trajectories.vehicle import Landing as Landing
 from .analysis.design.trajectories.vehicle import Margins as Margins
 from .analysis.design.trajectories.vehicle import Transfer as Transfer
 from .analysis.design.trajectories.vehicle import Vehicle as Vehicle
@@ -33,15 +14,26 @@ from .analysis.runtime.system.fault import Fault as Fault
 from .analysis.stability.injection.bench import StudyError as StudyError
 from .analysis.verbs.batch import BatchResult as BatchResult
 from .analysis.verbs.batch import batch as batch
+from .analysis.verbs.benchmark import benchmark as benchmark
 from .analysis.verbs.compare import Comparison as Comparison
 from .analysis.verbs.compare import compare as compare
 from .analysis.verbs.describe import describe as describe
+from .analysis.verbs.design.bound import LandingBound as LandingBound
+from .analysis.verbs.design.bound import plan_landing_bound as plan_landing_bound
+from .analysis.verbs.design.law import Law as Law
+from .analysis.verbs.design.law import law as law
+from .analysis.verbs.design.search import synthesize as synthesize
+from .analysis.verbs.design.transfer import HoverPlan as HoverPlan
+from .analysis.verbs.design.transfer import plan_hover_transfer as plan_hover_transfer
 from .analysis.verbs.export import Exported as Exported
 from .analysis.verbs.export import export as export
 from .analysis.verbs.inventory import inventory as inventory
 from .analysis.verbs.merge import merge as merge
 from .analysis.verbs.new import new_block as new_block
 from .analysis.verbs.new import new_system as new_system
+from .analysis.verbs.open_results import StoredResults as StoredResults
+from .analysis.verbs.open_results import open_results as open_results
+from .analysis.verbs.plot_results import plot_results as plot_results
 from .analysis.verbs.prepare import PreparedCampaign as PreparedCampaign
 from .analysis.verbs.prepare import prepare as prepare
 from .analysis.verbs.rare import RareResult as RareResult

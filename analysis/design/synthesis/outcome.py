@@ -32,6 +32,7 @@ class SynthesisResult:
     search: Search
     provenance: Mapping[str, Any]
     ended: str
+    folder: Path | None = None  # in which it is stored
 
     @property
     def law(self) -> Law:
@@ -55,13 +56,15 @@ class SynthesisResult:
         """Whether the chosen law has every trial a success."""
         return self.search.chosen().evaluation.successes == self.search.evaluator.trials
 
-    def failure(self) -> str:
+    def problems(self) -> list[str]:
         """A line for a search that found no law, with what to do."""
+        if self.succeeded:
+            return []
         evaluation = self.search.chosen().evaluation
-        return (
+        return [
             f"{self.synthesis.campaign.file}: no law found: the chosen one succeeds in {evaluation.successes} of "
             f"{self.search.evaluator.trials} trials; give more generations, another `seed` or another basic solution"
-        )
+        ]
 
     def _objectives(self, candidate: Candidate) -> dict[str, dict[str, float]]:
         """Of each objective the sum over the flights, which the search makes small, and the mean of one flight."""
@@ -88,7 +91,7 @@ class SynthesisResult:
             "law": self._law(candidate).document(),
         }
 
-    def document(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, Any]:
         """The result: provenance, counts, the chosen law with its formula, and the Pareto set."""
         state = self.search.state
         front = sorted(state.front, key=lambda candidate: candidate.evaluation.objectives)
@@ -107,26 +110,24 @@ class SynthesisResult:
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Write pareto.json, law.json, law.ssv, law.svg and log.csv."""
         folder = Path(folder)
-        text = json.dumps(self.document(), indent=1, allow_nan=False) + "\n"
+        text = json.dumps(self.to_json(), indent=1, allow_nan=False) + "\n"
         write_atomically(folder / "pareto.json", text.encode())
         self.law.write(folder / "law.json")
         write_atomically(folder / "law.ssv", parameter_set(self.law, self.synthesis.component))
         write_atomically(folder / "law.svg", law_svg(self.law))
         write_log(folder / "log.csv", self.synthesis, self.search)
 
-    def text(self) -> str:
+    def lines(self) -> list[str]:
         """The result for a terminal."""
         state, chosen = self.search.state, self.search.chosen()
-        return "\n".join(
-            [
-                f"laws flown: {state.evaluations}, in {state.flights} flights, {state.generation} generations; "
-                f"ended by {self.ended}; {len(state.front)} in the Pareto set",
-                f"chosen: {chosen.evaluation.successes} of {chosen.evaluation.flown} trials are successes; "
-                + self._words(chosen),
-                "",
-                formula_text(self.law),
-            ]
-        )
+        return [
+            f"laws evaluated: {state.evaluations}, in {state.flights} simulations, {state.generation} generations; "
+            f"ended by {self.ended}; {len(state.front)} in the Pareto set",
+            f"chosen: {chosen.evaluation.successes} of {chosen.evaluation.flown} trials are successes; "
+            + self._words(chosen),
+            "",
+            *formula_text(self.law).splitlines(),
+        ]
 
 
 def write_log(path: Path, synthesis: Synthesis, search: Search) -> None:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from .point_mass import CentralGravity, PointMassProblem, UniformGravity
-from .vehicle import Transfer, Vehicle
+from .vehicle import Landing, Transfer, Vehicle
 
 
 def transfer_problem(vehicle: Vehicle, transfer: Transfer) -> PointMassProblem:
@@ -23,27 +22,6 @@ def transfer_problem(vehicle: Vehicle, transfer: Transfer) -> PointMassProblem:
         length=max(transfer.distance, abs(transfer.descent)) / 2.0,
         speed=0.4 * math.sqrt(vehicle.full * max(transfer.distance, abs(transfer.descent))),
     )
-
-
-@dataclass(frozen=True)
-class Landing:
-    """Braking and landing in one: from orbit to rest over the site, around a Moon that does not turn.
-
-    The start, in the plane of flight: ``range`` (m) from the site along the ground, ``altitude`` (m), ``speed`` (m/s)
-    at an angle ``climb`` (rad) above the local horizontal, towards the site. The end: ``target_altitude`` (m) above it.
-    ``radius`` (m) and ``gravitational_parameter`` (m3/s2) are the Moon's.
-    """
-
-    range: float
-    altitude: float
-    speed: float
-    climb: float
-    target_altitude: float
-    radius: float
-    gravitational_parameter: float
-
-
-LANDING = Landing(285e3, 14995.3, 1692.342, 0.0, 4.0, 1.7374e6, 4.9028e12)
 
 
 def landing_problem(vehicle: Vehicle, landing: Landing) -> PointMassProblem:

@@ -15,9 +15,9 @@ from ...common.errors import InputError
 from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.system.names import parted
 from ...runtime.system.prepared import PreparedSystem, prepare_system
-from .bounds import Landing, landing_problem, transfer_problem
+from .bounds import landing_problem, transfer_problem
 from .point_mass import PointMassProblem
-from .vehicle import Transfer, Vehicle
+from .vehicle import Landing, Transfer, Vehicle
 
 ANNOTATION = "org.perilune.bound"
 VECTORS = ("position", "velocity")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -47,6 +47,15 @@ class HoverStudy:
     bound: PlannedPath | None
     durations: Curve | None
     distances: Curve | None
+
+    def with_curves(self) -> Self:
+        """The same with its curves. Raises `PlanError`."""
+        if self.durations is not None and self.distances is not None:
+            return self
+        programme = self.programme
+        if self.given:
+            programme = find_programme(programme.vehicle, self.transfer) or programme
+        return replace(self, durations=Curve(*over_duration(programme)), distances=Curve(*over_distance(programme)))
 
     @property
     def path(self) -> PlannedPath:

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ...common.progress import progress_bar
-from .bounds import Landing, landing_problem
+from .bounds import landing_problem
 from .declared_bound import Inputs
 from .direct_method import direct_propellant
 from .hover_study import BOUND_INTERVALS, vehicle_document
@@ -15,7 +15,7 @@ from .least_time import least_propellant
 from .path import PlannedPath
 from .point_mass import PointMassProblem
 from .stored_bound import StoredBound, digest
-from .vehicle import Vehicle
+from .vehicle import Landing, Vehicle
 
 
 @dataclass(frozen=True)

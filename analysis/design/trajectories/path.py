@@ -6,12 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...common.errors import EndedError
+from ...common.exit_status import ExitStatus
+
 OFF = 0.02  # of the way from least to full throttle: where an interval counts as part of a burn
 ALL = 1.0 - 1e-6  # from where on it counts as all of it
 
 
-class PlanError(Exception):
-    """There is no plan of the kind that is asked for; the message says which and why."""
+class PlanError(EndedError):
+    """There is no plan of the requested kind; the message says which and why."""
+
+    def __init__(self, message: str, status: int = ExitStatus.NOT_MET) -> None:
+        super().__init__(message, status)
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from .campaigns import BATCH, COMPARE, MERGE, PREPARE, REPLAY, SHARD
+from .design import BOUND, LAW, SEARCH, TRANSFER
 from .flights import RUN
-from .looking import DESCRIBE, LIST, VALIDATE
+from .looking import BENCHMARK, DESCRIBE, DOCS, LIST, VALIDATE
 from .making import EXPORT, NEW_BLOCK, NEW_SYSTEM
 from .stability import STABILITY
 from .studies import RARE, SENSITIVITY, WORST
@@ -16,22 +17,21 @@ VERBS: dict[str, Verb] = {
     for verb in (
         *(RUN, BATCH, REPLAY),
         *(COMPARE, STABILITY, RARE, WORST, SENSITIVITY),
-        *(LIST, DESCRIBE, VALIDATE),
-        *(NEW_BLOCK, NEW_SYSTEM),
+        *(LIST, DESCRIBE, VALIDATE, BENCHMARK, DOCS),
+        *(NEW_BLOCK, NEW_SYSTEM, LAW, SEARCH, TRANSFER, BOUND),
         *(EXPORT, PREPARE, SHARD, MERGE),
     )
 }
-GROUPS: dict[str, str] = {
-    "new": "write a block or a system of your own to start from"
-}  # what the verbs of a group do, by its first word
+GROUPS = {  # first word of verbs -> what they do
+    "new": "write a block or a system of your own to start from",
+    "design": "design control laws, and plans of least propellant",
+}
 
 # Verbs of earlier releases, and what to write for them.
-RENAMED: dict[str, str] = {}
-
-# Verbs that are not declared yet.
-OLD = {
-    "law": "print a network operator's law as a formula, or write it as parameter set or drawing",
-    "synthesize": "search for a control law, every candidate flown in its system",
-    "plan": "plan a transfer between hovers, or bound what a landing takes",
-    "benchmark": "time a communication step against other importers",
+RENAMED = {
+    "law": "design law",
+    "synthesize": "design search",
+    "plan hover-transfer": "design transfer",
+    "plan landing-bound": "design bound",
+    "plan": "design transfer or perilune design bound",
 }

@@ -1,6 +1,5 @@
 """Where results go: refused before a flight where they cannot, whole or not there otherwise, told at the end."""
 
-import argparse
 import errno
 import json
 import sys
@@ -8,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.cli import main, parser_of
+from perilune.analysis.cli import main
 from perilune.analysis.common.atomic import whole_file
-from perilune.analysis.verbs.options.verbs import OLD, VERBS
+from perilune.analysis.verbs.options.option import options_of
+from perilune.analysis.verbs.options.verbs import VERBS
 
 pytestmark = pytest.mark.usefixtures("fmus")
 RUN = ["run", "lunar_terminal_guidance"]
@@ -23,7 +23,7 @@ def nothing_flies(monkeypatch):
         raise AssertionError("it flew")
 
     monkeypatch.setattr("perilune.analysis.verbs.run.fly", fly)
-    monkeypatch.setattr("perilune.analysis.commands.campaigns.batch.run_batch", fly)
+    monkeypatch.setattr("perilune.analysis.verbs.batch.run_batch", fly)
 
 
 @pytest.mark.usefixtures("nothing_flies")
@@ -52,34 +52,30 @@ def test_targets_that_cannot_be_written_are_refused_before_a_flight(tmp_path, ca
 
 # What each verb is given besides; of what it would do nothing is reached.
 ARGUMENTS = {
-    "list": [[]],
-    "describe": [["lunar_landing"]],
-    "validate": [["lunar_landing"]],
-    "run": [RUN[1:]],
-    "batch": [BATCH[1:]],
-    "shard": [["there", "0"]],
-    "replay": [["there", "0"]],
-    "merge": [["there"]],
-    "rare": [[*BATCH[1:4], "--failure", "position_error > 1"]],
-    "worst": [[*BATCH[1:4], "--metric", "position_error"]],
-    "compare": [["there"]],
-    "law": [["paper"]],
-    "synthesize": [["network-operator", "none.toml"]],
-    "plan": [["hover-transfer"], ["landing-bound"]],
-    "stability": [["robot_rendezvous"]],
-    "benchmark": [[]],
-    "new": [["block", "mine"], ["system", "mine"]],
-    "export": [["lunar_landing"]],
+    "list": [],
+    "describe": ["lunar_landing"],
+    "validate": ["lunar_landing"],
+    "run": RUN[1:],
+    "batch": BATCH[1:],
+    "prepare": BATCH[1:],
+    "shard": ["there", "0"],
+    "replay": ["there", "0"],
+    "merge": ["there"],
+    "rare": [*BATCH[1:4], "--failure", "position_error > 1"],
+    "worst": [*BATCH[1:4], "--metric", "position_error"],
+    "sensitivity": [*BATCH[1:4], "--base", "32"],
+    "compare": ["there"],
+    "design law": ["paper"],
+    "design search": ["none.toml"],
+    "design transfer": [],
+    "design bound": [],
+    "stability": ["robot_rendezvous"],
+    "benchmark": [],
+    "docs": [],
+    "new block": ["mine"],
+    "new system": ["mine"],
+    "export": ["lunar_landing"],
 }
-INPUTS = {"draws", "input", "folder", "result", "file", "path"}  # files and folders that are read
-ENDINGS = {
-    ("run", "output"): ".csv",
-    ("replay", "output"): ".csv",
-    ("law", "output"): ".ssv",
-    ("law", "graph"): ".svg",
-    ("export", "output"): ".ssp",
-}
-FOLDERS = ("--output", "--data")  # where no ending is asked for
 BAD = {
     "folder": "is a folder; give the name of a file in it",
     "file/x": "file is a file; give another folder",
@@ -91,50 +87,37 @@ if sys.platform == "linux":
     BAD |= {"/proc/x": "cannot be written in /proc: ", "/dev/null": "is a device, which a file would replace"}
 
 
-def options_of(verb, arguments):
-    """The options of a verb that name what it writes: long names and whether they are files."""
-    parser = parser_of([verb, *arguments])
-    for word in [verb, *arguments]:
-        choices = [action.choices for action in parser._actions if isinstance(action, argparse._SubParsersAction)]
-        parser = choices[0][word] if choices and word in choices[0] else parser
-    return [
-        action
-        for action in parser._actions
-        if (action.type is Path or action.metavar in ("FILE", "DIR")) and action.dest not in INPUTS
-    ]
+def targets_of(verb):
+    """The options of a verb that name what it writes: flag, ending, whether it is a folder."""
+    files = options_of(VERBS[verb].files).values()
+    for each in [*files, *(each for each in options_of(VERBS[verb].options).values() if each.name == "output")]:
+        ending = each.option.suffixes[0] if each.option.suffixes else ".ssp" if verb == "export" != each.name else ""
+        yield f"--{each.flag}", ending if each.name != "json" else "", each.option.metavar == "DIR"
+    yield from ((f"--{each.name}", "", True) for each in VERBS[verb].arguments if each.name == "output")
 
 
-CASES = [
-    (verb, arguments, action.option_strings[-1], action.dest)
-    for verb, several in ARGUMENTS.items()
-    for arguments in several
-    for action in options_of(verb, arguments)
-]
+CASES = [(verb, *target) for verb in ARGUMENTS for target in targets_of(verb)]
 
 
 def test_every_verb_is_in_the_table():
-    assert set(ARGUMENTS) == {*VERBS, *OLD}
-    assert {verb for verb, *_ in CASES} == {*VERBS, *OLD} - {"shard"}  # it writes to the folder that it is given
+    assert set(ARGUMENTS) == set(VERBS)
+    assert {verb for verb, *_ in CASES} == set(VERBS)
 
 
-@pytest.mark.parametrize(
-    ("verb", "arguments", "option", "name"), CASES, ids=[f"{case[0]} {case[1][:1]} {case[2]}" for case in CASES]
-)
-def test_targets_of_every_verb_are_tried_first(tmp_path, monkeypatch, capsys, verb, arguments, option, name):
+@pytest.mark.parametrize(("verb", "flag", "ending", "is_folder"), CASES, ids=[f"{case[0]} {case[1]}" for case in CASES])
+def test_targets_of_every_verb_are_tried_first(tmp_path, monkeypatch, capsys, verb, flag, ending, is_folder):
     """Each of them refused in one line that names option and remedy, and nothing is left behind, in /proc neither."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").write_text("mine")
     before = sorted(tmp_path.rglob("*"))
-    ending = ENDINGS.get((verb, name), ".html" if name == "report" else "")
-    is_folder = option in FOLDERS and not ending
     for target, words in BAD.items():
         if is_folder and target in ("folder", "/dev/null"):
             continue
         written = target if target in ("folder", "/dev/null") else target + ending
-        assert main([verb, *arguments, option, written]) == 2
+        assert main([*verb.split(), *ARGUMENTS[verb], flag, written]) == 2
         error = capsys.readouterr().err
-        assert error.startswith(f"perilune: {option}: "), error
+        assert error.startswith(f"perilune: {flag}: "), error
         assert error.count("\n") == 1
         assert words in error or (target == "/dev/null" and ending in error), error
         assert sorted(tmp_path.rglob("*")) == before
@@ -220,6 +203,6 @@ def test_a_full_disk_names_the_file_and_leaves_nothing(tmp_path):
 def test_requirements_on_one_flight(capsys):
     assert main([*RUN, "--require", "time < 300", "--require", "plant.mass > 0"]) == 0
     assert main([*RUN, "--require", "plant.speed < 1"]) == 2
-    assert "plant.speed: no such number in what results" in capsys.readouterr().err
+    assert "plant.speed: no such number in the result" in capsys.readouterr().err
     assert main([*RUN, "--require", "plant.position[1] < 0"]) == 1
     assert capsys.readouterr().err == "perilune: --require: plant.position[1] < 0: not met\n"

@@ -73,19 +73,23 @@ ROWS = [
     ("stability {folder}/late.ssp", 0),
     ("stability {folder}/strict.ssp", 1),  # a modulus margin of 0.99 is asked for
     (f"stability {SYSTEM}", 2),
-    ("law diveev_2013", 0),
-    ("law nothing", 2),
-    ("synthesize network-operator nothing", 2),
-    ("plan hover-transfer", 0),
-    ("plan hover-transfer --dry-mass 590", 1),
-    ("plan hover-transfer --intervals 50", 2),
+    ("design law diveev_2013", 0),
+    ("design law nothing", 2),
+    ("design search nothing", 2),
+    ("design transfer", 0),
+    ("design transfer --dry-mass 590", 1),
+    ("design transfer --intervals 50", 2),
     ("new block made_here", 0),
     ("new block Made", 2),
+    ("new system made_here", 0),
+    ("new system Made", 2),
+    ("design bound --speed 0", 2),
+    ("docs --json {folder}", 2),
     ("export forming_filter --flavour python", 0),
     ("export nothing", 2),
     ("benchmark --json {folder}", 2),
 ]
-ELSEWHERE = {"synthesize": "0 and 1: test_synthesize.py", "benchmark": "0: tests/benchmark"}
+ELSEWHERE = {"design search": "0 and 1: test_synthesize.py", "benchmark": "0: tests/benchmark"}
 
 UNDECIDED = f"""
 system = "{SYSTEM}"

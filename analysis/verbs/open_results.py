@@ -9,12 +9,12 @@ from typing import Any
 
 from matplotlib.figure import Figure as Plot
 
-from ...campaigns.folder.folder import read_folder
-from ...campaigns.folder.opened import OpenedResults
-from ...reports.common.notebook import Grid, notebook_view
-from ...runtime.flight.results import require_pandas
-from ..options import FilePath
-from .plots import distributions
+from ..campaigns.folder.folder import read_folder
+from ..campaigns.folder.opened import OpenedResults
+from ..reports.common.notebook import Grid, notebook_view
+from ..runtime.flight.results import require_pandas
+from .options.option import FilePath
+from .plot_results import distributions
 
 
 class StoredResults(OpenedResults):

@@ -1,4 +1,4 @@
-"""`perilune law`: formula, parameter set, drawing, JSON, exit status.
+"""`perilune design law`: formula, parameter set, drawing, JSON, exit status.
 
 Truth: the same flight with the parameter set as with the system's own published law; the SSP schema;
 mistakes in one line on standard error, exit status 2, and no file left behind.
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 
 def test_prints_the_formula(capsys):
-    assert main(["law", "diveev_2013"]) == 0
+    assert main(["design", "law", "diveev_2013"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "z1 = pi + theta"
     assert "u2 = z16 = -z12 + exp(z13) + cbrt(z15)" in lines
@@ -29,7 +29,7 @@ def test_the_parameter_set_is_the_law(tmp_path, capsys):
     """diveev_2013 is what lunar_descent_2d flies by itself; the basic solution falls to the ground."""
     for name in ("diveev_2013", "diveev_2013_basic"):
         path = tmp_path / "new" / f"{name}.ssv"
-        assert main(["law", name, "--output", str(path)]) == 0
+        assert main(["design", "law", name, "--output", str(path)]) == 0
         law = json.loads(named_law(name).read_text())
         values = {entry.name: entry.value for entry in read_parameter_file(path.read_bytes(), str(path))}
         assert len(values) == 256 + 3 + 1
@@ -54,7 +54,10 @@ def test_another_component_and_the_true_exponential(tmp_path):
     law = json.loads(named_law("diveev_2013").read_text()) | {"exp_saturation": "true"}
     (tmp_path / "mine.json").write_text(json.dumps(law))
     path = tmp_path / "mine.ssv"
-    assert main(["law", str(tmp_path / "mine.json"), "--output", str(path), "--component", "lander.guidance"]) == 0
+    assert (
+        main(["design", "law", str(tmp_path / "mine.json"), "--output", str(path), "--component", "lander.guidance"])
+        == 0
+    )
     values = {entry.name: entry.value for entry in read_parameter_file(path.read_bytes(), str(path))}
     assert values["lander.guidance.exp_saturation"] == 0
     assert all(name.startswith("lander.guidance.") for name in values)
@@ -62,13 +65,13 @@ def test_another_component_and_the_true_exponential(tmp_path):
 
 def test_draws_the_graph(tmp_path):
     path = tmp_path / "new" / "law.svg"
-    assert main(["law", "diveev_2013", "--graph", str(path)]) == 0
+    assert main(["design", "law", "diveev_2013", "--graph", str(path)]) == 0
     assert etree.parse(path).getroot().tag == "{http://www.w3.org/2000/svg}svg"
     assert [entry.name for entry in path.parent.iterdir()] == ["law.svg"]
 
 
 def test_json(tmp_path, capsys):
-    assert main(["law", "diveev_2013_basic", "--json", "-"]) == 0
+    assert main(["design", "law", "diveev_2013_basic", "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found.pop("formula") == {
         "z3": "(hf - h)/h0",
@@ -76,7 +79,7 @@ def test_json(tmp_path, capsys):
         "z16": "-cos(theta)*theta*q3",
     }
     assert found == json.loads(named_law("diveev_2013_basic").read_text())
-    assert main(["law", "diveev_2013_basic", "--json", str(tmp_path / "law.json")]) == 0
+    assert main(["design", "law", "diveev_2013_basic", "--json", str(tmp_path / "law.json")]) == 0
     assert "u1 = z15" in capsys.readouterr().out
 
 
@@ -86,7 +89,7 @@ def test_json(tmp_path, capsys):
         (["none"], "law: no such law or file; use one of diveev_2013, diveev_2013_basic"),
         (["diveev_2013", "--output", "law.txt"], "--output: law.txt: not .ssv"),
         (["diveev_2013", "--graph", "law.png"], "--graph: law.png: not .svg"),
-        (["diveev_2013", "--component", "plant"], "--component: plant: names nothing without --output"),
+        (["diveev_2013", "--component", "plant"], "--component: plant: without effect unless --output is given"),
         (["diveev_2013", "--output", "law.ssv", "--component", ""], "--component: '': not a component's name"),
         (["diveev_2013", "--output", "law.ssv", "--component", "a\x01"], "not a component's name"),
         (["bad.json", "--output", "law.ssv", "--graph", "law.svg"], "bad.json: matrix[8,3]: 5 below the diagonal"),
@@ -97,7 +100,7 @@ def test_wrong_input(tmp_path, monkeypatch, capsys, arguments, words):
     law = json.loads(named_law("diveev_2013").read_text())
     law["matrix"][7][2] = 5
     (tmp_path / "bad.json").write_text(json.dumps(law))
-    assert main(["law", *arguments]) == 2
+    assert main(["design", "law", *arguments]) == 2
     error = capsys.readouterr().err
     assert error.startswith("perilune: ")
     assert words in error

@@ -7,8 +7,8 @@ import shutil
 import textwrap
 from typing import Any, NoReturn
 
-from .verb import Verb
-from .verbs import GROUPS, OLD, PURPOSES, VERBS
+from .options.verb import Verb
+from .options.verbs import GROUPS, PURPOSES, VERBS
 
 WIDEST = 100  # columns of any output
 NAME = 18  # columns of a verb's name
@@ -46,10 +46,11 @@ def overview() -> str:
     for purpose in PURPOSES:
         verbs = [verb for verb in VERBS.values() if verb.purpose == purpose]
         rows = [(verb.name, verb.text) for verb in verbs]
-        rows += list(OLD.items()) if purpose == "Study" else []
-        if rows:
-            parts += ["", f"{purpose}:", *_rows(rows)]
-        parts += [f"  example: {_broken(verb.examples[0][0], 11)}" for verb in verbs[:1]]
+        parts += ["", f"{purpose}:", *_rows(rows)]
+        examples = [
+            text for verb in verbs for text, _ in verb.examples if f"{text} ".startswith(f"perilune {verb.name} ")
+        ]
+        parts.append(f"  example: {_broken(examples[0], 11)}")
     return "\n".join(parts)
 
 

@@ -10,16 +10,16 @@ import numpy as np
 import pyarrow.compute
 from matplotlib.figure import Figure as Plot
 
-from ...campaigns.fly.results import BatchResult
-from ...campaigns.folder.folder import read_folder
-from ...campaigns.folder.opened import OpenedResults
-from ...campaigns.rows import whole_column
-from ...campaigns.spec.campaign import Metric
-from ...campaigns.spec.expressions import Expression
-from ...common.errors import InputError, suggestion
-from ...reports.campaign.distributions import distribution_plot
-from ...reports.common.style import look
-from ..options import FilePath
+from ..campaigns.fly.results import BatchResult
+from ..campaigns.folder.folder import read_folder
+from ..campaigns.folder.opened import OpenedResults
+from ..campaigns.rows import whole_column
+from ..campaigns.spec.campaign import Metric
+from ..campaigns.spec.expressions import Expression
+from ..common.errors import InputError, suggestion
+from ..reports.campaign.distributions import distribution_plot
+from ..reports.common.style import look
+from .options.option import FilePath
 
 Results = OpenedResults | BatchResult
 

@@ -1,4 +1,4 @@
-"""`perilune plan`: what it prints and writes, its exit status, what it refuses, what it does without its solvers.
+"""`perilune design transfer` and `perilune design bound`: text, files, exit status, refusals, missing solvers.
 
 Truth: the published programme and the figures of the same plans made beforehand; Python's json.
 """
@@ -18,24 +18,24 @@ from tests.support.declared_bounds import PIECES, declared_system
 
 def made(capsys, *arguments, status=0):
     """The JSON of a plan."""
-    assert main(["plan", *arguments, "--json", "-"]) == status
+    assert main(["design", *arguments, "--json", "-"]) == status
     return json.loads(capsys.readouterr().out)
 
 
 def test_the_programme_alone(capsys):
-    assert main(["plan", "hover-transfer"]) == 0
+    assert main(["design", "transfer"]) == 0
     captured = capsys.readouterr()
     assert captured.err == ""
     assert captured.out.splitlines() == [
         "programme with first burn: t2 15.270, t5 63.642, w 1.697 (k 0.9753), tp 10.989, t7 77.157 s",
-        "  propellant 0.049514 of the mass, 29.709 kg; full thrust 13.6 to 17.0 s, 66.2 to 77.2 s",
+        "  propellant fraction 0.049514, 29.709 kg; full thrust 13.6 to 17.0 s, 66.2 to 77.2 s",
         "  pitch 31.7 to 135.7 deg, 2.254 deg/s",
-        "  1.3072 times straight down, 0.037878 in 70.04 s",
+        "  1.3072 x vertical descent, 0.037878 in 70.04 s",
     ]
 
 
 def test_a_given_time(capsys):
-    programme = made(capsys, "hover-transfer", "--t7", "78")["programme"]
+    programme = made(capsys, "transfer", "--t7", "78")["programme"]
     assert programme["t2_s"] == pytest.approx(15.0086, abs=0.02)
     assert programme["t5_s"] == pytest.approx(64.7012, abs=0.02)
     assert programme["tp_s"] == pytest.approx(10.9309, abs=0.02)
@@ -46,38 +46,38 @@ def test_a_given_time(capsys):
 
 
 def test_margins(capsys):
-    found = made(capsys, "hover-transfer", "--margins")
+    found = made(capsys, "transfer", "--margins")
     assert found["programme"]["propellant_fraction"] == pytest.approx(0.052518, abs=5e-6)
     assert found["margins"] == pytest.approx(
         {"maximum_throttle": 0.9, "minimum_throttle": 0.1, "angular_acceleration_deg_s2": 0.7}
     )
     single = ["--maximum-throttle", "0.9", "--minimum-throttle", "0.1", "--angular-acceleration", "0.7"]
-    assert made(capsys, "hover-transfer", *single)["programme"] == found["programme"]
-    fewer = made(capsys, "hover-transfer", "--angular-acceleration", "0.7")
+    assert made(capsys, "transfer", *single)["programme"] == found["programme"]
+    fewer = made(capsys, "transfer", "--angular-acceleration", "0.7")
     assert fewer["margins"]["minimum_throttle"] == pytest.approx(1.0 / 15.0)
 
 
 def test_straight_down(capsys):
-    programme = made(capsys, "hover-transfer", "--distance", "0")["programme"]
+    programme = made(capsys, "transfer", "--distance", "0")["programme"]
     assert (programme["kind"], programme["k"], programme["over_vertical"]) == ("vertical", None, 1.0)
     assert programme["t7_s"] == pytest.approx(70.04, abs=0.01)
     assert programme["propellant_fraction"] == pytest.approx(0.037878, abs=1e-6)
 
 
 def test_a_vehicle_that_is_twice_as_large(capsys):
-    one = made(capsys, "hover-transfer")
+    one = made(capsys, "transfer")
     twice = ["--mass", "1200", "--maximum-thrust", "9414.384", "--minimum-thrust", str(2.0 * 4707.192 / 15.0)]
-    two = made(capsys, "hover-transfer", *twice)
+    two = made(capsys, "transfer", *twice)
     assert two["programme"]["propellant_kg"] == pytest.approx(2.0 * one["programme"]["propellant_kg"])
 
 
 def test_optimum_bound_and_curves(tmp_path, capsys):
     document = tmp_path / "plan.json"
     more = ["--optimum", "--bound", "--curves", "--intervals", "60", "--json", str(document)]
-    assert main(["plan", "hover-transfer", *more]) == 0
+    assert main(["design", "transfer", *more]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[4].startswith("true optimum: 0.0487")
-    assert lines[5].startswith("point-mass bound: 0.0448")
+    assert lines[4].startswith("true optimum: propellant fraction 0.0487")
+    assert lines[6].startswith("point-mass bound: propellant fraction 0.0448")
     found = json.loads(document.read_text())
     assert found["true_optimum"]["propellant_fraction"] == pytest.approx(0.0488, abs=5e-5)
     assert found["bound"]["propellant_fraction"] == pytest.approx(0.04481, abs=1e-5)
@@ -92,44 +92,44 @@ def test_optimum_bound_and_curves(tmp_path, capsys):
 
 
 def test_not_enough_on_board(capsys):
-    assert main(["plan", "hover-transfer", "--dry-mass", "580"]) == 1
+    assert main(["design", "transfer", "--dry-mass", "580"]) == 1
     assert capsys.readouterr().err == "perilune: the programme takes 29.71 kg of propellant; 20 kg are on board\n"
 
 
 def test_no_programme(capsys):
-    assert main(["plan", "hover-transfer", "--distance", "10000", "--descent", "500"]) == 1
+    assert main(["design", "transfer", "--distance", "10000", "--descent", "500"]) == 1
     error = capsys.readouterr().err
-    assert error.startswith("perilune: hover-transfer: no simplified programme goes 10000 m along in 500 m of descent")
+    assert error.startswith("perilune: no simplified programme goes 10000 m along in 500 m of descent")
     assert error.count("\n") == 1
 
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["hover-transfer", "--mass", "0"], "argument --mass: '0' is not a number above 0"),
-        (["hover-transfer", "--mass", "nan"], "argument --mass: 'nan' is not a number above 0"),
-        (["hover-transfer", "--maximum-throttle", "1.1"], "'1.1' is not a number above 0 and at most 1"),
-        (["hover-transfer", "--distance", "-1"], "'-1' is not a number from 0"),
-        (["hover-transfer", "--bound", "--intervals", "5"], "'5' is not a whole number from 10 to 100000"),
-        (["hover-transfer", "--intervals", "50"], "--intervals: 50: nothing here has intervals; ask for --optimum or"),
-        (["hover-transfer", "--maximum-thrust", "900"], "--maximum-thrust: 900 N: 1.5 m/s2 do not carry the mass"),
-        (["hover-transfer", "--minimum-thrust", "1000"], "--minimum-thrust: 1000 N: 1.667 m/s2 carry the mass"),
-        (["hover-transfer", "--minimum-thrust", "5000"], "--minimum-thrust: 5000: not below the largest thrust"),
-        (["hover-transfer", "--minimum-thrust", "0"], "--minimum-thrust: 0 N: the programme's engine never stops"),
-        (["hover-transfer", "--minimum-throttle", "0.95", "--margins"], "--minimum-thrust: 4471.83: not below the"),
-        (["hover-transfer", "--dry-mass", "600"], "--dry-mass: 600: not below the mass, 600 kg"),
-        (["landing-bound", "--speed", "inf"], "argument --speed: 'inf' is not a number above 0"),
-        (["landing-bound", "--climb", "90"], "argument --climb: '90' is not a number above -89 and at most 89"),
-        (["landing-bound", "--store"], "--store: no system to store it with; name a system"),
-        (["landing-bound", "--parameters", "a.ssv"], "system options: there is no system that they are for"),
-        (["landing-bound", "no_such_system"], "no_such_system: system: neither a system, a folder nor a file"),
-        (["nothing"], "argument PLAN: invalid choice: 'nothing'"),
-        ([], "the following arguments are required: PLAN"),
+        (["transfer", "--mass", "0"], "--mass: 0: not above 0"),
+        (["transfer", "--mass", "nan"], "--mass: 'nan': not a finite number of kg"),
+        (["transfer", "--maximum-throttle", "1.1"], "--maximum-throttle: 1.1: above 1"),
+        (["transfer", "--distance", "-1"], "--distance: -1: below 0"),
+        (["transfer", "--bound", "--intervals", "5"], "--intervals: 5: below 10"),
+        (["transfer", "--intervals", "50"], "--intervals: 50: without effect unless --optimum or --bound is given"),
+        (["transfer", "--maximum-thrust", "900"], "--maximum-thrust: 900 N: 1.5 m/s2 do not carry the mass"),
+        (["transfer", "--minimum-thrust", "1000"], "--minimum-thrust: 1000 N: 1.667 m/s2 carry the mass"),
+        (["transfer", "--minimum-thrust", "5000"], "--minimum-thrust: 5000: not below the largest thrust"),
+        (["transfer", "--minimum-thrust", "0"], "--minimum-thrust: 0 N: the programme's engine never stops"),
+        (["transfer", "--minimum-throttle", "0.95", "--margins"], "--minimum-thrust: 4471.83: not below the"),
+        (["transfer", "--dry-mass", "600"], "--dry-mass: 600: not below the mass, 600 kg"),
+        (["bound", "--speed", "inf"], "--speed: 'inf': not a finite number"),
+        (["bound", "--climb", "90"], "--climb: 90: above 89"),
+        (["bound", "--store"], "--store: no system to store it with; name a system"),
+        (["bound", "--parameters", "a.ssv"], "system options: there is no system that they are for"),
+        (["bound", "no_such_system"], "no_such_system: system: neither a system, a folder nor a file"),
+        (["nothing"], "argument VERB: invalid choice: 'nothing'"),
+        ([], "the following arguments are required: VERB"),
     ],
 )
 def test_wrong_input(capsys, arguments, words):
     try:
-        status = main(["plan", *arguments])
+        status = main(["design", *arguments])
     except SystemExit as stop:  # argparse's
         status = stop.code
     error = capsys.readouterr().err
@@ -151,18 +151,18 @@ def no_solvers(monkeypatch):
     ("arguments", "words"),
     [
         (
-            ["hover-transfer", "--optimum"],
+            ["transfer", "--optimum"],
             "plan: casadi: the true optimum needs it, and it is not installed; pip install",
         ),
-        (["hover-transfer", "--bound"], "plan: clarabel: the bound needs it, and it is not installed; pip install"),
+        (["transfer", "--bound"], "plan: clarabel: the bound needs it, and it is not installed; pip install"),
         (
-            ["landing-bound"],
+            ["bound"],
             "plan: clarabel: the bound needs it, and it is not installed; pip install 'perilune[plan]'",
         ),
     ],
 )
 def test_without_a_solver(capsys, arguments, words):
-    assert main(["plan", *arguments]) == 2
+    assert main(["design", *arguments]) == 2
     error = capsys.readouterr().err
     assert words in error
     assert error.count("\n") == 1
@@ -171,12 +171,12 @@ def test_without_a_solver(capsys, arguments, words):
 @pytest.mark.usefixtures("no_solvers")
 def test_the_programme_needs_no_solver(tmp_path, capsys):
     page = tmp_path / "new" / "plan.html"
-    assert made(capsys, "hover-transfer", "--report", str(page))["true_optimum"] is None
+    assert made(capsys, "transfer", "--report", str(page))["true_optimum"] is None
     assert "Not asked for: true optimum, point-mass bound." in page.read_text()
 
 
 def test_landing(capsys):
-    found = made(capsys, "landing-bound", "--direct", "--intervals", "60")
+    found = made(capsys, "bound", "--direct", "--intervals", "60")
     assert found["bound"]["propellant_kg"] == pytest.approx(400.82, abs=0.01)
     assert found["direct_method"]["propellant_kg"] == pytest.approx(400.82, abs=0.01)
     assert found["bound"]["looseness_m_s2"] < 3e-7
@@ -185,7 +185,7 @@ def test_landing(capsys):
 
 
 def test_landing_in_words(capsys):
-    assert main(["plan", "landing-bound", "--direct", "--intervals", "40", "--dry-mass", "600"]) == 1
+    assert main(["design", "bound", "--direct", "--intervals", "40", "--dry-mass", "600"]) == 1
     captured = capsys.readouterr()
     assert captured.out.startswith("bound 400.8")
     assert "\ndirect method 400.8" in captured.out
@@ -195,11 +195,11 @@ def test_landing_in_words(capsys):
 @pytest.mark.usefixtures("fmus")
 def test_a_systems_bound_is_stored(tmp_path, capsys):
     place = declared_system(tmp_path, PIECES)
-    arguments = ["plan", "landing-bound", str(place), "--intervals", "20"]
+    arguments = ["design", "bound", str(place), "--intervals", "20"]
     assert main([*arguments, "--store", "--json", str(tmp_path / "bound.json")]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[2].startswith("  braking by itself ")
-    assert lines[-1] == f"written: {tmp_path / 'bound.json'}, {place / PLACE}"
+    assert lines[3].startswith("  braking alone: ")
+    assert lines[-2:] == [f"stored: {place / PLACE}", f"written: {tmp_path / 'bound.json'}"]
     stored = find_bound(prepare_system(place, SystemOptions()))
     found = json.loads((tmp_path / "bound.json").read_text())
     assert stored.propellant == found["bound"]["propellant_kg"]
@@ -220,7 +220,7 @@ def test_what_is_not_stored(tmp_path, capsys):
         ),
         (["lunar_landing"], "no annotation org.perilune.bound"),
     ):
-        assert main(["plan", "landing-bound", *arguments]) == 2
+        assert main(["design", "bound", *arguments]) == 2
         error = capsys.readouterr().err
         assert words in error
         assert error.count("\n") == 1

@@ -1,1 +1,0 @@
-"""The Python interface: every verb of the command line as a function, and its result with page, plots and tables."""

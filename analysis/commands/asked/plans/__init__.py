@@ -1,1 +1,0 @@
-"""The options of each plan of `perilune plan`."""

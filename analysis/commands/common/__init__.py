@@ -1,1 +1,0 @@
-"""What verbs share: options, requirements, targets, tables of text."""

@@ -1,1 +1,0 @@
-"""The plans of `perilune plan`, one a file."""

@@ -1,0 +1,1 @@
+"""The verbs of design: laws, and plans of least propellant."""

@@ -1,0 +1,78 @@
+"""`perilune.law` and `perilune design law`: a network operator as formula, parameter set and drawing."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Unpack
+
+from matplotlib.figure import Figure as Plot
+
+from ...common.atomic import write_atomically
+from ...common.errors import InputError
+from ...design.laws import law as laws
+from ...design.laws.formula import formula, formula_text
+from ...design.laws.graph import law_figure, law_svg
+from ...design.laws.law import named_law
+from ...design.laws.parameter_set import parameter_set
+from ...reports.common.notebook import Grid, notebook_view
+from ...reports.common.style import house_style
+from ..options.design import LAW, LawOptions
+from ..options.option import FilePath
+from ..options.verb import verb
+
+
+@dataclass(frozen=True)
+class Law(laws.Law):
+    """A network operator's law: its matrix and parameters, as formula, drawing and parameter set.
+
+    ``component`` is what the parameter set is for.
+    """
+
+    component: str = "guidance"
+
+    def lines(self) -> list[str]:
+        """The law as a formula, for a terminal."""
+        return formula_text(self).splitlines()
+
+    def to_json(self) -> dict[str, Any]:
+        """The content of the law's file, and the formula."""
+        return self.document() | {"formula": formula(self)}
+
+    def problems(self) -> list[str]:
+        """None."""
+        return []
+
+    def write(self, path: FilePath) -> None:
+        """Write the law's file (.json)."""
+        super().write(Path(path))
+
+    def write_parameters(self, path: FilePath, component: str | None = None) -> None:
+        """Write the parameter set (.ssv) of the law, for its ``component`` unless another is given."""
+        write_atomically(Path(path), parameter_set(self, component or self.component))
+
+    def write_graph(self, path: FilePath) -> None:
+        """Draw the law's graph (.svg)."""
+        write_atomically(Path(path), law_svg(self))
+
+    def plot(self) -> Plot:
+        """The law's graph."""
+        with house_style():
+            return law_figure(self)
+
+    def _repr_html_(self) -> str:
+        lines = [(line,) for line in self.lines() if line.strip()]
+        return notebook_view(self.name, [self.description], [Grid(("formula",), lines)], self.plot())
+
+
+@verb(LAW)
+def law(name: FilePath, **options: Unpack[LawOptions]) -> Law:
+    """Read a law of laws/ by name, or from its .json file: `perilune design law`.
+
+    ``component`` is the one that `Law.write_parameters` writes for. Raises InputError.
+    """
+    component = options["component"]
+    if not component.isprintable() or "" in component.split("."):
+        raise InputError("`component`", repr(component), "not a component's name", "name it as the system does")
+    return Law(**vars(laws.read_law(named_law(os.fspath(name)))), component=component)

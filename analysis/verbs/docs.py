@@ -1,0 +1,48 @@
+"""`perilune docs`: the documentation, opened in a browser."""
+
+from __future__ import annotations
+
+import webbrowser
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Unpack
+
+from ...fmus_src.paths import BUILD, IS_CHECKOUT
+from ..common.errors import InputError
+from .options.looking import DOCS, DocsOptions
+from .options.verb import verb
+
+FIRST_PAGE = BUILD / "site" / "index.html"
+
+
+@dataclass(frozen=True)
+class Documentation:
+    """The site's first ``page``, and whether a browser has opened it."""
+
+    page: Path
+    is_opened: bool
+
+    def lines(self) -> list[str]:
+        """The path of the page."""
+        return [str(self.page)]
+
+    def to_json(self) -> dict[str, Any]:
+        """The same for other programs."""
+        return {"page": str(self.page), "opened": self.is_opened}
+
+    def problems(self) -> list[str]:
+        """None."""
+        return []
+
+
+@verb(DOCS)
+def docs(**options: Unpack[DocsOptions]) -> Documentation:
+    """Open the documentation in a browser, or with ``print`` give its path: `perilune docs`. Raises InputError."""
+    if not FIRST_PAGE.is_file():
+        remedy = "build it with make docs" if IS_CHECKOUT else "read docs/ of the repository, or reinstall perilune"
+        raise InputError("docs", str(FIRST_PAGE), "the site is not there", remedy)
+    if options["print"]:
+        return Documentation(FIRST_PAGE, False)
+    if not webbrowser.open(FIRST_PAGE.as_uri()):
+        raise InputError("docs", str(FIRST_PAGE), "no browser opens it", "open this file yourself")
+    return Documentation(FIRST_PAGE, True)

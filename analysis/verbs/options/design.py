@@ -1,0 +1,227 @@
+"""The verbs of design: law and search of network operators, transfer and bound of least propellant."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, TypedDict
+
+from ...design.trajectories.vehicle import (
+    HOVER_MARGINS,
+    HOVER_TRANSFER,
+    HOVER_VEHICLE,
+    LANDING,
+    LANDING_VEHICLE,
+    Margins,
+)
+from .option import FilePath, Option
+from .system import JsonFile, ReportFiles, SystemOptions
+from .verb import Argument, Verb
+
+MOST_INTERVALS = 100_000
+NO_PLAN = "there is no such plan, or it takes more propellant than is on board"
+
+
+class LawOptions(TypedDict, total=False):
+    """Options of design law"""
+
+    component: Annotated[
+        str, Option("component that the parameter set is for", "guidance", metavar="NAME", needs="output")
+    ]
+
+
+class LawFiles(JsonFile, total=False):
+    """Files"""
+
+    output: Annotated[
+        FilePath | None,
+        Option("write the parameter set of the law", metavar="F.ssv", suffixes=(".ssv",), writer="write_parameters"),
+    ]
+    graph: Annotated[
+        FilePath | None, Option("draw its graph", metavar="F.svg", suffixes=(".svg",), writer="write_graph")
+    ]
+
+
+LAW = Verb(
+    "design law",
+    "Make",
+    "print a network operator's law as a formula, or write it as a parameter set or a drawing",
+    ("design.law", "law"),
+    (Argument("name", "LAW", "a law of laws/ by name, or the path of its .json file", "laws"),),
+    LawOptions,
+    LawFiles,
+    (
+        ("perilune design law diveev_2013", "the published law as a formula"),
+        (
+            "perilune design law diveev_2013 --output law.ssv --graph law.svg",
+            "a parameter set for guidance, and a drawing",
+        ),
+    ),
+)
+
+
+class SearchOptions(TypedDict, total=False):
+    """Options of design search"""
+
+    seed: Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
+    workers: Annotated[int | None, Option("laws evaluated in parallel; default: one per processor", metavar="N")]
+    output: Annotated[FilePath | None, Option("write checkpoints, Pareto set and law to a folder", metavar="DIR")]
+    resume: Annotated[bool, Option("continue from the checkpoint in the folder of --output", False)]
+    evaluations: Annotated[
+        int | None, Option("end with the generation in which N laws have been evaluated", metavar="N")
+    ]
+
+
+SEARCH = Verb(
+    "design search",
+    "Make",
+    "search for a network operator's law, every candidate simulated in its system",
+    ("design.search", "synthesize"),
+    (
+        Argument(
+            "search",
+            "F.toml",
+            "a campaign with a table [network_operator]; by name of laws/searches, or a path",
+            "searches",
+        ),
+    ),
+    SearchOptions,
+    JsonFile,
+    (
+        (
+            "perilune design search lunar_landing_5_deg_s --output laws",
+            "ends at once: the published law succeeds from all nine starts",
+        ),
+    ),
+    not_met="no law was found with every trial a success",
+)
+
+
+def _defaults(name: str, unit: str) -> str:
+    """The unit of a number of the vehicle, and its published values."""
+    values = f"{getattr(HOVER_VEHICLE, name):g} (transfer), {getattr(LANDING_VEHICLE, name):g} (bound)"
+    return f", {unit}; default: {values}"
+
+
+class VehicleOptions(TypedDict, total=False):
+    """Vehicle"""
+
+    mass: Annotated[float | None, Option(f"mass at the start{_defaults('mass', 'kg')}", unit="kg", above=0.0)]
+    dry_mass: Annotated[
+        float | None, Option(f"mass without propellant{_defaults('dry_mass', 'kg')}", unit="kg", minimum=0.0)
+    ]
+    specific_impulse: Annotated[
+        float | None, Option(f"of the engine{_defaults('specific_impulse', 's')}", unit="s", above=0.0)
+    ]
+    maximum_thrust: Annotated[
+        float | None, Option(f"of the engine{_defaults('maximum_thrust', 'N')}", unit="N", above=0.0)
+    ]
+    minimum_thrust: Annotated[
+        float | None, Option(f"of the engine{_defaults('minimum_thrust', 'N')}", unit="N", minimum=0.0)
+    ]
+
+
+class TransferOptions(VehicleOptions, total=False):
+    """Options of design transfer"""
+
+    distance: Annotated[
+        float | None, Option(f"downrange, m; default: {HOVER_TRANSFER.distance:g}", unit="m", minimum=0.0)
+    ]
+    descent: Annotated[
+        float | None, Option(f"height above the end, m; default: {HOVER_TRANSFER.descent:g}", unit="m", above=0.0)
+    ]
+    gravity: Annotated[
+        float | None, Option(f"uniform, m/s2; default: {HOVER_TRANSFER.gravity:g}", unit="m/s2", above=0.0)
+    ]
+    duration: Annotated[
+        float | None,
+        Option(
+            "end of the programme, s; default: that of least propellant", unit="s", metavar="T", flag="t7", above=0.0
+        ),
+    ]
+    margins: Annotated[
+        bool | Margins,
+        Option(
+            f"leave control margins: throttle {HOVER_MARGINS.minimum_throttle:g} to "
+            f"{HOVER_MARGINS.maximum_throttle:g}, {math.degrees(HOVER_MARGINS.angular_acceleration):g} deg/s2; "
+            "default: all of the vehicle",
+            False,
+        ),
+    ]
+    maximum_throttle: Annotated[
+        float | None, Option("of the maximum thrust, as a control margin", above=0.0, maximum=1.0)
+    ]
+    minimum_throttle: Annotated[
+        float | None, Option("of the maximum thrust, as a control margin", minimum=0.0, maximum=1.0)
+    ]
+    angular_acceleration: Annotated[
+        float | None, Option("as a control margin, deg/s2; the vehicle's is 1", unit="deg/s2", above=0.0)
+    ]
+    optimum: Annotated[bool, Option("compute the true optimum, too, by direct multiple shooting", False)]
+    bound: Annotated[bool, Option("compute the bound of a point mass, too, by the convex form", False)]
+    curves: Annotated[bool, Option("compute propellant over t7 and over distance, too", False)]
+    intervals: Annotated[
+        int | None, Option("of optimum and bound; default: 320 and 240", minimum=10, maximum=MOST_INTERVALS)
+    ]
+
+
+TRANSFER = Verb(
+    "design transfer",
+    "Make",
+    "plan a transfer between two hovers: parametric programme, true optimum, point-mass bound",
+    ("design.transfer", "plan_hover_transfer"),
+    (),
+    TransferOptions,
+    ReportFiles,
+    (("perilune design transfer --margins", "from hover to hover, with control margins"),),
+    not_met=NO_PLAN,
+)
+
+
+class BoundOptions(SystemOptions, VehicleOptions, total=False):
+    """Options of design bound"""
+
+    range: Annotated[
+        float | None, Option(f"from the site to the start along the ground, m; default: {LANDING.range:g}", above=0.0)
+    ]
+    altitude: Annotated[float | None, Option(f"of the start, m; default: {LANDING.altitude:g}", above=0.0)]
+    speed: Annotated[float | None, Option(f"at the start, m/s; default: {LANDING.speed:g}", above=0.0)]
+    climb: Annotated[
+        float | None,
+        Option(
+            f"flight-path angle at the start, deg; default: {math.degrees(LANDING.climb):g}",
+            unit="deg",
+            minimum=-89.0,
+            maximum=89.0,
+        ),
+    ]
+    target_altitude: Annotated[
+        float | None, Option(f"above the site, at rest, m; default: {LANDING.target_altitude:g}", minimum=0.0)
+    ]
+    radius: Annotated[float | None, Option(f"of the Moon, m; default: {LANDING.radius:g}", above=0.0)]
+    gravitational_parameter: Annotated[
+        float | None, Option(f"of the Moon, m3/s2; default: {LANDING.gravitational_parameter:g}", above=0.0)
+    ]
+    direct: Annotated[bool, Option("check the bound by a direct method", False)]
+    intervals: Annotated[int | None, Option("of bound and check; default: 240", minimum=10, maximum=MOST_INTERVALS)]
+    store: Annotated[bool, Option("store the bound in the system's folder, for the pages of simulations", False)]
+
+
+BOUND = Verb(
+    "design bound",
+    "Make",
+    "bound the propellant of braking and landing in one: a point mass, attitude free",
+    ("design.bound", "plan_landing_bound"),
+    (
+        Argument(
+            "system",
+            "SYSTEM",
+            "a name under ssp_systems, a folder or an .ssp file: the bound of its landing; default: the published one",
+            "systems",
+            optional=True,
+        ),
+    ),
+    BoundOptions,
+    ReportFiles,
+    (("perilune design bound", "a lower bound of what any such landing takes; needs the extra plan"),),
+    not_met=NO_PLAN,
+)
