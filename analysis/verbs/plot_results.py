@@ -43,8 +43,8 @@ def plot_results(results: Mapping[str, FilePath | Results], metrics: Sequence[st
 
 def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None) -> Plot:
     """The figure of `plot_results`; a label may be empty where it is the only one."""
-    declared = {label: _metrics(found) for label, found in results.items()}
-    common = [name for name in next(iter(declared.values())) if all(name in found for found in declared.values())]
+    declared = {label: _metrics(batch) for label, batch in results.items()}
+    common = [name for name in next(iter(declared.values())) if all(name in batch for batch in declared.values())]
     for name in metrics or ():
         for label, known in declared.items():
             if name not in known:
@@ -52,7 +52,7 @@ def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None)
     shown: dict[Metric, dict[str, np.ndarray]] = {}
     for name in common if metrics is None else dict.fromkeys(metrics):
         metric = _of_one_unit(name, declared)
-        values = {line: column for label, found in results.items() for line, column in _lines(label, found, name)}
+        values = {line: column for label, batch in results.items() for line, column in _lines(label, batch, name)}
         if _varies(np.concatenate(list(values.values()))) or (metrics is not None and _is_somewhere(values)):
             shown[metric] = values
     if not shown:
@@ -84,16 +84,16 @@ def _of_one_unit(name: str, declared: Mapping[str, Mapping[str, Metric]]) -> Met
 def _lines(label: str, results: Results, metric: str) -> list[tuple[str, np.ndarray]]:
     """The values of a metric by what their lines are called: the label, the variant, or both."""
     if isinstance(results, BatchResult):
-        found = {variant: whole_column(rows, f"metric.{metric}") for variant, rows in results.rows.items()}
+        lines = {variant: whole_column(rows, f"metric.{metric}") for variant, rows in results.rows.items()}
     else:
         table = results.arrow(["variant", f"metric.{metric}"])
         column = table.column(1).to_numpy().astype(np.float64)
-        found = {
+        lines = {
             variant: column[pyarrow.compute.equal(table.column(0), variant).to_numpy()] for variant in results.variants
         }
     if not label:
-        return list(found.items())
-    return [(label if len(found) == 1 else f"{label}: {variant}", values) for variant, values in found.items()]
+        return list(lines.items())
+    return [(label if len(lines) == 1 else f"{label}: {variant}", values) for variant, values in lines.items()]
 
 
 def _varies(values: np.ndarray) -> bool:
@@ -102,4 +102,4 @@ def _varies(values: np.ndarray) -> bool:
 
 
 def _is_somewhere(values: Mapping[str, np.ndarray]) -> bool:
-    return any(np.any(np.isfinite(found)) for found in values.values())
+    return any(np.any(np.isfinite(values_of)) for values_of in values.values())

@@ -85,16 +85,16 @@ class Comparison:
 
     @cached_property
     def _all_metrics(self) -> list[Metric]:
-        found: dict[str, Metric] = {}
+        metrics: dict[str, Metric] = {}
         for batch in self.batches.values():
             for metric in batch.metrics:
-                found.setdefault(metric.name, metric)
-        return list(found.values())
+                metrics.setdefault(metric.name, metric)
+        return list(metrics.values())
 
     @cached_property
     def _truths(self) -> set[str]:
         """Metrics that are true or false by their expression, or that take both 0 and 1 and nothing else."""
-        found = set()
+        truths = set()
         for metric in self._all_metrics:
             facts = [batch.document["metrics"].get(metric.name) for batch in self.batches.values()]
             values = np.concatenate([self.values(label, metric.name) for label in self.contenders])
@@ -103,8 +103,8 @@ class Comparison:
             if np.all((values == 0.0) | (values == 1.0)) and (
                 declared or (metric.unit == "1" and np.unique(values).size == 2)
             ):
-                found.add(metric.name)
-        return found
+                truths.add(metric.name)
+        return truths
 
     def values(self, label: str, metric: str) -> np.ndarray:
         """A metric in every trial of a contender; nan where its batch does not have that metric."""
@@ -154,13 +154,13 @@ class Comparison:
 
         B is what comes first: the reference, else the one above in the order of contenders.
         """
-        found = []
+        pairs = []
         for first, second in itertools.combinations(self.contenders.values(), 2):
             if first.batch == second.batch and second.name == self.reference:
-                found.append((first.label, second.label))
+                pairs.append((first.label, second.label))
             elif first.batch == second.batch or first.name == second.name:
-                found.append((second.label, first.label))
-        return found
+                pairs.append((second.label, first.label))
+        return pairs
 
     def against_reference(self, pair: tuple[str, str]) -> bool:
         """Whether B of a pair is what others are put against: the reference variant, or the first batch."""

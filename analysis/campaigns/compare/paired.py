@@ -84,8 +84,8 @@ def paired_values(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) 
     smaller, larger = int(np.sum(difference < 0.0)), int(np.sum(difference > 0.0))
     if not difference.size:
         return PairedValues(0, 0, 0, 0, None, None, None)
-    found = quantile_test(difference, p=0.5).confidence_interval(confidence)
-    low, high = float(found.low), float(found.high)
+    interval = quantile_test(difference, p=0.5).confidence_interval(confidence)
+    low, high = float(interval.low), float(interval.high)
     return PairedValues(
         count=int(difference.size),
         smaller=smaller,

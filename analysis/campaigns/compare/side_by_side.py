@@ -66,10 +66,10 @@ def _label(folder: str, variant: str, *, several: bool, single: bool) -> str:
 
 def _check_draws(first: StoredBatch, other: StoredBatch) -> None:
     """Refuse batches of which a trial is not the same trial: other numbers of trials, other draws."""
-    count, found = (len(next(iter(batch.variants.values())).trial) for batch in (first, other))
+    count, other_count = (len(next(iter(batch.variants.values())).trial) for batch in (first, other))
     problem = ""
-    if count != found:
-        problem = f"{found} trials, {count} in {first.folder}"
+    if count != other_count:
+        problem = f"{other_count} trials, {count} in {first.folder}"
     elif set(first.draws) != set(other.draws):
         name = min(set(first.draws) ^ set(other.draws))
         problem = f"{name} is drawn in one of it and {first.folder} only"

@@ -38,10 +38,10 @@ class Decision:
             name: [satisfies(requirement, trials) for requirement in requirements] for name, trials in variants.items()
         }
         while not self.is_made and self._looked in self._ahead:
-            for name, found in self._ahead.pop(self._looked).items():
+            for name, rows in self._ahead.pop(self._looked).items():
                 before = self._kept.get(name)
                 self._kept[name] = (
-                    found if before is None else [np.concatenate(both) for both in zip(before, found, strict=True)]
+                    rows if before is None else [np.concatenate(both) for both in zip(before, rows, strict=True)]
                 )
             self._looked += 1
             if decided_after(requirements, self._kept) is not None:

@@ -111,28 +111,28 @@ def _is_kept(plan: BatchPlan, name: str) -> bool:
 
 def _signals(systems: Mapping[str, PreparedSystem]) -> dict[str, dict[str, Any]]:
     """Unit and type of every signal of any variant by name; None for a unit that is not declared."""
-    found: dict[str, dict[str, Any]] = {}
+    signals: dict[str, dict[str, Any]] = {}
     for prepared in systems.values():
         network = prepared.network
         for component, fmu in network.fmus.items():
             for variable in fmu.variables.values():
                 if variable.causality in ("input", "output"):
                     fact = {"unit": fmu.unit_of(variable), "type": variable.type}
-                    found.setdefault(f"{component}.{variable.name}", fact)
+                    signals.setdefault(f"{component}.{variable.name}", fact)
         for node in network.nodes.values():
             if node.component is None and node.kind not in ("parameter", "calculatedParameter"):
                 fact = {"unit": node.unit.name if node.unit else None, "type": node.type_name or "Real"}
-                found.setdefault(node.name, fact)
-    return found
+                signals.setdefault(node.name, fact)
+    return signals
 
 
 def _targets(prepared: PreparedSystem) -> dict[str, float]:
     """Parameters called target_position and target_velocity, as one variant's flights begin with them."""
-    found = {}
+    targets = {}
     for component, fmu in prepared.network.fmus.items():
         for variable in fmu.variables.values():
             name = f"{component}.{variable.name}"
             if variable.causality == "parameter" and TARGET.fullmatch(name):
                 value = prepared.settings.variables.get((component, variable.name), variable.start)
-                found[name] = float(value)
-    return found
+                targets[name] = float(value)
+    return targets

@@ -76,10 +76,10 @@ def fly_campaign(
     else:
         flying = _fly_here(campaign, shards, workers, engine)
     with flight_progress(flights) as progress, closing(flying) as flown:
-        for shard, found in () if decision.is_made else flown:
-            store.add(shard, found)
-            decision.add(shard, found)
-            progress.add(found)
+        for shard, trials in () if decision.is_made else flown:
+            store.add(shard, trials)
+            decision.add(shard, trials)
+            progress.add(trials)
             if decision.is_made:
                 break
     return _rows(campaign, store, decision)

@@ -55,7 +55,7 @@ class ResultFolder:
         Raises InputError for one that is damaged or of another campaign, for missing ones of a whole campaign, and
         where there is none.
         """
-        found: list[Shard] = []
+        shards: list[Shard] = []
         end, total = 0, self.provenance["trials"]
         for path in self.paths:
             if self.is_whole and end == total:
@@ -63,13 +63,13 @@ class ResultFolder:
             shard = self._shard(path)
             if self.is_whole and shard.trials.start != end:
                 break
-            found.append(shard)
+            shards.append(shard)
             end = shard.trials.stop
         if self.is_whole and end != total:
             raise InputError(self.folder / FOLDER, "", f"trials from {end} on are missing", AGAIN)
-        if not found:
+        if not shards:
             raise InputError(self.folder, FOLDER, "no shard is flown yet", "open it again when one is")
-        return tuple(found)
+        return tuple(shards)
 
     @property
     def flown(self) -> int:

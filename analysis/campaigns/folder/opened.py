@@ -96,8 +96,8 @@ class OpenedResults:
         with self._told():
             # each shard to its end: to_batches of the whole reads ahead, and Arrow 26 may crash where it is left early
             for shard in self.dataset.get_fragments():
-                found = shard.to_table(self._schema, names, filter=where, use_threads=False, cache_metadata=False)
-                yield from found.to_batches()
+                table = shard.to_table(self._schema, names, filter=where, use_threads=False, cache_metadata=False)
+                yield from table.to_batches()
 
     def quantile(
         self,

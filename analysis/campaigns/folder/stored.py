@@ -206,9 +206,9 @@ def _variants(
             if not same:
                 raise InputError(path, variant, "its draws are not those of draws.parquet", AGAIN)
             parts.setdefault(variant, []).append(trials)
-    if len({sum(len(part.trial) for part in found) for found in parts.values()}) != 1:
+    if len({sum(len(part.trial) for part in variants) for variants in parts.values()}) != 1:
         raise InputError(next(iter(shards)).parent, "variant", "not every variant has every trial", AGAIN)
-    return {variant: joined(found) for variant, found in parts.items()}
+    return {variant: joined(variants) for variant, variants in parts.items()}
 
 
 def _column(draw: str) -> str:

@@ -37,16 +37,16 @@ def trace_dataset(results: ResultFolder, variant: str, names: Sequence[str] | No
     for name in names or ():
         if name not in known:
             raise KeyError(f"no signal {name}; {suggestion(name, known)}")
-    found = {name: np.full((len(paths), grid.size), np.nan) for name in (known if names is None else names)}
+    arrays = {name: np.full((len(paths), grid.size), np.nan) for name in (known if names is None else names)}
     for row, (path, time) in enumerate(zip(paths.values(), times, strict=True)):
         places = np.searchsorted(grid, time)
-        for name, values in _columns(path, list(found)).items():
-            found[name][row, places] = values
-    units = {name: results.provenance["signals"].get(name, {}).get("unit") for name in found}
+        for name, values in _columns(path, list(arrays)).items():
+            arrays[name][row, places] = values
+    units = {name: results.provenance["signals"].get(name, {}).get("unit") for name in arrays}
     return Dataset(
         {
             name: (("trial", TIME), values, {"units": units[name]} if units[name] else {})
-            for name, values in found.items()
+            for name, values in arrays.items()
         },
         coords={"trial": list(paths), TIME: (TIME, grid, {"units": "s"})},
         attrs={key: results.provenance[key] for key in ("system", "campaign")} | {"variant": variant},
@@ -55,13 +55,13 @@ def trace_dataset(results: ResultFolder, variant: str, names: Sequence[str] | No
 
 def _paths(results: ResultFolder, variant: str) -> dict[int, Path]:
     """The traces of the variant's flown trials, by trial."""
-    found = {}
+    paths = {}
     for path in sorted(trace_path(results.folder, variant, 0).parent.glob("*.parquet")):
         trial = int(path.stem) if path.stem.isdecimal() else -1
         ours = {"batch": results.batch, "variant": variant, "trial": trial}
         if any(trial in shard.trials for shard in results.shards) and described(path) == ours:
-            found[trial] = path
-    return found
+            paths[trial] = path
+    return paths
 
 
 def _columns(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:

@@ -68,8 +68,8 @@ def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
 
 def _variables(plan: BatchPlan, prepared: PreparedSystem, drawn: set[str]) -> dict[str, Any]:
     """The variables that draws set, by name; what is varied and is no parameter is refused."""
-    found = {name: _varied(plan, prepared, name) for name in variant_names(plan, prepared).varied}
-    return {name: variable for name, variable in found.items() if name in drawn}
+    variables = {name: _varied(plan, prepared, name) for name in variant_names(plan, prepared).varied}
+    return {name: variable for name, variable in variables.items() if name in drawn}
 
 
 def _refuse_conflicts(plan: BatchPlan) -> None:

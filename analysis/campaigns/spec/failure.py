@@ -50,8 +50,8 @@ class Failure:
         finite = np.array(flown, dtype=bool)
         for column in given.values():
             finite &= np.isfinite(column)
-        found = np.broadcast_to(self._margin(given), finite.shape)
-        return np.where(finite & ~np.isnan(found), found, np.inf)
+        margins = np.broadcast_to(self._margin(given), finite.shape)
+        return np.where(finite & ~np.isnan(margins), margins, np.inf)
 
 
 def failure_of(campaign: Campaign, text: str | None) -> Failure:
@@ -61,11 +61,11 @@ def failure_of(campaign: Campaign, text: str | None) -> Failure:
     """
     if text is None:
         return Failure(Expression(f"not ({campaign.success.text})", campaign.success.where))
-    found = Failure(Expression(text, ("`failure`", text)))
+    wanted = Failure(Expression(text, ("`failure`", text)))
     known = [metric.name for metric in campaign.metrics] + campaign.drawn_names()
-    for name in sorted(found.names - set(known)):
+    for name in sorted(wanted.names - set(known)):
         raise InputError("`failure`", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
-    return found
+    return wanted
 
 
 def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
@@ -80,8 +80,8 @@ def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
             sides = [left, *comparators]
             links = []
             for place, operator in enumerate(operators):
-                found = OPPOSITE[type(operator)] if negated else type(operator)
-                links.append(_difference(sides[place], found, sides[place + 1], where))
+                kind = OPPOSITE[type(operator)] if negated else type(operator)
+                links.append(_difference(sides[place], kind, sides[place + 1], where))
             return _joined(links, negated)
     nothing = ast.Constant(0)
     return _difference(node, ast.Eq if negated else ast.NotEq, nothing, where)

@@ -66,10 +66,10 @@ def _check_names_in(formula: Expression, known: Iterable[str], kind: str) -> Non
 
 
 def _pair(table: Table, key: str, value: Any) -> tuple[float, float]:
-    found = sequence(bound)(table, key, value)
-    if len(found) != 2 or not found[0] < found[1]:
+    ends = sequence(bound)(table, key, value)
+    if len(ends) != 2 or not ends[0] < ends[1]:
         raise table.error(key, f"{value!r} is not an interval", "write [low, high] with low < high")
-    return found[0], found[1]
+    return ends[0], ends[1]
 
 
 def _metric(name: str, table: Table) -> Metric:
@@ -92,10 +92,10 @@ def _metric(name: str, table: Table) -> Metric:
 
 
 def _seconds_later(table: Table, key: str, value: Any) -> float:
-    found = number(table, key, value)
-    if found < 0.0:
+    seconds = number(table, key, value)
+    if seconds < 0.0:
         raise table.error(key, f"{value!r} is before the condition", "give seconds, 0 or more")
-    return found
+    return seconds
 
 
 def _metrics(table: Table, drawn: list[str]) -> tuple[Metric, ...]:

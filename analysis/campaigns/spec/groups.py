@@ -29,13 +29,13 @@ def groups_of(parts: Iterable[np.ndarray], where: tuple[str, str]) -> list[Group
 
     ``where`` (file, element) is what an error points to. Raises InputError for more than `MOST` groups.
     """
-    found = np.empty(0)
+    distinct = np.empty(0)
     for values in parts:
-        found = np.union1d(found, values)
-        if found.size > MOST:
-            problem = f"{found.size} different values or more, a group each"
+        distinct = np.union1d(distinct, values)
+        if distinct.size > MOST:
+            problem = f"{distinct.size} different values or more, a group each"
             raise InputError(*where, problem, f"group by a value with {MOST} at most, as a choice or a grid has")
-    plain = [float(value) + 0.0 for value in found]  # no -0
+    plain = [float(value) + 0.0 for value in distinct]  # no -0
     labels = [f"{value:.10g}" for value in plain]
     if len(set(labels)) < len(labels):
         labels = [repr(value) for value in plain]

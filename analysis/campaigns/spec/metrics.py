@@ -90,8 +90,8 @@ def evaluate_metric(metric: Metric, times: np.ndarray, values: Mapping[str, np.n
     inside: slice | np.ndarray = slice(None) if metric.window is None else rows_in(metric.window, times)
 
     def rows_of(formula: Expression) -> np.ndarray:
-        found = formula.evaluate(values)
-        return (found if isinstance(found, np.ndarray) else np.full(times.shape, found))[inside]
+        row_values = formula.evaluate(values)
+        return (row_values if isinstance(row_values, np.ndarray) else np.full(times.shape, row_values))[inside]
 
     rows, signal = times[inside], rows_of(metric.expression)
     if not rows.size:

@@ -77,15 +77,15 @@ def _requirement(name: str, table: Table, metrics: Collection[str]) -> Requireme
 def _share(table: Table, key: str, value: Any) -> float:
     """A number between 0 and 1, or a text in per cent: "99.87 %"."""
     percent = isinstance(value, str) and value.strip().endswith("%")
-    found = number(table, key, value.strip()[:-1] if percent else value) / (100.0 if percent else 1.0)
-    if not 0.0 < found < 1.0:
+    fraction = number(table, key, value.strip()[:-1] if percent else value) / (100.0 if percent else 1.0)
+    if not 0.0 < fraction < 1.0:
         problem = f"{value!r} is not between 0 and 1"
         raise table.error(key, problem, 'write a share of 1, or per cent in quotes: 0.9987 or "99.87 %"')
-    return found
+    return fraction
 
 
 def _confidence(table: Table, key: str, value: Any) -> float:
-    found = _share(table, key, value)
-    if found < 0.5:
+    confidence = _share(table, key, value)
+    if confidence < 0.5:
         raise table.error(key, f"{value!r}: below a half, met and not met could both be shown", 'write 0.9, or "90 %"')
-    return found
+    return confidence

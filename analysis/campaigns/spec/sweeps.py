@@ -66,10 +66,10 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
 def _ends(text: str) -> list[float]:
     """The three numbers of a sweep; none where the text is no sweep."""
     try:
-        found = [float(part) for part in text.split(":")]
+        ends = [float(part) for part in text.split(":")]
     except ValueError:
         return []
-    return found if len(found) == 3 else []
+    return ends if len(ends) == 3 else []
 
 
 def _values(name: str, text: str) -> tuple[float, ...]:

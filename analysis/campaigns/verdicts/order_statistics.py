@@ -33,9 +33,9 @@ def order_statistics(column: Blocks, ranks: Sequence[int]) -> list[float]:
 
 def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
     """The values of some ranks, by their bits from the highest: what they begin with, and their ranks among such."""
-    found, left = [0] * len(ranks), list(ranks)
+    below, left = [0] * len(ranks), list(ranks)
     for place in range(64 - DIGIT, -1, -DIGIT):
-        counts = {start: np.zeros(1 << DIGIT, dtype=np.int64) for start in found}
+        counts = {start: np.zeros(1 << DIGIT, dtype=np.int64) for start in below}
         for values in column():
             keys = _ordered(values[~np.isnan(values)]) >> np.uint64(place)
             digits = (keys & np.uint64((1 << DIGIT) - 1)).astype(np.int64)
@@ -43,14 +43,14 @@ def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
             for start, count in counts.items():
                 mine = digits if starts is None else digits[starts == start]
                 count += np.bincount(mine, minlength=1 << DIGIT) if mine.size else 0
-        for index, start in enumerate(found):
+        for index, start in enumerate(below):
             reached = np.cumsum(counts[start])
             if left[index] >= reached[-1]:
                 raise IndexError(f"no value of rank {ranks[index]}")
             digit = int(np.searchsorted(reached, left[index], side="right"))
             left[index] -= int(reached[digit] - counts[start][digit])
-            found[index] = start << DIGIT | digit
-    bits = np.array(found, dtype=np.uint64)
+            below[index] = start << DIGIT | digit
+    bits = np.array(below, dtype=np.uint64)
     return np.where(bits & SIGN, bits ^ SIGN, ~bits).view(np.float64).tolist()
 
 

@@ -87,12 +87,12 @@ class StoppingRule:
 
     def flights_to_meet(self, flights: int, failures: int) -> dict[int, int]:
         """How many more flights meet the requirement, by failures still to come."""
-        found = {}
+        by_failures = {}
         for more in FURTHER:
             looks = (look for look in self._all_looks() if look >= flights)
             enough = next(look for look in looks if self.permitted_failures(look) >= failures + more)
-            found[more] = enough - flights
-        return found
+            by_failures[more] = enough - flights
+        return by_failures
 
     def _decision(self, verdict: Verdict, flights: int, failures: int) -> Decision:
         risk = self._look(self._met, flights).risk(failures) if flights else 1.0

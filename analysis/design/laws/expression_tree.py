@@ -39,18 +39,18 @@ def expression_tree(matrix: Sequence[Sequence[int]]) -> tuple[Node, ...]:
 
 def nodes_of(outputs: Sequence[Node]) -> list[Node]:
     """Every node that the outputs depend on, themselves included, in order of number."""
-    found: dict[int, Node] = {}
+    nodes: dict[int, Node] = {}
 
     def walk(node: Node) -> Iterator[Node]:
         yield node
         for _, other in node.terms:
-            if other.number not in found:
+            if other.number not in nodes:
                 yield from walk(other)
 
     for output in outputs:
         for node in walk(output):
-            found[node.number] = node
-    return [found[number] for number in sorted(found)]
+            nodes[node.number] = node
+    return [nodes[number] for number in sorted(nodes)]
 
 
 def evaluate_tree(law: Law, theta: float, altitude_error: float) -> tuple[float, ...]:

@@ -79,11 +79,11 @@ def _label_places(curves: dict[Edge, Path], labelled: list[Edge], nodes: list[Po
     """Where the labels of edges stand: each on its edge, as far as can be from nodes, labels and other edges."""
     sizes = np.array([COLUMN / LABEL[0], ROW / LABEL[1]])
     traces = {edge: np.array(curve.to_polygons(closed_only=False)[0]) for edge, curve in curves.items()}
-    found: dict[Edge, Point] = {}
+    positions: dict[Edge, Point] = {}
     for edge in sorted(labelled, key=lambda edge: (len(np.asarray(curves[edge].vertices)), edge)):
         trace = traces[edge]
         candidates = [np.array([x, np.interp(x, trace[:, 0], trace[:, 1])]) for x in _columns(trace)]
-        taken = np.array([*nodes, *found.values()])
+        taken = np.array([*nodes, *positions.values()])
         others = np.concatenate([traces[other] for other in traces if other != edge] or [trace[:1] + 99.0])
 
         def room(point: np.ndarray, taken: np.ndarray = taken, others: np.ndarray = others) -> float:
@@ -91,8 +91,8 @@ def _label_places(curves: dict[Edge, Path], labelled: list[Edge], nodes: list[Po
             to_edges = np.abs((others - point) * sizes).max(axis=1).min()
             return float(min(to_labels, 1.0) + 0.5 * min(to_edges, 1.0))
 
-        found[edge] = tuple(max(candidates, key=room).tolist())  # the first of the best
-    return found
+        positions[edge] = tuple(max(candidates, key=room).tolist())  # the first of the best
+    return positions
 
 
 def _columns(trace: np.ndarray) -> np.ndarray:

@@ -122,12 +122,12 @@ def law_of(document: Any, file: str) -> Law:
 
 def _matrix(rows: Any, file: str) -> Matrix:
     if not isinstance(rows, list) or len(rows) != SIZE:
-        found = f"{len(rows)} row(s)" if isinstance(rows, list) else f"{rows!r}"
-        raise InputError(file, "matrix", f"{found} where {SIZE} are needed", f"give {SIZE} rows of {SIZE} integers")
+        actual = f"{len(rows)} row(s)" if isinstance(rows, list) else f"{rows!r}"
+        raise InputError(file, "matrix", f"{actual} where {SIZE} are needed", f"give {SIZE} rows of {SIZE} integers")
     for row, entries in enumerate(rows, 1):
         if not isinstance(entries, list) or len(entries) != SIZE:
-            found = f"{len(entries)} entries" if isinstance(entries, list) else f"{entries!r}"
-            problem = f"row {row} has {found} where {SIZE} are needed"
+            actual = f"{len(entries)} entries" if isinstance(entries, list) else f"{entries!r}"
+            problem = f"row {row} has {actual} where {SIZE} are needed"
             raise InputError(file, "matrix", problem, f"give {SIZE} rows of {SIZE} integers")
         for column, entry in enumerate(entries, 1):
             wrong = _wrong(row, column, entry)
@@ -162,12 +162,12 @@ def _parameters(values: Any, file: str) -> tuple[float, ...]:
 
 
 def _pairs(pairs: Sequence[tuple[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    content: dict[str, Any] = {}
     for key, value in pairs:
-        if key in found:
+        if key in content:
             raise ValueError(f"{key} is there twice")
-        found[key] = value
-    return found
+        content[key] = value
+    return content
 
 
 def _refuse_constant(text: str) -> NoReturn:

@@ -69,9 +69,9 @@ class Layout:
                     for place in free
                 }
                 free.sort(key=lambda place: means[place])
-            found = self.crossings()
-            if found < fewest:
-                fewest, best = found, [list(places) for places in self.layers]
+            crossings = self.crossings()
+            if crossings < fewest:
+                fewest, best = crossings, [list(places) for places in self.layers]
         self.layers = best
 
     def crossings(self) -> int:
@@ -95,8 +95,8 @@ class Layout:
             for places, row in zip(self.layers, offsets, strict=True):
                 near = [[heights[other] for other in self.before[place] + self.after[place]] for place in places]
                 wanted = np.array([np.mean(values) if values else 0.0 for values in near])
-                found = isotonic_regression(wanted - row).x + row
-                heights.update(zip(places, found.tolist(), strict=True))
+                regression = isotonic_regression(wanted - row).x + row
+                heights.update(zip(places, regression.tolist(), strict=True))
         return heights
 
     def _offsets(self, places: Sequence[Place]) -> np.ndarray:

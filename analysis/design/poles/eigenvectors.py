@@ -70,8 +70,8 @@ class Eigenvectors:
 
     def _directions(self, free: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         rank, middle = self._rank, (self.reals + self.pairs) * self._rank
-        found = free[:middle].astype(complex)
-        found[self.reals * rank :] += 1j * free[middle:]
-        found = found.reshape(-1, rank)
-        sizes = np.linalg.norm(found, axis=1, keepdims=True)
-        return found / sizes, sizes
+        directions = free[:middle].astype(complex)
+        directions[self.reals * rank :] += 1j * free[middle:]
+        directions = directions.reshape(-1, rank)
+        sizes = np.linalg.norm(directions, axis=1, keepdims=True)
+        return directions / sizes, sizes

@@ -38,8 +38,8 @@ def least_condition(
     They minimise |Y|_q |Y^-1|_q of the eigenvectors Y in Schatten norms of growing order q.
     """
     levels, family = family_of(a, b, spectrum, tolerance)
-    found = _search(family, [partial(condition, order=order) for order in _ORDERS], starts, seed)
-    return on_levels(levels, family, found)
+    parameters = _search(family, [partial(condition, order=order) for order in _ORDERS], starts, seed)
+    return on_levels(levels, family, parameters)
 
 
 def least_norm(
@@ -50,8 +50,8 @@ def least_norm(
     They minimise Schatten norms of growing order q.
     """
     levels, family = family_of(a, b, spectrum, tolerance)
-    found = _search(family, [partial(gain_norm, family, order=order) for order in _ORDERS], starts, seed)
-    return on_levels(levels, family, found)
+    parameters = _search(family, [partial(gain_norm, family, order=order) for order in _ORDERS], starts, seed)
+    return on_levels(levels, family, parameters)
 
 
 def condition(vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
@@ -114,12 +114,12 @@ def _search(family: Eigenvectors, objectives: Sequence[Objective], starts: int, 
     """
     random = np.random.default_rng(seed)
     first = [_down(family, objectives[0], random.normal(size=family.parameters), *_COARSE) for _ in range(starts)]
-    found = []
+    minima = []
     for value, free in sorted(first, key=lambda end: end[0])[:_KEPT]:
         for objective in objectives:
             value, free = _down(family, objective, free, *_FINE)
-        found.append((value, free))
-    return min(found, key=lambda end: end[0])[1]
+        minima.append((value, free))
+    return min(minima, key=lambda end: end[0])[1]
 
 
 def _down(

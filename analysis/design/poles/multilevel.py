@@ -53,24 +53,24 @@ def decompose(
     and Bt picks them, so that a level's Phi is meant in these coordinates.
     Raises PlacementError for a pair that is not controllable, or states that are not what a level drives.
     """
-    found: list[Level] = []
+    levels: list[Level] = []
     scale = float(np.linalg.norm(b, 2))
     while True:
         left, values, right = np.linalg.svd(b)
         rank = int(np.sum(values > tolerance * scale))
         if not rank:
-            raise _unreachable(len(found), len(a), values, scale, tolerance)
+            raise _unreachable(len(levels), len(a), values, scale, tolerance)
         if sizes is None:
             # signs that do not depend on the state's coordinates: the largest element of each row of R is positive
             rest = right[:rank]
             signs = np.sign(rest[np.arange(rank), np.argmax(np.abs(rest), axis=1)])
             factor, rest, down = left[:, :rank] * (values[:rank] * signs), signs[:, None] * rest, left[:, rank:].T
         else:
-            _check_size(sizes, len(found), rank, b)
+            _check_size(sizes, len(levels), rank, b)
             factor, rest, down = np.eye(len(a), rank), b[:rank], np.eye(len(a))[rank:]
-        found.append(Level(a, b, factor, rest, down, values[:rank]))
+        levels.append(Level(a, b, factor, rest, down, values[:rank]))
         if rank == len(a):
-            return found
+            return levels
         scale = float(np.linalg.norm(a, 2) * np.linalg.norm(factor, 2))
         a, b = down @ a @ down.T, down @ a @ factor
 

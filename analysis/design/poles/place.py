@@ -81,8 +81,8 @@ def place(
         if tolerance is not None:
             raise InputError("modal", "tolerance", f"method {method} has none", "take method indices or multilevel")
         return _ONE_CLASS[method](state, inputs, spectrum)
-    found = _EVERY_PAIR[method] if method else placed
-    return found(state, inputs, spectrum, _above(tolerance))
+    solver = _EVERY_PAIR[method] if method else placed
+    return solver(state, inputs, spectrum, _above(tolerance))
 
 
 def placed(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
@@ -130,11 +130,11 @@ def place_levels(
     wanted = [
         real_matrix(f"matrices[{i}]", phi, size) for i, (phi, size) in enumerate(zip(matrices, sizes, strict=True))
     ]
-    found = place_on_levels(levels, wanted, np.concatenate([np.linalg.eigvals(phi) for phi in wanted]))
+    feedback = place_on_levels(levels, wanted, np.concatenate([np.linalg.eigvals(phi) for phi in wanted]))
     if bases is None:
-        return found
-    gain = found.gain @ turn.T
-    return replace(found, gain=gain, closed_loop=state - inputs @ gain)
+        return feedback
+    gain = feedback.gain @ turn.T
+    return replace(feedback, gain=gain, closed_loop=state - inputs @ gain)
 
 
 def place_polynomial(a: ArrayLike, b: ArrayLike, coefficients: Sequence[ArrayLike] | np.ndarray) -> StateFeedback:

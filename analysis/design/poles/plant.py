@@ -12,45 +12,45 @@ from ...common.errors import InputError
 
 def state_matrix(value: ArrayLike) -> np.ndarray:
     """A (n, n). Raises InputError."""
-    found = real_matrix("A", value)
-    if found.shape[0] != found.shape[1] or not found.size:
-        raise InputError("modal", "A", f"it is {_size(found)}", "give a square matrix, n by n")
-    return found
+    matrix = real_matrix("A", value)
+    if matrix.shape[0] != matrix.shape[1] or not matrix.size:
+        raise InputError("modal", "A", f"it is {_size(matrix)}", "give a square matrix, n by n")
+    return matrix
 
 
 def input_matrix(value: ArrayLike, states: int) -> np.ndarray:
     """B (n, m). Raises InputError."""
-    found = real_matrix("B", value)
-    if found.shape[0] != states or not found.size:
-        raise InputError("modal", "B", f"it is {_size(found)} where A has {states} states", "give a row for each state")
-    return found
+    matrix = real_matrix("B", value)
+    if matrix.shape[0] != states or not matrix.size:
+        raise InputError("modal", "B", f"it is {_size(matrix)}, and A has {states} states", "give a row for each")
+    return matrix
 
 
 def output_matrix(value: ArrayLike, states: int) -> np.ndarray:
     """C (p, n). Raises InputError."""
-    found = real_matrix("C", value)
-    if found.shape[1] != states or not found.size:
+    matrix = real_matrix("C", value)
+    if matrix.shape[1] != states or not matrix.size:
         raise InputError(
-            "modal", "C", f"it is {_size(found)} where A has {states} states", "give a column for each state"
+            "modal", "C", f"it is {_size(matrix)} where A has {states} states", "give a column for each state"
         )
-    return found
+    return matrix
 
 
 def real_matrix(name: str, value: ArrayLike | Sequence[ArrayLike], shape: tuple[int, ...] | None = None) -> np.ndarray:
     """A real, finite array of the ``shape``, or of any with two dimensions. Raises InputError."""
     try:
-        found = np.asarray(value)
+        matrix = np.asarray(value)
     except ValueError:  # rows of different lengths
         raise InputError("modal", name, "its rows differ in length", "give a matrix") from None
-    if found.dtype.kind not in "biuf":
-        raise InputError("modal", name, f"its elements are {found.dtype}", "give real numbers")
-    if shape is None and found.ndim != 2:
-        raise InputError("modal", name, f"it has {found.ndim} dimensions", "give a matrix, a list of rows")
-    if shape is not None and found.shape != shape:
-        raise InputError("modal", name, f"it is {_size(found)}", f"give {' by '.join(map(str, shape))} numbers")
-    if not np.all(np.isfinite(found)):
+    if matrix.dtype.kind not in "biuf":
+        raise InputError("modal", name, f"its elements are {matrix.dtype}", "give real numbers")
+    if shape is None and matrix.ndim != 2:
+        raise InputError("modal", name, f"it has {matrix.ndim} dimensions", "give a matrix, a list of rows")
+    if shape is not None and matrix.shape != shape:
+        raise InputError("modal", name, f"it is {_size(matrix)}", f"give {' by '.join(map(str, shape))} numbers")
+    if not np.all(np.isfinite(matrix)):
         raise InputError("modal", name, "an element is not finite", "give finite numbers")
-    return found.astype(float)
+    return matrix.astype(float)
 
 
 def _size(matrix: np.ndarray) -> str:

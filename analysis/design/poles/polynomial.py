@@ -26,15 +26,15 @@ def wanted_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
     rooms = [degree - any(j in (first, second) for first, second, _ in lying) for j, degree in enumerate(degrees)]
     parts = Spectrum(spectrum.real, spectrum.pairs[across:]).dealt(rooms)
     assert parts is not None  # what does not fit lies across
-    found = np.zeros((max(degrees) + 1, len(degrees), len(degrees)))
+    coefficients = np.zeros((max(degrees) + 1, len(degrees), len(degrees)))
     for j, part in enumerate(parts):
-        found[: part.size + 1, j, j] = part.polynomial
+        coefficients[: part.size + 1, j, j] = part.polynomial
     for first, second, pair in lying:
         for j, other, sign in ((first, second, 1.0), (second, first, -1.0)):
-            factor = found[:, j, j].copy()
-            found[:, other, j] = sign * pair.imag * factor
-            found[:, j, j] = np.roll(factor, 1) - pair.real * factor
-    return found[:-1] - _leading(degrees, found.shape)[:-1]
+            factor = coefficients[:, j, j].copy()
+            coefficients[:, other, j] = sign * pair.imag * factor
+            coefficients[:, j, j] = np.roll(factor, 1) - pair.real * factor
+    return coefficients[:-1] - _leading(degrees, coefficients.shape)[:-1]
 
 
 def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
@@ -43,12 +43,12 @@ def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
     Its spectrum is the union of theirs. Raises InputError.
     """
     size = len(np.atleast_2d(solvents[0]))
-    found = np.eye(size)[None]
+    coefficients = np.eye(size)[None]
     for place, solvent in enumerate(solvents):
         factor = real_matrix(f"solvents[{place}]", solvent, (size, size))
         none = np.zeros((1, size, size))
-        found = np.concatenate([none, found]) - np.concatenate([factor @ found, none])
-    return found[:-1]
+        coefficients = np.concatenate([none, coefficients]) - np.concatenate([factor @ coefficients, none])
+    return coefficients[:-1]
 
 
 def block_companion(coefficients: np.ndarray) -> np.ndarray:

@@ -48,10 +48,10 @@ class PulsedPlant:
     def after(self, state: ArrayLike, lengths: ArrayLike, values: ArrayLike) -> np.ndarray:
         """x (n,) a tick later, for pulses of ``lengths`` tau (m,) in s and ``values`` U (m,). Raises InputError."""
         lengths, values = self._pulses(lengths, values)
-        found = self.transition @ real_matrix("state", state, (len(self.a),))
+        propagated = self.transition @ real_matrix("state", state, (len(self.a),))
         for column, length, value in zip(self.b.T, lengths, values, strict=True):
-            found += value * (expm(self.a * (self.period - length)) @ self._integral(column, length))
-        return found
+            propagated += value * (expm(self.a * (self.period - length)) @ self._integral(column, length))
+        return propagated
 
     def by_lengths(self, lengths: ArrayLike, values: ArrayLike) -> np.ndarray:
         """dx+/dtau (n, m). Raises InputError."""
@@ -87,7 +87,7 @@ def pulsed_step(
     Runge and Kutta's fourth order over the intervals between switch-offs, in equal steps of at most ``longest`` (s).
     Raises InputError.
     """
-    found = np.array(state, dtype=float)
+    propagated = np.array(state, dtype=float)
     pulses = real_matrix("values", values, np.shape(lengths))
     ends = pulse_lengths(lengths, pulses.shape, period)
     if not longest > 0.0:
@@ -97,16 +97,16 @@ def pulsed_step(
         steps = max(1, int(np.ceil((end - begin) / longest)))
         on, h = np.where(ends >= end, pulses, 0.0), (end - begin) / steps
         for _ in range(steps):
-            one = rate(found, on)
-            two = rate(found + 0.5 * h * one, on)
-            three = rate(found + 0.5 * h * two, on)
-            found = found + h / 6.0 * (one + 2.0 * two + 2.0 * three + rate(found + h * three, on))
-    return found
+            one = rate(propagated, on)
+            two = rate(propagated + 0.5 * h * one, on)
+            three = rate(propagated + 0.5 * h * two, on)
+            propagated = propagated + h / 6.0 * (one + 2.0 * two + 2.0 * three + rate(propagated + h * three, on))
+    return propagated
 
 
 def pulse_lengths(lengths: ArrayLike, shape: tuple[int, ...], period: float) -> np.ndarray:
-    found = real_matrix("lengths", lengths, shape)
-    outside = found[(found < 0.0) | (found > period)]
+    pulses = real_matrix("lengths", lengths, shape)
+    outside = pulses[(pulses < 0.0) | (pulses > period)]
     if outside.size:
         raise InputError("modal", "lengths", f"a pulse of {outside[0]:g} s", f"give 0 to {period:g} s, the tick")
-    return found
+    return pulses

@@ -26,21 +26,21 @@ class Spectrum:
     @classmethod
     def of(cls, poles: ArrayLike, size: int, name: str = "poles") -> Spectrum:
         """``size`` poles as they are given. Raises InputError for another number, or a pole without its conjugate."""
-        found = np.asarray(poles)
-        if found.dtype.kind not in "biufc" or found.ndim != 1 or not np.all(np.isfinite(found)):
+        values = np.asarray(poles)
+        if values.dtype.kind not in "biufc" or values.ndim != 1 or not np.all(np.isfinite(values)):
             raise InputError("modal", name, "they are no list of finite numbers", "give real or complex numbers")
-        if len(found) != size:
-            raise InputError("modal", name, f"there are {len(found)}", f"give {size}, repeated ones repeated")
-        conjugates = [complex(pole).conjugate() for pole in found if pole.imag < 0.0]
+        if len(values) != size:
+            raise InputError("modal", name, f"there are {len(values)}", f"give {size}, repeated ones repeated")
+        conjugates = [complex(pole).conjugate() for pole in values if pole.imag < 0.0]
         pairs = []
-        for pole in [complex(pole) for pole in found if pole.imag > 0.0]:
+        for pole in [complex(pole) for pole in values if pole.imag > 0.0]:
             partner = _taken(conjugates, pole)
             if partner is None:
                 raise _alone(name, pole)
             pairs.append(0.5 * (pole + partner))
         if conjugates:
             raise _alone(name, conjugates[0].conjugate())
-        return cls.sorted([float(pole.real) for pole in found if pole.imag == 0.0], pairs)
+        return cls.sorted([float(pole.real) for pole in values if pole.imag == 0.0], pairs)
 
     @classmethod
     def sorted(cls, real: Sequence[float], pairs: Sequence[complex]) -> Spectrum:
@@ -147,15 +147,15 @@ def _lists(sizes: Sequence[int]) -> list[list]:
     return [[] for _ in sizes]
 
 
-def matched(wanted: np.ndarray, found: np.ndarray) -> np.ndarray:
+def matched(wanted: np.ndarray, actual: np.ndarray) -> np.ndarray:
     """For each pole found the wanted one, one to one, so that the sum of the distances is least."""
-    rows, columns = linear_sum_assignment(np.abs(found[:, None] - wanted[None, :]))
+    rows, columns = linear_sum_assignment(np.abs(actual[:, None] - wanted[None, :]))
     return wanted[columns[np.argsort(rows)]]
 
 
-def distance(wanted: np.ndarray, found: np.ndarray) -> float:
+def distance(wanted: np.ndarray, actual: np.ndarray) -> float:
     """The largest distance between poles that are matched."""
-    return float(np.max(np.abs(matched(wanted, found) - found), initial=0.0))
+    return float(np.max(np.abs(matched(wanted, actual) - actual), initial=0.0))
 
 
 def _alone(name: str, pole: complex) -> InputError:

@@ -49,12 +49,12 @@ class FlightEvaluator:
 
     def evaluate(self, tasks: Sequence[Task], bar: Bar | None) -> list[Evaluation]:
         """Evaluations in the order of the tasks. Raises InputError for an objective below 0."""
-        found: dict[int, Evaluation] = {}
+        evaluations: dict[int, Evaluation] = {}
         work = [(self._overlay(task), self._expressions, task.known, bar) for task in tasks]
         for place, evaluation in self._pool.work(fly_law, work):
-            found[place] = evaluation
+            evaluations[place] = evaluation
             self._evaluated()
-        return [found[place] for place in range(len(tasks))]
+        return [evaluations[place] for place in range(len(tasks))]
 
     def _overlay(self, task: Task) -> dict[str, ParameterValue]:
         law = Law(self._basic.name, task.law.matrix, task.law.q, self._basic.exp_saturation)

@@ -153,8 +153,8 @@ class Search:
             rejected = known.flown > 0 and bar is not None and bar.rejects(known.objectives)
             if known.flown < self.evaluator.trials and not rejected:
                 tasks[key] = Task(law, known)
-        found = self.evaluator.evaluate(list(tasks.values()), bar)
-        for (key, task), evaluation in zip(tasks.items(), found, strict=True):
+        evaluations = self.evaluator.evaluate(list(tasks.values()), bar)
+        for (key, task), evaluation in zip(tasks.items(), evaluations, strict=True):
             state.evaluations += task.known.flown == 0
             state.flights += evaluation.flown - task.known.flown
             state.known[key] = evaluation

@@ -40,7 +40,7 @@ class SynthesisResult:
         return self._law(self.search.chosen())
 
     def _law(self, candidate: Candidate) -> Law:
-        found = self.search.law(candidate)
+        law = self.search.law(candidate)
         evaluation = candidate.evaluation
         file = Path(self.synthesis.campaign.file).name
         description = (
@@ -49,7 +49,7 @@ class SynthesisResult:
             f"{evaluation.successes} of {evaluation.flown} trials are successes."
         )
         name = f"{Path(file).stem}_{candidate.key[:8]}"
-        return Law(name, found.matrix, found.q, self.synthesis.basic.exp_saturation, description)
+        return Law(name, law.matrix, law.q, self.synthesis.basic.exp_saturation, description)
 
     @property
     def succeeded(self) -> bool:

@@ -75,8 +75,8 @@ def run_synthesis(
             if checkpoint is not None:
                 write_checkpoint(checkpoint, state, stored)
                 write_log(checkpoint.with_name("log.csv"), synthesis, search)
-            found = f"{state.history[-1]['successes']} of {evaluator.trials} trials are successes"
-            progress.set_postfix_str(f"generation {state.generation}, {found}")
+            summary = f"{state.history[-1]['successes']} of {evaluator.trials} trials are successes"
+            progress.set_postfix_str(f"generation {state.generation}, {summary}")
     result = SynthesisResult(synthesis, search, facts, _reason(search))
     if output is not None:
         result.write(output)

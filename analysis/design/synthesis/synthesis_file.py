@@ -132,16 +132,16 @@ def _settings(table: Table) -> SearchSettings:
 
 def _objectives(table: Table, campaign: Campaign) -> dict[str, Expression]:
     metrics = {metric.name for metric in campaign.metrics}
-    found: dict[str, Expression] = {}
+    objectives: dict[str, Expression] = {}
     for name in table.content:
         if not name.isidentifier():
             raise table.error(name, f"{name!r} is not a plain name", "use letters, digits and _")
-        found[name] = table.get(name, expression)
-        for unknown in sorted(found[name].names - metrics):
+        objectives[name] = table.get(name, expression)
+        for unknown in sorted(objectives[name].names - metrics):
             raise table.error(name, f"{unknown!r} is not a metric", "use the names of [metric....]")
-    if not found:
+    if not objectives:
         raise table.error("", "no objective", 'add one or more: name = "expression over metrics"')
-    return found
+    return objectives
 
 
 def _check_basic(law: Law, settings: SearchSettings, path: Path) -> None:
@@ -168,7 +168,7 @@ def _truth(table: Table, key: str, value: Any) -> bool:
 
 
 def _positive(table: Table, key: str, value: Any) -> float:
-    found = number(table, key, value)
-    if found <= 0.0:
-        raise table.error(key, f"{found:g} s", "give more than 0 s")
-    return found
+    positive = number(table, key, value)
+    if positive <= 0.0:
+        raise table.error(key, f"{positive:g} s", "give more than 0 s")
+    return positive

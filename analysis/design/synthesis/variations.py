@@ -57,17 +57,17 @@ def edges_out(matrix: Sequence[Sequence[int]], node: int) -> int:
 
 def varied(matrix: Matrix, variations: Iterable[Variation]) -> Matrix:
     """The matrix after variations, one after another."""
-    found = [list(row) for row in matrix]
+    rows = [list(row) for row in matrix]
     for kind, row, column, operation in variations:
-        there = found[row][column] != 0
+        there = rows[row][column] != 0
         if kind == CHANGE_BINARY or (kind == CHANGE_UNARY and there):
-            found[row][column] = operation
+            rows[row][column] = operation
         elif kind == ADD_EDGE and not there:
-            if row < SOURCES or edges_in(found, row):  # else it would carry a constant
-                found[row][column] = operation
-        elif kind == REMOVE_EDGE and there and edges_in(found, column) > 1 and edges_out(found, row) > 1:
-            found[row][column] = 0
-    return tuple(tuple(row) for row in found)
+            if row < SOURCES or edges_in(rows, row):  # else it would carry a constant
+                rows[row][column] = operation
+        elif kind == REMOVE_EDGE and there and edges_in(rows, column) > 1 and edges_out(rows, row) > 1:
+            rows[row][column] = 0
+    return tuple(tuple(row) for row in rows)
 
 
 def pruned(matrix: Matrix) -> Matrix:

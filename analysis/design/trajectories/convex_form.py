@@ -143,18 +143,18 @@ def _solve(
     right += [np.zeros(matrix.shape[0]) if value is None else value for matrix, value in cones]
     equalities = sum(matrix.shape[0] for matrix, _ in equal)
     cost = np.asarray((h / exhaust) * s.sum(axis=0)).ravel()
-    found = _clarabel(
+    solution = _clarabel(
         cost, rows, right, [clarabel().ZeroConeT(equalities), clarabel().NonnegativeConeT(intervals), *kinds]
     )
-    if found is None:
+    if solution is None:
         return None
     return PointMassPath(
         np.linspace(0.0, duration, intervals + 1),
-        (r @ found).reshape(-1, axes) * problem.length,
-        (v @ found).reshape(-1, axes) * problem.speed,
-        z @ found,
-        (u @ found).reshape(-1, axes) * unit,
-        (s @ found) * unit,
+        (r @ solution).reshape(-1, axes) * problem.length,
+        (v @ solution).reshape(-1, axes) * problem.speed,
+        z @ solution,
+        (u @ solution).reshape(-1, axes) * unit,
+        (s @ solution) * unit,
     )
 
 

@@ -64,22 +64,22 @@ class _Reader(AnnotationReader):
             options = prepared.options
             options = replace(options, parameters=(*options.parameters, names[START]))
             prepared = prepare_system(prepared.archive.path, options, loaded)
-        found: dict[str, float | tuple[float, ...]] = {}
+        inputs: dict[str, float | tuple[float, ...]] = {}
         for role in VECTORS:
-            found[role] = tuple(self.value(element, prepared, f"{names[role]}[{index}]") for index in (1, 2, 3))
-        found |= {role: self.value(element, prepared, names[role]) for role in SCALARS}
+            inputs[role] = tuple(self.value(element, prepared, f"{names[role]}[{index}]") for index in (1, 2, 3))
+        inputs |= {role: self.value(element, prepared, names[role]) for role in SCALARS}
         for piece in (*pieces["Stop"], *pieces["Hover"]):
             is_hover = piece in pieces["Hover"]
             roles = self.attributes(piece, ("name", *((*HOVER, ASIDE) if is_hover else STOP)))
             name = roles["name"]
-            if not name.isidentifier() or any(key.startswith(f"{name}.") for key in found):
+            if not name.isidentifier() or any(key.startswith(f"{name}.") for key in inputs):
                 raise self.refuse(piece, f"name {name!r} is taken or no word", "give each piece a word of its own")
             for role in HOVER if is_hover else STOP:
-                found[f"{name}.{role}"] = self.value(piece, prepared, roles[role])
+                inputs[f"{name}.{role}"] = self.value(piece, prepared, roles[role])
             if is_hover:
                 moved = (self.value(piece, prepared, f"{roles[ASIDE]}[{index}]") for index in (1, 2))
-                found[f"{name}.{ASIDE}"] = tuple(moved)
-        return found
+                inputs[f"{name}.{ASIDE}"] = tuple(moved)
+        return inputs
 
     def value(self, element: etree._Element, prepared: PreparedSystem, name: str) -> float:
         """A parameter as it is set, or as its FMU starts; a number is itself."""
@@ -136,11 +136,11 @@ def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, fl
     """The pieces that a landing is cut into, by name: what is bounded, and the mass (kg) that its propellant is of."""
     values: dict[str, Any] = dict(inputs)
     vehicle, landing = landing_of(inputs, file)
-    found = {}
+    pieces = {}
     for name in dict.fromkeys(key.partition(".")[0] for key in values if "." in key):
         if f"{name}.altitude" in values:
             stop = replace(landing, target_altitude=values[f"{name}.altitude"])
-            found[name] = landing_problem(vehicle, stop), vehicle.mass
+            pieces[name] = landing_problem(vehicle, stop), vehicle.mass
             continue
         mass, least, start, end = (values[f"{name}.{role}"] for role in HOVER)
         if not (start > end and mass > 0.0):
@@ -149,5 +149,5 @@ def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, fl
         gravity = float(np.mean(landing.gravitational_parameter / radii**2))
         lander = replace(vehicle, mass=mass, minimum_thrust=least)
         transfer = Transfer(math.hypot(*values[f"{name}.{ASIDE}"]), start - end, gravity)
-        found[name] = transfer_problem(lander, transfer), mass
-    return found
+        pieces[name] = transfer_problem(lander, transfer), mass
+    return pieces

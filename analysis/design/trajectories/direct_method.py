@@ -35,8 +35,8 @@ def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float,
     start = np.array([*np.divide(problem.start_position, length), *np.divide(problem.start_velocity, speed), 0.0])
     end = np.array([*np.divide(problem.end_position, length), *np.divide(problem.end_velocity, speed), np.nan])
     limits = np.array([problem.least / problem.most, -4.0 * math.pi]), np.array([1.0, 4.0 * math.pi])
-    found = shoot(ShootingProblem(rate, start, end, *limits), _guess(problem, start, end, intervals))
-    return float(found.states[-1, 4]), found.duration
+    shooting = shoot(ShootingProblem(rate, start, end, *limits), _guess(problem, start, end, intervals))
+    return float(shooting.states[-1, 4]), shooting.duration
 
 
 def _guess(problem: PointMassProblem, start: np.ndarray, end: np.ndarray, intervals: int) -> Shooting:

@@ -132,7 +132,7 @@ def hover_study(
     assert best is not None  # a programme of a given duration is found from it
     most = vehicle.maximum_thrust
     with progress_bar(total=optimum + bound + 2 * curves, unit="part") as progress:
-        found = find_true_optimum(best, intervals or OPTIMUM_INTERVALS, most) if optimum else None
+        optimal_path = find_true_optimum(best, intervals or OPTIMUM_INTERVALS, most) if optimum else None
         progress.update(optimum)
         bounded = _bound(vehicle, transfer, intervals or BOUND_INTERVALS) if bound else None
         progress.update(bound)
@@ -147,7 +147,7 @@ def hover_study(
         given=duration is not None,
         programme=programme,
         vertical=vertical,
-        optimum=found,
+        optimum=optimal_path,
         bound=bounded,
         durations=durations,
         distances=distances,

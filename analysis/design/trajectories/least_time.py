@@ -19,20 +19,20 @@ def least_propellant(problem: PointMassProblem, intervals: int) -> PointMassPath
     """The best path over all durations; raises `PlanError`."""
     first, last = _bracket(problem)
 
-    found: dict[float, PointMassPath] = {}
+    paths: dict[float, PointMassPath] = {}
 
     def propellant(duration: float) -> float:
-        nearest = min(found, key=lambda other: abs(other - duration), default=None)
-        path = solve_fixed_time(problem, duration, intervals, None if nearest is None else found[nearest])
+        nearest = min(paths, key=lambda other: abs(other - duration), default=None)
+        path = solve_fixed_time(problem, duration, intervals, None if nearest is None else paths[nearest])
         if path is None:
             return 1.0
-        found[duration] = path
+        paths[duration] = path
         return path.propellant_fraction
 
     best = minimize_scalar(propellant, bounds=(first, last), method="bounded", options={"xatol": ACCURACY})
-    if best.x not in found:
+    if best.x not in paths:
         raise PlanError(f"bound: no solution on {intervals} intervals near {best.x:.2f} s")
-    return found[best.x]
+    return paths[best.x]
 
 
 def _bracket(problem: PointMassProblem) -> tuple[float, float]:

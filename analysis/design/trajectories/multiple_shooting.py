@@ -72,7 +72,7 @@ def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
     lowest[0] = highest[0] = problem.start
     fixed = ~np.isnan(problem.end)
     lowest[-1, fixed] = highest[-1, fixed] = problem.end[fixed]
-    found = solver(
+    solution = solver(
         x0=np.concatenate([[guess.duration], guess.states.ravel(), guess.controls.ravel()]),
         lbx=np.concatenate([[0.2 * guess.duration], lowest.ravel(), np.tile(problem.low, intervals)]),
         ubx=np.concatenate([[5.0 * guess.duration], highest.ravel(), np.tile(problem.high, intervals)]),
@@ -81,7 +81,7 @@ def shoot(problem: ShootingProblem, guess: Shooting) -> Shooting:
     )
     if not solver.stats()["success"]:
         raise PlanError(f"direct method on {intervals} intervals: IPOPT ended with {solver.stats()['return_status']}")
-    values = np.array(found["x"]).ravel()
+    values = np.array(solution["x"]).ravel()
     cut = 1 + guess.states.size
     return Shooting(
         float(values[0]), values[1:cut].reshape(guess.states.shape), values[cut:].reshape(guess.controls.shape)

@@ -61,10 +61,10 @@ class PlannedPath:
         burning = np.concatenate([[False], share > OFF, [False]])
         edges = np.flatnonzero(burning[1:] != burning[:-1]).reshape(-1, 2)
         step = np.diff(self.time)
-        found = []
+        burns = []
         for first, after in edges:
             idle = (1.0 - share[[first, after - 1]]) * step[[first, after - 1]]
             if after - first == 1:  # where in its interval such a burn lies nobody knows
                 idle /= 2.0
-            found.append((float(self.time[first] + idle[0]), float(self.time[after] - idle[1])))
-        return found
+            burns.append((float(self.time[first] + idle[0]), float(self.time[after] - idle[1])))
+        return burns

@@ -50,8 +50,8 @@ class Programme:
     def burns(self) -> list[tuple[float, float]]:
         """Begin and end of full thrust, s."""
         shape = self.shape()
-        found = [(shape[7], shape[8]), (shape[9], shape[6])]
-        return [(begin, end) for begin, end in found if end > begin]
+        burns = [(shape[7], shape[8]), (shape[9], shape[6])]
+        return [(begin, end) for begin, end in burns if end > begin]
 
     @property
     def extremes(self) -> tuple[float, float]:
@@ -120,8 +120,8 @@ def over_duration(best: Programme) -> tuple[np.ndarray, np.ndarray]:
     """Durations (s) about the best programme's and the propellant fraction of each, nan where there is none."""
     low, high, count = DURATIONS
     durations = np.unique([*(best.duration * np.linspace(low, high, count)), best.duration])
-    found = [find_programme(best.vehicle, best.transfer, float(value)) for value in durations]
-    return durations, _fractions(found)
+    programmes = [find_programme(best.vehicle, best.transfer, float(value)) for value in durations]
+    return durations, _fractions(programmes)
 
 
 def over_distance(best: Programme) -> tuple[np.ndarray, np.ndarray]:
@@ -133,13 +133,13 @@ def over_distance(best: Programme) -> tuple[np.ndarray, np.ndarray]:
     return distances, _fractions([find_programme(best.vehicle, transfer) for transfer in transfers])
 
 
-def _fractions(found: list[Programme | None]) -> np.ndarray:
-    return np.array([np.nan if programme is None else programme.propellant_fraction for programme in found])
+def _fractions(programmes: list[Programme | None]) -> np.ndarray:
+    return np.array([np.nan if programme is None else programme.propellant_fraction for programme in programmes])
 
 
 def _kernel_vehicle(vehicle: Vehicle, transfer: Transfer) -> list[float]:
-    found = [0.0] * hover_motion.VEHICLE
-    found[hover_motion.FULL], found[hover_motion.LEAST] = vehicle.full, vehicle.least
-    found[hover_motion.EXHAUST], found[hover_motion.GRAVITY] = vehicle.exhaust_speed, transfer.gravity
-    found[hover_motion.SWING] = vehicle.angular_acceleration
-    return found
+    values = [0.0] * hover_motion.VEHICLE
+    values[hover_motion.FULL], values[hover_motion.LEAST] = vehicle.full, vehicle.least
+    values[hover_motion.EXHAUST], values[hover_motion.GRAVITY] = vehicle.exhaust_speed, transfer.gravity
+    values[hover_motion.SWING] = vehicle.angular_acceleration
+    return values

@@ -50,14 +50,14 @@ def find_true_optimum(programme: Programme, intervals: int, engine: float) -> Pl
         low=np.array([vehicle.least / vehicle.full, -1.0]),
         high=np.array([1.0, 1.0]),
     )
-    found = shoot(problem, _guess(programme, intervals, scale))
-    states = found.states * scale
+    shooting = shoot(problem, _guess(programme, intervals, scale))
+    states = shooting.states * scale
     return PlannedPath(
-        time=np.linspace(0.0, found.duration, intervals + 1),
+        time=np.linspace(0.0, shooting.duration, intervals + 1),
         position=states[:, [0, 2]],
         velocity=states[:, [1, 3]],
         propellant=states[:, 6],
-        throttle=found.controls[:, 0] * vehicle.maximum_thrust / engine,
+        throttle=shooting.controls[:, 0] * vehicle.maximum_thrust / engine,
         pitch=(states[1:, 4] + states[:-1, 4]) / 2.0,
     )
 

@@ -52,7 +52,7 @@ def metric_grid(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str |
     cells = []
     for metric in metrics:
         for row in rows:
-            found = row.entry.metrics[metric]
-            numbers = [number(in_shown_unit(found.value(name), found.unit)) for name in STATISTICS]
-            cells.append((metric, *who_cells(row, group), *numbers, shown_unit(found.unit)))
+            statistics = row.entry.metrics[metric]
+            numbers = [number(in_shown_unit(statistics.value(name), statistics.unit)) for name in STATISTICS]
+            cells.append((metric, *who_cells(row, group), *numbers, shown_unit(statistics.unit)))
     return Grid(("metric, successful trials", *who_heads(group), *STATISTICS, "unit"), cells)

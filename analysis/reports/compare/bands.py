@@ -84,10 +84,10 @@ def _resampled(grid: np.ndarray, time: np.ndarray, values: np.ndarray, held: boo
     margin = 1e-9 * max(1.0, abs(time[-1]))
     inside = (grid >= time[0] - margin) & (grid <= time[-1] + margin)
     if held:
-        found = values[np.clip(np.searchsorted(time, grid + margin, side="right") - 1, 0, time.size - 1)]
+        samples = values[np.clip(np.searchsorted(time, grid + margin, side="right") - 1, 0, time.size - 1)]
     else:
-        found = np.interp(grid, time, values)
-    return np.where(inside, found, np.nan)
+        samples = np.interp(grid, time, values)
+    return np.where(inside, samples, np.nan)
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ class Frame:
 def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
     """One scale for all, which failed flights may leave, and errors over sigma far beyond what is to be expected."""
     expected = expectation(quantity)
-    everything = np.concatenate([found.shown() for found in bands.values()] + [np.asarray(expected)])
+    everything = np.concatenate([band.shown() for band in bands.values()] + [np.asarray(expected)])
     factor, unit = shown_factor(quantity.unit), shown_unit(quantity.unit)
     if quantity.unit == "m":
         factor, unit = far(everything)
@@ -126,8 +126,8 @@ def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
     if expected:
         room = REACH * (expected[-1] - expected[0])
         low, high = max(low, expected[0] - room), min(high, expected[-1] + room)
-    start = min(found.time[0] for found in bands.values())
-    end = max(time[-1] for found in bands.values() for time, _ in [(found.time, None), *found.singles])
+    start = min(band.time[0] for band in bands.values())
+    end = max(time[-1] for band in bands.values() for time, _ in [(band.time, None), *band.singles])
     return Frame(factor, unit, (float(start), float(end)), low, high, expected, quantity.held)
 
 
@@ -135,17 +135,17 @@ def band_panels(quantity: Quantity, bands: Mapping[str, Bands], looks: Mapping[s
     """A panel per contender, all to one scale; one whose errors over sigma leave it says how far they go."""
     frame = frame_of(quantity, bands)
     panels = []
-    for index, (label, found) in enumerate(bands.items()):
+    for index, (label, band) in enumerate(bands.items()):
 
-        def draw(axes: Axes, found: Bands = found, colour: str = looks[label].colour) -> None:
-            _draw(axes, found, frame.factor, colour, quantity.held)
+        def draw(axes: Axes, band: Bands = band, colour: str = looks[label].colour) -> None:
+            _draw(axes, band, frame.factor, colour, quantity.held)
             frame.dress(axes)
-            ends = (found.shown().min(), found.shown().max())
+            ends = (band.shown().min(), band.shown().max())
             if not all(frame.low <= value <= frame.high for value in ends):
                 low, high = (number(frame.factor * float(value), 3) for value in ends)
                 axes.set_title(f"clipped; full range {low} to {high}", loc="right", fontsize=8.0, color=FAINT)
 
-        description = f"{quantity.label} of {label} over time: percentiles over {found.flights} flights"
+        description = f"{quantity.label} of {label} over time: percentiles over {band.flights} flights"
         panels.append(panel(label, f"{name}-{index}", description, draw, HEIGHT))
     return panels
 
@@ -185,16 +185,16 @@ def overlaid_bands(quantity: Quantity, bands: Mapping[str, Bands], looks: Mappin
     shaded = bands if quantity.kind != "consistency" else {}
 
     def draw(axes: Axes) -> None:
-        for label, found in shaded.items():
-            rows, style = frame.factor * found.percentiles, looks[label]
+        for label, band in shaded.items():
+            rows, style = frame.factor * band.percentiles, looks[label]
             axes.fill_between(
-                found.time, rows[0], rows[-1], color=style.colour, alpha=FAINT_BAND, linewidth=0.0,
+                band.time, rows[0], rows[-1], color=style.colour, alpha=FAINT_BAND, linewidth=0.0,
                 step="post" if quantity.held else None,
             )  # fmt: skip
-        for label, found in bands.items():
-            median, style = frame.factor * found.percentiles[2], looks[label]
+        for label, band in bands.items():
+            median, style = frame.factor * band.percentiles[2], looks[label]
             steps = "steps-post" if quantity.held else "default"
-            axes.plot(found.time, median, color=style.colour, linestyle=style.dashes, drawstyle=steps)
+            axes.plot(band.time, median, color=style.colour, linestyle=style.dashes, drawstyle=steps)
         frame.dress(axes)
 
     return [panel(f"{quantity.label}, {ALL}", name, f"Medians of {quantity.label} over time, {ALL}", draw, HEIGHT)]

@@ -57,12 +57,12 @@ def target_of(contender: Contender, variable: str) -> Target:
 
 def ends_of(contender: Contender, variable: str) -> Ends | None:
     """Final position or velocity less its target; None where the batch does not keep the final values."""
-    found = find_vector(contender.stored, contender.trials.final, variable, UNITS[variable])
-    if found is None:
+    vector = find_vector(contender.stored, contender.trials.final, variable, UNITS[variable])
+    if vector is None:
         return None
     target = target_of(contender, variable)
-    finals = np.stack([contender.trials.final[name] for name in found], axis=1)
-    return Ends(found[0].removesuffix("[1]"), variable, target.name, finals - target.values, contender.trials.success)
+    finals = np.stack([contender.trials.final[name] for name in vector], axis=1)
+    return Ends(vector[0].removesuffix("[1]"), variable, target.name, finals - target.values, contender.trials.success)
 
 
 SIGMAS = (1.0, 2.0, 3.0)
@@ -119,14 +119,14 @@ def dispersion_panels(
     ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str, name: str
 ) -> tuple[list[Panel], list[Panel]]:
     """Panels to one scale; and, where these differ much, each to its own."""
-    reaches = {label: reach_of(found) for label, found in ends.items()}
+    reaches = {label: reach_of(points) for label, points in ends.items()}
     most = max(reaches.values())
-    common = [_panel(label, found, looks[label], most, unit, f"{name}-{i}") for i, (label, found) in _numbered(ends)]
+    common = [_panel(label, points, looks[label], most, unit, f"{name}-{i}") for i, (label, points) in _numbered(ends)]
     if most <= UNEVEN * min(reaches.values()):
         return common, []
     own = [
-        _panel(label, found, looks[label], reaches[label], unit, f"{name}-own-{i}")
-        for i, (label, found) in _numbered(ends)
+        _panel(label, points, looks[label], reaches[label], unit, f"{name}-own-{i}")
+        for i, (label, points) in _numbered(ends)
     ]
     return common, own
 
@@ -197,8 +197,8 @@ def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str
     factor, shown = far(np.array([reach])) if unit == "m" else (1.0, unit)
 
     def draw(axes: Axes) -> None:
-        for label, found in ends.items():
-            good, style = factor * shown_ends(found)[0], looks[label]
+        for label, points in ends.items():
+            good, style = factor * shown_ends(points)[0], looks[label]
             if len(good) > 1:
                 axes.plot(*ellipse(good, SIGMAS[-1]), color=style.colour, linestyle=style.dashes)
                 axes.plot(*good[:, :2].mean(axis=0), "+", color=style.colour, markersize=8, markeredgewidth=1.4)

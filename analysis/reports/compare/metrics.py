@@ -25,30 +25,30 @@ NOT_EVALUATED = Expression("0")
 
 def all_values(comparison: Comparison, metric: Metric) -> dict[str, np.ndarray]:
     """A metric in every trial of every contender; of errors over sigma nan for 0, which stands for no sigma."""
-    found = {label: comparison.values(label, metric.name) for label in comparison.contenders}
+    by_label = {label: comparison.values(label, metric.name) for label in comparison.contenders}
     if is_over_sigma(metric):
-        return {label: np.where(values == 0.0, np.nan, values) for label, values in found.items()}
-    return found
+        return {label: np.where(values == 0.0, np.nan, values) for label, values in by_label.items()}
+    return by_label
 
 
 def distributed(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
     """Metrics by contender, nan in failed trials; without one in kg also the final masses: they tell the propellant."""
     contenders = comparison.contenders
-    found = {
+    distributions = {
         metric: all_values(comparison, metric) for metric in comparison.metrics if not is_over_sigma(metric)
     } | _final_masses(comparison)
     return {
         metric: {label: np.where(contenders[label].trials.success, values, np.nan) for label, values in shown.items()}
-        for metric, shown in found.items()
+        for metric, shown in distributions.items()
     }
 
 
 def _final_masses(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
     """Final masses that all contenders have, under the names of metrics; none if a metric is in kg."""
     contenders = comparison.contenders
-    found: dict[Metric, dict[str, np.ndarray]] = {}
+    masses: dict[Metric, dict[str, np.ndarray]] = {}
     if any(metric.unit == MASS for metric in comparison.metrics):
-        return found
+        return masses
     common = [
         name
         for name in dict.fromkeys(name for contender in contenders.values() for name in contender.trials.final)
@@ -57,8 +57,8 @@ def _final_masses(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]
     for name in common:
         if any(variable_of(contender.stored, name) == "mass" for contender in contenders.values()):
             metric = Metric(f"final {name}", NOT_EVALUATED, "final", unit=MASS)
-            found[metric] = {label: contender.trials.final[name] for label, contender in contenders.items()}
-    return found
+            masses[metric] = {label: contender.trials.final[name] for label, contender in contenders.items()}
+    return masses
 
 
 def sort_metrics(
@@ -81,7 +81,7 @@ def sort_metrics(
 def distribution_panel(metric: Metric, values: dict[str, np.ndarray], looks: Mapping[str, Look]) -> Panel:
     """The empirical distribution of a metric in every contender; with the normal one for errors over sigma."""
 
-    some = {label: found for label, found in values.items() if np.any(np.isfinite(found))}
+    some = {label: column for label, column in values.items() if np.any(np.isfinite(column))}
 
     def draw(axes: Axes) -> None:
         draw_distribution(axes, metric, some, [looks[label] for label in some])
@@ -111,9 +111,9 @@ def looks_of(comparison: Comparison) -> dict[str, Look]:
     if len(comparison.batches) == 1:
         return {label: look(contender.variant) for label, contender in comparison.contenders.items()}
     several = len({contender.variant for contender in comparison.contenders.values()}) > 1
-    found = {}
+    looks = {}
     for label, contender in comparison.contenders.items():
         hue = contender.variant if several else contender.batch
         marker = MARKERS[contender.batch % len(MARKERS)]
-        found[label] = Look(COLOURS[hue % len(COLOURS)], DASHES[contender.batch % len(DASHES)], marker)
-    return found
+        looks[label] = Look(COLOURS[hue % len(COLOURS)], DASHES[contender.batch % len(DASHES)], marker)
+    return looks

@@ -26,29 +26,29 @@ def missing_parts(
     ``kinds`` are those of the quantities over time that there are, ``ends`` what final values there are of. Of what
     goes nowhere, such as an attitude, no trajectory, thrust, end or propellant is missed.
     """
-    found = {}
+    reasons = {}
     goes = _goes_somewhere(comparison)
     if not any(flights.values()):
         remedy = "give the campaign's [record] the keys every, signals and trials"
-        found["trajectories"] = f"No trajectories and no commands over time: no flight has a trace; {remedy}."
+        reasons["trajectories"] = f"No trajectories and no commands over time: no flight has a trace; {remedy}."
     else:
         if goes and not trajectories:
-            found["trajectories"] = "No trajectories: no position[1], [2] and [3] in m is among the recorded signals."
+            reasons["trajectories"] = "No trajectories: no position[1], [2] and [3] in m is among the recorded signals."
         if goes and "commands" not in kinds:
             words = "thrust_acceleration, thrust or thrust_direction"
-            found["commands"] = f"No commands: no {words} is among the recorded signals."
+            reasons["commands"] = f"No commands: no {words} is among the recorded signals."
         without = [label for label, kept in flights.items() if not kept]
         if without:
-            found["traces"] = f"No flight has a trace: {', '.join(without)}."
+            reasons["traces"] = f"No flight has a trace: {', '.join(without)}."
     lacking = [variable for variable in UNITS if variable not in ends]
     if goes and lacking:
         words = " and ".join(lacking)
-        found["ends"] = f"No dispersion of the final {words}: [record] final does not keep its three elements."
+        reasons["ends"] = f"No dispersion of the final {words}: [record] final does not keep its three elements."
     if goes and not _has_mass(comparison):
-        found["propellant"] = "No propellant: no metric is in kg, and [record] final does not keep a mass."
+        reasons["propellant"] = "No propellant: no metric is in kg, and [record] final does not keep a mass."
     if "consistency" not in kinds and not any(is_over_sigma(metric) for metric in comparison.metrics):
-        found["consistency"] = "No errors over the filter's own deviations: no metric's name ends in _over_sigma."
-    return found
+        reasons["consistency"] = "No errors over the filter's own deviations: no metric's name ends in _over_sigma."
+    return reasons
 
 
 def _goes_somewhere(comparison: Comparison) -> bool:

@@ -58,8 +58,8 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
     flights = _flights(comparison)
     bundles = {
         label: bundle
-        for label, found in flights.items()
-        if (bundle := bundle_of(comparison.contenders[label], found)) is not None
+        for label, flight in flights.items()
+        if (bundle := bundle_of(comparison.contenders[label], flight)) is not None
     }
     histories = _histories(comparison, flights, looks)
     ends = [end for variable in UNITS if (end := _end(comparison, variable, looks)) is not None]
@@ -91,13 +91,13 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         plan=plan_panels(bundles, looks) if bundles else [],
         radius=next((bundle.radius for bundle in bundles.values() if bundle.radius is not None), None),
         over_ground=all(bundle.over_ground for bundle in bundles.values()),
-        flights={label: len(found) for label, found in flights.items()},
+        flights={label: len(flight) for label, flight in flights.items()},
         most_drawn=DRAWN,
         ends=ends,
         distributions=[distribution_panel(metric, shown[metric], looks) for metric in drawn],
         still=still,
         empty=empty,
-        histories={kind: [found for found in histories if found.quantity.kind == kind] for kind in KINDS},
+        histories={kind: [flight for flight in histories if flight.quantity.kind == kind] for kind in KINDS},
         over_sigma=[metric.name for metric in errors],
         sigma_rows=sigma_rows(comparison),
         sigma_distributions=[distribution_panel(metric, errors[metric], looks) for metric in sort_metrics(errors)[0]],
@@ -106,7 +106,7 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
             comparison,
             flights,
             trajectories=bool(bundles),
-            kinds={found.quantity.kind for found in histories},
+            kinds={flight.quantity.kind for flight in histories},
             ends={end.what for end in ends},
         ),
         biased=is_biased(comparison, flights),
@@ -133,7 +133,7 @@ def _flights(comparison: Comparison) -> dict[str, list[Flight]]:
 
 def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], looks: Mapping[str, Look]) -> list[History]:
     by_label = {quantity.label: quantity for batch in comparison.batches.values() for quantity in quantities(batch)}
-    found = []
+    histories = []
     for index, quantity in enumerate(by_label.values()):
         bands = {label: bands_of(quantity, kept) for label, kept in flights.items()}
         shown = {label: band for label, band in bands.items() if band is not None and band.time.size}
@@ -143,10 +143,10 @@ def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], look
         if constant is None:
             together = overlaid_bands(quantity, shown, looks, f"history{index}-all")
             panels = band_panels(quantity, shown, looks, f"history{index}")
-            found.append(History(quantity, together, panels, None, expectation(quantity)))
+            histories.append(History(quantity, together, panels, None, expectation(quantity)))
         else:
-            found.append(History(quantity, [], [], constant, expectation(quantity)))
-    return found
+            histories.append(History(quantity, [], [], constant, expectation(quantity)))
+    return histories
 
 
 def _constant(bands: Iterable[Bands]) -> float | None:
@@ -157,9 +157,9 @@ def _constant(bands: Iterable[Bands]) -> float | None:
 
 def _end(comparison: Comparison, variable: str, looks: Mapping[str, Look]) -> End | None:
     ends = {
-        label: found
+        label: point
         for label, contender in comparison.contenders.items()
-        if (found := ends_of(contender, variable)) is not None
+        if (point := ends_of(contender, variable)) is not None
     }
     if not ends:
         return None
@@ -167,10 +167,10 @@ def _end(comparison: Comparison, variable: str, looks: Mapping[str, Look]) -> En
     return End(
         what=variable,
         unit=UNITS[variable],
-        signal=", ".join(dict.fromkeys(found.signal for found in ends.values())),
-        targets=list(dict.fromkeys(found.target for found in ends.values())),
+        signal=", ".join(dict.fromkeys(point.signal for point in ends.values())),
+        targets=list(dict.fromkeys(point.target for point in ends.values())),
         together=overlaid_ends(ends, looks, UNITS[variable], f"end-{variable}-all"),
         common=common,
         own=own,
-        rows={label: dispersion(found) for label, found in ends.items()},
+        rows={label: dispersion(point) for label, point in ends.items()},
     )

@@ -82,19 +82,19 @@ def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
         indexed = INDEXED.fullmatch(name)
         if indexed:
             elements.setdefault(indexed[1], {})[indexed[2]] = name
-    return {base: (found["1"], found["2"], found["3"]) for base, found in elements.items() if set(found) == set("123")}
+    return {base: (parts["1"], parts["2"], parts["3"]) for base, parts in elements.items() if set(parts) == set("123")}
 
 
 def find_vector(
     batch: StoredBatch, names: Iterable[str], variable: str, unit: str, owner: str = ""
 ) -> tuple[str, str, str] | None:
     """The first vector called ``variable`` with that unit, if there is one of the component ``owner``."""
-    found = {
+    candidates = {
         base: elements
         for base, elements in vectors(names).items()
         if variable_of(batch, base) == variable and _unit(batch, elements[0]) == unit
     }
-    return found.get(f"{owner}.{variable}") or next(iter(found.values()), None)
+    return candidates.get(f"{owner}.{variable}") or next(iter(candidates.values()), None)
 
 
 def _unit(batch: StoredBatch, name: str) -> str | None:
@@ -104,22 +104,22 @@ def _unit(batch: StoredBatch, name: str) -> str | None:
 def quantities(batch: StoredBatch) -> list[Quantity]:
     """Every quantity over time that can be drawn, in order of their signals."""
     names = kept_names(batch)
-    found: list[Quantity] = []
+    listed: list[Quantity] = []
     taken: set[str] = set()
     altitude = any(variable_of(batch, name) == "altitude" for name in names)
     for base, elements in vectors(names).items():
         variable = variable_of(batch, base)
         if variable in DIRECTIONS:
-            found.append(
+            listed.append(
                 Quantity(f"{base} above the horizontal", variable, "rad", "commands", elements, _elevation(elements))
             )
         elif variable == "velocity":
-            found.append(
+            listed.append(
                 Quantity(f"{base}, magnitude", variable, _unit(batch, elements[0]), "motion", elements, _norm(elements))
             )
         elif variable == "position" and not altitude:
             unit = _unit(batch, elements[2])
-            found.append(Quantity(elements[2], variable, unit, "motion", elements[2:], _element(elements[2])))
+            listed.append(Quantity(elements[2], variable, unit, "motion", elements[2:], _element(elements[2])))
         elif variable != "position":
             continue
         taken |= set(elements)
@@ -127,8 +127,9 @@ def quantities(batch: StoredBatch) -> list[Quantity]:
         if name not in taken:
             variable = variable_of(batch, name)
             held = batch.document["signals"].get(name, {}).get("type", "Real") != "Real"
-            found.append(Quantity(name, variable, _unit(batch, name), _kind(variable), (name,), _element(name), held))
-    return sorted(found, key=lambda quantity: names.index(quantity.names[0]))
+            unit, kind = _unit(batch, name), _kind(variable)
+            listed.append(Quantity(name, variable, unit, kind, (name,), _element(name), held))
+    return sorted(listed, key=lambda quantity: names.index(quantity.names[0]))
 
 
 def _kind(variable: str) -> str:
@@ -163,8 +164,8 @@ def sampled_trials(contenders: Iterable[Contender]) -> dict[str, list[int]]:
         traced = contender.stored.traced[contender.name]
         own[contender.label] = [trial for trial in traced if limit is None or trial < limit]
     common = set.intersection(*map(set, own.values())) if own else set()
-    shown = {label: [trial for trial in found if not common or trial in common] for label, found in own.items()}
-    return {label: found[:MOST_FLIGHTS] for label, found in shown.items()}
+    shown = {label: [trial for trial in trials if not common or trial in common] for label, trials in own.items()}
+    return {label: trials[:MOST_FLIGHTS] for label, trials in shown.items()}
 
 
 def doubling(ratio: float) -> int:

@@ -88,7 +88,7 @@ def draw_ranges(comparison: Comparison) -> list[tuple[str, float, float, float]]
 
 def failures_to_replay(comparison: Comparison) -> list[Replay]:
     """The first failures of each contender, and how many of the others succeed in that trial."""
-    found: list[Replay] = []
+    replays: list[Replay] = []
     for label, contender in comparison.contenders.items():
         stored, trials = contender.stored, contender.trials
         if not (stored.folder / MANIFEST).is_file():
@@ -101,5 +101,5 @@ def failures_to_replay(comparison: Comparison) -> list[Replay]:
                 count = sum(bool(success[row]) for success in others)
                 reasons.append(Markup("{} of {} others succeed").format(count, len(others)))
             command = stored_replay(stored.folder, stored.variants, contender.name, trial)
-            found.append(Replay(label, trial, reasons, command))
-    return found
+            replays.append(Replay(label, trial, reasons, command))
+    return replays

@@ -163,9 +163,9 @@ def influence(result: RareResult) -> dict[str, float]:
     """
     count = level_spans(result)[0].last
     failed = result.flown.values >= 0.0
-    found: dict[str, float] = {}
+    influences: dict[str, float] = {}
     if not failed.any():
-        return found
+        return influences
     for name in result.space.names:
         column = result.flown.draws[name]
         start = column[:count]
@@ -174,8 +174,8 @@ def influence(result: RareResult) -> dict[str, float]:
             continue
         shift = abs(float(np.mean(column[failed]) - np.mean(start)))
         apart = float(np.mean(np.abs(column[failed] - middle)) - np.mean(np.abs(start - middle)))
-        found[name] = max(shift, apart) / spread
-    return dict(sorted(found.items(), key=lambda item: -item[1]))
+        influences[name] = max(shift, apart) / spread
+    return dict(sorted(influences.items(), key=lambda item: -item[1]))
 
 
 def design_point_panels(result: RareResult) -> list[Panel]:
@@ -238,17 +238,17 @@ def equivalents(result: RareResult) -> list[Equivalent]:
     Of Monte Carlo it is Clopper and Pearson's interval of the expected number of failures, as a whole number.
     """
     low, high = result.interval
-    found = [Equivalent("this study", result.flights, low, high)]
+    estimates = [Equivalent("this study", result.flights, low, high)]
     if result.probability is None:
-        return found
+        return estimates
     for label, trials in (
         ("Monte Carlo, as many", float(result.flights)),
         ("Monte Carlo, same c.o.v.", result.brute_force or 0.0),
     ):
         if trials >= 1.0:
             low, high = success_interval(round(result.probability * trials), round(trials))
-            found.append(Equivalent(label, round(trials), low, high))
-    return found
+            estimates.append(Equivalent(label, round(trials), low, high))
+    return estimates
 
 
 def interval_figure(result: RareResult) -> Widths:

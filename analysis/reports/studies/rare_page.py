@@ -112,7 +112,7 @@ def equivalent_table(result: RareResult) -> Table:
 def replays_of(result: RareResult, folder: Path | None) -> list[tuple[str, str]]:
     """Commands with what they do: the design points again where they were written, a lower bound where levels ended."""
     command = result.replay(folder, 0) if result.failures else ""
-    found = [("design point 0; trial K of the file is design point K", command)] if command else []
+    replays = [("design point 0; trial K of the file is design point K", command)] if command else []
     if result.monte_carlo:
-        found.append(("a bound ten times lower, by Monte Carlo", result.monte_carlo))
-    return found
+        replays.append(("a bound ten times lower, by Monte Carlo", result.monte_carlo))
+    return replays

@@ -49,13 +49,13 @@ def index_panels(result: SensitivityResult) -> list[Panel]:
     def drawing(bars: list[Bar]) -> Callable[[Axes], None]:
         return lambda axes: draw_indices(axes, bars)
 
-    found = []
+    panels = []
     for index, metric in enumerate(result.told):
         bars = bars_of(result, metric)[:MOST]
         words = f"Total and first-order Sobol' indices of {metric}"
         height = 0.95 + LANE * len(bars)
-        found.append(panel(metric, f"indices-{index}", words, drawing(bars), height, HALF_WIDTH))
-    return found
+        panels.append(panel(metric, f"indices-{index}", words, drawing(bars), height, HALF_WIDTH))
+    return panels
 
 
 def draw_indices(axes: Axes, bars: list[Bar]) -> None:

@@ -72,15 +72,15 @@ def index_table(result: SensitivityResult, metric: str) -> Table:
 def rank_table(result: SensitivityResult) -> Table:
     """Rank correlations, a row per metric and a column per parameter."""
     names = result.space.names
-    rows = [(metric, *(fraction(found[name]) for name in names)) for metric, found in result.ranks.items()]
+    rows = [(metric, *(fraction(ranks[name]) for name in names)) for metric, ranks in result.ranks.items()]
     return Table(("metric", *names), rows, range(1, 1 + len(names)))
 
 
 def wide_metrics(result: SensitivityResult) -> list[str]:
     """Metrics whose largest total index has an interval wider than `WIDE`."""
-    found = []
+    metrics = []
     for metric in result.told:
         low, high = bars_of(result, metric)[0].total_interval
         if high - low > WIDE:
-            found.append(metric)
-    return found
+            metrics.append(metric)
+    return metrics

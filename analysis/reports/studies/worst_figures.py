@@ -38,11 +38,11 @@ class Objective(NamedTuple):
 
     def limits(self) -> tuple[float, float]:
         """Ends of an axis with the worst value on it, and all but a few of the others."""
-        found = self.values[np.isfinite(self.values)]
-        if not found.size:
+        finite = self.values[np.isfinite(self.values)]
+        if not finite.size:
             return -1.0, 1.0
-        (level,) = quantiles(found, [CUT if self.rising else 1.0 - CUT])
-        worst = found.max() if self.rising else found.min()
+        (level,) = quantiles(finite, [CUT if self.rising else 1.0 - CUT])
+        worst = finite.max() if self.rising else finite.min()
         low, high = float(min(level, worst)), float(max(level, worst))
         margin = 0.08 * (high - low) or 0.05 * abs(high) or 1.0
         return low - margin, high + margin
@@ -62,11 +62,11 @@ def point_values(result: WorstResult) -> np.ndarray:
     fresh = 0 if result.fresh is None else result.fresh.values.size
     flown = result.flown.values[: result.flown.values.size - fresh]
     split = result.random_trials * count
-    found = []
+    columns = []
     for values, size in ((flown[:split], count), (flown[split:], later)):
         rows = values.reshape(-1, size)
-        found.append(rows[:, 0] if result.over is None or size == 1 else result.over.objective(rows))
-    return np.concatenate(found)
+        columns.append(rows[:, 0] if result.over is None or size == 1 else result.over.objective(rows))
+    return np.concatenate(columns)
 
 
 def objective_of(result: WorstResult) -> Objective:

@@ -61,14 +61,14 @@ class SampleFlights:
         trials = plan.campaign.trials
         size = max(1, min(50 if self.prepared.flies_in_threads else 10, trials // (4 * self._count)))
         pieces = [range(first, min(first + size, trials)) for first in range(0, trials, size)]
-        found: dict[int, Trials] = {}
+        parts: dict[int, Trials] = {}
         for place, flown in self._pool.work(_fly, [(self.variant, plan.of_part(piece)) for piece in pieces]):
             if flown is None:
                 raise KeyboardInterrupt
-            found[place] = flown.counted_from(pieces[place].start)
+            parts[place] = flown.counted_from(pieces[place].start)
             self._progress.update(len(pieces[place]))
         self.flown += trials
-        return joined(found.values()), plan.draws.of_part(range(trials)).columns
+        return joined(parts.values()), plan.draws.of_part(range(trials)).columns
 
     def __enter__(self) -> SampleFlights:
         self._pool.__enter__()

@@ -74,8 +74,8 @@ class Flown:
 
     def streams(self, place: int) -> dict[str, int]:
         """The trials whose random streams components had in one flight, by component; `ALL` stands for the others."""
-        found = ((stream_component(name), column) for name, column in self.draws.items())
-        return {component: int(column[place]) for component, column in found if component is not None}
+        columns = ((stream_component(name), column) for name, column in self.draws.items())
+        return {component: int(column[place]) for component, column in columns if component is not None}
 
     def table(self, worth: str) -> pyarrow.Table:
         """A row per flight: draws, metrics and, under the name ``worth``, the value."""

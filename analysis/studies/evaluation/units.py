@@ -15,7 +15,7 @@ SUMS = (ast.Add, ast.Sub)
 
 def units_of(space: DrawSpace, prepared: PreparedSystem, facts: Mapping[str, Any]) -> dict[str, str]:
     """The units of draws and metrics by name, of those that have one."""
-    found = {name: fact["unit"] for name, fact in facts["metrics"].items()}
+    units = {name: fact["unit"] for name, fact in facts["metrics"].items()}
     for draw in space.campaign.draws:
         for name in draw.names:
             component = max(
@@ -23,14 +23,14 @@ def units_of(space: DrawSpace, prepared: PreparedSystem, facts: Mapping[str, Any
             )
             if component:
                 fmu = prepared.network.fmus[component]
-                found[name] = fmu.unit_of(fmu.variables[name.removeprefix(f"{component}.")])
-    return {name: unit for name, unit in found.items() if unit and unit != "1"}
+                units[name] = fmu.unit_of(fmu.variables[name.removeprefix(f"{component}.")])
+    return {name: unit for name, unit in units.items() if unit and unit != "1"}
 
 
 def unit_of_expression(expression: Expression, units: Mapping[str, str]) -> str:
     """The unit of a sum or a comparison of one metric or draw with numbers, or of several of one unit; else nothing."""
-    found = {units.get(name, "") for name in expression.names}
-    return found.pop() if len(found) == 1 and _is_linear(ast.parse(expression.text, mode="eval").body) else ""
+    candidates = {units.get(name, "") for name in expression.names}
+    return candidates.pop() if len(candidates) == 1 and _is_linear(ast.parse(expression.text, mode="eval").body) else ""
 
 
 def _is_linear(node: ast.expr) -> bool:

@@ -55,9 +55,9 @@ def rare_failure(
 
         def margin(points: Points) -> np.ndarray:
             trials, draws = flights.fly(space.from_normals(points.draws), noise.of(points.streams))
-            found = wanted.margins({**draws, **trials.metrics}, trials.flown)
-            flown.add(points.draws, draws, trials.metrics, found)
-            return found
+            margins = wanted.margins({**draws, **trials.metrics}, trials.flown)
+            flown.add(points.draws, draws, trials.metrics, margins)
+            return margins
 
         try:
             simulation = subset_simulation(

@@ -66,15 +66,15 @@ class SensitivityResult:
 
         The noise has no rank: its realisations have no order.
         """
-        found: dict[str, dict[str, Any]] = {name: {"rank": self.ranks[number].get(name)} for name in self.inputs}
+        rows: dict[str, dict[str, Any]] = {name: {"rank": self.ranks[number].get(name)} for name in self.inputs}
         if self.indices is not None and number in self.told:
             row = self.told.index(number)
             for place, name in enumerate(self.inputs):
                 for order in ("first", "total"):
-                    found[name][order] = float(getattr(self.indices, order)[row, place])
+                    rows[name][order] = float(getattr(self.indices, order)[row, place])
                     ends = getattr(self.indices, f"{order}_interval")[:, row, place]
-                    found[name][f"{order}_interval"] = [strict(end) for end in ends]
-        return found
+                    rows[name][f"{order}_interval"] = [strict(end) for end in ends]
+        return rows
 
     def replay(self, folder: Path | None, flight: int) -> str:
         """The command that flies one of the flights again; empty where they are not written to a folder."""
@@ -108,10 +108,10 @@ class SensitivityResult:
             lines.append(f"{NOISE}: all of these components as one input; rank correlations leave it out")
         lines += assumption_lines(self.facts)
         for number in self.told:
-            found = self.of(number)
+            indices = self.of(number)
             rows = [[with_unit(number, self.units), "total", percent, "first", percent, "rank"]]
-            for name in sorted(found, key=lambda name: -found[name]["total"]):
-                entry = found[name]
+            for name in sorted(indices, key=lambda name: -indices[name]["total"]):
+                entry = indices[name]
                 cells = [
                     cell
                     for order in ("total", "first")

@@ -66,9 +66,9 @@ def indices(values: np.ndarray, base: int, random: np.random.Generator) -> Indic
         if part.shape[:2] == (1, 3):  # one number of one input, which scipy refuses: twice, and the first of the two
             part = np.repeat(part, 2, axis=0)
         parts = {"f_A": part[:, 0], "f_B": part[:, 1], "f_AB": part[:, 2:].swapaxes(0, 1)}
-        found = scipy.stats.sobol_indices(func=parts, n=base)
+        sobol = scipy.stats.sobol_indices(func=parts, n=base)
         shape = (len(part), -1)  # which a single number has lost
-        return np.stack([order.reshape(shape)[: len(pages)] for order in (found.first_order, found.total_order)])
+        return np.stack([order.reshape(shape)[: len(pages)] for order in (sobol.first_order, sobol.total_order)])
 
     whole = statistic(np.arange(base))
     spread = scipy.stats.bootstrap(

@@ -60,23 +60,23 @@ def sensitivity(
         trials, draws = flights.fly(columns, noise.same(streams))
         metrics = {**trials.metrics, SUCCESS: trials.success.astype(float)}
         told = [name for name, values in metrics.items() if np.all(np.isfinite(values)) and np.ptp(values) > 0.0]
-        found = indices(np.array([metrics[name] for name in told]), base, random) if told else None
+        computed = indices(np.array([metrics[name] for name in told]), base, random) if told else None
         independent = slice(0, 2 * base)  # A and B
         drawn = {name: draws[name][independent] for name in space.names}
         ranks = rank_correlations(drawn, {name: values[independent] for name, values in metrics.items()})
         flown = Flown()
         flown.add(points, draws, trials.metrics, metrics[SUCCESS])
         return SensitivityResult(
-            base, space, tuple(told), found, _untold(metrics, told), ranks, flown.whole(), flights.facts, noise,
+            base, space, tuple(told), computed, _untold(metrics, told), ranks, flown.whole(), flights.facts, noise,
             units_of(space, flights.prepared, flights.facts),
         )  # fmt: skip
 
 
 def _untold(metrics: Mapping[str, np.ndarray], told: list[str]) -> dict[str, str]:
     """Why numbers have no indices."""
-    found = {}
+    reasons = {}
     for name, values in metrics.items():
         if name not in told:
             lacking = int(np.sum(~np.isfinite(values)))
-            found[name] = f"not finite in {lacking} flights" if lacking else f"{values[0]:g} in all flights"
-    return found
+            reasons[name] = f"not finite in {lacking} flights" if lacking else f"{values[0]:g} in all flights"
+    return reasons

@@ -22,7 +22,7 @@ SIZES = {
 LARGEST = "largest_multiplier"
 
 
-def margin_columns(channels: Sequence[str], found: Sequence[Sequence[Margins] | None]) -> dict[str, np.ndarray]:
+def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[Margins] | None]) -> dict[str, np.ndarray]:
     """The margins of all channels, a row for each of ``found`` and a column for each margin and largest multiplier.
 
     A margin of an unstable loop is `UNSTABLE`, one without a crossing inf; a row of None is nan.
@@ -30,9 +30,9 @@ def margin_columns(channels: Sequence[str], found: Sequence[Sequence[Margins] | 
     columns: dict[str, np.ndarray] = {}
     for place, channel in enumerate(channels):
         for key, quantity in SIZES.values():
-            columns[f"{channel}.{key}"] = np.array([row[place].size(quantity) if row else np.nan for row in found])
+            columns[f"{channel}.{key}"] = np.array([row[place].size(quantity) if row else np.nan for row in studied])
         columns[f"{channel}.{LARGEST}"] = np.array(
-            [row[place].largest if row else np.nan for row in found], dtype=float
+            [row[place].largest if row else np.nan for row in studied], dtype=float
         )
     return columns
 

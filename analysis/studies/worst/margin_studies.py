@@ -77,9 +77,9 @@ class MarginStudies:
         plan = self._plan.of_samples(given_draws(columns, streams, self.noise))
         check_draws(plan, [self._study.prepared])
         rows: list[list[Margins] | None] = []
-        for found in self._found([plan.of_part(range(trial, trial + 1)) for trial in range(plan.campaign.trials)]):
-            self.reasons.append(found if isinstance(found, str) else "")
-            rows.append(None if isinstance(found, str) else found)
+        for margins in self._found([plan.of_part(range(trial, trial + 1)) for trial in range(plan.campaign.trials)]):
+            self.reasons.append(margins if isinstance(margins, str) else "")
+            rows.append(None if isinstance(margins, str) else margins)
             self._progress.update()
         studied = Studied(margin_columns(self.channels, rows), np.array([row is not None for row in rows]))
         return studied, plan.draws.of_part(range(plan.campaign.trials)).columns

@@ -47,7 +47,7 @@ def badness_of(campaign: Campaign, text: str | None) -> Badness:
         raise InputError("`metric`", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
 
     def of(values: Mapping[str, np.ndarray], flown: np.ndarray) -> np.ndarray:
-        found = np.broadcast_to(expression.evaluate(values), flown.shape)
-        return np.where(flown & np.isfinite(found), found, np.inf)
+        values_of_trials = np.broadcast_to(expression.evaluate(values), flown.shape)
+        return np.where(flown & np.isfinite(values_of_trials), values_of_trials, np.inf)
 
     return Badness(expression.text, of, expression=expression)

@@ -135,15 +135,15 @@ class WorstResult:
 
     def text(self, folder: Path | None = None) -> str:
         """The result for a terminal; ``folder`` as in `document`."""
-        found, random, under = self.worst, self.worst_random, self.conditions
+        case, random, under = self.worst, self.worst_random, self.conditions
         lines = [*self.headline(), *([f"failed: {self.reason}"] if self.reason else [])]
         lines += [line for line in (noise_line(self.noise),) if line and self.over is None]
         lines += assumption_lines(self.facts)
         rows = [["", "trial 0: worst", "trial 1: random"]]
         for part in ("draws", "metrics"):
-            names = self.space.names if part == "draws" else list(found[part])
+            names = self.space.names if part == "draws" else list(case[part])
             rows += [
-                [with_unit(name, self.units), _shown(found[part][name]), _shown(random[part][name])] for name in names
+                [with_unit(name, self.units), _shown(case[part][name]), _shown(random[part][name])] for name in names
             ]
         replay = self._replay(folder)
         lines += ["", *([under.removeprefix(", ")] if under else []), *aligned(rows)]
@@ -155,13 +155,13 @@ class WorstResult:
 
     def headline(self) -> list[str]:
         """The worst case, the worst random trial and what fresh noise does to the worst case, with their conditions."""
-        found, random = self.worst, self.worst_random
+        case, random = self.worst, self.worst_random
         within = f"search box +-{self.sigmas:g} sigma (normal), full range (others)"
         outside = "" if random["inside"] else ", outside the box"
         unit, under = f" {self.unit}" if self.unit else "", self.conditions
         of = "" if self.over is None else f" ({self.over.text})"
         return [
-            f"{self.badness.text}: worst {_shown(found['value'])}{unit}{of} in {self.flights} flights, {within}{under}",
+            f"{self.badness.text}: worst {_shown(case['value'])}{unit}{of} in {self.flights} flights, {within}{under}",
             f"worst of {self.random_trials} random trials: {_shown(random['value'])}{unit}{of}{outside}{under}",
             *self._fresh_lines(unit),
         ]

@@ -57,15 +57,15 @@ def read_realisations(
     share = QUANTILE if quantile is None else quantile
     if not 0.0 < share <= 1.0:
         raise InputError("`quantile`", f"{share:g}", "not a share of the realisations", "give one above 0, up to 1")
-    found = Realisations(max(1, min(default, flights // LEAST)) if count is None else count, share)
+    realisations = Realisations(max(1, min(default, flights // LEAST)) if count is None else count, share)
     if count is not None and LEAST <= flights < count * LEAST:
         problem = f"{flights} flights are too few: a search has {LEAST} points or more"
         raise InputError("`realisations`", str(count), problem, f"give `flights` {count * LEAST} or more")
     least = 1 if share == 1.0 else math.ceil(1.0 / (1.0 - share) - 1e-9)
-    if quantile is not None and found.count < least:
-        problem = f"{found.count} realisations have no such quantile below their largest"
+    if quantile is not None and realisations.count < least:
+        problem = f"{realisations.count} realisations have no such quantile below their largest"
         raise InputError("`quantile`", f"{share:g}", problem, f"give `realisations` {least} or more, or `quantile` 1")
-    return found
+    return realisations
 
 
 @dataclass(frozen=True, eq=False)

@@ -75,10 +75,11 @@ def margin_asked(
     ``point`` is needed where the loop has several. Raises InputError.
     """
     request = read_request(system, options, loops=[loop], at=() if at is None else (at,), campaign=campaign, seed=seed)
-    (found,) = request.declaration.loops
-    if point is None and len(found.points) > 1:
-        problem = f"is studied at {len(found.points)} points, and a search has one"
-        raise InputError("`loop`", loop, problem, f"choose: {' or '.join(f'`point` {name}' for name in found.points)}")
-    if point is not None and point not in found.points:
-        raise InputError("`point`", point, f"{loop} has no such point", f"give {' or '.join(found.points)}")
-    return MarginAsked(request, found, request.point(point or found.points[0]))
+    (studied_loop,) = request.declaration.loops
+    if point is None and len(studied_loop.points) > 1:
+        problem = f"is studied at {len(studied_loop.points)} points, and a search has one"
+        points = " or ".join(f"`point` {name}" for name in studied_loop.points)
+        raise InputError("`loop`", loop, problem, f"choose: {points}")
+    if point is not None and point not in studied_loop.points:
+        raise InputError("`point`", point, f"{loop} has no such point", f"give {' or '.join(studied_loop.points)}")
+    return MarginAsked(request, studied_loop, request.point(point or studied_loop.points[0]))

@@ -103,10 +103,10 @@ def _evolve(counted: _Counted, points: np.ndarray, values: np.ndarray, random: n
     spread = qmc.LatinHypercube(dimensions, rng=random).random(members - len(known) - len(corners))
 
     def badly(columns: np.ndarray) -> np.ndarray:
-        found = counted(columns.T)
-        if found.size < columns.shape[1]:
+        objectives = counted(columns.T)
+        if objectives.size < columns.shape[1]:
             raise _EndError
-        return -found
+        return -objectives
 
     counted.begin("differential evolution")
     differential_evolution(

@@ -104,8 +104,8 @@ def worst_margin(
     box = _Box(asked.plan, sigmas, flights, hold)
     with MarginStudies(asked, box.middle, noise_trial=noise_trial, workers=workers) as studies:
         badness = badness_of_margin(asked.loop.name, asked.point.name, studies.channels, margin)
-        found = box.searched(studies, badness, over)
-        return replace(found, reason=studies.reasons[found.places[0]], again=asked.replay)
+        result = box.searched(studies, badness, over)
+        return replace(result, reason=studies.reasons[result.places[0]], again=asked.replay)
 
 
 class _Box:

@@ -228,9 +228,9 @@ def test_recording_what_is_no_signal_is_refused(tmp_path):
     ("options", "words"),
     [
         ({"compare": {"guidance": ["flat_moon_lander"]}}, r"guidance\.position\[1\].*is output in .*flat_moon_lander"),
-        ({"compare": {"guidence": ["astar_guidance"]}}, "--compare: guidence: no such component"),
-        ({"workers": 0}, "--workers: 0: not a positive number"),
-        ({"trials": 0}, "--trials: 0: not a positive number"),
+        ({"compare": {"guidence": ["astar_guidance"]}}, "compare: guidence: no such component"),
+        ({"workers": 0}, "workers: 0: not a positive number"),
+        ({"trials": 0}, "trials: 0: not a positive number"),
         ({"trials": 10**12}, r"trials: 1000000000000 trials, of 1000000 at most"),
         ({"seed": -1}, "seed: -1 is negative"),
     ],
@@ -242,7 +242,7 @@ def test_options_refused(tmp_path, options, words):
 
 
 def test_unknown_campaign():
-    with pytest.raises(InputError, match=r"--campaign: no papper.*paper\.toml.*noisy\.toml"):
+    with pytest.raises(InputError, match=r"campaign: no papper.*paper\.toml.*noisy\.toml"):
         perilune.batch(SYSTEM, "papper")
 
 

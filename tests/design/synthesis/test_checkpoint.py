@@ -76,7 +76,7 @@ def test_damaged_checkpoints_are_refused(tmp_path):
         assert "\n" not in str(caught.value)
         assert str(caught.value).startswith(str(path))
     path.unlink()
-    with pytest.raises(InputError, match="not found; leave out --resume"):
+    with pytest.raises(InputError, match="not found; leave out resume"):
         read_checkpoint(path, FACTS)
 
 

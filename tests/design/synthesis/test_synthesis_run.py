@@ -145,9 +145,9 @@ def refused(words, *arguments, **keywords):
 
 def test_a_folder_with_a_search_is_not_overwritten(whole, tmp_path):
     search = synthesis(tmp_path)
-    refused("there is a search here already; give --resume to go on", search, output=whole[1])
-    refused("--resume: no folder to resume from; give --output DIR", search, resume=True)
-    refused("checkpoint.json: not found; leave out --resume", search, output=tmp_path / "new", resume=True)
+    refused("there is a search here already; give resume to go on", search, output=whole[1])
+    refused("resume: no folder to resume from; give output", search, resume=True)
+    refused("checkpoint.json: not found; leave out resume", search, output=tmp_path / "new", resume=True)
     refused("seed: not what the search began with", search, seed=12, output=whole[1], resume=True)
     other = synthesis(tmp_path, TEXT.replace("variations = 4", "variations = 5"))
     refused("campaign_sha256: not what the search began with", other, output=whole[1], resume=True)
@@ -155,8 +155,8 @@ def test_a_folder_with_a_search_is_not_overwritten(whole, tmp_path):
 
 def test_wrong_numbers_are_refused(tmp_path):
     search = synthesis(tmp_path)
-    refused("--workers: 0: not a positive number", search, workers=0)
-    refused("--evaluations: 0: not a positive number", search, evaluations=0)
+    refused("workers: 0: not a positive number", search, workers=0)
+    refused("evaluations: 0: not a positive number", search, evaluations=0)
     refused("seed: -1 is negative", search, seed=-1)
 
 

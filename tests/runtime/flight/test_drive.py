@@ -121,8 +121,8 @@ def test_nested_and_whole(tiny, tmp_path):
         ({"gain.u": [0.0]}, {}, "input: column gain.u: is connected to u, which would overwrite it; drive"),
         ({"gain.factor": [0.0]}, {}, "input: column gain.factor: no such input; use one of free.u, u"),
         ({"w": [0.0]}, {}, "input: column w: no such input; use one of free.u, u"),
-        ({"u": [0.0]}, {"set": {"u": 1}}, "--set: u: is driven by column u of the inputs over time; leave out"),
-        ({"free.u": [0.0]}, {"set": {"free.u": 1}}, "--set: free.u: is driven by column free.u of the inputs"),
+        ({"u": [0.0]}, {"set": {"u": 1}}, "set: u: is driven by column u of the inputs over time; leave out"),
+        ({"free.u": [0.0]}, {"set": {"free.u": 1}}, "set: free.u: is driven by column free.u of the inputs"),
     ],
 )
 def test_what_cannot_be_driven(tiny_folder, tmp_path, given, options, expected):

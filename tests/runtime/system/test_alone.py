@@ -69,11 +69,11 @@ def test_what_does_not_fly(tiny_folder, tmp_path, change, expected):
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
-        ({"variant": "other"}, "--variant: an FMU alone has no variants; leave it out"),
+        ({"variant": "other"}, "variant: an FMU alone has no variants; leave it out"),
         ({"set": {"gain.facto": 1}}, "use one of gain.factor, gain.u"),
         ({"set": {"factor": 1}}, "use one of gain.factor, gain.u"),
         ({"parameters": ("x.ssv",)}, "no x.ssv in the system, nor a file of this name"),
-        ({"stop_time": 0.05}, "--stop-time: 0.05: 0.05 s from the start are not a whole number of steps of 0.1 s"),
+        ({"stop_time": 0.05}, "stop_time: 0.05: 0.05 s from the start are not a whole number of steps of 0.1 s"),
     ],
 )
 def test_options_that_do_not_fit(tiny_folder, options, expected):

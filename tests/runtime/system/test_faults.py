@@ -92,7 +92,7 @@ FORM = "COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T]"
 def test_refused_in_one_line(text, says):
     with pytest.raises(InputError) as caught:
         parse_fault(text)
-    assert str(caught.value).startswith(f"--fault: {text}: {says}")
+    assert str(caught.value).startswith(f"faults: {text}: {says}")
     assert "\n" not in str(caught.value)
 
 
@@ -139,7 +139,7 @@ def test_what_a_system_can_have(network, text):
         ),
         ("ramp.slope=bias:1@1", "ramp.slope: no such connector of a component"),  # a parameter
         ("inner.u=bias:1@1", "inner.u: no such connector of a component"),  # it is a system's: nothing happens there
-        ("free.u=bias:1@1", "free.u: an input that nothing is connected to; give it a value with --set free.u=VALUE"),
+        ("free.u=bias:1@1", "free.u: an input that nothing is connected to; give it a value with set free.u=VALUE"),
         ("ramp.y=override:true@1", "ramp.y: true is not of type Real; give a number"),
         ("ramp.count=override:true@1", "ramp.count: true is not of type Integer"),
         ("ramp.count=bias:0.5@1", "ramp.count: 0.5 is not of type Integer; give a whole number of 32 bits"),

@@ -157,7 +157,7 @@ def test_an_undeclared_output_is_one_on_all_inputs_only_if_the_user_says_so(tiny
         prepare_system(path, SystemOptions(feedthrough=("odd",)))
     for options in (SystemOptions(), SystemOptions(no_feedthrough=("odd",))):
         assert prepare_system(path, options).schedule.sources_first == ["odd"]
-    with pytest.raises(InputError, match=r"--no-feedthrough: nobody: no such component; use one of odd"):
+    with pytest.raises(InputError, match=r"no_feedthrough: nobody: no such component; use one of odd"):
         prepare_system(path, SystemOptions(no_feedthrough=("nobody",)))
 
 

@@ -66,7 +66,7 @@ class Cluster:
                 for future in self._done(under_way):
                     pieces = under_way.pop(future)
                     try:
-                        found = future.result()
+                        shard_trials = future.result()
                     except KilledWorker as error:
                         if error.task == here.key:
                             here = client.submit(_itself, sent, pure=False)
@@ -75,7 +75,7 @@ class Cluster:
                         if left:
                             raise WorkersDiedError(_what_ends_them(left)) from error
                         continue
-                    for piece, (trials, seconds) in zip(pieces, found, strict=True):
+                    for piece, (trials, seconds) in zip(pieces, shard_trials, strict=True):
                         portions.measured(piece, seconds)
                         whole = parts.add(piece.shard, piece.variant, trials)
                         if whole is not None:
@@ -128,6 +128,6 @@ def _itself(sent: Any) -> Any:
 
 def _what_ends_them(tasks: Sequence[Task]) -> str:
     """In words, of tasks of one trial each."""
-    found = [f"trial {task[0].trials[0]} of {task[0].variant}" for task in tasks]
-    more = f" and {len(found) - 1} more" if len(found) > 1 else ""
-    return f"workers end again and again with {found[0]}{more}"
+    names = [f"trial {task[0].trials[0]} of {task[0].variant}" for task in tasks]
+    more = f" and {len(names) - 1} more" if len(names) > 1 else ""
+    return f"workers end again and again with {names[0]}{more}"

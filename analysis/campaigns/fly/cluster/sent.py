@@ -45,8 +45,8 @@ def sent_of(campaign: Campaign) -> Sent:
         contents = {name: stored(folder / CONTENTS, name).read_bytes() for name in manifest.names()}
         draws = b"" if campaign.plan.is_counted else (folder / DRAWS).read_bytes()
     else:
-        found, contents = gather(campaign.plan, campaign.systems)
-        if found != manifest:
+        described, contents = gather(campaign.plan, campaign.systems)
+        if described != manifest:
             raise InputError(campaign.plan.system, "", "its files change while it is read", "fly it again")
         draws = b"" if campaign.plan.is_counted else _draws(campaign)
     key = hashlib.sha256(json.dumps(manifest.document(), sort_keys=True).encode() + draws).hexdigest()

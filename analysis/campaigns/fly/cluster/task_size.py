@@ -39,32 +39,32 @@ class Portions:
         """What the next task flies, where so many threads are there; empty where nothing is left."""
         slowest = max(self._seconds.values(), default=0.0)
         budget = min(LONGEST, max(SHORTEST, self.trials * slowest / (ROUNDS * threads)))
-        found: list[Piece] = []
+        pieces: list[Piece] = []
         while self._left:
             first = self._left[0]
             seconds = self._seconds.get(first.variant)
             count = FIRST if seconds is None else int(budget / max(seconds, QUICKEST))
-            if found and (seconds is None or not count):
+            if pieces and (seconds is None or not count):
                 break
             piece = Piece(first.shard, first.variant, first.trials[: max(count, 1)])
-            found.append(piece)
+            pieces.append(piece)
             self._left.popleft()
             if len(piece.trials) < len(first.trials):
                 self._left.appendleft(Piece(first.shard, first.variant, first.trials[len(piece.trials) :]))
             if seconds is None:
                 break
             budget -= seconds * len(piece.trials)
-        self.trials -= sum(len(piece.trials) for piece in found)
-        return found
+        self.trials -= sum(len(piece.trials) for piece in pieces)
+        return pieces
 
 
 def halves(pieces: Sequence[Piece]) -> list[tuple[Piece, ...]]:
     """A task's trials in two tasks; in one where there is one trial only."""
     first = sum(len(piece.trials) for piece in pieces) // 2
-    found: tuple[list[Piece], list[Piece]] = ([], [])
+    parts: tuple[list[Piece], list[Piece]] = ([], [])
     for piece in pieces:
-        for half, trials in zip(found, (piece.trials[:first], piece.trials[first:]), strict=True):
+        for half, trials in zip(parts, (piece.trials[:first], piece.trials[first:]), strict=True):
             if trials:
                 half.append(Piece(piece.shard, piece.variant, trials))
         first = max(0, first - len(piece.trials))
-    return [tuple(half) for half in found if half]
+    return [tuple(half) for half in parts if half]

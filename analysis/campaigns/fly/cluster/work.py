@@ -59,7 +59,7 @@ def fly(sent: Sent, pieces: Sequence[Piece]) -> list[tuple[Trials, float]]:
     worker = get_worker()
     refuse_others(sent.identity, identity(), worker.address)
     folder = Path(worker.local_directory).absolute() / FOLDER
-    found = []
+    simulated = []
     with nullcontext() if sent.threads else _one_flight, _flyer(sent, folder) as flyer:
         for piece in pieces:
             flyer.simulation(piece.variant)
@@ -68,8 +68,8 @@ def fly(sent: Sent, pieces: Sequence[Piece]) -> list[tuple[Trials, float]]:
                 trials = flyer.fly(piece.variant, piece.trials)
             except KeyboardInterrupt:  # which would end the worker
                 raise HaltedError(sent.key) from None
-            found.append((trials, time.perf_counter() - began))
-    return found
+            simulated.append((trials, time.perf_counter() - began))
+    return simulated
 
 
 def halt(key: str) -> None:

@@ -31,9 +31,9 @@ def resume_folder(folder: Path, manifest: Manifest, contents: dict[str, bytes], 
     """A folder that holds this campaign already, or its first trials. Raises InputError for another one."""
     held = read_manifest(folder)
     manifest = replace(manifest, shard_size=held.shard_size)  # which followed from fewer trials
-    found = differences(held, manifest)
-    if found:
-        problem = f"another campaign than the one asked for: {found}"
+    difference = differences(held, manifest)
+    if difference:
+        problem = f"another campaign than the one asked for: {difference}"
         raise InputError(folder / FILE, "", problem, "resume with what it began with, or give another `output`")
     if manifest.trials < held.trials:
         problem = f"holds a campaign of {held.trials} trials, {manifest.trials} are asked for"

@@ -49,8 +49,8 @@ class Manifest:
 
     def document(self) -> dict[str, Any]:
         """As JSON has it."""
-        found: dict[str, Any] = json.loads(json.dumps(asdict(self)))
-        return found
+        content: dict[str, Any] = json.loads(json.dumps(asdict(self)))
+        return content
 
     @property
     def key(self) -> str:
@@ -91,9 +91,9 @@ def read_manifest(folder: Path) -> Manifest:
 def differences(held: Manifest, asked: Manifest) -> str:
     """What two manifests differ in, as one phrase; empty where they differ in nothing but the number of trials."""
     one, other = ({**manifest.document(), "trials": None} for manifest in (held, asked))
-    found = [f"{name} was {_short(left)}, is {_short(right)}" for name, left, right in _pairs("", one, other)]
-    more = f"; and {len(found) - MOST_DIFFERENCES} more" if len(found) > MOST_DIFFERENCES else ""
-    return "; ".join(found[:MOST_DIFFERENCES]) + more
+    phrases = [f"{name} was {_short(left)}, is {_short(right)}" for name, left, right in _pairs("", one, other)]
+    more = f"; and {len(phrases) - MOST_DIFFERENCES} more" if len(phrases) > MOST_DIFFERENCES else ""
+    return "; ".join(phrases[:MOST_DIFFERENCES]) + more
 
 
 def _pairs(name: str, left: Any, right: Any) -> Iterator[tuple[str, Any, Any]]:

@@ -38,8 +38,8 @@ def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: M
 
     ``batch`` is the digest that tells the campaign from others, ``trials`` are those of the shard by variant.
     """
-    for variant, found in trials.items():
-        for trial, traces in found.traces.items():
+    for variant, rows in trials.items():
+        for trial, traces in rows.traces.items():
             about = {"batch": batch, "variant": variant, "trial": trial}
             write_parquet(_described(table_of(traces), about), trace_path(folder, variant, trial))
     numbers = next(iter(trials.values())).trial
@@ -90,25 +90,25 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
 
     Every variant has the same trials, which are in a row.
     """
-    found = list(trials.values())
-    numbers = found[0].trial
+    parts = list(trials.values())
+    numbers = parts[0].trial
     drawn = plan.drawn(range(int(numbers[0]), int(numbers[-1]) + 1))
     columns: dict[str, Any] = {
         "variant": texts_of(name for name, part in trials.items() for _ in part.trial),
-        "trial": _joined(found, lambda part: part.trial),
-        "status": texts_of(status for part in found for status in part.statuses),
-        "success": _joined(found, lambda part: part.success),
-        "message": texts_of(part.messages.get(int(trial), "") for part in found for trial in part.trial),
-        "end_time": _joined(found, lambda part: part.end_time),
+        "trial": _joined(parts, lambda part: part.trial),
+        "status": texts_of(status for part in parts for status in part.statuses),
+        "success": _joined(parts, lambda part: part.success),
+        "message": texts_of(part.messages.get(int(trial), "") for part in parts for trial in part.trial),
+        "end_time": _joined(parts, lambda part: part.end_time),
     }
     for name, values in drawn.table.columns.items():
-        columns[f"draw.{name}"] = np.tile(values, len(found))
+        columns[f"draw.{name}"] = np.tile(values, len(parts))
     for fault in drawn.faults:
-        columns |= {name: np.tile(values, len(found)) for name, values in fault.columns().items()}
-    for name in found[0].final:
-        columns[f"final.{name}"] = _joined(found, lambda part, name=name: part.final[name])
-    for name in found[0].metrics:
-        columns[f"metric.{name}"] = _joined(found, lambda part, name=name: part.metrics[name])
+        columns |= {name: np.tile(values, len(parts)) for name, values in fault.columns().items()}
+    for name in parts[0].final:
+        columns[f"final.{name}"] = _joined(parts, lambda part, name=name: part.final[name])
+    for name in parts[0].metrics:
+        columns[f"metric.{name}"] = _joined(parts, lambda part, name=name: part.metrics[name])
     return table_of(columns)
 
 

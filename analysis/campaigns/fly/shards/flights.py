@@ -35,9 +35,9 @@ def fly_shards(
                     yield variant, piece
 
     parts = Parts(numbering, variants)
-    for place, found in pool.work(Flyer.fly, tasks()):
+    for place, flown_trials in pool.work(Flyer.fly, tasks()):
         shard, variant = owners.pop(place)
-        whole = parts.add(shard, variant, found)
+        whole = parts.add(shard, variant, flown_trials)
         if whole is not None:
             yield shard, whole
 

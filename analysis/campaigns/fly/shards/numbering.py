@@ -41,10 +41,10 @@ def spans(shards: Sequence[int]) -> str:
 
 def numbers_of(texts: Iterable[str]) -> list[int]:
     """The shards that numbers and spans (A-B) name, rising, each once. Raises InputError."""
-    found: set[int] = set()
+    numbers: set[int] = set()
     for text in texts:
         first, dash, last = text.partition("-")
         if not first.isdecimal() or (dash and not last.isdecimal()) or int(last or first) < int(first):
             raise InputError("shard", text, "neither a number nor a span of them", "give 3, or 0-7")
-        found |= set(range(int(first), int(last or first) + 1))
-    return sorted(found)
+        numbers |= set(range(int(first), int(last or first) + 1))
+    return sorted(numbers)

@@ -16,10 +16,10 @@ class Parts:
         self._variants = variants
         self._pieces: dict[int, dict[str, list[Trials]]] = {}
 
-    def add(self, shard: int, variant: str, found: Trials) -> dict[str, Trials] | None:
+    def add(self, shard: int, variant: str, trials: Trials) -> dict[str, Trials] | None:
         """The trials of the shard by variant, if this was the last piece of it."""
         pieces = self._pieces.setdefault(shard, {name: [] for name in self._variants})
-        pieces[variant].append(found)
+        pieces[variant].append(trials)
         flown = sum(len(piece.trial) for parts in pieces.values() for piece in parts)
         if flown < len(self._numbering.of(shard)) * len(self._variants):
             return None

@@ -50,12 +50,12 @@ def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[
     messages = np.array(table["message"].to_pylist(), dtype=object) if "message" in table.column_names else None
     kept = [name for name in table.column_names if name in COLUMNS[1:] or name.startswith(("metric.", "final."))]
     columns = {name: numbers(table, name, path) for name in kept if name != "status"}
-    found = {}
+    by_variant = {}
     for variant in dict.fromkeys(labels.tolist()):
         rows = labels == variant
         mine = {name: column[rows] for name, column in columns.items()}
         texts = [] if messages is None else zip(mine["trial"].tolist(), messages[rows], strict=True)
-        found[variant] = Trials(
+        by_variant[variant] = Trials(
             statuses=statuses[rows].tolist(),
             success=mine["success"].astype(bool),
             metrics={metric: mine[f"metric.{metric}"] for metric in metrics},
@@ -65,7 +65,7 @@ def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[
             final={name.removeprefix("final."): mine[name] for name in mine if name.startswith("final.")},
             traces={},
         )
-    return found
+    return by_variant
 
 
 def trials_in(path: Path, about: Any, batch: str, whose: str) -> range:

@@ -57,10 +57,10 @@ class ShardRows:
     def _trials(self, shard: int) -> Trials:
         path = shard_path(self.folder, shard)
         metrics = [metric.name for metric in self.plan.campaign.metrics]
-        found = trials_of(self._table(shard), metrics, path)[self.variant]
-        for trial in found.trial.tolist():
+        trials = trials_of(self._table(shard), metrics, path)[self.variant]
+        for trial in trials.trial.tolist():
             place = trace_path(self.folder, self.variant, trial)
             if described(place) == {"batch": self.batch, "variant": self.variant, "trial": trial}:
                 table = read_table(place)
-                found.traces[trial] = {name: numbers(table, name, place) for name in table.column_names}
-        return found
+                trials.traces[trial] = {name: numbers(table, name, place) for name in table.column_names}
+        return trials

@@ -63,10 +63,10 @@ class LastWords:
 
 def hung_trials(folder: Path) -> Mapping[tuple[str, int], str]:
     """Why no process needs to fly a trial any more, by variant and number; one that was killed has said nothing."""
-    found = {}
+    messages = {}
     for path in folder.iterdir():
         first, _, more = path.read_text(encoding="utf-8", errors="replace").partition("\n")
         if more:
             variant, trial, message = json.loads(first)
-            found[variant, trial] = message
-    return found
+            messages[variant, trial] = message
+    return messages

@@ -57,8 +57,8 @@ class Judge:
         row = drawn.row(trial) if self._drawn or self._needs_draws else {}
         self._rows.append([end, *(lasts[name] for name in self._signals), *(row[name] for name in self._drawn)])
         values = {**self._names.constants, **row, **signals, TIME: flight.time}
-        found = [evaluate_metric(metric, flight.time, values) if complete else np.nan for metric in self._over_time]
-        self._metrics.append(found)
+        metrics = [evaluate_metric(metric, flight.time, values) if complete else np.nan for metric in self._over_time]
+        self._metrics.append(metrics)
         self._finals.append([lasts[name] for name in self._campaign.record.final])
         self._trials.append(trial)
         self._statuses.append(trial_status(flight, self._names.statuses))
@@ -84,7 +84,7 @@ class Judge:
 
     def trials(self) -> Trials:
         """What the flights since the last call have come to; there is one or more."""
-        found = Trials(
+        trials = Trials(
             statuses=self._statuses,
             success=self._success(),
             metrics=self._columns(),
@@ -95,7 +95,7 @@ class Judge:
             traces=self._traces,
         )
         self._begin()
-        return found
+        return trials
 
     def _columns(self, first: int = 0) -> dict[str, np.ndarray]:
         """All metrics of the flights from ``first`` on, in the campaign's order."""
@@ -104,11 +104,11 @@ class Judge:
         rows = np.ascontiguousarray(np.array(self._rows[first:]).T)
         values = ChainMap(dict(zip(names, rows, strict=True)), dict(self._names.constants))
         over_time = np.array(self._metrics[first:]).reshape(len(complete), -1).T
-        found = dict(zip((metric.name for metric in self._over_time), over_time.copy(), strict=True))
+        columns = dict(zip((metric.name for metric in self._over_time), over_time.copy(), strict=True))
         for metric in self._at_end:
             column = np.broadcast_to(metric.expression.evaluate(values), complete.shape)
-            found[metric.name] = np.where(complete, column, np.nan)
-        return {metric.name: found[metric.name] for metric in self._campaign.metrics}
+            columns[metric.name] = np.where(complete, column, np.nan)
+        return {metric.name: columns[metric.name] for metric in self._campaign.metrics}
 
     def _success(self, first: int = 0) -> np.ndarray:
         """Which of the flights from ``first`` on are successes."""

@@ -165,5 +165,5 @@ def _result(trials: Trials) -> TrialResult:
         message=next(iter(trials.messages.values()), ""),
         success=bool(trials.success[0]),
         end_time=float(trials.end_time[0]),
-        metrics={name: float(found[0]) for name, found in trials.metrics.items()},
+        metrics={name: float(column[0]) for name, column in trials.metrics.items()},
     )

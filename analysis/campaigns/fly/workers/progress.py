@@ -20,9 +20,9 @@ class FlightProgress:
 
     def add(self, trials: Mapping[str, Trials]) -> None:
         """Count trials that have flown, by variant; those that failed did not come to their end."""
-        self._failed += sum(len(found.messages) for found in trials.values())
+        self._failed += sum(len(rows.messages) for rows in trials.values())
         self._bar.set_postfix_str(f"{self._failed} failed", refresh=False)
-        self._bar.update(sum(len(found) for found in trials.values()))
+        self._bar.update(sum(len(rows) for rows in trials.values()))
 
 
 @contextmanager

@@ -96,10 +96,10 @@ class FlyerPool:
         if self._executor is None:
             assert self._flyer is not None
             for place, task in enumerate(tasks):
-                found = wait(partial(function, self._flyer, *task), self._flyer.interrupt)
+                outcome = wait(partial(function, self._flyer, *task), self._flyer.interrupt)
                 if self._flyer.halted:
                     raise KeyboardInterrupt
-                yield place, found
+                yield place, outcome
             return
         fresh = enumerate(tasks)
         held: dict[int, tuple] = {}  # handed out, and not done
@@ -135,9 +135,9 @@ class FlyerPool:
                     return
                 done = wait_for(futures, return_when=FIRST_COMPLETED).done
                 for future in sorted(done, key=_is_broken):  # what was done before a worker died is not done again
-                    place, found = futures.pop(future), future.result()
+                    place, outcome = futures.pop(future), future.result()
                     del held[place]
-                    yield place, found
+                    yield place, outcome
         except KeyboardInterrupt:
             self._halt(list(futures))
             raise

@@ -67,7 +67,7 @@ def common_feedback(
     side_by_side = np.hstack(list(prescribed))
     free = np.isnan(side_by_side)
     stacks, powers, conditions = zip(*(row_stack(state, inputs) for state in states), strict=True)
-    gain, found = np.zeros((size, len(outputs))), np.zeros((len(states), size, order))
+    gain, closed_poles = np.zeros((size, len(outputs))), np.zeros((len(states), size, order))
     left_over, sides = 0.0, 0.0
     for i in range(size):
         fixed = np.where(free[i], 0.0, side_by_side[i])
@@ -78,8 +78,8 @@ def common_feedback(
         left_over += float(np.sum((matrix @ solution - right) ** 2))
         sides += float(np.sum(right**2))
         gain[i] = solution[: len(outputs)]
-        found[:, i] = fixed
-        found[:, i, free[i]] = solution[len(outputs) :].reshape(len(states), -1)
+        closed_poles[:, i] = fixed
+        closed_poles[:, i, free[i]] = solution[len(outputs) :].reshape(len(states), -1)
     residual = float(np.sqrt(left_over / sides)) if sides else 0.0
     if residual > _RESIDUAL:
         raise PlacementError(
@@ -89,7 +89,7 @@ def common_feedback(
             residual,
             "prescribe less, or measure more",
         )
-    coefficients = np.array([split(row, size) for row in found])
+    coefficients = np.array([split(row, size) for row in closed_poles])
     loops = [
         OutputFeedback(
             "common",

@@ -69,8 +69,8 @@ def output_feedback(
         raise InputError("modal", "starts", f"there are {starts}", "give 1 or more")
     _check_class(*plant)
     refusals: list[PlacementError] = []
-    found = _placements(*plant, spectrum, method, upper, starts, seed, refusals)
-    tried = [*islice(found, 1)] if choice == Spread.FIRST else [*found]
+    placements = _placements(*plant, spectrum, method, upper, starts, seed, refusals)
+    tried = [*islice(placements, 1)] if choice == Spread.FIRST else [*placements]
     if not tried:
         raise refusals[-1] if refusals else _no_spread(spectrum)
     return smallest(tried, *plant) if choice == Spread.SMALLEST else min(tried, key=lambda one: one.norm)
@@ -94,15 +94,15 @@ def _placements(
         level = ZerothLevel(*plant)
         for high, low in _spreads(spectrum, len(level.down), upper):
             try:
-                found = square(level, high, low, starts, seed) if level.meets else direct(level, high, low)
+                candidates = square(level, high, low, starts, seed) if level.meets else direct(level, high, low)
             except PlacementError as error:
                 refusals.append(error)
                 continue
-            yield found if route is Route.DIRECT else _transposed(found)
+            yield candidates if route is Route.DIRECT else _transposed(candidates)
 
 
-def _transposed(found: OutputFeedback) -> OutputFeedback:
-    return replace(found, method=Route.DUAL, gain=found.gain.T, closed_loop=found.closed_loop.T)
+def _transposed(feedback: OutputFeedback) -> OutputFeedback:
+    return replace(feedback, method=Route.DUAL, gain=feedback.gain.T, closed_loop=feedback.closed_loop.T)
 
 
 def _spreads(spectrum: Spectrum, size: int, upper: ArrayLike | None) -> Iterator[tuple[Spectrum, Spectrum]]:

@@ -55,9 +55,9 @@ class OutputFeedbackSet:
 
     def parameters_of(self, gain: ArrayLike) -> np.ndarray:
         """The z (free,) of any F (m, p). Raises InputError."""
-        found = real_matrix("F", gain, (self.b.shape[1], len(self.c)))
+        matrix = real_matrix("F", gain, (self.b.shape[1], len(self.c)))
         stack, power, _ = row_stack(self.a, self.b)
-        apart = split(np.linalg.solve(stack.T, (-found @ self.c - power).T).T, self.b.shape[1]) - self.particular
+        apart = split(np.linalg.solve(stack.T, (-matrix @ self.c - power).T).T, self.b.shape[1]) - self.particular
         # the directions are orthonormal
         return self.directions.reshape(self.free, -1) @ apart.ravel()
 

@@ -25,18 +25,18 @@ _ROUNDS, _WORTH = 10, 0.01  # searches one after the other, and what the last mu
 _ALLOWED = 1000.0 * np.finfo(float).eps  # of kappa |Ac|; how far from the poles rounding may leave an F
 
 
-def smallest(found: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
+def smallest(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
     """Of the feedbacks ``found`` and of where they lead the one with the least |F|.
 
     Raises PlacementError for repeated poles, at which Newton's method has no derivative.
     """
-    wanted = found[0].wanted
+    wanted = feedbacks[0].wanted
     apart = np.abs(wanted[:, None] - wanted[None, :]) + np.diag(np.full(len(wanted), np.inf))
     if not np.min(apart) > 0.0:
         raise PlacementError(
             "output feedback", Reason.RANK, "poles are repeated: they have no derivative", 0.0, "take choice least_norm"
         )
-    starts = sorted(found, key=lambda one: one.norm)[:_STARTS]
+    starts = sorted(feedbacks, key=lambda one: one.norm)[:_STARTS]
     return min((_from(start, a, b, c) for start in starts), key=lambda one: one.norm)
 
 

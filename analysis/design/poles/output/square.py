@@ -36,10 +36,10 @@ def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, se
     random = np.random.default_rng(seed)
     least = np.inf
     for _ in range(starts):
-        found = least_squares(residual, random.normal(size=family.parameters), max_nfev=_STEPS)
-        least = min(least, size := float(np.max(np.abs(found.fun))))
+        solution = least_squares(residual, random.normal(size=family.parameters), max_nfev=_STEPS)
+        least = min(least, size := float(np.max(np.abs(solution.fun))))
         if size < _SOLVED:
-            first = on_levels(levels, family, found.x)
+            first = on_levels(levels, family, solution.x)
             inverse, x, y = level.lower_matrices(-first.gain)
             phi = np.linalg.solve(x.T, y.T).T
             placed = replace(level.feedback(inverse, phi, upper, lower, condition_of(x)), levels=first.levels)

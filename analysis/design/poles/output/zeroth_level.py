@@ -95,8 +95,8 @@ def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lowe
             error.number,
             "spread the poles in another way",
         ) from None
-    found = level.feedback(inverse, own + z @ q, upper, lower, condition)
-    return found if first is None else replace(found, levels=first.levels, condition_u=first.condition_u)
+    feedback = level.feedback(inverse, own + z @ q, upper, lower, condition)
+    return feedback if first is None else replace(feedback, levels=first.levels, condition_u=first.condition_u)
 
 
 def condition_of(x: np.ndarray) -> float:
