@@ -89,9 +89,13 @@ class UnwrittenError(OSError):
         self.result = result
 
 
+def _flag(match: re.Match[str]) -> str:
+    return f"--{match[1].replace('_', '-')}"
+
+
 def warn_in_one_line() -> None:
     """Let warnings of this process be a line each, as errors are, without the place in the source."""
-    warnings.formatwarning = lambda message, *_: f"perilune: {message}\n"
+    warnings.formatwarning = lambda message, *_: f"perilune: {PARAMETER.sub(_flag, str(message))}\n"
 
 
 FEW, NEAREST, ALL = 6, 4, 12  # names: so many are all shown, so many nearest of more, so many where none is near

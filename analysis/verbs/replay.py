@@ -76,15 +76,20 @@ class ReplayResult(Result):
     def to_json(self) -> dict[str, Any]:
         """As of `Result`, with the campaign, the trial's success and metrics, and differences from the stored one."""
         metrics = {name: value if abs(value) < float("inf") else None for name, value in self.metrics.items()}
-        return super().to_json() | {
-            "campaign": self.replayed.plan.campaign.file,
-            "trial": self.trial,
-            "configuration": self.configuration,
-            "success": self.success,
-            "metrics": metrics,
-            "stored": self.stored,
-            "differences": list(self.differences),
-        }
+        faults = {"faults": list(self.replayed.faults)} if self.replayed.plan.fault_texts() else {}
+        return (
+            super().to_json()
+            | faults
+            | {
+                "campaign": self.replayed.plan.campaign.file,
+                "trial": self.trial,
+                "configuration": self.configuration,
+                "success": self.success,
+                "metrics": metrics,
+                "stored": self.stored,
+                "differences": list(self.differences),
+            }
+        )
 
     def lines(self) -> list[str]:
         """What `perilune replay` prints."""

@@ -39,7 +39,8 @@ class VerbResult(Protocol):
         """Requirements that are not met and simulations that did not complete: a line each, exit status 1."""
 
 
-WRITERS = {"report": "report", "output": "write"}  # of a result, by the option of a file that does not name another
+# The method of a result that writes the file of an option, unless the option names another one.
+WRITERS = {"report": "report", "output": "write", "data": "write_data"}
 
 
 def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]) -> None:
@@ -78,14 +79,14 @@ def present(verb: Verb, result: VerbResult, files: Mapping[str, Any]) -> ExitSta
     if target == STANDARD_OUTPUT:
         sys.stdout.write(_json_text(result))
     else:
-        if target is not None:
-            written.write(Path(target), lambda path: write_atomically(path, _json_text(result).encode()))
         for line in result.lines():
             print(call_by_flags(line, flags))
-    for name, path in files.items():
-        writer = declared[name].option.writer or WRITERS.get(name)
+    for name in reversed(list(declared)):  # a verb's own files first, then its page, at last the document
+        path, writer = files.get(name), declared[name].option.writer or WRITERS.get(name)
         if writer and path is not None:
             written.write(Path(path), partial(_call, result, writer))
+        elif name == "json" and target not in (None, STANDARD_OUTPUT):
+            written.write(Path(target), lambda file: write_atomically(file, _json_text(result).encode()))
     if target != STANDARD_OUTPUT:
         written.say()
     problems = result.problems()

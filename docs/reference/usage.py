@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
+from perilune.analysis.campaigns.spec.toml.source import read_source
 from perilune.analysis.runtime.ssp.archive import open_system, system_names
 from perilune.analysis.runtime.ssp.description import Component, System
 from perilune.analysis.runtime.ssp.reading import read_description
-from perilune.fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 
 
 @dataclass
@@ -29,12 +28,11 @@ def usages() -> dict[str, Usage]:
         archive = open_system(system)
         for component, fmu in components_of(read_description(archive).system):
             found.setdefault(fmu, Usage()).components.setdefault(system, []).append(component)
-        for file in sorted(archive.files):
-            if file.startswith(f"{CAMPAIGN_FOLDER}/") and file.endswith(".toml"):
-                campaign = tomllib.loads(archive.campaign(Path(file).name)[0].decode())
-                for fmus in campaign.get("compare", {}).values():
-                    for fmu in fmus:
-                        found.setdefault(fmu, Usage()).campaigns.setdefault(system, []).append(Path(file).stem)
+        for name in sorted(archive.campaign_names()):
+            campaign = read_source(*archive.campaign(name), archive).table().content
+            for fmus in campaign.get("compare", {}).values():
+                for fmu in fmus:
+                    found.setdefault(fmu, Usage()).campaigns.setdefault(system, []).append(name)
     return found
 
 

@@ -36,8 +36,7 @@ def test_compare_takes_a_list(name, fmus, monkeypatch):
     def read(*_, compare, **__):
         raise AskedError(compare)
 
-    home = "batch" if name == "batch" else "samples.plans"
-    monkeypatch.setattr(f"perilune.analysis.api.{home}.read_plan", read)
+    monkeypatch.setattr("perilune.analysis.verbs.common.plans.read_plan", read)
     with pytest.raises(AskedError) as asked:
         getattr(perilune, name)(SYSTEM, "paper", compare={"guidance": fmus}, **COMPARING[name])
     assert asked.value.args == ({"guidance": ["analytic_guidance"]},)
@@ -51,7 +50,7 @@ def test_these_are_all_that_compare():
         and name[0].islower()
         and "compare" in inspect.signature(getattr(perilune, name)).parameters
     }
-    assert with_compare == set(COMPARING)
+    assert with_compare == {*COMPARING, "prepare", "replay"}
 
 
 @pytest.mark.usefixtures("fmus")
@@ -66,7 +65,7 @@ def test_parameters_take_paths(name, tmp_path):
     said = ""
     try:
         found = getattr(perilune, name)(system, parameters=[missing], **more)
-        said = found[0]["problems"][0]  # of validate
+        said = found[0].problems[0]  # of validate
     except perilune.InputError as error:
         said = str(error)
     assert "missing.ssv" in said

@@ -5,9 +5,9 @@ Truth: the empirical distributions of the batches in memory; the rule that metri
 
 import numpy as np
 import pytest
-from perilune.analysis.api.batch import BatchResult
 
 import perilune
+from perilune.analysis.verbs.batch import BatchResult
 from tests.support.pages.comparison_samples import CAMPAIGN, sample_batch, write_sample
 
 

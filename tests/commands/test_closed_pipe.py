@@ -19,7 +19,7 @@ CAMPAIGN = f"{SYSTEM} --campaign paper --compare guidance=analytic_guidance --wo
 VERBS = {
     "run": (f"run {SYSTEM} --output a.csv --report a.html --json a.json", ["a.csv", "a.csv.json", "a.html", "a.json"]),
     "batch": (f"batch {CAMPAIGN} --trials 2 --output a --report a.html", ["a", "a.html"]),
-    "law": ("law diveev_2013 --output a.ssv --graph a.svg", ["a.ssv", "a.svg"]),
+    "law": ("design law diveev_2013 --output a.ssv --graph a.svg", ["a.ssv", "a.svg"]),
 }
 
 
@@ -56,7 +56,7 @@ def test_nothing_is_lost(verb, tmp_path):
 @pytest.mark.parametrize(
     ("words", "status", "unbuffered"),
     [
-        ("plan hover-transfer --dry-mass 590", 1, False),
+        ("design transfer --dry-mass 590", 1, False),
         ("run --help", 0, False),
     ],
 )
@@ -83,7 +83,7 @@ def test_the_first_line_is_enough_for_a_reader(tmp_path):
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no device that is always full")
 def test_output_that_goes_to_a_full_disk_is_named_and_costs_no_file(tmp_path):
     with Path("/dev/full").open("w") as full:
-        done = perilune("law diveev_2013 --output a.ssv", tmp_path, full)
+        done = perilune("design law diveev_2013 --output a.ssv", tmp_path, full)
     assert done.returncode == 2
     assert done.stderr.startswith("perilune: standard output: No space left on device; ")
     assert done.stderr.count("\n") == 1
@@ -92,7 +92,7 @@ def test_output_that_goes_to_a_full_disk_is_named_and_costs_no_file(tmp_path):
 
 def test_standard_error_that_nobody_reads(tmp_path):
     done = subprocess.run(
-        ["bash", "-c", f"{sys.executable} -m perilune plan hover-transfer --dry-mass 590 --json a.json 2>&- >&-"],
+        ["bash", "-c", f"{sys.executable} -m perilune design transfer --dry-mass 590 --json a.json 2>&- >&-"],
         cwd=tmp_path,
         check=False,
     )

@@ -209,7 +209,7 @@ def test_text_json_page_and_exit_status(folder, exact_fmus, tmp_path, capsys):
     assert (
         "note: direct dependencies of outputs on inputs are not declared by wheel (FMU lag): assumed none" in told.out
     )
-    (line,) = [line for line in told.err.splitlines() if "modulus" in line]
+    (line,) = [line for line in told.err.splitlines() if "modulus margin withheld" in line]
     assert line.startswith("perilune: loop attitude at there: modulus margin withheld: 0.3963 without")
     assert line.endswith("limit 0.5; say --feedthrough wheel or --no-feedthrough wheel, or take a smaller step")
     found = json.loads(file.read_text())
@@ -221,4 +221,4 @@ def test_text_json_page_and_exit_status(folder, exact_fmus, tmp_path, capsys):
     assert (judged["passed"], judged["verdict"], judged["as_feedthrough"]["passed"]) == (None, "withheld", True)
     text = page.read_text(encoding="utf-8")
     assert "Undeclared dependencies" in text
-    assert "What fails or is withheld" in text
+    assert "Violated or withheld requirements" in text

@@ -73,7 +73,7 @@ def test_verbs(offered):
 
 
 def test_options_of_a_verb(offered):
-    options, flavours, of_a_plan = offered(f"{RUN} --", f"{RUN} --flavour ", "perilune plan hover-transfer --")
+    options, flavours, of_a_plan = offered(f"{RUN} --", f"{RUN} --flavour ", "perilune design transfer --")
     assert {"--use", "--report", "--require", "--fault"} <= options
     assert flavours == {"native", "python"}
     assert {"--t7", "--optimum"} <= of_a_plan
@@ -104,7 +104,7 @@ def test_what_a_system_has(offered):
 
 
 def test_laws_and_slots(offered):
-    laws, slots = offered("perilune law ", "perilune new block mine --slot ")
+    laws, slots = offered("perilune design law ", "perilune new block mine --slot ")
     assert {path.stem for path in LAWS.glob("*.json")} <= laws
     assert slots == set(block_slots())
 

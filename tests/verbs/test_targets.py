@@ -23,7 +23,7 @@ def nothing_flies(monkeypatch):
         raise AssertionError("it flew")
 
     monkeypatch.setattr("perilune.analysis.verbs.run.fly", fly)
-    monkeypatch.setattr("perilune.analysis.verbs.batch.run_batch", fly)
+    monkeypatch.setattr("perilune.analysis.campaigns.fly.runner.run_batch", fly)
 
 
 @pytest.mark.usefixtures("nothing_flies")
@@ -148,7 +148,7 @@ def test_a_folder_with_results_is_not_written_over_without_a_word(tmp_path, caps
     capsys.readouterr()
     assert main([*BATCH, "--seed", "5", "--output", str(out)]) == 2
     words = "holds results already (manifest.json, trials, draws.parquet, summary.json); "
-    words += "give another, or --resume to go on, or --overwrite"
+    words += "give another, or --resume or --overwrite"
     assert words in capsys.readouterr().err
     assert (out / "trials" / "000000.parquet").read_bytes() == before
     assert main([*BATCH, "--seed", "5", "--output", str(out), "--overwrite"]) == 0

@@ -195,7 +195,7 @@ def _scatter(name: str, table: Table, metrics: tuple[Metric, ...]) -> Scatter:
 def parse_campaign(table: Table) -> Campaign:
     """The campaign in a table that was read from a file or made in memory. Raises InputError."""
     if SYNTHESIS in table.content:
-        remedy = "search with perilune synthesize, then fly the law with a campaign without this table"
+        remedy = "search with perilune design search, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
     keys = ["system", "description", "trials", "seed", "parameters", "draw_scheme"]
     tables = ["set", "compare", "draw", "derive", "fault", "group", "metric", "record", "success", "requirement"]

@@ -16,6 +16,8 @@ from typing import Any
 from ...common.atomic import write_atomically
 from ...common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
+from ...verbs.options.command import write_command
+from ...verbs.options.design import BOUND
 from .declared_bound import Inputs, read_inputs
 
 PLACE = "extra/bound.json"  # in the folder, and so in the .ssp
@@ -58,7 +60,7 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
     inputs = read_inputs(prepared)
     if inputs is None:
         return None
-    remedy = f"perilune design bound {prepared.archive.name} with `store`"
+    remedy = write_command(BOUND, {"system": prepared.archive.name}, {"store": True})
     if PLACE not in prepared.archive.files:
         return MissingBound(f"no {PLACE} in the system; {remedy} writes it")
     bound = read_bound(prepared.archive.read(PLACE, PLACE), f"{prepared.archive.label}/{PLACE}")
@@ -71,7 +73,7 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
 
 def read_bound(content: bytes, file: str) -> StoredBound:
     """A stored bound; raises InputError for a file that is none, or whose inputs are not those of its hash."""
-    remedy = "store it again with perilune plan landing-bound"
+    remedy = "store it again with perilune design bound"
     try:
         document = json.loads(content)
     except ValueError as error:

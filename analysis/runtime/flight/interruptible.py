@@ -62,12 +62,12 @@ def _within(simulation: Simulation, timeout: float | None, work: Callable[[], Fl
         stepped = f"the last to step was {list(simulation.instances)[int(simulation.buffers.outcome[1])]}"
         where = f"on the way to t = {_point(simulation):g} s, {stepped}" if point else "in the initialisation"
         raise StuckError(
-            f"an FMU did not return {PATIENCE:g} s after the {timeout:g} s of `timeout`, {where}"
+            f"an FMU did not return {PATIENCE:g} s after its time limit of {timeout:g} s, {where}"
         ) from None
     simulation.interrupt(False)  # the next flight is not to end at once
     if flight.status != "interrupted":
         return flight  # the last point was reached in the meantime
-    message = f"took longer than the {timeout:g} s of `timeout`: ended at t = {_point(simulation):g} s"
+    message = f"took longer than its time limit of {timeout:g} s: ended at t = {_point(simulation):g} s"
     return replace(flight, status=TIMED_OUT, message=message)
 
 

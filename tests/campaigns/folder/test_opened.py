@@ -170,7 +170,7 @@ def test_what_is_no_folder_of_results(folder, tmp_path):
     shard(folder, 1).unlink()
     with pytest.raises(perilune.InputError, match="trials from 25 on are missing"):
         perilune.open_results(folder).arrow()
-    with pytest.raises(perilune.InputError, match="give a folder that perilune batch --output wrote"):
+    with pytest.raises(perilune.InputError, match="give a folder that perilune batch or prepare wrote"):
         perilune.open_results(tmp_path)
     (folder / "summary.json").write_text("{")
     with pytest.raises(perilune.InputError, match="not JSON"):
@@ -194,8 +194,8 @@ def test_a_notebook_shows_columns(original):
 
 def test_a_campaign_that_flies(fmus, tmp_path):
     folder = tmp_path / "flying"
-    words = ["--compare", "guidance=analytic_guidance", "--trials", "60", "--prepare"]
-    assert main(["batch", SYSTEM, "--campaign", "paper", *words, "--output", str(folder)]) == 0
+    words = ["--compare", "guidance=analytic_guidance", "--trials", "60"]
+    assert main(["prepare", SYSTEM, "--campaign", "paper", *words, "--output", str(folder)]) == 0
     nothing = perilune.open_results(folder)
     assert (nothing.trials, nothing.flown) == (60, 0)
     with pytest.raises(perilune.InputError, match="no shard is flown yet"):

@@ -58,7 +58,7 @@ def test_batch(tiny, tmp_path, inputs, capsys):
     output, report = tmp_path / "results", tmp_path / "batch.html"
     options = ["--workers", "1", "--output", str(output), "--report", str(report)]
     assert main([*command, *options]) == 0
-    assert main([*command, "--replay", "3", "--output", str(tmp_path / "replay")]) == 1  # no success
+    assert main(["replay", command[1], "3", *command[2:], "--output", str(tmp_path / "replay.csv")]) == 1  # no success
     assert "trial 3: stop_time" in capsys.readouterr().out
     assert json.loads((output / "summary.json").read_text())["input"]["file"] == str(inputs)
     assert main(["compare", str(output)]) == 0

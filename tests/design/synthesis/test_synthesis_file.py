@@ -144,5 +144,5 @@ def test_a_basic_solution_that_cannot_be_varied(tmp_path):
 def test_a_batch_does_not_fly_a_synthesis(tmp_path):
     path = tmp_path / "search.toml"
     path.write_text(TEXT)
-    with pytest.raises(InputError, match="network_operator: a search, not a batch; search with perilune synthesize"):
+    with pytest.raises(InputError, match="network_operator: a search, not a batch; search with perilune design search"):
         read_campaign(path)

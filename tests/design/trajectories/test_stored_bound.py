@@ -146,16 +146,18 @@ def test_hash_is_of_every_input():
 def test_stored_and_found(tmp_path):
     place = declared_system(tmp_path)
     missing = find_bound(prepared(place))
-    assert missing == MissingBound(f"no {PLACE} in the system; perilune plan landing-bound landing store writes it")
+    assert missing == MissingBound(f"no {PLACE} in the system; perilune design bound landing --store writes it")
     assert write_bound(BOUND, place) == place / PLACE
     assert find_bound(prepared(place)) == BOUND
     other = find_bound(prepared(place, set={"plant.specific_impulse": 330, "plant.initial_mass": 900}))
     assert isinstance(other, MissingBound)
-    assert other.reason.startswith(f"{PLACE} was made for another mass, specific_impulse; perilune plan")
+    assert other.reason.startswith(f"{PLACE} was made for another mass, specific_impulse; perilune design bound")
     write_bound(
         replace(BOUND, inputs=INPUTS | {"more.altitude": 1.0}, sha256=digest(INPUTS | {"more.altitude": 1.0})), place
     )
-    assert find_bound(prepared(place)).reason.startswith(f"{PLACE} was made for another more.altitude; perilune plan")
+    assert find_bound(prepared(place)).reason.startswith(
+        f"{PLACE} was made for another more.altitude; perilune design bound"
+    )
 
 
 @pytest.mark.parametrize(

@@ -81,8 +81,9 @@ def test_systems_that_use_a_block_name_it():
             assert f"{name}.fmu" in (ROOT / "ssp_systems" / system / "SystemStructure.ssd").read_text(encoding="utf-8")
         for system, campaigns in usage.campaigns.items():
             for campaign in campaigns:
-                text = (ROOT / "ssp_systems" / system / "campaigns" / f"{campaign}.toml").read_text(encoding="utf-8")
-                assert f'"{name}"' in text
+                folder = ROOT / "ssp_systems" / system / "campaigns"
+                files = [folder / f"{campaign}.toml", folder / "paper.toml", *(folder / "parts").glob("*.toml")]
+                assert any(f'"{name}"' in file.read_text(encoding="utf-8") for file in files if file.is_file())
     assert len(usages()) > 50
 
 

@@ -80,14 +80,16 @@ FAILS = (  # exit status 1
 )
 # What begins the work of a verb, once all that it was given has been looked at.
 WORK = {
-    "batch": ["campaigns.batch.run_batch", "campaigns.batch.open_campaign", "campaigns.sensitivity.sensitivity"],
-    "benchmark": ["benchmark.run_benchmark"],
-    "compare": ["compare.compare"],
-    "plan": ["plans.hover_transfer.hover_study", "plans.landing_bound.landing_study"],
-    "replay": ["campaigns.replay.replay_trial"],
-    "run": ["run.fly"],
-    "stability": ["stability.study"],
-    "worst": ["campaigns.worst.worst_margin", "campaigns.worst.worst_case"],
+    "batch": ["campaigns.fly.runner.run_batch"],
+    "prepare": ["verbs.prepare.open_campaign"],
+    "sensitivity": ["studies.sensitivity.study.sensitivity"],
+    "benchmark": ["verbs.benchmark.run_benchmark"],
+    "compare": ["verbs.compare.compare_folders"],
+    "design": ["verbs.design.transfer.hover_study", "verbs.design.bound.landing_study"],
+    "replay": ["verbs.replay.replay_trial", "verbs.replay.replay_plan"],
+    "run": ["verbs.run.fly"],
+    "stability": ["verbs.stability.study"],
+    "worst": ["verbs.worst.worst_margin", "verbs.worst.worst_case"],
 }
 ALIKE = ("describe", "list", "run", "stability")  # read nothing of the folder: once is enough
 PLACES = documented()
@@ -152,7 +154,7 @@ def _prepare(words: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as patch:
         for work in WORK[words[0]]:
             module, _, name = work.rpartition(".")
-            patch.setattr(import_module(f"perilune.analysis.commands.{module}"), name, _ready)
+            patch.setattr(import_module(f"perilune.analysis.{module}"), name, _ready)
         with pytest.raises(ReadyError):
             main(words)
 

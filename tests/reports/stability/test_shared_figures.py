@@ -61,7 +61,7 @@ def test_identical_axes_are_one_figure(page):
     captions = [" ".join(found.text_content().split()) for found in first.xpath(".//figcaption")]
     assert captions[:3] == ["Bode: force[x], [y]", "Nichols: force[x], [y]", "Nyquist: force[x], [y]"]
     assert second.xpath(".//figure") == []
-    notes = [found.text_content() for found in second.xpath(".//p") if "as drawn for" in found.text_content()]
+    notes = [found.text_content() for found in second.xpath(".//p") if ": see force[x]" in found.text_content()]
     for note, labels in zip(notes, ("Bode, Nichols: ", "Nyquist, "), strict=True):
         assert note.startswith(labels)
         assert "force[x]" in note

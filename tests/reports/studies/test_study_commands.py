@@ -15,7 +15,7 @@ from tests.support.pages.studies import SUM
 VERBS = {
     "rare": ["rare", "--failure", "total > 1.5", "--samples", "100"],
     "worst": ["worst", "--metric", "total", "--flights", "120"],
-    "sensitivity": ["batch", "--sensitivity", "32"],
+    "sensitivity": ["sensitivity", "--base", "32"],
 }
 
 

@@ -79,5 +79,5 @@ def test_a_batch_says_which_trial(talking, tmp_path, capfd, workers):
 
 
 def test_a_level_that_is_none(talking):
-    with pytest.raises(InputError, match="--log: loud: no such level; use one of all, error, info, warning"):
+    with pytest.raises(InputError, match="log: loud: no such choice; use one of all, error, info, warning"):
         perilune.simulate(talking, log="loud")

@@ -59,7 +59,7 @@ def test_what_was_flown_is_kept(hanging):
     whole = perilune.simulate(hanging, set=values)
     assert limited.status == "timed_out"
     assert not limited.complete
-    assert limited.message == "took longer than the 0.5 s of --timeout: ended at t = 0.75 s"
+    assert limited.message == "took longer than its time limit of 0.5 s: ended at t = 0.75 s"
     assert limited.time.tolist() == [0.0, 0.25, 0.5, 0.75]
     assert np.array_equal(limited["Hanging.y"], whole["Hanging.y"][:4])
     assert perilune.simulate(hanging, timeout=60.0).status == "stop_time"
@@ -118,7 +118,7 @@ def test_a_batch_goes_on(hanging, tmp_path, workers, pause):
 
 
 STUCK = {
-    "Hanging": "an FMU did not return 1.5 s after the 0.5 s of --timeout, on the way to t = 0.75 s, the last",
+    "Hanging": "an FMU did not return 1.5 s after its time limit of 0.5 s, on the way to t = 0.75 s, the last",
     "Holding": "an FMU kept Python's lock 3 s after the 0.5 s of --timeout",
 }
 
@@ -144,16 +144,18 @@ def test_the_command_says_so(hanging, tmp_path, capsys):
     assert main(["run", str(hanging), *values, "--output", str(output), "--report", str(report)]) == 1
     printed = capsys.readouterr()
     assert printed.out.startswith("Hanging: timed_out at t = 0.75 s, 4 rows\n")
-    assert printed.err.startswith(f"perilune: {hanging}: took longer than the 0.5 s of --timeout: ended at t = 0.75 s;")
+    assert printed.err.startswith(
+        f"perilune: {hanging}: took longer than its time limit of 0.5 s: ended at t = 0.75 s;"
+    )
     assert len(output.read_text().splitlines()) == 5
-    assert "Broke off: it took longer" in report.read_text()
+    assert "wall-clock time limit exceeded" in report.read_text()
 
 
 def test_the_batch_command_says_so(hanging, tmp_path, capsys):
     (tmp_path / "c.toml").write_text(CAMPAIGN.format(pause=0.9))
     command = ["batch", str(hanging), "--campaign", str(tmp_path / "c.toml"), "--set", "Hanging.at=0.5"]
     assert main([*command, "--workers", "1", "--timeout", "0.5"]) == 1
-    assert "flights took longer than the 0.5 s of --timeout; give them longer" in capsys.readouterr().err
+    assert "simulations took longer than its time limit of 0.5 s; give a longer one" in capsys.readouterr().err
 
 
 def test_a_hanging_step_does_not_keep_the_process(hanging, tmp_path):
@@ -168,5 +170,5 @@ def test_a_hanging_step_does_not_keep_the_process(hanging, tmp_path):
 
 @pytest.mark.parametrize("timeout", [0.0, -1.0, float("nan"), float("inf")])
 def test_a_limit_that_is_none(timeout):
-    with pytest.raises(InputError, match=r"--timeout: .*: not a positive number of seconds"):
+    with pytest.raises(InputError, match=r"timeout: .*: not a positive number of seconds"):
         Watch(timeout=timeout)

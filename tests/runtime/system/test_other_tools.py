@@ -294,7 +294,7 @@ def test_a_constant_takes_no_value(tiny, tmp_path):
     )
     path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP)), resources___ramp__fmu=frozen.read_bytes())
     assert fly(path)["ramp.y"][-1] == 1.0 + 2.0
-    with pytest.raises(InputError, match=r"--set: ramp\.slope: matches no parameter: it is a constant; use one of"):
+    with pytest.raises(InputError, match=r"set: ramp\.slope: matches no parameter: it is a constant; use one of"):
         fly(path, set={"ramp.slope": 4.0})
 
 
@@ -309,5 +309,5 @@ def test_messages_speak_of_the_file(tiny, tmp_path):
     path = pack(tmp_path / "s.ssp", tiny, document(system(RAMP, GAIN, connections=WIRED), stop=1.1))
     with pytest.raises(InputError, match=r"DefaultExperiment: stopTime 1\.1: 1\.1 s from the start"):
         fly(path)
-    with pytest.raises(InputError, match=r"--stop-time: 1\.2: 1\.2 s from the start"):
+    with pytest.raises(InputError, match=r"stop_time: 1\.2: 1\.2 s from the start"):
         fly(path, stop_time=1.2)

@@ -132,12 +132,12 @@ def test_no_batch_is_printed_for_held_values(tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"failure": "total > "}, "--failure: total >"),
+        ({"failure": "total > "}, "failure: total >"),
         ({"failure": "where(total > 5, 1, 0)"}, "100 % of a level's flights have one margin"),
-        ({"samples": 50}, "--samples: 50: too few"),
-        ({"least": 2.0}, "--least: 2: not a probability"),
+        ({"samples": 50}, "samples: 50: below 100"),
+        ({"least": 2.0}, "least: 2: not a probability"),
         ({"hold": {"b.gain": 1.0}}, "is drawn together with c.gain"),
-        ({"noise_trial": -1}, "--noise-trial"),
+        ({"noise_trial": -1}, "noise_trial"),
     ],
 )
 def test_refusals(linear, options, words):
@@ -147,7 +147,7 @@ def test_refusals(linear, options, words):
 
 @pytest.mark.usefixtures("fmus")
 def test_variants_are_to_be_chosen_and_noise_can_be_held():
-    with pytest.raises(InputError, match=r"3 variants.*choose: --compare guidance=analytic_guidance"):
+    with pytest.raises(InputError, match=r"3 variants.*choose: compare guidance=analytic_guidance"):
         perilune.rare("lunar_terminal_guidance", "noisy")
     result = perilune.rare(
         "lunar_terminal_guidance", "noisy", compare={"guidance": "analytic_guidance"}, noise_trial=3, samples=100,

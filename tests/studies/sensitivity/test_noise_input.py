@@ -58,7 +58,7 @@ def test_rows_differ_in_one_input_only():
 def test_the_noise_of_a_landing(tmp_path, capsys):
     line = ["batch", CAMPAIGN[0], "--campaign", CAMPAIGN[1], "--compare", "guidance=analytic_guidance"]
     out = tmp_path / "out"
-    assert main([*line, "--sensitivity", "32", "--workers", "1", "--output", str(out)]) == 0
+    assert main([*line, "--base", "32", "--workers", "1", "--output", str(out)]) == 0
     captured = capsys.readouterr()
     assert "sensitivity: 32 x (6 draws + 3) = 288 flights" in captured.err
     assert "conditional" not in captured.out

@@ -67,7 +67,7 @@ def test_the_shares_of_a_sum(linear, tmp_path):
 
 
 def test_the_command_says_its_price_first(linear, capsys):
-    line = ["batch", linear[0], "--campaign", linear[1], "--sensitivity", "32", "--workers", "1"]
+    line = ["sensitivity", linear[0], "--campaign", linear[1], "--base", "32", "--workers", "1"]
     assert main([*line, "--hold", "b.gain=1"]) == 0
     captured = capsys.readouterr()
     assert captured.err == "perilune: sensitivity: 32 x (2 draws + 2) = 128 flights\n"
@@ -82,11 +82,8 @@ def test_the_command_says_its_price_first(linear, capsys):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--sensitivity", "100"], "--sensitivity: 100: not a power of two from 32 on"),
-        (["--sensitivity", "16"], "--sensitivity: 16"),
-        (["--sensitivity", "64", "--trials", "3"], "--sensitivity: --trials: does not go with it"),
-        (["--sensitivity", "64", "--replay", "0"], "--sensitivity: --replay"),
-        (["--hold", "a.gain=1"], "--hold: a.gain=1: a batch draws all of its trials; give --sensitivity N too"),
+        (["--base", "100"], "--base: 100: not a power of two from 32 on"),
+        (["--base", "16"], "--base: 16"),
         (["--noise-trial", "2"], "--noise-trial: 2"),
     ],
 )
@@ -113,5 +110,5 @@ def test_rank_correlations_of_a_batch_and_its_page(linear, tmp_path):
     assert batch.rank_correlations("default") == found
     batch.report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text()
-    assert "What metrics go with" in page
+    assert "Correlation with dispersed inputs" in page
     assert "total" in page

@@ -214,16 +214,16 @@ def test_what_is_worse_than_what():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"metric": "position"}, "--metric: does not go with --loop; give one of them"),
-        ({"compare": {"control": "x"}}, "--compare: does not go with --loop; choose by --use SLOT=FMU"),
-        ({"timeout": 3.0}, "--timeout: does not go with --loop"),
-        ({"loop": None, "point": "there"}, "--point: there: there is no loop; give --loop NAME with it"),
-        ({"loop": None, "at": 3.0}, "--at: 3.0: there is no loop"),
-        ({"loop": "lop"}, "--loop: lop: the SSD names no such loop"),
-        ({"point": "here"}, "--point: here: loop has no such point; give there"),
-        ({"margin": "nyquist"}, "--margin: nyquist: no such margin; give disk"),
-        ({"flights": 10}, "--flights: 10: too few"),
-        ({"noise_trial": -1}, "--noise-trial"),
+        ({"metric": "position"}, "metric: does not go with loop; give one of them"),
+        ({"compare": {"control": "x"}}, "compare: does not go with loop; choose by use"),
+        ({"timeout": 3.0}, "timeout: does not go with loop"),
+        ({"loop": None, "point": "there"}, "point: there: there is no loop; give loop with it"),
+        ({"loop": None, "at": 3.0}, "at: 3.0: there is no loop"),
+        ({"loop": "lop"}, "loops: lop: the SSD names no such loop"),
+        ({"point": "here"}, "point: here: loop has no such point; give there"),
+        ({"margin": "nyquist"}, "margin: nyquist: no such choice"),
+        ({"flights": 10}, "flights: 10: too few"),
+        ({"noise_trial": -1}, "noise_trial"),
     ],
 )
 def test_refusals(late, box, options, words):

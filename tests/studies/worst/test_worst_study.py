@@ -99,9 +99,9 @@ def test_the_command(linear, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"metric": "totl"}, "--metric: totl: neither a metric nor a draw of the campaign.*total"),
-        ({"flights": 50}, "--flights: 50: too few; give 100 or more"),
-        ({"sigmas": 0.0}, "--sigmas: 0"),
+        ({"metric": "totl"}, "metric: totl: neither a metric nor a draw of the campaign.*total"),
+        ({"flights": 50}, "flights: 50: too few; give 100 or more"),
+        ({"sigmas": 0.0}, "sigmas: 0"),
         ({"sigmas": 0.01}, "none of 20 random trials is within 0.01 sigmas"),
     ],
 )

@@ -43,7 +43,7 @@ class LastWords:
         """End this process where the flight inside takes far longer than it may."""
         self._file.seek(0)
         self._file.truncate()
-        locked = f"an FMU kept Python's lock {GRACE:g} s after the {self._timeout:g} s of `timeout`"
+        locked = f"an FMU kept Python's lock {GRACE:g} s after its time limit of {self._timeout:g} s"
         self._file.write(json.dumps([variant, trial, locked]) + "\n")
         self._file.flush()
         faulthandler.dump_traceback_later(self._timeout + GRACE, exit=True, file=self._file)

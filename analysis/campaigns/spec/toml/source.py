@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from .....fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 from ....common.errors import InputError
 from ....runtime.ssp.archive import SystemArchive
 from .lines import key_lines
@@ -116,8 +117,12 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
         if path.is_file():
             return path.read_bytes(), str(path)
     known = [] if archive is None else archive.campaign_names()
-    if archive is not None and name in known:
-        return archive.campaign(name)
+    if archive is not None:
+        place = f"{CAMPAIGN_FOLDER}/{name}"  # so that a copy of a system's campaign still extends what that did
+        if place in archive.files:
+            return archive.read(place, origin), f"{archive.label}!{place}"
+        if name in known:
+            return archive.campaign(name)
     remedy = f"give a path relative to this file{', or a campaign: ' + ', '.join(known) if known else ''}"
     raise InputError(origin, EXTENDS, f"no file {name}", remedy)
 

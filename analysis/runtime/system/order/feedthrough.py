@@ -52,7 +52,7 @@ class Feedthrough:
 
 ASSUMED = (
     " does not declare which inputs its outputs depend on directly: assumed none, so it is stepped with the inputs of"
-    f" the step's start; if you know better, say {OPTIONS[0]} or {OPTIONS[1]} COMPONENT"
+    " the step's start; where it is known, give the option feedthrough or no_feedthrough"
 )
 
 

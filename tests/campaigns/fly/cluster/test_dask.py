@@ -65,13 +65,13 @@ def test_the_bytes_of_two_workers(cluster, line, whole, place):
 
 def test_shards_one_by_one(cluster, line, whole, place, capsys):
     out = str(place / "parts")
-    assert main([*line, "--output", out, "--prepare"]) == 0
+    assert main(["prepare", *line[1:], "--output", out]) == 0
     numbers = list(range(3))
     random.Random(3).shuffle(numbers)
     assert main(["shard", out, str(numbers[0])]) == 0
     perilune.shard(out, numbers[1:], scheduler=cluster.address)
     assert main(["shard", out, "0-2", "--scheduler", cluster.address]) == 0
-    assert "shards: 0 flown, 3 were there, 0 of 3 are missing" in capsys.readouterr().out
+    assert "shards: 0 simulated, 3 already complete, 0 of 3 missing" in capsys.readouterr().out
     assert main(["merge", out]) == 0
     assert bytes_of(out) == whole
 
@@ -133,7 +133,7 @@ def test_an_fmu_that_ends_every_worker(cluster, place, tmp_path, capsys):
     ]
     assert main(["batch", str(fmu), *words, "--output", str(out), "--scheduler", cluster.address]) == 1
     said = capsys.readouterr().err
-    assert "perilune: workers end again and again with trial 30 of default; what is flown lies in" in said
+    assert "perilune: workers end again and again with trial 30 of default; completed trials are stored in" in said
     assert said.count("\n") == 1
     assert not (out / "trials" / "000001.parquet").exists()
     assert shards_in(out) == 2
@@ -172,7 +172,7 @@ def test_a_cluster_that_is_gone(line, whole, place, tmp_path, capsys, monkeypatc
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert {"scheduler": "is gone", "workers": "had no worker for 2 s"}[lost] in said
-    assert f"; what is flown lies in {out}: the same command with --resume goes on" in said
+    assert f"; completed trials are stored in {out}: the same command with --resume goes on" in said
     assert main([*line, "--output", str(out), "--resume"]) == 0
     assert bytes_of(out) == whole
 
@@ -182,7 +182,9 @@ def test_ctrl_c_leaves_what_can_be_gone_on_with(cluster, line, whole, place, cap
     command = [*line, "--output", str(out), "--scheduler", cluster.address]
     with interrupted_when(lambda: shards_in(out) >= 1):
         assert main(command) == 1
-    words = f"interrupted; what is flown lies in {out}: the same command with --resume goes on, or perilune shard"
+    words = (
+        f"interrupted; completed trials are stored in {out}: resume with the same command and --resume, or with shard"
+    )
     assert capsys.readouterr().err == f"perilune: {words}\n"
     assert 1 <= shards_in(out) < 3
     assert main([*command, "--resume"]) == 0
@@ -196,7 +198,6 @@ def test_what_is_refused_costs_no_results(cluster, line, whole, place, capsys, m
         (["--scheduler", "nowhere"], "--scheduler: nowhere: no dask scheduler answers there"),
         (["--scheduler", cluster.address, "--workers", "2"], "--workers: 2: the cluster's own workers fly"),
         (["--scheduler", cluster.address, "--engine", "threads"], "--engine: threads: the cluster's own workers fly"),
-        (["--scheduler", cluster.address, "--prepare"], "--prepare: --scheduler: nothing flies yet"),
     ):
         monkeypatch.setattr(connection, "ANSWER", 0.5)
         assert main([*line, *out, *options]) == 2

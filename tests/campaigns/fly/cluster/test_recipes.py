@@ -18,13 +18,13 @@ from tests.support.lengths import either
 
 pytestmark = pytest.mark.usefixtures("fmus")
 PAGE = page_text("docs/studies/clusters.md")
-PREPARE = next(command for command in commands_in(PAGE) if "--prepare" in command)
+PREPARE = next(command for command in commands_in(PAGE) if command.startswith("perilune prepare"))
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory, fmus):
     out = tmp_path_factory.mktemp("whole") / "parts"
-    words = PREPARE.replace(" --prepare", "").replace(" parts", f" {out}").split()[1:]
+    words = PREPARE.replace("perilune prepare", "perilune batch").replace(" parts", f" {out}").split()[1:]
     assert main(words) == 0
     return bytes_of(out)
 
@@ -53,7 +53,7 @@ def test_shard_processes_that_are_killed(tmp_path):
     source = random.Random(23)
     command = ["batch", "lunar_terminal_guidance", "--campaign", "paper", "--trials", str(trials)]
     parts, left = tmp_path / "parts", tmp_path / "left"
-    assert main([*command, "--output", str(parts), "--prepare"]) == 0
+    assert main(["prepare", *command[1:], "--output", str(parts)]) == 0
     count = -(-trials // max(25, -(-trials // 40)))
     for kill in range(kills):
         wanted = 1 + kill * (count * 3 // 4) // kills

@@ -95,7 +95,7 @@ def test_draws_by_a_counter_fly_in_any_part(counted, tmp_path):
     assert main([*line, "--output", str(tmp_path / "whole")]) == 0
     whole = bytes_of(tmp_path / "whole")
     assert "draws.parquet" not in whole
-    assert main([*line, "--output", str(tmp_path / "parts"), "--prepare"]) == 0
+    assert main(["prepare", *line[1:], "--output", str(tmp_path / "parts")]) == 0
     for shard in (2, 0, 1):
         assert main(["shard", str(tmp_path / "parts"), str(shard)]) == 0
     assert main(["merge", str(tmp_path / "parts")]) == 0
@@ -117,8 +117,8 @@ def test_more_trials_than_a_table_has(counted, tmp_path, capsys):
     """The last shard of two million trials, which nobody draws before it."""
     out = tmp_path / "out"
     line = ["batch", SYSTEM, "--campaign", str(counted), "--trials", "1000002", "--step", "1", "--stop-time", "20"]
-    assert main([*line, "--output", str(out), "--prepare"]) == 0
-    assert "shards 0-200 of 5000 trials and the rest" in capsys.readouterr().out
+    assert main(["prepare", *line[1:], "--output", str(out)]) == 0
+    assert "shards 0-200, 5000 trials each" in capsys.readouterr().out
     assert main(["shard", str(out), "200"]) == 0
     table = pyarrow.parquet.read_table(out / "trials" / "000200.parquet")
     assert table["trial"].to_pylist() == [1_000_000, 1_000_001]

@@ -39,7 +39,7 @@ def test_every_engine_leaves_the_same_bytes(whole, tmp_path, options):
 
 def test_shards_one_by_one_in_any_order(whole, tmp_path, capsys):
     out = str(tmp_path / "out")
-    assert main(["batch", *CAMPAIGN, "--output", out, "--prepare"]) == 0
+    assert main(["prepare", *CAMPAIGN, "--output", out]) == 0
     assert f"perilune shard {out} 0-4" in capsys.readouterr().out
     numbers = list(range(5))
     random.Random(7).shuffle(numbers)
@@ -51,7 +51,7 @@ def test_shards_one_by_one_in_any_order(whole, tmp_path, capsys):
     words = f"shards {missing}: 1 of 5 shards are missing; perilune shard {out} {missing} flies them"
     assert words in capsys.readouterr().err
     assert main(["shard", out, "0-4"]) == 0
-    assert "shards: 1 flown, 4 were there, 0 of 5 are missing" in capsys.readouterr().out
+    assert "shards: 1 simulated, 4 already complete, 0 of 5 missing" in capsys.readouterr().out
     assert main(["merge", out]) == 0
     assert "analytic_guidance" in capsys.readouterr().out
     assert bytes_of(tmp_path / "out") == whole
@@ -87,14 +87,12 @@ def test_ctrl_c_leaves_what_can_be_gone_on_with(whole, tmp_path, capsys):
     out = tmp_path / "out"
     with interrupted_when(lambda: shards_in(out) >= 2):
         assert main(["batch", *CAMPAIGN, "--output", str(out), "--workers", "2"]) == 1
-    words = (
-        f"perilune: interrupted; what is flown lies in {out}: the same command with --resume goes on, or perilune shard"
-    )
-    assert words in capsys.readouterr().err
+    hint = f"completed trials are stored in {out}: resume with the same command and --resume, or with shard"
+    assert hint in capsys.readouterr().err
     assert not (out / "summary.json").exists()
     assert 2 <= shards_in(out) < 5
     assert main(["compare", str(out), "--report", str(tmp_path / "page.html")]) == 2
-    assert "summary.json: not found; go on with it: perilune batch ... --resume" in capsys.readouterr().err
+    assert "summary.json: not found; resume it: the batch's command with resume" in capsys.readouterr().err
     assert main(["batch", *CAMPAIGN, "--output", str(out), "--resume"]) == 0
     assert bytes_of(out) == whole
 
@@ -122,7 +120,7 @@ with whole_file(pathlib.Path(sys.argv[1])) as partial:
 def test_what_killed_writers_leave_is_taken_away(whole, tmp_path):
     """A kill amid any file of a campaign; what else its owner keeps in that folder stays."""
     out = tmp_path / "out"
-    assert main(["batch", *CAMPAIGN, "--output", str(out), "--prepare"]) == 0
+    assert main(["prepare", *CAMPAIGN, "--output", str(out)]) == 0
     content = next((out / "files").iterdir()).name
     for name in ("draws.parquet", "trials/000001.parquet", "traces/x/000007.parquet", f"files/{content}"):
         killed = subprocess.run([sys.executable, "-c", KILLED, str(out / name)], check=False)
@@ -221,12 +219,7 @@ def test_a_damaged_shard_is_named_and_flown_again_once_removed(begun, tmp_path, 
 
 MISTAKES = {
     "threads": (["--overwrite", "--flavour", "python", "--engine", "threads"], "--engine: threads: Python FMUs"),
-    "prepare and a page": (
-        ["--overwrite", "--prepare", "--report", "p.html"],
-        "--prepare: --report: nothing flies yet",
-    ),
-    "resume and overwrite": (["--overwrite", "--resume"], "--resume: --overwrite: one keeps what is there"),
-    "resume and replay": (["--resume", "--replay", "1"], "--resume: --replay: does not go with it"),
+    "resume and overwrite": (["--overwrite", "--resume"], "--resume: --overwrite: one keeps what is stored"),
     "neither": ([], "holds results already (manifest.json, trials, draws.parquet, summary.json)"),
 }
 

@@ -82,13 +82,10 @@ def test_batch(elsewhere, workers):
 
 
 def test_replay(elsewhere):
-    assert (
-        main(["batch", "odd.ssp", "--campaign", "c.toml", "--replay", "1", "--output", "results", "--json", "j.json"])
-        == 0
-    )
+    assert main(["replay", "odd.ssp", "1", "--campaign", "c.toml", "--output", "results.csv", "--json", "j.json"]) == 0
     here = elsewhere.with_name("here")
     assert list(elsewhere.iterdir()) == []
-    assert (here / "results" / "default_000001.parquet").is_file()
+    assert (here / "results.csv").is_file()
     assert (here / "j.json").is_file()
 
 

@@ -56,7 +56,7 @@ def test_allow_unmatched_lets_parameters_pass(tmp_path, tiny, monkeypatch):
 
 
 def test_stop_time_that_is_missing(tmp_path, tiny, refused):
-    refused(ssp(tmp_path, tiny, stop=None), "stopTime", "give --stop-time SECONDS")
+    refused(ssp(tmp_path, tiny, stop=None), "stopTime", "give --stop-time")
 
 
 def test_step_that_no_one_proposes(tmp_path, tiny, refused):
@@ -66,7 +66,7 @@ def test_step_that_no_one_proposes(tmp_path, tiny, refused):
     retouched(tiny / "ramp.fmu", tmp_path / "ramp.fmu", forget)
     fmu = (tmp_path / "ramp.fmu").read_bytes()
     path = ssp(tmp_path, tiny, system(RAMP), step=None, files={"resources___ramp__fmu": fmu})
-    refused(path, "step", "neither the SSD nor an FMU", "give --step SECONDS")
+    refused(path, "step", "neither the SSD nor an FMU", "give --step")
 
 
 def test_step_annotation_that_is_no_number(tmp_path, tiny, refused):
