@@ -33,7 +33,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = _carry_out(sys.argv[1:] if arguments is None else list(arguments))
         output.flush()
         if output.is_cut and output.error is not None:
-            print(f"perilune: standard output: {output.error.strerror}; make room, or write to a file", file=sys.stderr)
+            print(
+                f"perilune: standard output: {output.error.strerror}; free some space, or write to a file",
+                file=sys.stderr,
+            )
             return ExitStatus.REFUSED
         return status
 

@@ -109,7 +109,9 @@ class Results:
         except OSError as error:
             self.failed = True
             name = error.filename or path
-            print(f"perilune: {name}: {error.strerror or error}; give another path or make room", file=sys.stderr)
+            print(
+                f"perilune: {name}: {error.strerror or error}; check path, permissions and free space", file=sys.stderr
+            )
         else:
             self.written.append(path)
 

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Iterator
 
 from perilune.analysis.cli import HELP_ALL, parser_of
-from perilune.analysis.verbs.options.help import exit_status
+from perilune.analysis.verbs.help import exit_status
 from perilune.analysis.verbs.options.verbs import VERBS
 
 from .markdown import escaped, table

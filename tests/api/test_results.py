@@ -115,16 +115,16 @@ def test_diagrams_of_a_loop(study):
 
 def test_a_law(tmp_path):
     law = perilune.law("diveev_2013")
-    assert "u1 = " in law.text()
+    assert "u1 = " in "\n".join(law.lines())
     assert "u1 = " in html.fromstring(law._repr_html_()).text_content()
     law.write_parameters(tmp_path / "law.ssv")
     assert [*perilune.validate(tmp_path / "law.ssv")] == [FileCheck(str(tmp_path / "law.ssv"), (), ())]
 
 
-def test_plans():
+def test_plans(tmp_path):
     plan = perilune.plan_hover_transfer()
     assert 77.0 < plan.programme.duration < 78.0  # Huang (2017): 78 s
-    with pytest.raises(perilune.InputError, match="curves"):
-        plan.report("page.html")
+    plan.report(tmp_path / "page.html")
+    assert (tmp_path / "page.html").is_file()
     with pytest.raises(perilune.InputError, match="do not carry the mass"):
         perilune.plan_hover_transfer(vehicle=perilune.Vehicle(6000.0, 0.0, 300.0, 4707.0, 313.0, 0.01))

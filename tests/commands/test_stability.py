@@ -118,7 +118,9 @@ def test_page_json_file_and_talk_to_the_terminal(plain, tmp_path, capsys):
     (loop,) = strict(file.read_text())["loops"]
     line, last, written = captured.out.splitlines()
     assert written == f"written: {page}, {file}"
-    assert line.startswith(f"loop at there: {loop['gain_margin_db']:.2f} dB, {loop['phase_margin_deg']:.2f} deg, ")
+    assert line.startswith(
+        f"loop at there: gain margin {loop['gain_margin_db']:.2f} dB, phase margin {loop['phase_margin_deg']:.2f} deg, "
+    )
     assert line.endswith("linearised and measured responses agree: pass")
     assert re.fullmatch(r"late_double_integrator: pass, \d+\.\d s", last)
     assert captured.err == ""

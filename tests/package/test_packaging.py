@@ -36,7 +36,7 @@ def test_all_that_is_not_python_is_packed_under_one_name():
     found = json.loads(done.stdout.splitlines()[-1])
     assert {name.split(".")[0] for name in found["packages"]} == {"perilune"}
     packed = {(ROOT / name).resolve().relative_to(ROOT).as_posix() for name in found["files"]}
-    expected = {"perilune/py.typed"}
+    expected = {"perilune/py.typed", "perilune/__init__.pyi"}
     for room, kinds in {
         "ssp_systems": ("*",),
         "laws": ("*",),

@@ -24,7 +24,7 @@ RUN = "perilune run lunar_terminal_guidance"
 
 
 def stems(folder):
-    return {path.stem for path in (SYSTEMS / "lunar_terminal_guidance" / folder).iterdir()}
+    return {path.stem for path in (SYSTEMS / "lunar_terminal_guidance" / folder).iterdir() if path.is_file()}
 
 
 # A process of its own, which parts for each line: argcomplete ends the one that it answers in.

@@ -89,7 +89,11 @@ ROWS = [
     ("export nothing", 2),
     ("benchmark --json {folder}", 2),
 ]
-ELSEWHERE = {"design search": "0 and 1: test_synthesize.py", "benchmark": "0: tests/benchmark"}
+ELSEWHERE = {
+    "design search": "0 and 1: test_synthesize.py",
+    "benchmark": "0: tests/benchmark",
+    "docs": "0: test_docs.py",
+}
 
 UNDECIDED = f"""
 system = "{SYSTEM}"

@@ -225,4 +225,4 @@ def test_what_is_not_stored(tmp_path, capsys):
         assert words in error
         assert error.count("\n") == 1
     assert main(["validate", str(place)]) == 0
-    assert "no extra/bound.json in the system" in capsys.readouterr().out
+    assert "no extra/bound.json in the system" in " ".join(capsys.readouterr().out.split())

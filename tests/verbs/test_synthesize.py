@@ -86,13 +86,6 @@ def test_wrong_input(file, tmp_path, monkeypatch, capsys, arguments, words):
     assert error.count("\n") == 1
 
 
-def test_an_unknown_method(file, capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["synthesize", "oracle", str(file)])
-    assert stop.value.code == 2
-    assert "network-operator" in capsys.readouterr().err
-
-
 def test_a_search_is_validated_and_not_flown_as_a_batch(file, capsys):
     assert main(["validate", str(file)]) == 0
     assert main(["batch", "lunar_descent_2d", "--campaign", str(file)]) == 2

@@ -57,7 +57,7 @@ ARGUMENTS = {
     "validate": ["lunar_landing"],
     "run": RUN[1:],
     "batch": BATCH[1:],
-    "prepare": BATCH[1:],
+    "prepare": [*BATCH[1:], "--output", "prepared"],
     "shard": ["there", "0"],
     "replay": ["there", "0"],
     "merge": ["there"],
@@ -172,13 +172,13 @@ def test_one_file_that_cannot_be_written_keeps_no_other(tmp_path, capsys, monkey
     def full(*_, **__):
         raise OSError(errno.ENOSPC, "No space left on device", str(tmp_path / "page.html"))
 
-    monkeypatch.setattr("perilune.analysis.reports.flight.run_report.write_run_report", full)
+    monkeypatch.setattr("perilune.analysis.verbs.run.write_run_report", full)
     table, page = tmp_path / "flight.csv", tmp_path / "page.html"
     assert main([*RUN, "--output", str(table), "--report", str(page)]) == 2
     captured = capsys.readouterr()
     assert captured.out.splitlines()[0].startswith("lunar_terminal_guidance: finished")
     assert captured.out.splitlines()[-1] == f"written: {table}"
-    assert captured.err == f"perilune: {page}: No space left on device; give another path or make room\n"
+    assert captured.err == f"perilune: {page}: No space left on device; check path, permissions and free space\n"
     assert table.read_text().startswith("time,")
 
 

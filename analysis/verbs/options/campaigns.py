@@ -127,7 +127,10 @@ SHARD = Verb(
     (FOLDER, Argument("numbers", "K", "numbers of shards, the first is 0; A-B: from A to B", many=True)),
     ExecutionOptions,
     JsonFile,
-    (("perilune shard parts 0-1", "its first shards, on any machine that has the folder"),),
+    (
+        ("perilune prepare lunar_terminal_guidance --campaign paper --trials 100 --output parts", "a folder to share"),
+        ("perilune shard parts 0-1", "its first shards, on any machine that has the folder"),
+    ),
     "a simulation failed, or workers or the scheduler ended repeatedly",
 )
 MERGE = Verb(
@@ -138,7 +141,11 @@ MERGE = Verb(
     (FOLDER,),
     RequireOptions,
     ReportFiles,
-    (("perilune merge parts --report parts.html", "what batch would have written"),),
+    (
+        ("perilune prepare lunar_terminal_guidance --campaign paper --trials 50 --output shared", "a folder to share"),
+        ("perilune shard shared 0-1", "all of its shards, on one machine or another"),
+        ("perilune merge shared --report merged.html", "what batch would have written"),
+    ),
     OF_CAMPAIGN,
 )
 REPLAY = Verb(

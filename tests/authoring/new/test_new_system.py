@@ -96,7 +96,7 @@ def test_the_commands_that_it_names(capsys):
     assert [line.rpartition(": ")[2] for line in lines[1:3]] == ["PASS", "PASS"]
     page = Path("page.html").read_text(encoding="utf-8")
     assert "Torque" in page
-    assert "settled" in page
+    assert "Settling time" in page
     require = ["--require", "default.success_rate == 1"]
     assert main(["batch", NAME, "--campaign", "dispersed", "--trials", "20", "--output", "results", *require]) == 0
     assert main(["validate", NAME, f"{NAME}/heavy.ssv", f"{NAME}/campaigns/dispersed.toml"]) == 0

@@ -128,7 +128,7 @@ def test_batch_and_its_replay(folder, batch, tmp_path, capsys):
     assert main([*command, "--output", str(tmp_path / "out"), "--report", str(tmp_path / "page.html")]) == 0
     said = f"with faults: held: ramp.y=freeze@t0 when t0 > 0.5; {BIAS}"
     assert capsys.readouterr().out.splitlines()[-2:] == [said, f"written: {tmp_path / 'out'}, {tmp_path / 'page.html'}"]
-    assert f"W{said[1:]}." in text_of((tmp_path / "page.html").read_text())
+    assert f"Faults: {said.removeprefix('with faults: ')}." in text_of((tmp_path / "page.html").read_text())
     rows = pyarrow.parquet.read_table(tmp_path / "out" / "trials").to_pylist()
     expected = perilune.batch(folder / "s.ssp", str(folder / "held.toml"), faults=[perilune.Fault("gain.u", "bias",
                               0.5, 0.25, 0.75)], workers=1).table().to_pylist()  # fmt: skip
@@ -179,7 +179,7 @@ def test_comparisons_say_which_faults_flew(folder, batch, tmp_path, capsys):
 def test_help_has_the_form(capsys):
     for verb in ("run", "batch"):
         with pytest.raises(SystemExit) as stop:
-            main([verb, "--help"])
+            main([verb, "--help-all"])
         assert stop.value.code == 0
         words = " ".join(capsys.readouterr().out.split())
-        assert "--fault FAULT fly with a fault, COMPONENT.CONNECTOR=KIND[:VALUE]@T[..T]: override or bias or" in words
+        assert "inject a fault, COMPONENT.CONNECTOR=override|bias|freeze[:VALUE]@T[..T], times in s" in words

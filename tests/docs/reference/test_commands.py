@@ -34,6 +34,7 @@ ELSEWHERE = {
     "python fly_hyperqueue.py": "tests/campaigns/fly/cluster/test_recipes.py",
     "sbatch ": "needs a SLURM controller; the page says what was tried",
     "job=$(sbatch ": "likewise",
+    "perilune docs": "tests/verbs/test_docs.py",
     "LD_PRELOAD=": "of a host of the reader's own",
 }
 # Commands by what is in them, and why only `make long` carries them out.

@@ -74,7 +74,7 @@ def test_they_are_on_the_page(tmp_path):
         assert row.command in text_of(page)
     calm = batch_result({"two": TWO}, DRAWS + METRICS)
     write_batch_report(calm, tmp_path / "calm.html", "Calm")
-    assert "No trial failed." in text_of((tmp_path / "calm.html").read_text(encoding="utf-8"))
+    assert "No failures." in text_of((tmp_path / "calm.html").read_text(encoding="utf-8"))
 
 
 def test_every_option_is_in_the_command():

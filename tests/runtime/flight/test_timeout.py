@@ -114,12 +114,12 @@ def test_a_batch_goes_on(hanging, tmp_path, workers, pause):
     assert np.array_equal(trials.success, ~late)
     assert np.array_equal(trials.metrics["last"][~late], np.ones(late.size)[~late])
     assert set(trials.messages) == set(np.flatnonzero(late))
-    assert all("of --timeout" in text for text in trials.messages.values())
+    assert all("time limit of 0.5 s" in text for text in trials.messages.values())
 
 
 STUCK = {
     "Hanging": "an FMU did not return 1.5 s after its time limit of 0.5 s, on the way to t = 0.75 s, the last",
-    "Holding": "an FMU kept Python's lock 3 s after the 0.5 s of --timeout",
+    "Holding": "an FMU kept Python's lock 3 s after its time limit of 0.5 s",
 }
 
 
@@ -155,7 +155,7 @@ def test_the_batch_command_says_so(hanging, tmp_path, capsys):
     (tmp_path / "c.toml").write_text(CAMPAIGN.format(pause=0.9))
     command = ["batch", str(hanging), "--campaign", str(tmp_path / "c.toml"), "--set", "Hanging.at=0.5"]
     assert main([*command, "--workers", "1", "--timeout", "0.5"]) == 1
-    assert "simulations took longer than its time limit of 0.5 s; give a longer one" in capsys.readouterr().err
+    assert "simulations took longer than the 0.5 s of --timeout; give a longer one" in capsys.readouterr().err
 
 
 def test_a_hanging_step_does_not_keep_the_process(hanging, tmp_path):

@@ -147,7 +147,7 @@ def test_what_is_assumed_is_said_where_one_looks(undeclared, capsys):
     path = str(chain(undeclared))
     words = "gain: FMU gain does not declare which inputs its outputs depend on directly"
     assert main(["validate", path]) == 0
-    assert words in capsys.readouterr().out
+    assert words in " ".join(capsys.readouterr().out.split())
     assert main(["run", path]) == 0
     assert capsys.readouterr().out.count(words) == 1
     assert main(["run", path, "--feedthrough", "gain"]) == 0

@@ -173,7 +173,7 @@ def test_open_inputs_keep_their_starts_when_asked(tiny, tmp_path, capsys):
     assert main(["validate", str(path)]) == 2
     assert "--open-inputs start" in capsys.readouterr().err
     assert main(["validate", str(path), "--open-inputs", "start"]) == 0
-    assert "cross.b: open input, keeps 0.5" in capsys.readouterr().out
+    assert "cross.b: open input, keeps 0.5" in " ".join(capsys.readouterr().out.split())
     assert perilune.validate(path, open_inputs="start")[0].problems == ()
 
 
@@ -224,7 +224,7 @@ def test_flaws_are_remarks_unless_strict(tiny, tmp_path, capsys, plain, name, va
         assert main(["validate", str(target)]) == 0
         assert re.search(rf'[Vv]ariable "{name}" \(line', capsys.readouterr().out)
         assert main(["validate", str(target), "--strict"]) == 2
-        assert re.search(rf'ramp\.fmu.*modelDescription\.xml.*[Vv]ariable "{name}".*; mend', capsys.readouterr().err)
+        assert re.search(rf'ramp\.fmu.*modelDescription\.xml.*[Vv]ariable "{name}".*; fix', capsys.readouterr().err)
 
 
 def test_sources_that_go_up_and_stay_inside(tiny, tmp_path, plain):

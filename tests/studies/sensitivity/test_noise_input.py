@@ -56,7 +56,7 @@ def test_rows_differ_in_one_input_only():
 
 @pytest.mark.usefixtures("fmus")
 def test_the_noise_of_a_landing(tmp_path, capsys):
-    line = ["batch", CAMPAIGN[0], "--campaign", CAMPAIGN[1], "--compare", "guidance=analytic_guidance"]
+    line = ["sensitivity", CAMPAIGN[0], "--campaign", CAMPAIGN[1], "--compare", "guidance=analytic_guidance"]
     out = tmp_path / "out"
     assert main([*line, "--base", "32", "--workers", "1", "--output", str(out)]) == 0
     captured = capsys.readouterr()

@@ -88,7 +88,7 @@ def test_the_command_says_its_price_first(linear, capsys):
     ],
 )
 def test_wrong_input(linear, capsys, options, words):
-    assert main(["batch", linear[0], "--campaign", linear[1], *options]) == 2
+    assert main(["sensitivity", linear[0], "--campaign", linear[1], *options]) == 2
     error = capsys.readouterr().err
     assert words in error
     assert error.count("\n") == 1

@@ -151,10 +151,10 @@ def test_the_page_of_a_long_campaign_says_what_it_shows(tmp_path, monkeypatch):
     assert result.shown["steady"].note == "the first 30 of 100 trials; those over two values all failures, too"
     write_batch_report(result, tmp_path / "page.html", "Long")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
-    assert f"figures and rank correlations are of {shaky.note}." in " ".join(page.split())
+    assert f"plots and rank correlations use {shaky.note}." in " ".join(page.split())
     monkeypatch.undo()
     write_batch_report(whole, tmp_path / "whole.html", "Long")
-    assert "figures and rank correlations are of" not in (tmp_path / "whole.html").read_text(encoding="utf-8")
+    assert "plots and rank correlations use" not in (tmp_path / "whole.html").read_text(encoding="utf-8")
     tables = [
         re.findall(r"<table>.*?</table>", (tmp_path / name).read_text(), re.DOTALL)
         for name in ("page.html", "whole.html")

@@ -90,12 +90,12 @@ def test_the_command(folder, tmp_path, monkeypatch, capsys):
     status = main([*command, *files, "--require", f"metric.flight_time == {row['metric.flight_time']!r}"])
     captured = capsys.readouterr()
     assert status == 0 if row["success"] else 1
-    assert "equal to the stored trial to the last bit" in captured.out.splitlines()
-    assert captured.out.splitlines()[-1] == "written: flight.json, flight.parquet, page.html"
+    assert "identical to the stored trial, bit for bit" in captured.out.splitlines()
+    assert captured.out.splitlines()[-1] == "written: flight.parquet, page.html, flight.json"
     found = json.loads((tmp_path / "flight.json").read_text())
     assert (found["trial"], found["configuration"], found["stored"]) == (3, "astar_guidance", True)
     assert found["metrics"] == {name[7:]: value for name, value in row.items() if name.startswith("metric.")}
-    assert {limit["verdict"] for limit in found["limits"]} == {"kept"}
+    assert {limit["verdict"] for limit in found["limits"]} == {"met"}
     table = pyarrow.parquet.read_table(tmp_path / "flight.parquet")
     assert table["time"][-1].as_py() == row["end_time"]
     assert f"{SYSTEM}, astar_guidance, trial 3" in (tmp_path / "page.html").read_text()
@@ -196,6 +196,6 @@ def test_pages_print_the_short_command_where_there_is_a_folder(folder, tmp_path,
     result.report(tmp_path / "page.html")
     assert rows[0].command in (tmp_path / "page.html").read_text()
     main(shlex.split(rows[0].command)[1:])
-    assert "equal to the stored trial to the last bit" in capsys.readouterr().out
+    assert "identical to the stored trial, bit for bit" in capsys.readouterr().out
     alone = perilune.batch(SYSTEM, "noisy", trials=2, workers=1, compare={"guidance": ["analytic_guidance"]})
     assert all(row.command.startswith("perilune batch ") for row in extremes_to_replay(alone))

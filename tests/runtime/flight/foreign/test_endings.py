@@ -61,4 +61,4 @@ def test_a_good_end_on_the_command_line(tmp_path, capsys):
     found = capsys.readouterr()
     assert "odd: terminated at t = 0.6 s, 4 rows" in found.out
     assert found.err == ""
-    assert "an FMU asked for the end" in (tmp_path / "page.html").read_text()
+    assert "Terminated by an FMU." in (tmp_path / "page.html").read_text()

@@ -105,7 +105,7 @@ def test_an_fmu_that_does_not_reset(tmp_path, calls, quirks, reason):
     assert reset_verdict(load_fmu((tmp_path / "odd.fmu").read_bytes(), "again")) == ResetVerdict(False, reason)
     assert calls() == ""  # tried once
     notes = perilune.validate(path)[0].notes
-    assert f"odd: instantiated anew for every flight, as its reset fails: {reason}" in notes
+    assert f"odd: instantiated anew for every simulation, as its reset fails: {reason}" in notes
     assert any(note.endswith(reason) for note in perilune.validate(tmp_path / "odd.fmu")[0].notes)
 
 

@@ -81,7 +81,7 @@ def test_the_installed_command(tmp_path, tiny, arguments, status):
     assert {entry.name for entry in tmp_path.iterdir()} == {"broken.ssp", "trouble.ssp"}
 
 
-@pytest.mark.parametrize("arguments", [["run", "trouble.ssp", "--step", "abc"], ["run"]], ids=" ".join)
+@pytest.mark.parametrize("arguments", [["run", "trouble.ssp", "--stpe", "1"], ["run"]], ids=" ".join)
 def test_arguments_that_argparse_refuses(tmp_path, tiny, capfd, monkeypatch, arguments):
     monkeypatch.chdir(tmp_path)
     ssp(tmp_path, tiny, system(TROUBLE), name="trouble.ssp")
