@@ -234,7 +234,7 @@ CASES = {
     "trials that are no number": ([*BATCH, "--trials", "many"], ["--trials", "many"]),
     "no workers": ([*BATCH, "--workers", "0"], ["--workers", "0"]),
     "a trial that is not in the campaign": (
-        ["replay", BATCH[1], "5", *BATCH[2:], "--trials", "5"],
+        ["replay", BATCH[1], "5", *BATCH[2:], "--trials", "5", "--configuration", "analytic_guidance"],
         ["trial 5", "no such trial", "0 to 4"],
     ),
     "a comparison of one that is not there": (

@@ -23,7 +23,7 @@ def nothing_flies(monkeypatch):
         raise AssertionError("it flew")
 
     monkeypatch.setattr("perilune.analysis.verbs.run.fly", fly)
-    monkeypatch.setattr("perilune.analysis.campaigns.fly.runner.run_batch", fly)
+    monkeypatch.setattr("perilune.analysis.verbs.batch.open_campaign", fly)
 
 
 @pytest.mark.usefixtures("nothing_flies")

@@ -136,7 +136,8 @@ def test_batch_and_its_replay(folder, batch, tmp_path, capsys):
     assert {row["fault.held"] for row in rows} == {True, False}
     for row in rows:
         file = tmp_path / f"{row['trial']}.parquet"
-        replay = ["replay", command[1], str(row["trial"]), *command[2:], "--output", str(file)]
+        options = ["--campaign", str(folder / "held.toml"), "--fault", BIAS]
+        replay = ["replay", command[1], str(row["trial"]), *options, "--output", str(file)]
         assert main([*replay, "--json", "-"]) == 0
         found = json.loads(capsys.readouterr().out)
         held = [f"ramp.y=freeze@{row['draw.t0']!r}"] if row["fault.held"] else []

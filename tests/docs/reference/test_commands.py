@@ -81,9 +81,9 @@ FAILS = (  # exit status 1
 )
 # What begins the work of a verb, once all that it was given has been looked at.
 WORK = {
-    "batch": ["campaigns.fly.runner.run_batch"],
+    "batch": ["verbs.batch.open_campaign"],
     "prepare": ["verbs.prepare.open_campaign"],
-    "sensitivity": ["studies.sensitivity.study.sensitivity"],
+    "sensitivity": ["verbs.sensitivity.study.sensitivity"],
     "benchmark": ["verbs.benchmark.run_benchmark"],
     "compare": ["verbs.compare.compare_folders"],
     "design": ["verbs.design.transfer.hover_study", "verbs.design.bound.landing_study"],

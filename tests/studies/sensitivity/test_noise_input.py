@@ -74,7 +74,7 @@ def test_the_noise_of_a_landing(tmp_path, capsys):
     assert table["streams_of.navigation"].to_pylist()[:2] == [0.0, 1.0]
     assert table["streams_of.navigation"].to_pylist()[-1] == 63.0
     words = next(line for line in captured.out.splitlines() if line.startswith("replay: ")).split()[1:]
-    assert main([*words[1:-1], "5", "--json", "-"]) in (0, 1)
+    assert main([*words[1:3], "5", *words[4:], "--json", "-"]) in (0, 1)
     assert f"{result.flown.metrics['position_error'][5]:.4g}"[:4] in capsys.readouterr().out
 
 

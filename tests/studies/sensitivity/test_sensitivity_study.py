@@ -84,7 +84,6 @@ def test_the_command_says_its_price_first(linear, capsys):
     [
         (["--base", "100"], "--base: 100: not a power of two from 32 on"),
         (["--base", "16"], "--base: 16"),
-        (["--noise-trial", "2"], "--noise-trial: 2"),
     ],
 )
 def test_wrong_input(linear, capsys, options, words):
