@@ -12,7 +12,6 @@ from fmpy import read_model_description
 from ...fmus_src.block import Block
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
-from ...fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 from ...fmus_src.paths import LAWS, SEARCHES
 from ..runtime.ssp.archive import SystemArchive, open_system, system_names
 from ..runtime.ssp.reading import read_description
@@ -92,7 +91,7 @@ def inventory() -> Inventory:
 def _system(archive: SystemArchive) -> SystemFiles:
     return SystemFiles(
         tuple(sorted(Path(name).name for name in archive.files if name.endswith(".ssv"))),
-        tuple(sorted(Path(name).stem for name in archive.files if name.startswith(f"{CAMPAIGN_FOLDER}/"))),
+        tuple(sorted(archive.campaign_names())),
         tuple(loop.name for loop in read_declaration(read_description(archive)).loops),
     )
 

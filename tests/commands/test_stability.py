@@ -288,7 +288,7 @@ def test_unstable_trials_are_counted_and_the_worst_is_named(plain, tmp_path, cap
         f"the worst again: {spread['replay']}"
     ]
     assert main(["stability", *given]) == 1
-    assert f"{unstable} of {TRIALS} trials unstable; the worst, trial" in capsys.readouterr().out
+    assert f"{unstable} of {TRIALS} trials unstable; worst trial {spread['worst_trial']}: " in capsys.readouterr().out
 
 
 def test_the_same_numbers_twice_whatever_the_workers(packed, campaign, capsys):

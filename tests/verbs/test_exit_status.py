@@ -47,6 +47,8 @@ ROWS = [
     (f"batch {ONE} --trials 2 {FAILING}", 1),
     (f"batch {SYSTEM} --campaign {{folder}}/undecided.toml --workers 1", 1),
     (f"batch {ONE} --trials 0", 2),
+    (f"prepare {ONE.removesuffix(' --workers 1')} --trials 2 --output {{folder}}/new", 0),
+    (f"prepare {ONE.removesuffix(' --workers 1')} --trials 2 --output {{folder}}/prepared", 2),
     (f"replay {ONE.replace(' --', ' 1 --', 1).removesuffix(' --workers 1')} --trials 2", 0),
     (f"replay {ONE.replace(' --', ' 1 --', 1).removesuffix(' --workers 1')} --trials 2 {FAILING}", 1),
     (f"sensitivity {ONE} --base 32", 0),

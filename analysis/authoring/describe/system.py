@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 from ...runtime.system.prepared import PreparedSystem
 from ...stability.request.reading import read_declaration
 from .fits import fitting
@@ -21,7 +20,7 @@ def describe_system(prepared: PreparedSystem) -> dict[str, Any]:
         "step": prepared.step,
         "stop_time": prepared.start + prepared.steps * prepared.step,
         "parameter_sets": sorted(Path(name).name for name in files if name.endswith(".ssv")),
-        "campaigns": sorted(Path(name).stem for name in files if name.startswith(f"{CAMPAIGN_FOLDER}/")),
+        "campaigns": sorted(prepared.archive.campaign_names()),
         "variants": prepared.archive.variants(),
         "loops": [loop.name for loop in read_declaration(prepared.network.description).loops],
         "connectors": [

@@ -166,8 +166,8 @@ def read_plan(
     ``draws`` is a file of draws to fly in place of drawn ones, ``sweeps`` are parameters with their low:high:step.
     """
     archive = open_system(system)
-    data, label = archive.campaign(campaign)
-    source = read_source(data, label, archive)
+    raw, label = archive.campaign(campaign)
+    source = read_source(raw, label, archive)
     read = parse_campaign(source.table())
     if read.system.removesuffix(".ssp").removesuffix(".fmu") != archive.name:
         raise InputError(label, "system", f"the campaign is for {read.system}, not {archive.name}", "fly that system")

@@ -63,5 +63,5 @@ class AnnotationReader:
         except ValueError:
             value = math.nan
         if not math.isfinite(value) or (positive and value <= 0.0):
-            raise self.refuse(element, f"{name} {text!r} is not a {'positive ' if positive else ''}number", "mend it")
+            raise self.refuse(element, f"{name} {text!r} is not a {'positive ' if positive else ''}number", "fix it")
         return value

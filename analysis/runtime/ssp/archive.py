@@ -144,8 +144,13 @@ class SystemArchive:
 
     def campaign(self, name: str) -> tuple[bytes, str]:
         """A campaign by name: the system's own, else a path."""
-        places = (f"{CAMPAIGN_FOLDER}/{name}", f"{CAMPAIGN_FOLDER}/{name}.toml")
+        places = (self.campaign_path(name), self.campaign_path(f"{name}.toml"))
         return self._named(name, places, "`campaign`", ".toml")
+
+    @staticmethod
+    def campaign_path(name: str) -> str:
+        """The path inside an archive of a campaign's file."""
+        return f"{CAMPAIGN_FOLDER}/{name}"
 
     def campaign_names(self) -> list[str]:
         """The system's own campaigns; files in folders below theirs are parts that campaigns extend."""

@@ -38,7 +38,7 @@ def parse_xml(data: bytes, file: str) -> etree._Element:
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
-        raise InputError(file, f"line {error.lineno}", f"not well-formed XML: {error.msg}", "mend the XML") from error
+        raise InputError(file, f"line {error.lineno}", f"not well-formed XML: {error.msg}", "fix the XML") from error
     if root.getroottree().docinfo.internalDTD is not None:  # in an encoding in which the bytes look otherwise
         raise refusal
     return root

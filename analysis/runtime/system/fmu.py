@@ -89,13 +89,13 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
         raise InputError(label, "fmiVersion", f"{version!r} is not supported", "export the FMU for FMI 2.0")
     description, flaws = _read_description(archive.read(DESCRIPTION))
     if description is None:
-        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU")
+        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "fix the FMU")
     names = Counter(variable.name for variable in description.modelVariables)
     twice = [name for name, count in names.items() if count > 1]
     if twice:
-        raise InputError(label, str(twice[0]), "two variables of this name", "mend the FMU's modelDescription.xml")
+        raise InputError(label, str(twice[0]), "two variables of this name", "fix the FMU's modelDescription.xml")
     if flaws and strict:
-        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "mend the FMU, or fly without `strict`")
+        raise InputError(label, DESCRIPTION, f"not valid: {_some(flaws)}", "fix the FMU, or simulate without `strict`")
     if description.coSimulation is None:
         raise InputError(label, "CoSimulation", "not a co-simulation FMU", "export it for co-simulation")
     if fmpy.architecture == "aarch64" and fmpy.system != "darwin":

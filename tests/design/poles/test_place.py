@@ -100,7 +100,7 @@ SYSTEM = ([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
         (
             (SYSTEM[0], [[1.0]], SYSTEM[2]),
             {},
-            "modal: B: it is 1 by 1 where A has 2 states; give a row for each state",
+            "modal: B: it is 1 by 1, and A has 2 states; give a row for each",
         ),
         ((*SYSTEM[:2], [-1.0]), {}, "modal: poles: there are 1; give 2, repeated ones repeated"),
         ((*SYSTEM[:2], [-1.0, 2j]), {}, "modal: poles: 0+2j has no conjugate; give 0-2j, too"),

@@ -65,5 +65,5 @@ def test_flaws_are_told_each_time(tiny, tmp_path):
     assert first.flaws == second.flaws != []
     first.flaws.clear()
     assert load(flawed).flaws == second.flaws
-    with pytest.raises(InputError, match=r"again: modelDescription.xml: not valid: .*Odd.*; mend the FMU"):
+    with pytest.raises(InputError, match=r"again: modelDescription.xml: not valid: .*Odd.*; fix the FMU"):
         load_fmu(flawed.read_bytes(), "again", strict=True)

@@ -88,7 +88,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
 def _source(source: CampaignSource, keep: Callable[[bytes, str], str]) -> dict[str, Any]:
     """The contents of a campaign's file, and of those that it extends."""
     extends = [{"label": part.label, **_source(part, keep)} for part in source.extends]
-    own = {"content": keep(source.data, source.label)}
+    own = {"content": keep(source.raw, source.label)}
     return own | {"extends": extends, "position": source.position} if extends else own
 
 

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .....fmus_src.export.ssp_package import CAMPAIGN_FOLDER
 from ....common.errors import InputError
 from ....runtime.ssp.archive import SystemArchive
 from .lines import key_lines
@@ -24,20 +23,20 @@ Origin = tuple[str, int]  # file and line
 
 @dataclass(frozen=True)
 class CampaignSource:
-    """A campaign's file, ``data`` with its ``label`` for messages, and the files that it ``extends``, in their order.
+    """A campaign's file, ``raw`` with its ``label`` for messages, and the files that it ``extends``, in their order.
 
     ``position`` is the number of those whose entries come before its own, which are the last unless it says otherwise.
     """
 
     label: str
-    data: bytes
+    raw: bytes
     extends: tuple[CampaignSource, ...] = ()
     position: int = 0
 
     @property
     def sha256(self) -> str:
         """Of the file, and of all that it extends."""
-        digest = hashlib.sha256(self.data)
+        digest = hashlib.sha256(self.raw)
         for part in self.extends:
             digest.update(bytes.fromhex(part.sha256))
         return digest.hexdigest()
@@ -66,16 +65,16 @@ class CampaignSource:
         return Table(content, self.label, origins=origins)
 
     def _add_own(self, content: dict[str, Any], origins: dict[str, Origin]) -> None:
-        own = parse_toml(self.data, self.label)
+        own = parse_toml(self.raw, self.label)
         own.pop(EXTENDS, None)
         _merge(content, own, self.label)
-        lines = key_lines(self.data.decode("utf-8"))
+        lines = key_lines(self.raw.decode("utf-8"))
         origins |= {name: (self.label, line) for name, line in lines.items() if name != EXTENDS}
 
 
-def read_source(data: bytes, label: str, archive: SystemArchive | None = None) -> CampaignSource:
+def read_source(raw: bytes, label: str, archive: SystemArchive | None = None) -> CampaignSource:
     """A campaign's file with those that it extends, perhaps in an ``archive``. Raises InputError, for a cycle too."""
-    return _read_source(data, label, archive, ())
+    return _read_source(raw, label, archive, ())
 
 
 def read_source_file(path: Path) -> CampaignSource:
@@ -86,8 +85,8 @@ def read_source_file(path: Path) -> CampaignSource:
         raise InputError(path, "", error.strerror or str(error), "give a readable file") from error
 
 
-def _read_source(data: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...]) -> CampaignSource:
-    names = parse_toml(data, label).get(EXTENDS, [])
+def _read_source(raw: bytes, label: str, archive: SystemArchive | None, chain: tuple[str, ...]) -> CampaignSource:
+    names = parse_toml(raw, label).get(EXTENDS, [])
     names = [names] if isinstance(names, str) else names
     if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
         raise InputError(label, EXTENDS, f"{names!r} is not a file", 'write extends = "FILE.toml", or a list of files')
@@ -102,7 +101,7 @@ def _read_source(data: bytes, label: str, archive: SystemArchive | None, chain: 
             path = " -> ".join([*chain, label, other])
             raise InputError(label, EXTENDS, f"a cycle: {path}", "remove one of these")
         parts.append(_read_source(content, other, archive, (*chain, label)))
-    return CampaignSource(label, data, tuple(parts), names.index(HERE) if HERE in names else len(parts))
+    return CampaignSource(label, raw, tuple(parts), names.index(HERE) if HERE in names else len(parts))
 
 
 def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
@@ -118,7 +117,7 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
             return path.read_bytes(), str(path)
     known = [] if archive is None else archive.campaign_names()
     if archive is not None:
-        place = f"{CAMPAIGN_FOLDER}/{name}"  # so that a copy of a system's campaign still extends what that did
+        place = archive.campaign_path(name)  # so that a copy of a system's campaign still extends what that did
         if place in archive.files:
             return archive.read(place, origin), f"{archive.label}!{place}"
         if name in known:
@@ -127,10 +126,10 @@ def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes,
     raise InputError(origin, EXTENDS, f"no file {name}", remedy)
 
 
-def parse_toml(data: bytes, label: str) -> dict[str, Any]:
+def parse_toml(raw: bytes, label: str) -> dict[str, Any]:
     """The content of a TOML file. Raises InputError."""
     try:
-        return tomllib.loads(data.decode("utf-8"))
+        return tomllib.loads(raw.decode("utf-8"))
     except UnicodeDecodeError as error:
         raise InputError(label, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
     except tomllib.TOMLDecodeError as error:

@@ -40,7 +40,7 @@ def test_a_full_disk_ends_it_and_room_goes_on_with_it(tmp_path):
     said = [line for line in done.stderr.splitlines() if line.startswith("perilune: ")]
     assert len(said) == 1
     assert "No space left on device; free some space; completed trials are stored in" in said[0]
-    assert "with --resume" in said[0]
+    assert "resume with the same command and --resume, or with shard" in said[0]
     assert not [line for line in done.stdout.splitlines() if line.startswith(f"{disk}/out/")]
     assert main([*CAMPAIGN, "--output", str(tmp_path / "whole")]) == 0
     assert bytes_of(kept) == bytes_of(tmp_path / "whole")

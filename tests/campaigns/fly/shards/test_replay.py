@@ -198,4 +198,4 @@ def test_pages_print_the_short_command_where_there_is_a_folder(folder, tmp_path,
     main(shlex.split(rows[0].command)[1:])
     assert "identical to the stored trial, bit for bit" in capsys.readouterr().out
     alone = perilune.batch(SYSTEM, "noisy", trials=2, workers=1, compare={"guidance": ["analytic_guidance"]})
-    assert all(row.command.startswith("perilune batch ") for row in extremes_to_replay(alone))
+    assert all(row.command.startswith("perilune replay ") for row in extremes_to_replay(alone))

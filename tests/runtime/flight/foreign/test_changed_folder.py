@@ -49,12 +49,12 @@ def elsewhere(tmp_path, monkeypatch):
 def test_run(elsewhere, capsys):
     files = ["--output", "o.csv", "--report", "r.html", "--json", "j.json"]
     assert main(["run", "odd.ssp", "--parameters", "more.ssv", *files]) == 0
-    assert os.getcwd() == str(elsewhere)
     here = elsewhere.with_name("here")
+    assert os.getcwd() == str(here)
     assert list(elsewhere.iterdir()) == []
     assert {"o.csv", "o.csv.json", "r.html", "j.json"} <= {path.name for path in here.iterdir()}
     assert json.loads((here / "j.json").read_text())["final"]["odd.y"] == 7.0
-    assert "written: j.json, o.csv, r.html" in capsys.readouterr().out
+    assert "written: o.csv, r.html, j.json" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("workers", ["1", "2"])

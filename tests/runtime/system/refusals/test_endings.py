@@ -89,6 +89,6 @@ def test_arguments_that_argparse_refuses(tmp_path, tiny, capfd, monkeypatch, arg
         main(arguments)
     captured = capfd.readouterr()
     assert (ending.value.code, captured.out) == (2, "")
-    assert re.fullmatch(r"perilune: run: .*\n", captured.err)
+    assert re.fullmatch(r"perilune: .*\n", captured.err)
     assert "_seconds" not in captured.err
     assert {entry.name for entry in tmp_path.iterdir()} == {"trouble.ssp"}
