@@ -45,16 +45,16 @@ class Parser(argparse.ArgumentParser):
 
 def overview() -> str:
     """The verbs by purpose, each purpose with an example."""
-    parts = ["Spacecraft guidance, navigation and control as FMI components."]
+    lines = ["Spacecraft guidance, navigation and control as FMI components."]
     for purpose in PURPOSES:
         verbs = [verb for verb in VERBS.values() if verb.purpose == purpose]
         rows = [(verb.name, verb.text) for verb in verbs]
-        parts += ["", f"{purpose}:", *_rows(rows)]
+        lines += ["", f"{purpose}:", *_rows(rows)]
         examples = [
             text for verb in verbs for text, _ in verb.examples if f"{text} ".startswith(f"perilune {verb.name} ")
         ]
-        parts.append(f"  example: {_broken(examples[0], 11)}")
-    return "\n".join(parts)
+        lines.append(f"  example: {_broken(examples[0], 11)}")
+    return "\n".join(lines)
 
 
 def group_help(group: str) -> str:

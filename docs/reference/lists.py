@@ -18,7 +18,7 @@ def kind_of(block: type[Block]) -> str:
 
 def catalogue_page() -> str:
     """Markdown of all blocks by kind, to lie in reference/blocks."""
-    parts = [
+    sections = [
         "# Blocks",
         f"All {len(catalogue())} blocks of the repository; each is an FMU of the same name. `perilune describe NAME` "
         "prints the same of an FMU, of a slot or of a system.",
@@ -29,13 +29,13 @@ def catalogue_page() -> str:
             for name, block in catalogue().items()
             if kind_of(block) == kind
         ]
-        parts += [f"## {kind.capitalize()}", table(["block", "slot", "what it is"], rows)]
-    return "\n\n".join(parts) + "\n"
+        sections += [f"## {kind.capitalize()}", table(["block", "slot", "what it is"], rows)]
+    return "\n\n".join(sections) + "\n"
 
 
 def slots_page() -> str:
     """Markdown of all interfaces, to lie in reference."""
-    parts = [
+    sections = [
         "# Slots",
         "A slot is an interface: what all blocks in it have in common, so that one is put in another's place by "
         "`--use SLOT=FMU`. Some stand between a slot and its blocks and hold what a few of them share.",
@@ -43,13 +43,13 @@ def slots_page() -> str:
     for name, slot in slots().items():
         members = blocks_of_slot(slot)
         rows = [[f"[{block.fmu_name}](blocks/{block.fmu_name}.md)", escaped(block.summary())] for block in members]
-        parts += [f"## {name}", prose(slot.__doc__, "../"), table(["block", "what it is"], rows)]
+        sections += [f"## {name}", prose(slot.__doc__, "../"), table(["block", "what it is"], rows)]
         for title, content in (("Inputs", inputs(slot)), ("Outputs", outputs(slot)), ("Parameters", parameters(slot))):
             if content:
-                parts.append(
+                sections.append(
                     f'??? note "{title} of {name}"\n\n' + "\n".join(f"    {row}" for row in content.splitlines())
                 )
-    return "\n\n".join(parts) + "\n"
+    return "\n\n".join(sections) + "\n"
 
 
 def _slot(block: type[Block], root: str) -> str:

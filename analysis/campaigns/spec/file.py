@@ -111,8 +111,8 @@ def _record(table: Table) -> Record:
     every = table.get("every", integer, None)
     if every is not None and every < 1:
         raise table.error("every", f"{every} row(s)", "give 1 or more: every n-th row is kept")
-    none: tuple[str, ...] = ()
-    signals = table.get("signals", names, none)
+    nothing: tuple[str, ...] = ()
+    signals = table.get("signals", names, nothing)
     if (every is None) != (not signals):
         missing = "signals" if every is not None else "every"
         raise table.error(missing, "missing", "give every = n together with signals = [...], or neither")
@@ -122,7 +122,7 @@ def _record(table: Table) -> Record:
     if trials is not None and every is None:
         raise table.error("trials", "nothing is sampled", "give every = n and signals = [...] too, or drop trials")
     traces = table.get("traces", choice_of(*TRACES), "none")
-    return Record(table.get("final", names, none), every, signals, traces, trials)
+    return Record(table.get("final", names, nothing), every, signals, traces, trials)
 
 
 def _settings(table: Table, drawn: list[str]) -> dict[str, Setting]:

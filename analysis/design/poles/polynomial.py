@@ -46,8 +46,8 @@ def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
     coefficients = np.eye(size)[None]
     for place, solvent in enumerate(solvents):
         factor = real_matrix(f"solvents[{place}]", solvent, (size, size))
-        none = np.zeros((1, size, size))
-        coefficients = np.concatenate([none, coefficients]) - np.concatenate([factor @ coefficients, none])
+        zero = np.zeros((1, size, size))
+        coefficients = np.concatenate([zero, coefficients]) - np.concatenate([factor @ coefficients, zero])
     return coefficients[:-1]
 
 

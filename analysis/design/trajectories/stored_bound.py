@@ -16,8 +16,6 @@ from typing import Any
 from ...common.atomic import write_atomically
 from ...common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
-from ...verbs.options.command import write_command
-from ...verbs.options.design import BOUND
 from .declared_bound import Inputs, read_inputs
 
 PLACE = "extra/bound.json"  # in the folder, and so in the .ssp
@@ -60,14 +58,14 @@ def find_bound(prepared: PreparedSystem) -> StoredBound | MissingBound | None:
     inputs = read_inputs(prepared)
     if inputs is None:
         return None
-    remedy = write_command(BOUND, {"system": prepared.archive.name}, {"store": True})
+    remedy = f"store it with perilune design bound {prepared.archive.name}"
     if PLACE not in prepared.archive.files:
-        return MissingBound(f"no {PLACE} in the system; {remedy} writes it")
+        return MissingBound(f"no {PLACE} in the system; {remedy}")
     bound = read_bound(prepared.archive.read(PLACE, PLACE), f"{prepared.archive.label}/{PLACE}")
     if bound.sha256 != digest(inputs):
         names = dict.fromkeys([*inputs, *bound.inputs])
         other = [name for name in names if bound.inputs.get(name) != inputs.get(name)]
-        return MissingBound(f"{PLACE} was made for another {', '.join(other)}; {remedy} makes it anew")
+        return MissingBound(f"{PLACE} was made for another {', '.join(other)}; {remedy}")
     return bound
 
 

@@ -26,17 +26,17 @@ def read_declaration(description: Description) -> Declaration:
 
 class _Reader(AnnotationReader):
     def declaration(self, annotation: etree._Element) -> Declaration:
-        parts = self.parts(self.content(annotation, "Stability"), ("Limits", "Point", "Loop", "Sweep"))
-        points = tuple(self.point(item) for item in parts["Point"])
-        loops = tuple(self.loop(item, {point.name for point in points}) for item in parts["Loop"])
+        children = self.parts(self.content(annotation, "Stability"), ("Limits", "Point", "Loop", "Sweep"))
+        points = tuple(self.point(item) for item in children["Point"])
+        loops = tuple(self.loop(item, {point.name for point in points}) for item in children["Loop"])
         by_name = {loop.name: loop for loop in loops}
-        sweeps = tuple(self.sweep(item, by_name) for item in parts["Sweep"])
-        for items, elements in ((points, parts["Point"]), (loops, parts["Loop"]), (sweeps, parts["Sweep"])):
+        sweeps = tuple(self.sweep(item, by_name) for item in children["Sweep"])
+        for items, elements in ((points, children["Point"]), (loops, children["Loop"]), (sweeps, children["Sweep"])):
             names = [item.name for item in items]
             for position, name in enumerate(names):
                 if name in names[:position]:
                     raise self.refuse(elements[position], f"the name {name} is taken", "give it another one")
-        return Declaration(self.limits(parts["Limits"]), points, loops, sweeps)
+        return Declaration(self.limits(children["Limits"]), points, loops, sweeps)
 
     def limits(self, elements: list[etree._Element]) -> Limits:
         names = [item.name for item in fields(Limits)]
@@ -55,7 +55,7 @@ class _Reader(AnnotationReader):
         time, until = self.number(element, "time"), self.number(element, "until")
         if time is not None and until is not None and until <= time:
             raise self.refuse(element, f"it lasts until {until:g} s but is at {time:g} s", "give a later end")
-        parts = self.parts(element, ("Use", "ParameterSet", "Set"))
+        children = self.parts(element, ("Use", "ParameterSet", "Set"))
         return Point(
             name=values["name"],
             time=time,
@@ -64,10 +64,10 @@ class _Reader(AnnotationReader):
             until=until,
             phase=values.get("phase", ""),
             layer=Layer(
-                use=self.uses(parts["Use"]),
-                parameters=tuple(self.attributes(item, ("source",))["source"] for item in parts["ParameterSet"]),
-                set=self.pairs(parts["Set"], "name", "value"),
-                places={item.get("name", "").strip(): (self.file, item.sourceline or 0) for item in parts["Set"]},
+                use=self.uses(children["Use"]),
+                parameters=tuple(self.attributes(item, ("source",))["source"] for item in children["ParameterSet"]),
+                set=self.pairs(children["Set"], "name", "value"),
+                places={item.get("name", "").strip(): (self.file, item.sourceline or 0) for item in children["Set"]},
             ),
         )
 

@@ -119,7 +119,7 @@ def _chosen(description: Description, names: Sequence[str], at: Sequence[float])
     if at:
         asked = {name for loop in wanted for name in loop.points}
         here = [point for point in declared.points if point.name in asked]
-        points, sweeps = (*_moved(here, at), *cuts), ()
+        points, sweeps = (*_shifted(here, at), *cuts), ()
         origins = {point.name: _with_settings_of(point, here) for point in here}
         wanted = [_at_times(loop, at, origins) if loop.name in by_name else loop for loop in wanted]
     used = {point for loop in wanted for point in loop.points}
@@ -132,9 +132,9 @@ def _chosen(description: Description, names: Sequence[str], at: Sequence[float])
     )
 
 
-def _moved(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
+def _shifted(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
     """Points with the settings of declared ones at other times. Raises InputError where one lies behind their end."""
-    moved = []
+    shifted = []
     for point in points:
         for time in at:
             if point.until is not None and time >= point.until:
@@ -144,8 +144,8 @@ def _moved(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
                 )
             name = _name_at(point.name, time)
             phase = f"settings of {point.name}"
-            moved.append(replace(point, name=name, time=time, signal=None, falls_to=None, phase=phase))
-    return moved
+            shifted.append(replace(point, name=name, time=time, signal=None, falls_to=None, phase=phase))
+    return shifted
 
 
 def _with_settings_of(point: Point, points: Sequence[Point]) -> str:

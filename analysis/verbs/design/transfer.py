@@ -101,8 +101,8 @@ def _margins(options: TransferOptions, vehicle: Vehicle) -> Margins | None:
     if not numbers and not margins:
         return None
     if not isinstance(margins, Margins):
-        none = Margins(1.0, vehicle.minimum_thrust / vehicle.maximum_thrust, vehicle.angular_acceleration)
-        margins = HOVER_MARGINS if margins else none
+        unlimited = Margins(1.0, vehicle.minimum_thrust / vehicle.maximum_thrust, vehicle.angular_acceleration)
+        margins = HOVER_MARGINS if margins else unlimited
     if "angular_acceleration" in numbers:
         numbers["angular_acceleration"] = math.radians(numbers["angular_acceleration"])
     return replace(margins, **numbers)

@@ -146,7 +146,7 @@ def test_hash_is_of_every_input():
 def test_stored_and_found(tmp_path):
     place = declared_system(tmp_path)
     missing = find_bound(prepared(place))
-    assert missing == MissingBound(f"no {PLACE} in the system; perilune design bound landing --store writes it")
+    assert missing == MissingBound(f"no {PLACE} in the system; store it with perilune design bound landing")
     assert write_bound(BOUND, place) == place / PLACE
     assert find_bound(prepared(place)) == BOUND
     other = find_bound(prepared(place, set={"plant.specific_impulse": 330, "plant.initial_mass": 900}))

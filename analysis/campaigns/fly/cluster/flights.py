@@ -58,24 +58,24 @@ class Cluster:
             while True:
                 threads = self._threads()
                 for _ in range(WAITING * max(threads, 1) - len(under_way)):
-                    pieces = tuple(portions.next(max(threads, 1))) or again.next()
-                    if pieces:
-                        under_way[client.submit(work.fly, here, pieces, pure=False)] = pieces
+                    task = tuple(portions.next(max(threads, 1))) or again.next()
+                    if task:
+                        under_way[client.submit(work.fly, here, task, pure=False)] = task
                 if not under_way:
                     return
                 for future in self._done(under_way):
-                    pieces = under_way.pop(future)
+                    task = under_way.pop(future)
                     try:
                         shard_trials = future.result()
                     except KilledWorker as error:
                         if error.task == here.key:
                             here = client.submit(_itself, sent, pure=False)
-                        again.add(pieces)
+                        again.add(task)
                         left = [] if portions.trials else again.hopeless(under_way.values())
                         if left:
                             raise WorkersDiedError(_what_ends_them(left)) from error
                         continue
-                    for piece, (trials, seconds) in zip(pieces, shard_trials, strict=True):
+                    for piece, (trials, seconds) in zip(task, shard_trials, strict=True):
                         portions.measured(piece, seconds)
                         whole = parts.add(piece.shard, piece.variant, trials)
                         if whole is not None:

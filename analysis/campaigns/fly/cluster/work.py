@@ -49,7 +49,7 @@ class _Held:
     busy: list[Flyer] = field(default_factory=list)
 
 
-def fly(sent: Sent, pieces: Sequence[Piece]) -> list[tuple[Trials, float]]:
+def fly(sent: Sent, task: Sequence[Piece]) -> list[tuple[Trials, float]]:
     """Fly some trials; those of each piece, and the seconds that they took without what comes before the first one.
 
     Raises InputError in a worker that has another perilune, which may come at any time.
@@ -61,7 +61,7 @@ def fly(sent: Sent, pieces: Sequence[Piece]) -> list[tuple[Trials, float]]:
     folder = Path(worker.local_directory).absolute() / FOLDER
     simulated = []
     with nullcontext() if sent.threads else _one_flight, _flyer(sent, folder) as flyer:
-        for piece in pieces:
+        for piece in task:
             flyer.simulation(piece.variant)
             began = time.perf_counter()
             try:

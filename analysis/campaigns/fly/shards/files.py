@@ -90,30 +90,30 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
 
     Every variant has the same trials, which are in a row.
     """
-    parts = list(trials.values())
-    numbers = parts[0].trial
+    variants = list(trials.values())
+    numbers = variants[0].trial
     drawn = plan.drawn(range(int(numbers[0]), int(numbers[-1]) + 1))
     columns: dict[str, Any] = {
         "variant": texts_of(name for name, part in trials.items() for _ in part.trial),
-        "trial": _joined(parts, lambda part: part.trial),
-        "status": texts_of(status for part in parts for status in part.statuses),
-        "success": _joined(parts, lambda part: part.success),
-        "message": texts_of(part.messages.get(int(trial), "") for part in parts for trial in part.trial),
-        "end_time": _joined(parts, lambda part: part.end_time),
+        "trial": _joined(variants, lambda part: part.trial),
+        "status": texts_of(status for part in variants for status in part.statuses),
+        "success": _joined(variants, lambda part: part.success),
+        "message": texts_of(part.messages.get(int(trial), "") for part in variants for trial in part.trial),
+        "end_time": _joined(variants, lambda part: part.end_time),
     }
     for name, values in drawn.table.columns.items():
-        columns[f"draw.{name}"] = np.tile(values, len(parts))
+        columns[f"draw.{name}"] = np.tile(values, len(variants))
     for fault in drawn.faults:
-        columns |= {name: np.tile(values, len(parts)) for name, values in fault.columns().items()}
-    for name in parts[0].final:
-        columns[f"final.{name}"] = _joined(parts, lambda part, name=name: part.final[name])
-    for name in parts[0].metrics:
-        columns[f"metric.{name}"] = _joined(parts, lambda part, name=name: part.metrics[name])
+        columns |= {name: np.tile(values, len(variants)) for name, values in fault.columns().items()}
+    for name in variants[0].final:
+        columns[f"final.{name}"] = _joined(variants, lambda part, name=name: part.final[name])
+    for name in variants[0].metrics:
+        columns[f"metric.{name}"] = _joined(variants, lambda part, name=name: part.metrics[name])
     return table_of(columns)
 
 
-def _joined(parts: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.ndarray:
-    return np.concatenate([column(part) for part in parts])
+def _joined(tables: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.ndarray:
+    return np.concatenate([column(part) for part in tables])
 
 
 def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> None:

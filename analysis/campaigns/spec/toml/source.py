@@ -48,7 +48,7 @@ class CampaignSource:
             yield from part.files()
 
     def table(self) -> Table:
-        """The merged content. A later file's entry takes the place of an earlier one of the same name.
+        """The merged content. A later file's entry replaces an earlier one of the same name.
 
         The entries of [draw], [metric], [requirement], [fault], [scatter] and [configuration] are tables, those of
         [set], [derive], [compare], [record], [group] and [success] are values. Raises InputError.
@@ -92,7 +92,7 @@ def _read_source(raw: bytes, label: str, archive: SystemArchive | None, chain: t
         raise InputError(label, EXTENDS, f"{names!r} is not a file", 'write extends = "FILE.toml", or a list of files')
     if names.count(HERE) > 1:
         raise InputError(label, EXTENDS, f"{HERE!r} is there twice", "give this file's own position once")
-    parts = []
+    extended = []
     for name in names:
         if name == HERE:
             continue
@@ -100,26 +100,26 @@ def _read_source(raw: bytes, label: str, archive: SystemArchive | None, chain: t
         if other in (*chain, label):
             path = " -> ".join([*chain, label, other])
             raise InputError(label, EXTENDS, f"a cycle: {path}", "remove one of these")
-        parts.append(_read_source(content, other, archive, (*chain, label)))
-    return CampaignSource(label, raw, tuple(parts), names.index(HERE) if HERE in names else len(parts))
+        extended.append(_read_source(content, other, archive, (*chain, label)))
+    return CampaignSource(label, raw, tuple(extended), names.index(HERE) if HERE in names else len(extended))
 
 
 def _find(name: str, origin: str, archive: SystemArchive | None) -> tuple[bytes, str]:
     """A file that the file ``origin`` extends, by its path relative to that, else a campaign of the system by name."""
     label, mark, inside = origin.partition("!")
     if mark and archive is not None and label == archive.label:
-        place = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
-        if place in archive.files:
-            return archive.read(place, origin), f"{label}!{place}"
+        path = posixpath.normpath(posixpath.join(posixpath.dirname(inside), name))
+        if path in archive.files:
+            return archive.read(path, origin), f"{label}!{path}"
     else:
-        path = Path(os.path.normpath(os.path.join(os.path.dirname(origin), name)))
-        if path.is_file():
-            return path.read_bytes(), str(path)
+        file = Path(os.path.normpath(os.path.join(os.path.dirname(origin), name)))
+        if file.is_file():
+            return file.read_bytes(), str(file)
     known = [] if archive is None else archive.campaign_names()
     if archive is not None:
-        place = archive.campaign_path(name)  # so that a copy of a system's campaign still extends what that did
-        if place in archive.files:
-            return archive.read(place, origin), f"{archive.label}!{place}"
+        path = archive.campaign_path(name)  # so that a copy of a system's campaign still extends what that did
+        if path in archive.files:
+            return archive.read(path, origin), f"{archive.label}!{path}"
         if name in known:
             return archive.campaign(name)
     remedy = f"give a path relative to this file{', or a campaign: ' + ', '.join(known) if known else ''}"
@@ -133,7 +133,7 @@ def parse_toml(raw: bytes, label: str) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         raise InputError(label, f"byte {error.start}", "not UTF-8", "save the file as UTF-8") from error
     except tomllib.TOMLDecodeError as error:
-        raise InputError(label, "", f"not TOML: {error}", "correct the file at that place") from error
+        raise InputError(label, "", f"not TOML: {error}", "correct the file there") from error
 
 
 def _merge(content: dict[str, Any], later: Mapping[str, Any], label: str) -> None:
