@@ -69,7 +69,7 @@ def _carry_out(given: Sequence[str]) -> int:
         return ExitStatus.NOT_MET
     except OSError as error:  # a file that cannot be read or written
         reason = f"{error.filename}: {error.strerror}" if error.filename else str(error)
-        print(f"perilune: {reason}; give another path or mend this one", file=sys.stderr)
+        print(f"perilune: {reason}; give another path or fix this one", file=sys.stderr)
         return ExitStatus.REFUSED
 
 

@@ -58,10 +58,10 @@ def build_site(output: Path, sources: Path) -> None:
     if done.returncode:
         print(done.stdout, file=sys.stderr)
         reason = (done.stderr.strip().splitlines() or ["no reason given"])[-1]
-        raise InputError("docs", "zensical build", reason, "mend the places listed above")
+        raise InputError("docs", "zensical build", reason, "fix the places listed above")
     shutil.move(sources / "site", output)
     for page, target in broken_links(output):
-        raise InputError(page, target, "leads nowhere", "mend the link")
+        raise InputError(page, target, "leads nowhere", "fix the link")
 
 
 def site_settings() -> dict[str, Any]:

@@ -144,7 +144,7 @@ def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, fl
             continue
         mass, least, start, end = (values[f"{name}.{role}"] for role in HOVER)
         if not (start > end and mass > 0.0):
-            raise InputError(file, name, f"from {start:g} m down to {end:g} m with {mass:g} kg", "mend the annotation")
+            raise InputError(file, name, f"from {start:g} m down to {end:g} m with {mass:g} kg", "fix the annotation")
         radii = np.array([start, end]) + landing.radius
         gravity = float(np.mean(landing.gravitational_parameter / radii**2))
         lander = replace(vehicle, mass=mass, minimum_thrust=least)

@@ -123,7 +123,7 @@ class _Reader(AnnotationReader):
         try:
             complete_parameters(kind, values)
         except ValueError as error:
-            raise self.refuse(element, str(error), "mend it") from error
+            raise self.refuse(element, str(error), "fix it") from error
         use = self.uses(self.parts(element, ("Use",))["Use"])
         return Element(name, kind, values, use)
 
