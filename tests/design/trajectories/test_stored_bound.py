@@ -151,7 +151,9 @@ def test_stored_and_found(tmp_path):
     assert find_bound(prepared(place)) == BOUND
     other = find_bound(prepared(place, set={"plant.specific_impulse": 330, "plant.initial_mass": 900}))
     assert isinstance(other, MissingBound)
-    assert other.reason.startswith(f"{PLACE} was made for another mass, specific_impulse; store it with perilune design bound")
+    assert other.reason.startswith(
+        f"{PLACE} was made for another mass, specific_impulse; store it with perilune design bound"
+    )
     write_bound(
         replace(BOUND, inputs=INPUTS | {"more.altitude": 1.0}, sha256=digest(INPUTS | {"more.altitude": 1.0})), place
     )
