@@ -44,7 +44,8 @@ def _options(plan: BatchPlan, variant: Variant) -> dict[str, Any]:
     return {
         **trials,
         "seed": campaign.seed,
-        "compare": {name: [fmu] for name, fmu in variant.use.items()},
+        "configuration": variant.name if campaign.configurations else None,
+        "compare": {} if campaign.configurations else {name: [fmu] for name, fmu in variant.use.items()},
         **{name: value for name, value in settings.items() if name not in ("set", "places", "folder")},
         "set": {**campaign.sweeps, **plan.options.set},
         "faults": [str(fault) for fault in plan.faults],

@@ -150,9 +150,10 @@ def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> Stabilit
 
     ``loops`` are names that the system declares (all of them by default), or connectors to cut as
     ``component.connector`` at the time ``at`` (s), or at several. Declared loops are studied there, too, with the
-    settings of their points. ``campaign`` disperses the margins over its trials; ``trial`` studies the draws of one
-    of them instead, and ``draws`` is a file of given draws, as in `batch`. The rest is as in `simulate`. Raises
-    InputError, and StudyError where a simulation that the study needs fails.
+    settings of their points. ``campaign`` disperses the margins over its trials, with one ``configuration`` where it
+    has several; ``trial`` studies the draws of one of them instead, and ``draws`` is a file of given draws, as in
+    `batch`. The rest is as in `simulate`. Raises InputError, and StudyError where a simulation that the study needs
+    fails.
     """
     at, campaign, draws = options["at"], options["campaign"], options["draws"]
     request = read_request(
@@ -161,6 +162,7 @@ def stability(system: FilePath, **options: Unpack[StabilityOptions]) -> Stabilit
         loops=options["loops"],
         at=(at,) if isinstance(at, int | float) else tuple(at),
         campaign=None if campaign is None else os.fspath(campaign),
+        configuration=options["configuration"],
         trials=options["trials"],
         seed=options["seed"],
         trial=options["trial"],

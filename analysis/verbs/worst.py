@@ -117,6 +117,7 @@ def _worst_margin(
         Path(system),
         system_options(options),
         campaign=str(campaign),
+        configuration=options["configuration"],
         loop=options["loop"],
         point=options["point"],
         at=options["at"],

@@ -106,7 +106,7 @@ def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
         problem = f"its campaign compares {len(variants)}"
         raise InputError(file, "`configuration`", problem, f"give one of {', '.join(variants)}")
     if name is not None and name not in variants:
-        raise InputError(file, f"`configuration` {name}", "none of these", suggestion(name, variants))
+        raise InputError(file, f"`configuration` {name}", "no such configuration", suggestion(name, variants))
     return variants[name] if name is not None else next(iter(variants.values()))
 
 

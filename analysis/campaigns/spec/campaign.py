@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from ...common.errors import InputError
+from ...common.errors import InputError, suggestion
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import Layer
 from ..draws.declared import Draw, drawn_names
@@ -77,21 +77,28 @@ SCHEMES = ("table", "counter")  # one table of all trials, or every trial by its
 
 @dataclass(frozen=True)
 class Variant:
-    """One way to build the system: which FMU flies in each compared slot."""
+    """One way to build the system: a configuration, or the FMUs of compared slots.
+
+    ``use`` maps components to FMUs, ``parameters`` lists parameter sets, ``settings`` maps ``component.variable`` to
+    values; they come after the campaign's own.
+    """
 
     name: str
-    use: Mapping[str, str]
+    use: Mapping[str, str] = field(default_factory=dict)
+    parameters: tuple[str, ...] = ()
+    settings: Mapping[str, Setting] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Campaign:
     """A campaign as declared. Raises InputError where trials or seed make no sense, also after `replace`.
 
-    ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are
-    expressions over draws and earlier derived values. ``settings`` and ``compare`` are [set] and
-    [compare], ``group`` is the drawn or derived value by which [group] sums trials up, ``faults`` are [fault],
-    ``scatters`` [scatter], ``requirements`` [requirement], ``draw_scheme`` is one of `SCHEMES`. ``file`` is what errors
-    name. ``sweeps`` are the draws that the command line has added, as texts by name (sweeps.py).
+    ``metrics``, ``draws`` and ``derived`` keep the order of the file; ``derived`` are expressions over draws and
+    earlier derived values. ``settings`` and ``compare`` are [set] and [compare], ``configurations``
+    [configuration.NAME], of which ``selected`` is the only one that is simulated; ``group`` is the drawn or derived
+    value by which [group] sums trials up, ``faults`` are [fault], ``scatters`` [scatter], ``requirements``
+    [requirement], ``draw_scheme`` is one of `SCHEMES`. ``file`` is what errors name. ``sweeps`` are the draws that the
+    command line has added, as texts by name (sweeps.py).
     """
 
     file: str
@@ -104,6 +111,8 @@ class Campaign:
     derived: Mapping[str, Expression] = field(default_factory=dict)
     settings: Mapping[str, Setting] = field(default_factory=dict)
     compare: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    configurations: tuple[Variant, ...] = ()
+    selected: str | None = None
     parameters: tuple[str, ...] = ()
     record: Record = Record()
     description: str = ""
@@ -125,11 +134,11 @@ class Campaign:
         if self.seed < 0:
             raise InputError(self.file, "seed", f"{self.seed} is negative", "give a seed >= 0")
 
-    @property
-    def layer(self) -> Layer:
-        """What the campaign asks of the system, whatever it draws."""
-        places = dict.fromkeys(self.settings, (self.file, 0))
-        return Layer(parameters=self.parameters, set=self.settings, places=places)
+    def layer_of(self, variant: Variant) -> Layer:
+        """The FMUs, parameter sets and values of a variant, over those that all variants have."""
+        settings = {**self.settings, **variant.settings}
+        places = dict.fromkeys(settings, (self.file, 0))
+        return Layer(use=variant.use, parameters=self.parameters + variant.parameters, set=settings, places=places)
 
     def drawn_names(self) -> list[str]:
         """Names of all drawn and derived values."""
@@ -140,8 +149,24 @@ class Campaign:
         return SINGLE if drawn in self.sweeps else self.file
 
     def variants(self) -> list[Variant]:
-        """Every combination of the compared FMUs, named by them; one named ``default`` without [compare]."""
+        """The configurations, or every combination of the compared FMUs, named by them; else one named ``default``.
+
+        Of these only the ``selected`` one, if any.
+        """
+        return [each for each in self._declared_variants() if self.selected in (None, each.name)]
+
+    def _declared_variants(self) -> list[Variant]:
+        if self.configurations:
+            return list(self.configurations)
         if not self.compare:
-            return [Variant("default", {})]
+            return [Variant("default")]
         combinations = itertools.product(*self.compare.values())
         return [Variant("__".join(fmus), dict(zip(self.compare, fmus, strict=True))) for fmus in combinations]
+
+    def select(self, configuration: str) -> Campaign:
+        """The same campaign with one of its variants only. Raises InputError."""
+        names = [each.name for each in self._declared_variants()]
+        if configuration not in names:
+            element = f"`configuration` {configuration}"
+            raise InputError(self.file, element, "no such configuration", suggestion(configuration, names))
+        return replace(self, selected=configuration)

@@ -74,10 +74,15 @@ def _variables(plan: BatchPlan, prepared: PreparedSystem, drawn: set[str]) -> di
 
 def _refuse_conflicts(plan: BatchPlan) -> None:
     """Refuse options that the campaign would overrule: FMUs of a compared slot, values that are drawn."""
-    for slot in plan.campaign.compare:
-        if slot in plan.options.use:
+    variants = plan.campaign.variants()
+    for slot in plan.options.use:
+        if slot in plan.campaign.compare:
             raise InputError("`use`", slot, "the campaign compares FMUs in this slot", f"give `compare` {slot}=A,B")
+        if any(slot in variant.use for variant in variants):
+            raise InputError("`use`", slot, "configurations of the campaign choose this FMU", "change the campaign")
     for name in plan.options.set:
+        if any(name in variant.settings for variant in variants):
+            raise InputError("`set`", name, "configurations of the campaign set it", "change the campaign")
         drawn = any(column == name or column.startswith(f"{name}[") for column in plan.campaign.drawn_names())
         if drawn or name.endswith((".seed", ".stream")):
             raise InputError("`set`", name, "the campaign draws it in every trial", "change the campaign, or `seed`")

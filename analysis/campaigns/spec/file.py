@@ -9,7 +9,8 @@ from typing import Any
 from ...common.errors import InputError, suggestion
 from ..draws.declared import Draw
 from ..draws.given import stream_component
-from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter, Setting
+from .campaign import REDUCTIONS, SCHEMES, TRACES, Campaign, Metric, Record, Scatter
+from .configurations import read_compare, read_configurations, read_settings
 from .distributions.reading import read_draw
 from .expressions import RESERVED, Expression, is_name
 from .faults import CampaignFault, read_fault
@@ -125,25 +126,6 @@ def _record(table: Table) -> Record:
     return Record(table.get("final", names, nothing), every, signals, traces, trials)
 
 
-def _settings(table: Table, drawn: list[str]) -> dict[str, Setting]:
-    settings: dict[str, Setting] = {}
-    for name, value in table.flat():
-        numbers = isinstance(value, list) and value and all(isinstance(item, float | int) for item in value)
-        if not numbers and not isinstance(value, float | int | bool | str):
-            remedy = "give a number, true, false or a text; of a vector a list of numbers"
-            raise table.error(name, f"{value!r} is no value", remedy)
-        if "." not in name:
-            raise table.error(name, "names no component", "write component.variable = value")
-        if name in drawn:
-            raise table.error(name, "also drawn or derived", "keep one of the two")
-        settings[name] = value
-    return settings
-
-
-def _compare(table: Table) -> dict[str, tuple[str, ...]]:
-    return {slot: names(table, slot, value) for slot, value in table.flat()}
-
-
 def _faults(table: Table, drawn: list[str]) -> tuple[CampaignFault, ...]:
     for name in table.content:
         if not name.isidentifier():
@@ -198,7 +180,19 @@ def parse_campaign(table: Table) -> Campaign:
         remedy = "search with perilune design search, then fly the law with a campaign without this table"
         raise table.error(SYNTHESIS, "a search, not a batch", remedy)
     keys = ["system", "description", "trials", "seed", "parameters", "draw_scheme"]
-    tables = ["set", "compare", "draw", "derive", "fault", "group", "metric", "record", "success", "requirement"]
+    tables = [
+        "set",
+        "compare",
+        "configuration",
+        "draw",
+        "derive",
+        "fault",
+        "group",
+        "metric",
+        "record",
+        "success",
+        "requirement",
+    ]
     table.only([*keys, *tables, "scatter"])
     draws = _draws(table.table("draw"))
     derived = _derived(table.table("derive"), draws)
@@ -214,8 +208,9 @@ def parse_campaign(table: Table) -> Campaign:
         metrics=metrics,
         draws=draws,
         derived=derived,
-        settings=_settings(table.table("set"), drawn),
-        compare=_compare(table.table("compare")),
+        settings=read_settings(table.table("set"), drawn),
+        compare=read_compare(table.table("compare")),
+        configurations=read_configurations(table, drawn),
         parameters=table.get("parameters", names, ()),
         record=_record(table.table("record")),
         description=" ".join(table.get("description", text, "").split()),

@@ -12,7 +12,7 @@ from ...runtime.ssp.archive import SystemArchive, open_system
 from ...runtime.system.fault import Fault
 from ...runtime.system.in_flight.series import InputSeries
 from ...runtime.system.in_flight.watch import UNWATCHED, Watch
-from ...runtime.system.options import Layer, SystemOptions
+from ...runtime.system.options import SystemOptions
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 from ..draws.counted import CountedDraws
 from ..draws.given import GivenDraws, read_given
@@ -126,14 +126,20 @@ class BatchPlan:
 
     def prepare(self, variant: Variant) -> PreparedSystem:
         """The system as one variant flies it. Raises InputError."""
-        options = self.options.among(campaign=self.campaign.layer, study=Layer(use=variant.use))
+        options = self.options.among(campaign=self.campaign.layer_of(variant))
         try:
             return prepare_system(self.archive or self.system, options, series=self.series)
         except InputError as error:
             compared = {*variant.use, *variant.use.values(), *(f"{slot}={fmu}" for slot, fmu in variant.use.items())}
             if error.file == "`use`" and error.element in compared:
-                raise InputError(self.compared_by or "compare", error.element, error.problem, error.remedy) from error
+                raise InputError(self._declared_by(variant), error.element, error.problem, error.remedy) from error
             raise
+
+    def _declared_by(self, variant: Variant) -> str:
+        """What errors name for the FMUs of a variant."""
+        if self.campaign.configurations:
+            return f"{self.campaign.file}: configuration.{variant.name}.use"
+        return self.compared_by or "compare"
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of one trial: draws, and seed and stream of every component that has them."""
@@ -153,6 +159,7 @@ def read_plan(
     trials: int | None = None,
     seed: int | None = None,
     compare: Mapping[str, Sequence[str]] | None = None,
+    configuration: str | None = None,
     faults: Sequence[Fault] = (),
     series: InputSeries | None = None,
     watch: Watch | None = None,
@@ -162,7 +169,8 @@ def read_plan(
 ) -> BatchPlan:
     """Read a campaign by name or path, with the command line's changes. Raises InputError.
 
-    ``compare`` replaces the campaign's own comparison, ``faults`` come after its own, ``series`` are inputs over time,
+    ``compare`` replaces the campaign's own comparison and its configurations; ``configuration`` selects one of its
+    variants, all are simulated without it. ``faults`` come after its own, ``series`` are inputs over time,
     ``draws`` is a file of draws to fly in place of drawn ones, ``sweeps`` are parameters with their low:high:step.
     """
     archive = open_system(system)
@@ -180,11 +188,14 @@ def read_plan(
         changes["seed"] = seed
     if compare is not None:
         changes["compare"] = {slot: tuple(fmus) for slot, fmus in compare.items()}
+        changes["configurations"] = ()
     if draws is not None and trials is not None:
         raise InputError("`trials`", str(trials), "the file of `draws` says how many", "leave one of the two out")
     if draws is not None and sweeps:
         raise InputError("`set`", "=".join(next(iter(sweeps.items()))), "a sweep beside `draws`", "leave one out")
     changed = with_sweeps(replace(read, **changes), sweeps or {})
+    if configuration is not None:
+        changed = changed.select(configuration)
     if until_decided and not changed.requirements:
         remedy = "declare what is to be decided: [requirement.NAME]"
         raise InputError(label, "`until_decided`", "the campaign has no requirement", remedy)

@@ -57,7 +57,13 @@ class Request:
         settings = {each.name: getattr(self.options, each.name) for each in fields(SystemOptions)}
         options = {name: value for name, value in settings.items() if name in options_of(STABILITY.options)}
         trials = {"trials": self.plan.campaign.trials} if self.draws is None else {"draws": self.draws}
-        options |= {"campaign": self.campaign, "trial": trial, **trials, "seed": self.plan.campaign.seed}
+        options |= {
+            "campaign": self.campaign,
+            "configuration": self.plan.campaign.selected,
+            "trial": trial,
+            **trials,
+            "seed": self.plan.campaign.seed,
+        }
         return write_command(STABILITY, {"system": self.system}, options | {"loops": (loop,), "at": self.at})
 
 
@@ -68,6 +74,7 @@ def read_request(
     loops: Sequence[str] = (),
     at: Sequence[float] = (),
     campaign: str | None = None,
+    configuration: str | None = None,
     trials: int | None = None,
     seed: int | None = None,
     trial: int | None = None,
@@ -77,21 +84,31 @@ def read_request(
 
     ``loops`` are names of declared loops, or connectors of loops that are not declared, which are cut at the times
     ``at`` (s; 0 unless given). Declared loops are studied there too, each with the settings of its declared points, and
-    without sweeps, which belong to those points. With ``campaign`` margins are dispersed over its trials, or with
-    ``trial`` the study is made of that trial's draws. ``draws`` is a file of draws to take in place of drawn ones.
-    Raises InputError.
+    without sweeps, which belong to those points. With ``campaign``, of which ``configuration`` names one, margins are
+    dispersed over its trials, or with ``trial`` the study is made of that trial's draws. ``draws`` is a file of draws
+    to take in place of drawn ones. Raises InputError.
     """
     archive = open_system(system)
     times = tuple(sorted(set(map(float, at))))
     declaration = _chosen(read_description(archive, options.variant), loops, times)
     request = Request(archive.name, archive.label, str(system), options, declaration, at=times)
     if campaign is None:
-        for name, value in (("`trials`", trials), ("`seed`", seed), ("`trial`", trial), ("`draws`", draws)):
+        for name, value in (
+            ("`configuration`", configuration),
+            ("`trials`", trials),
+            ("`seed`", seed),
+            ("`trial`", trial),
+            ("`draws`", draws),
+        ):
             if value is not None:
                 raise InputError(name, str(value), "there is no campaign", "give `campaign` with it")
         return request
-    plan = read_plan(system, campaign, options, trials=trials, seed=seed, draws=draws)
-    plan = replace(plan, campaign=replace(plan.campaign, compare={}))  # of FMUs; a study is of one system
+    plan = read_plan(system, campaign, options, configuration=configuration, trials=trials, seed=seed, draws=draws)
+    if configuration is None:
+        plan = replace(plan, campaign=replace(plan.campaign, compare={}))  # of FMUs; a study is of one system
+    if len(names := [each.name for each in plan.campaign.variants()]) > 1:
+        problem = f"the campaign has {len(names)}, and a study is of one"
+        raise InputError(plan.campaign.file, "`configuration`", problem, f"give `configuration` {names[0]}")
     check_plan(plan)
     if trial is None:
         return replace(request, campaign=campaign, plan=plan, draws=draws)
@@ -174,6 +191,7 @@ def _drawn(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions
     if not 0 <= trial < plan.campaign.trials:
         problem = f"the campaign has trials 0 to {plan.campaign.trials - 1}"
         raise InputError("`trial`", str(trial), problem, "give one of them")
-    prepared = plan.prepare(plan.campaign.variants()[0])
+    (variant,) = plan.campaign.variants()
+    prepared = plan.prepare(variant)
     drawn = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
-    return options.among(campaign=plan.campaign.layer, draws=Layer(set=drawn))
+    return options.among(campaign=plan.campaign.layer_of(variant), draws=Layer(set=drawn))

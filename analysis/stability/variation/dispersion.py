@@ -37,7 +37,8 @@ def dispersed(
     again; ``tell`` is told how many trials are expected and done. Raises InputError, StudyError.
     """
     tell(plan.campaign.trials, 0)
-    flown = subject.changed(campaign=plan.campaign.layer)
+    (variant,) = plan.campaign.variants()
+    flown = subject.changed(campaign=plan.campaign.layer_of(variant))
     rows: dict[str, list[Margins]] = {}
     poles: dict[str, list[np.ndarray]] = {}
     with PointStudy(flown, point, loops, varied(plan)) as study:
@@ -69,7 +70,8 @@ def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Seque
 
 def varied(plan: BatchPlan) -> list[str]:
     """The parameters that trials of a campaign set."""
-    prepared = plan.prepare(plan.campaign.variants()[0])
+    (variant,) = plan.campaign.variants()
+    prepared = plan.prepare(variant)
     return sorted(plan.parameters(prepared, 0))
 
 

@@ -37,9 +37,8 @@ class SampleFlights:
     ) -> None:
         variants = plan.campaign.variants()
         if len(variants) != 1:
-            slot, fmus = next(iter(plan.campaign.compare.items()))
-            problem = f"{len(variants)} variants, and a study like this flies one"
-            raise InputError(plan.campaign.file, "compare", problem, f"choose: `compare` {slot}={fmus[0]}")
+            problem = f"the campaign has {len(variants)} variants, and a study is of one"
+            raise InputError(plan.campaign.file, "`configuration`", problem, f"give `configuration` {variants[0].name}")
         self._count = worker_count(workers)
         plain = replace(plan.campaign, record=Record(), group=None, scatters=())
         self.plan = replace(plan, campaign=plain).of_samples(GivenDraws(first, {ALL: np.zeros(1, dtype=np.int64)}))

@@ -46,7 +46,9 @@ class MarginAsked:
 
     def opened(self) -> PointStudy:
         """The point with the campaign's layer and what it draws, to be closed. Raises InputError, StudyError."""
-        subject = Subject(self.request.system, self.request.options).changed(campaign=self.plan.campaign.layer)
+        (variant,) = self.plan.campaign.variants()
+        layer = self.plan.campaign.layer_of(variant)
+        subject = Subject(self.request.system, self.request.options).changed(campaign=layer)
         return PointStudy(subject, self.point, [self.loop], varied(self.plan))
 
 
@@ -65,6 +67,7 @@ def margin_asked(
     options: SystemOptions,
     *,
     campaign: str,
+    configuration: str | None,
     loop: str,
     point: str | None,
     at: float | None,
@@ -72,9 +75,17 @@ def margin_asked(
 ) -> MarginAsked:
     """A loop that a system names, or a connector that is cut at the time ``at`` (s), over the draws of a campaign.
 
-    ``point`` is needed where the loop has several. Raises InputError.
+    ``point`` is needed where the loop has several, ``configuration`` where the campaign has. Raises InputError.
     """
-    request = read_request(system, options, loops=[loop], at=() if at is None else (at,), campaign=campaign, seed=seed)
+    request = read_request(
+        system,
+        options,
+        loops=[loop],
+        at=() if at is None else (at,),
+        campaign=campaign,
+        configuration=configuration,
+        seed=seed,
+    )
     (studied_loop,) = request.declaration.loops
     if point is None and len(studied_loop.points) > 1:
         problem = f"is studied at {len(studied_loop.points)} points, and a search has one"

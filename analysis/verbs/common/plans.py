@@ -41,6 +41,7 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
         trials=options.get("trials"),
         seed=options["seed"],
         compare=_compared(options["compare"]),
+        configuration=options["configuration"],
         faults=faults_of(options["faults"]),
         series=None if series is None else read_series(series),
         watch=Watch(options["timeout"], options["log"]),

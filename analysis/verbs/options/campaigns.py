@@ -25,6 +25,10 @@ class CampaignOptions(SystemOptions, SimulationOptions, total=False):
         Mapping[str, FilePath | Sequence[FilePath]],
         Option("compare these FMUs in a slot on the same draws", NONE, metavar="SLOT=A,B,C", comma=True),
     ]
+    configuration: Annotated[
+        str | None,
+        Option("only this variant of the campaign: a configuration, or a compared FMU", metavar="NAME"),
+    ]
 
 
 class TrialsOptions(TypedDict, total=False):
@@ -82,9 +86,6 @@ class ReplayOptions(CampaignOptions, TrialsOptions, RequireOptions, total=False)
             metavar="NAME",
             completer="campaigns",
         ),
-    ]
-    configuration: Annotated[
-        str | None, Option("the variant, required where the campaign compares several", metavar="NAME")
     ]
 
 

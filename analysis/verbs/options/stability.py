@@ -38,6 +38,7 @@ class StabilityOptions(SystemOptions, TrialsOptions, total=False):
         FilePath | None,
         Option("disperse the margins over a campaign, by name or .toml", metavar="NAME", completer="campaigns"),
     ]
+    configuration: Annotated[str | None, Option("one of the campaign's configurations", metavar="NAME")]
     seed: Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
     trial: Annotated[int | None, Option("study the draws of one trial of the campaign instead", metavar="K")]
     workers: Annotated[

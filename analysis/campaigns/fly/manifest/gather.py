@@ -65,6 +65,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
             **_source(plan.source, keep),
             "compare": {slot: list(names) for slot, names in campaign.compare.items()},
             "compared_by": plan.compared_by,
+            **({} if campaign.selected is None else {"selected": campaign.selected}),
             **({"sweep": dict(campaign.sweeps)} if campaign.sweeps else {}),
         },
         options=options,

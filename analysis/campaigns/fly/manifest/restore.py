@@ -33,11 +33,14 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
     """
     contents = (folder / CONTENTS).absolute()  # FMUs may change the working folder
     source = _source(contents, manifest.campaign)
+    parsed, compare = parse_campaign(source.table()), manifest.campaign["compare"]
     read = replace(
-        parse_campaign(source.table()),
+        parsed,
         trials=manifest.trials,
         seed=manifest.seed,
-        compare={slot: tuple(names) for slot, names in manifest.campaign["compare"].items()},
+        compare={slot: tuple(names) for slot, names in compare.items()},
+        configurations=() if compare else parsed.configurations,
+        selected=manifest.campaign.get("selected"),
     )
     campaign = with_sweeps(read, manifest.campaign.get("sweep", {}))
     options: dict[str, Any] = {
