@@ -78,7 +78,7 @@ def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
     arguments, options, files = read_parsed(verb, parsed)
     result = importlib.import_module(".verbs.result", __package__)
     result.check_files(verb, options, files)
-    result.report_stale(verb, arguments, options)
+    result.report_state_of_fmus(verb, arguments, options)
     module, function = verb.home
     called = getattr(importlib.import_module(f".verbs.{module}", __package__), function)
     parameters = inspect.signature(called).parameters.values()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import chdir, contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -14,6 +14,7 @@ from loky.backend.queues import SimpleQueue
 
 from ..campaigns.fly.workers.workers import worker_count
 from ..common.errors import InputError
+from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
 from .injection.bench import StudyError
 from .orders import in_both_orders
@@ -158,8 +159,8 @@ def _loop(request: Request, subject: Subject, point: PointStudy, channel: Channe
     assessment, response = work.assessed
     low, high = assessment.curve.frequency[0], assessment.curve.frequency[-1]
 
-    def prepare(use: Mapping[str, str]) -> PreparedSystem:
-        return subject.at(point.point, use)
+    def prepare(layer: Layer) -> PreparedSystem:
+        return subject.at(point.point, layer)
 
     report.nonlinearities = tuple(
         element_report(element, channel, channel.unit, response, low, high, prepare)

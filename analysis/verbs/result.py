@@ -14,7 +14,7 @@ from ..common.errors import InputError, call_by_flags
 from ..common.exit_status import ExitStatus
 from ..common.targets import Results, check_file, check_folder
 from ..runtime.system.options import system_options
-from ..runtime.system.stale import stale_fmus
+from ..runtime.system.stale import report_fmus
 from .options.option import defaults_of, options_of
 from .options.parsing import flags_of
 from .options.verb import Verb
@@ -61,13 +61,12 @@ def check_files(verb: Verb, options: Mapping[str, Any], files: Mapping[str, Any]
                 check_file(f"`{name}`", Path(path), option.suffixes)
 
 
-def report_stale(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
+def report_state_of_fmus(verb: Verb, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> None:
     """A line on standard error for every source file that is newer than the FMUs built of it, which are simulated."""
     if "system" not in arguments or "use" not in options_of(verb.options):
         return
-    compared = [fmu for fmus in options.get("compare", {}).values() for fmu in fmus]
     complete = {**defaults_of(verb.options), **options}
-    for line in stale_fmus(arguments["system"], system_options(complete), compared):
+    for line in report_fmus(arguments["system"], system_options(complete), options.get("compare", {})):
         print(f"perilune: {line}", file=sys.stderr)
 
 

@@ -133,7 +133,7 @@ def _check_system(path: str, options: System) -> list[str]:
         read_figures(prepared)
         bound = find_bound(prepared)
         notes += [f"bound: {bound.reason}"] if isinstance(bound, MissingBound) else []
-        notes += prepared.network.notes
+        notes += [*prepared.retired, *prepared.network.notes]
         notes += [f"{connection}: read one step late" for connection in prepared.schedule.late]
         for component, fmu in prepared.network.fmus.items():
             notes += _reset_notes(fmu, component)

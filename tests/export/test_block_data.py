@@ -14,7 +14,7 @@ import pytest
 import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.runtime.system.options import SystemOptions
-from perilune.analysis.runtime.system.stale import stale_fmus
+from perilune.analysis.runtime.system.stale import report_fmus
 from perilune.fmus_src.catalogue import blocks_in_file
 from perilune.fmus_src.export.compilers import local_platform
 from perilune.fmus_src.export.pythonfmu_fmu import build_python_fmu
@@ -122,9 +122,9 @@ def test_exported_by_name_and_flown(here, capsys):
 def test_a_change_of_any_of_the_files_is_noticed(here, changed):
     perilune.export("my_table.py")
     options = SystemOptions(use={"guidance": "my_table"})
-    assert stale_fmus("lunar_terminal_guidance", options) == []
+    assert report_fmus("lunar_terminal_guidance", options, {}) == []
     (here / changed).write_bytes((here / changed).read_bytes() + b"\n")
-    (line,) = stale_fmus("lunar_terminal_guidance", options)
+    (line,) = report_fmus("lunar_terminal_guidance", options, {})
     assert line == f"{changed}: has changed since my_table was exported; perilune export my_table.py"
 
 

@@ -45,8 +45,12 @@ CASES = {
 UPPER = ("upper_attack", "upper_sideslip", "upper_bank")
 
 
-def fly(campaign, regulators, **options):
-    return perilune.batch(SYSTEM, campaign, compare={"regulator": list(regulators)}, **options).trials
+def fly(campaign, configurations, **options):
+    """Trials by configuration of a campaign."""
+    trials = {}
+    for name in configurations:
+        (trials[name],) = perilune.batch(SYSTEM, campaign, configuration=name, **options).trials.values()
+    return trials
 
 
 def largest(trials):

@@ -48,13 +48,17 @@ NOISY = {
 
 def fly(campaign, pairs, trials=None, **options):
     """Trials by (observer, regulator)."""
-    found = {}
-    for regulator in dict.fromkeys(regulator for _, regulator in pairs):
-        observers = [observer for observer, other in pairs if other == regulator]
-        compare = {"observer": observers, "regulator": [regulator]}
-        for name, flown in perilune.batch(SYSTEM, campaign, compare=compare, trials=trials, **options).trials.items():
-            found[next(observer for observer in observers if name.split("__")[0] == observer), regulator] = flown
-    return found
+    by_pair = {}
+    for pair in pairs:
+        batch = perilune.batch(SYSTEM, campaign, configuration="__".join(pair), trials=trials, **options)
+        (by_pair[pair],) = batch.trials.values()
+    return by_pair
+
+
+def options_of(observer, regulator):
+    """The same as options of a flight."""
+    use = {"observer": observer.removesuffix("_split"), "regulator": regulator}
+    return {"use": use, "set": {"observer.split": True} if observer.endswith("_split") else {}}
 
 
 def settled(flown):
@@ -110,7 +114,7 @@ def test_the_first_start_with_every_observer():
     starts = {(CONTINUOUS, MODAL): 76.2, (CONTINUOUS_REDUCED, MODAL): 75.4, (DISCRETE_SPLIT, MODAL): 74.6}
     starts |= {(REDUCED_SPLIT, MODAL): 73.6, (FILTER, MODAL): 57.8, (FILTER, ARRIVAL): 47.0, (SEQUENCE, MODAL): 336.0}
     for (observer, regulator), time in starts.items():
-        flight = perilune.simulate(SYSTEM, use={"observer": observer, "regulator": regulator})
+        flight = perilune.simulate(SYSTEM, **options_of(observer, regulator))
         angles = np.stack([flight[f"plant.angles[{k}]"] for k in (1, 2, 3)])
         rates = np.stack([flight[f"plant.angular_velocity[{k}]"] for k in (1, 2, 3)]) - [[0.0], [0.0], [-0.0011]]
         outside = np.any((np.abs(angles) > np.radians(0.5)) | (np.abs(rates) > np.radians(0.05)), axis=0)
@@ -147,11 +151,11 @@ def test_noisy_flights():
 
 def test_a_turn_tells_a_gyro_s_bias_from_yaw():
     """Biases to 5 deg/h: with the turn all settle, without it most do not."""
-    pairs, trials = [(FILTER, ARRIVAL)], either(200, 40)
-    turned = fly("bias", pairs, trials)[FILTER, ARRIVAL]
+    options = {**options_of(FILTER, ARRIVAL), "trials": either(200, 40)}
+    (turned,) = perilune.batch(SYSTEM, "bias", **options).trials.values()
     assert turned.success.all()
     assert upper(turned) <= 350.0
-    still = fly("bias", pairs, trials, set={"regulator.turn_angle": 0.0})[FILTER, ARRIVAL]
+    (still,) = perilune.batch(SYSTEM, "bias", **options | {"set": {"regulator.turn_angle": 0.0}}).trials.values()
     assert still.success.mean() < 0.6
 
 

@@ -53,7 +53,7 @@ def test_all_that_can_be_declared():
         layer=Layer(use={"jets": "f"}, parameters=("a.ssv", "b.ssv"), set={"plant.start": "2"}),
     )
     elements = (
-        Element("jets", "relay", {"level": 0.06, "dead_zone": 0.02}, {"jets": "r"}),
+        Element("jets", "relay", {"level": 0.06, "dead_zone": 0.02}, Layer(use={"jets": "r"})),
         Element("steps", "quantiser", {"step": 0.1}),
     )
     one = Loop(

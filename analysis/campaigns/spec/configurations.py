@@ -10,7 +10,7 @@ from .toml.table import Table, names, text
 KEYS = ("use", "parameters", "set")
 
 
-def read_settings(table: Table, drawn: Sequence[str]) -> dict[str, Setting]:
+def read_settings(table: Table, dispersed: Sequence[str]) -> dict[str, Setting]:
     """The values of [set]. Raises InputError."""
     settings: dict[str, Setting] = {}
     for name, value in table.flat():
@@ -20,8 +20,8 @@ def read_settings(table: Table, drawn: Sequence[str]) -> dict[str, Setting]:
             raise table.error(name, f"{value!r} is no value", remedy)
         if "." not in name:
             raise table.error(name, "names no component", "write component.variable = value")
-        if name in drawn:
-            raise table.error(name, "also drawn or derived", "keep one of the two")
+        if name in dispersed:
+            raise table.error(name, "also dispersed or derived", "keep one of the two")
         settings[name] = value
     return settings
 
@@ -31,7 +31,7 @@ def read_compare(table: Table) -> dict[str, tuple[str, ...]]:
     return {slot: names(table, slot, value) for slot, value in table.flat()}
 
 
-def read_configurations(campaign: Table, drawn: Sequence[str]) -> tuple[Variant, ...]:
+def read_configurations(campaign: Table, dispersed: Sequence[str]) -> tuple[Variant, ...]:
     """The configurations of a campaign, in the order of its file. Raises InputError."""
     declared = campaign.table("configuration")
     if declared.content and campaign.table("compare").content:
@@ -40,15 +40,15 @@ def read_configurations(campaign: Table, drawn: Sequence[str]) -> tuple[Variant,
     for name in declared.content:
         if not name.replace("-", "_").isidentifier():
             raise declared.error(name, f"{name!r} is not a plain name", "use letters, digits, - and _")
-    return tuple(_configuration(name, declared.table(name), drawn) for name in declared.content)
+    return tuple(_configuration(name, declared.table(name), dispersed) for name in declared.content)
 
 
-def _configuration(name: str, table: Table, drawn: Sequence[str]) -> Variant:
+def _configuration(name: str, table: Table, dispersed: Sequence[str]) -> Variant:
     table.only(KEYS)
     use = table.table("use")
     return Variant(
         name,
         use={slot: text(use, slot, fmu) for slot, fmu in use.flat()},
         parameters=table.get("parameters", names, ()),
-        settings=read_settings(table.table("set"), drawn),
+        settings=read_settings(table.table("set"), dispersed),
     )

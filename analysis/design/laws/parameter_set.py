@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from lxml import etree
-
-from ...runtime.ssp.documents import NAMESPACES
+from ...runtime.ssp.parameter_sets import write_parameter_set
 from .law import EXP_SATURATIONS, Law
 
 
@@ -22,15 +20,4 @@ def law_parameters(law: Law, component: str) -> dict[str, int | float]:
 
 def parameter_set(law: Law, component: str) -> bytes:
     """The content of an .ssv file with the whole law, zeros of the matrix included."""
-    space = f"{{{NAMESPACES['ssv']}}}"
-    root = etree.Element(f"{space}ParameterSet", nsmap={"ssv": NAMESPACES["ssv"], "ssc": NAMESPACES["ssc"]})
-    root.set("version", "1.0")
-    root.set("name", law.name)
-    if law.description:
-        root.set("description", law.description)
-    parameters = etree.SubElement(root, f"{space}Parameters")
-    for name, value in law_parameters(law, component).items():
-        parameter = etree.SubElement(parameters, f"{space}Parameter", name=name)
-        kind = "Integer" if isinstance(value, int) else "Real"
-        etree.SubElement(parameter, f"{space}{kind}", value=repr(value))
-    return etree.tostring(root, encoding="UTF-8", xml_declaration=True, pretty_print=True)
+    return write_parameter_set(law.name, law_parameters(law, component), law.description)

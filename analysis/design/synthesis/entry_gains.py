@@ -1,4 +1,4 @@
-"""The gains of the entry capsule's output feedback, from its aerodynamic table: `make gains` rewrites them.
+"""The gains of the entry capsule's output feedback, from its aerodynamic table: `make gains` writes its parameter sets.
 
 Bank, sideslip and two rates at trim, at frozen pressure q: bank' = c0 wx - s0 wy, sideslip' = s0 wx + c0 wy,
 J (wx', wy')' = q m sideslip + (ux, uy), measured bank, wx, wy. The poles -0.35, -0.6, -0.7 +- 0.8i are spread over the
@@ -8,7 +8,6 @@ levels in four ways. Source: Lapin, thesis, chapters 2 and 3.2; numbers ours: do
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from ....fmus_src.mathlib.vectors import cross, vector
 from ....fmus_src.paths import ROOT
 from ....fmus_src.plants.entry_capsule import EntryCapsule
 from ...common.atomic import write_atomically
+from ...runtime.ssp.parameter_sets import write_parameter_set
 from ..poles.output.levels import output_feedback_levels
 
 TRIM = math.radians(-20.0)
@@ -25,7 +25,7 @@ DESIGN_PRESSURE = 1147.0  # Pa, there
 SCHEDULE = (600.0, 1200.0, 2400.0)  # Pa
 REAL, PAIR = (-0.35, -0.6), (-0.7, 0.8)
 TURNING = np.array([[PAIR[0], -PAIR[1]], [PAIR[1], PAIR[0]]])
-OUTPUT = Path("fmus_src/mathlib/entry_gains.py")
+SYSTEM = ROOT / "ssp_systems" / "entry_attitude"
 
 
 def sideslip_moments() -> tuple[float, float]:
@@ -78,25 +78,43 @@ def entry_gains() -> dict[str, np.ndarray]:
     pair = [complex(*PAIR), complex(PAIR[0], -PAIR[1])]
     slow, fast = REAL
     return {
-        "DIRECT_1": direct(DESIGN_PRESSURE, TURNING, [slow, fast]),
-        "DIRECT_0": direct(DESIGN_PRESSURE, np.diag(REAL), pair),
-        "DUAL_A": dual(DESIGN_PRESSURE, fast, [slow, *pair]),
-        "DUAL_B": dual(DESIGN_PRESSURE, slow, [fast, *pair]),
-        "SCHEDULED": np.vstack([direct(q, sideslip_block(q), [slow, fast]) for q in SCHEDULE]),
+        "direct1": direct(DESIGN_PRESSURE, TURNING, [slow, fast]),
+        "direct0": direct(DESIGN_PRESSURE, np.diag(REAL), pair),
+        "dual_a": dual(DESIGN_PRESSURE, fast, [slow, *pair]),
+        "dual_b": dual(DESIGN_PRESSURE, slow, [fast, *pair]),
+        "scheduled": np.vstack([direct(q, sideslip_block(q), [slow, fast]) for q in SCHEDULE]),
     }
 
 
-def gains_text() -> str:
-    """The module that blocks read their gains from."""
-    lines = [
-        '"""Gains of the capsule\'s output feedback by `make gains`: rows of torques x, y over bank, wx, wy, SI."""',
-        "",
-        f"SCHEDULE = [{', '.join(str(q) for q in SCHEDULE)}]  # Pa",
-    ]
-    for name, gain in entry_gains().items():
-        lines += [f"{name} = [", *[f"    {round(value, 4)!r}," for value in gain.ravel().tolist()], "]"]
-    return "\n".join(lines) + "\n"
+DESCRIPTIONS = {
+    "direct1": "One gain for all pressures: the complex pair on bank and sideslip, the real poles on the lower level.",
+    "direct0": "One gain for all pressures: the real poles on bank and sideslip, the complex pair on the lower level.",
+    "dual_a": "One gain for all pressures, by the dual plant: the faster real pole on the upper level.",
+    "dual_b": "One gain for all pressures, by the dual plant: the slower real pole on the upper level.",
+    "scheduled": "Gains over the logarithm of dynamic pressure; the poles follow the sideslip's own oscillation.",
+}
+
+
+def gain_parameters(name: str, gain: np.ndarray) -> dict[str, float]:
+    """Values of a block output_feedback in the component ``regulator`` of entry_attitude, gains to four decimals."""
+    pressures = SCHEDULE if name == "scheduled" else (DESIGN_PRESSURE,) * 3
+    values = {f"regulator.pressures[{k}]": pressure for k, pressure in enumerate(pressures, 1)}
+    for row, entries in enumerate(np.resize(gain, (6, 3)).tolist(), 1):
+        for column, entry in enumerate(entries, 1):
+            values[f"regulator.gains[{row},{column}]"] = round(entry, 4)
+    return values
+
+
+def gain_files() -> dict[str, bytes]:
+    """The parameter sets of entry_attitude with the gains, by file name."""
+    return {
+        f"output_feedback_{name}.ssv": write_parameter_set(
+            f"output_feedback_{name}", gain_parameters(name, gain), DESCRIPTIONS[name]
+        )
+        for name, gain in entry_gains().items()
+    }
 
 
 if __name__ == "__main__":
-    write_atomically(ROOT / OUTPUT, gains_text().encode())
+    for file, content in gain_files().items():
+        write_atomically(SYSTEM / file, content)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from lxml import etree
 
 from ...common.errors import InputError
-from .documents import check_schema, child, children, read_document, tag
+from .documents import NAMESPACES, check_schema, child, children, read_document, tag
 from .transformations import Transformation, check_type, read_transformation
 from .units import Unit, units_of_document
 
@@ -118,3 +118,19 @@ def apply_mapping(assignments: list[Assignment], root: etree._Element, file: str
 def read_parameter_file(data: bytes, file: str) -> list[Assignment]:
     """The values of an .ssv document."""
     return read_parameter_set(read_document(data, "ssv", file), file)
+
+
+def write_parameter_set(name: str, values: Mapping[str, float], description: str = "") -> bytes:
+    """The content of an .ssv file: Real and Integer parameters (SI) by name."""
+    space = f"{{{NAMESPACES['ssv']}}}"
+    root = etree.Element(f"{space}ParameterSet", nsmap={"ssv": NAMESPACES["ssv"], "ssc": NAMESPACES["ssc"]})
+    root.set("version", "1.0")
+    root.set("name", name)
+    if description:
+        root.set("description", description)
+    parameters = etree.SubElement(root, f"{space}Parameters")
+    for parameter_name, value in values.items():
+        parameter = etree.SubElement(parameters, f"{space}Parameter", name=parameter_name)
+        kind = "Integer" if isinstance(value, int) else "Real"
+        etree.SubElement(parameter, f"{space}{kind}", value=repr(value))
+    return etree.tostring(root, encoding="UTF-8", xml_declaration=True, pretty_print=True)

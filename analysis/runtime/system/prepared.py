@@ -26,6 +26,7 @@ from .network import Network, build_network
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from .order.feedthrough import find_feedthrough
 from .order.schedule import Schedule, make_schedule
+from .retired import Retired, find_retired
 from .times import component_periods, flight_times
 
 
@@ -34,7 +35,7 @@ class PreparedSystem:
     """A checked system; pass it to `Simulation`. Times in s; ``remarks`` say what an FMU alone left open.
 
     ``drive`` are its inputs over time, if it has them; ``elsewhere`` reads the files that are not the system's own, by
-    the names of `SystemArchive.elsewhere`.
+    the names of `SystemArchive.elsewhere`. ``retired`` are notes on FMUs whose names are no longer to be used.
     """
 
     archive: SystemArchive
@@ -50,6 +51,7 @@ class PreparedSystem:
     remarks: tuple[str, ...] = ()
     drive: Drive | None = None
     elsewhere: Mapping[str, Callable[[], bytes]] = field(default_factory=dict)
+    retired: tuple[str, ...] = ()
 
     @property
     def assumptions(self) -> list[str]:
@@ -105,20 +107,33 @@ def _prepared(
     def flavour_of(block: str) -> str:
         return options.flavour or ("native" if fmu_file(block, "native", archive.path) is not None else "python")
 
+    replaced: dict[str, tuple[str, Retired]] = {}  # by component: the name asked for, and what replaces it
+
+    def current(component: str, name: str) -> str:
+        retired = find_retired(name, archive.path)
+        if retired is None:
+            return name
+        replaced[component] = name, retired
+        return retired.block
+
     def load(name: str, component: Component) -> Fmu:
         if name in options.use:
             used[name] = component
-            asked = use_asked(options.use[name])
-            if asked in archive.elsewhere:
-                read, label = archive.elsewhere[asked].read_bytes, options.use[name]
+            key = use_asked(options.use[name])
+            block = current(name, options.use[name])
+            if key in archive.elsewhere:
+                read, label = archive.elsewhere[key].read_bytes, options.use[name]
             else:
-                read, label = locate_fmu(options.use[name], options.flavour, system=archive.path)
-            elsewhere[asked] = read
+                read, label = locate_fmu(block, options.flavour, system=archive.path)
+            elsewhere[key] = read
         else:
-            flavour = flavour_of(Path(component.source).stem)
-            read, label = archive.fmu(component.source, f"{name} (line {component.line})", flavour)
-            if not archive.is_own_file(component.source):
-                elsewhere[fmu_asked(component.source)] = read
+            source = component.source
+            if not (archive.is_own_file(source) or fmu_asked(source) in archive.elsewhere):
+                source = Path(source).with_stem(current(name, Path(source).stem)).as_posix()
+            flavour = flavour_of(Path(source).stem)
+            read, label = archive.fmu(source, f"{name} (line {component.line})", flavour)
+            if not archive.is_own_file(source):
+                elsewhere[fmu_asked(source)] = read
         return opened(read, label)
 
     def opened(read: Callable[[], bytes], label: str) -> Fmu:
@@ -145,7 +160,8 @@ def _prepared(
     _refuse_seconds(network)
     if series is not None:
         network.driven = driven_inputs(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
-    settings = collect_settings(network, archive, _assignments(archive, options, elsewhere), options)
+    defaults = [each for name, (_, retired) in replaced.items() for each in retired.assignments(name)]
+    settings = collect_settings(network, archive, defaults + _assignments(archive, options, elsewhere), options)
     check_shared(network, settings)
     for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)
@@ -170,6 +186,7 @@ def _prepared(
         remarks=tuple(remarks),
         drive=None if series is None else drive_inputs(network, series, network.driven, start, step, steps),
         elsewhere=elsewhere,
+        retired=tuple(retired.note(name, old) for name, (old, retired) in replaced.items()),
     )
 
 

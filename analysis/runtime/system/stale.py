@@ -1,9 +1,9 @@
-"""FMUs of one's own that are older than what they were built of."""
+"""What is said of the FMUs of a system before it is simulated: those older than their sources, and retired names."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from ....fmus_src.export.available import fmu_file
@@ -13,28 +13,33 @@ from ..ssp.archive import open_system
 from ..ssp.description import Component, System
 from ..ssp.reading import read_description
 from .options import SystemOptions
+from .retired import find_retired
 
 
-def stale_fmus(system: str | Path, options: SystemOptions, others: Iterable[str] = ()) -> list[str]:
-    """A line for each file that has changed since its FMUs, which a system flies, were exported.
+def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str, Iterable[str]]) -> list[str]:
+    """A line for each source file that is newer than the FMUs built of it, and for each retired name.
 
-    ``others`` are FMUs that take a component's place for some flights. Raises InputError as reading the system does.
+    ``compare`` has for some components the FMUs that take their place in turn. Raises InputError as
+    reading the system does.
     """
     archive = open_system(system)
     if archive.is_fmu:
         return []
-    named = {
+    sources = {
         name: component.source for name, component in _components(read_description(archive, options.variant).system)
     }
-    held = {name for name, source in named.items() if source in archive.files}
-    named = {name: Path(source).stem for name, source in named.items() if name not in held} | dict(options.use)
+    blocks = {name: Path(source).stem for name, source in sources.items() if source not in archive.files}
+    blocks |= dict(options.use)
+    pairs = [*blocks.items(), *((name, fmu) for name, fmus in compare.items() for fmu in fmus)]
+    retired = [(name, block, find_retired(block, archive.path)) for name, block in pairs]
+    lines = [replacement.note(name, block) for name, block, replacement in retired if replacement is not None]
     changed: dict[tuple[Path, Path], set[str]] = {}
-    for name in dict.fromkeys([*named.values(), *others]):
+    for name in dict.fromkeys(block for _, block in pairs):
         fmu = _file(name, options.flavour, archive.path)
         files = None if fmu is None else changed_source(fmu)
         if files is not None:
             changed.setdefault(files, set()).add(Path(name).stem)
-    return [_line(file, source, sorted(names)) for (file, source), names in changed.items()]
+    return lines + [_line(file, source, sorted(names)) for (file, source), names in changed.items()]
 
 
 def _file(name: str, flavour: str | None, system: Path) -> Path | None:

@@ -9,6 +9,7 @@ import numpy as np
 from ...common.errors import InputError
 from ...runtime.flight.results import COMPLETE
 from ...runtime.flight.simulation import Simulation
+from ...runtime.system.options import Layer
 from ...runtime.system.prepared import PreparedSystem
 from ..injection.bench import StudyError
 from ..loops.curves import Response
@@ -31,11 +32,11 @@ def element_report(
     response: Response,
     low: float,
     high: float,
-    prepare: Callable[[dict[str, str]], PreparedSystem],
+    prepare: Callable[[Layer], PreparedSystem],
 ) -> Nonlinearity:
     """Harmonic balance of an element at a cut with the linear rest of the loop, L = ``response``.
 
-    ``prepare`` gives the system with the element's own FMUs, in which its limit cycle is flown: amplitude and
+    ``prepare`` gives the system with the element's own layer, in which its limit cycle is simulated: amplitude and
     period are read at what comes back to the cut, integrated where N is of the integral.
     Raises InputError for parameters that the element cannot have.
     """
@@ -49,7 +50,7 @@ def element_report(
         raise StudyError(f"{channel.name}: element {element.name}: {error}") from error
     amplitude = np.geomspace(*amplitude_range(element.kind, parameters), POINTS)
     of_integral = ELEMENTS[element.kind].of_integral
-    flown = _flown(prepare(element.use), channel, of_integral) if element.use else None
+    flown = _flown(prepare(element.layer), channel, of_integral) if element.layer != Layer() else None
     if unit and of_integral:
         unit = f"{unit}.s"
     stable = [balance for balance in balances if balance.stable]

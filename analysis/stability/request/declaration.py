@@ -40,13 +40,14 @@ class Point:
 class Element:
     """A nonlinear element at a loop's cut: its describing function's kind and parameters.
 
-    ``use`` is what a simulation flies with, to be compared with a predicted limit cycle.
+    ``layer`` changes the operating point for the simulation that a predicted limit cycle is compared with: the FMUs
+    or values with which the element acts. An empty layer: no simulation.
     """
 
     name: str
     kind: str
     parameters: dict[str, float]
-    use: dict[str, str] = field(default_factory=dict)
+    layer: Layer = field(default_factory=Layer)
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import fields
 
 from lxml import etree
@@ -14,6 +15,7 @@ from ..loops.describing_function import ELEMENTS, complete_parameters
 from .declaration import Declaration, Element, Limits, Loop, Point, Sweep
 
 ANNOTATION = "org.perilune.stability"
+LAYER_ELEMENTS = ("Use", "ParameterSet", "Set")
 
 
 def read_declaration(description: Description) -> Declaration:
@@ -55,7 +57,6 @@ class _Reader(AnnotationReader):
         time, until = self.number(element, "time"), self.number(element, "until")
         if time is not None and until is not None and until <= time:
             raise self.refuse(element, f"it lasts until {until:g} s but is at {time:g} s", "give a later end")
-        children = self.parts(element, ("Use", "ParameterSet", "Set"))
         return Point(
             name=values["name"],
             time=time,
@@ -63,16 +64,16 @@ class _Reader(AnnotationReader):
             falls_to=self.number(element, "falls_to"),
             until=until,
             phase=values.get("phase", ""),
-            layer=Layer(
-                use=self.uses(children["Use"]),
-                parameters=tuple(self.attributes(item, ("source",))["source"] for item in children["ParameterSet"]),
-                set=self.pairs(children["Set"], "name", "value"),
-                places={item.get("name", "").strip(): (self.file, item.sourceline or 0) for item in children["Set"]},
-            ),
+            layer=self.layer(self.parts(element, LAYER_ELEMENTS)),
         )
 
-    def uses(self, elements: list[etree._Element]) -> dict[str, str]:
-        return self.pairs(elements, "component", "fmu")
+    def layer(self, children: Mapping[str, list[etree._Element]]) -> Layer:
+        return Layer(
+            use=self.pairs(children["Use"], "component", "fmu"),
+            parameters=tuple(self.attributes(item, ("source",))["source"] for item in children["ParameterSet"]),
+            set=self.pairs(children["Set"], "name", "value"),
+            places={item.get("name", "").strip(): (self.file, item.sourceline or 0) for item in children["Set"]},
+        )
 
     def pairs(self, elements: list[etree._Element], key: str, value: str) -> dict[str, str]:
         """Two attributes of each element as a mapping; what is given twice is refused."""
@@ -124,8 +125,7 @@ class _Reader(AnnotationReader):
             complete_parameters(kind, values)
         except ValueError as error:
             raise self.refuse(element, str(error), "fix it") from error
-        use = self.uses(self.parts(element, ("Use",))["Use"])
-        return Element(name, kind, values, use)
+        return Element(name, kind, values, self.layer(self.parts(element, LAYER_ELEMENTS)))
 
     def sweep(self, element: etree._Element, loops: dict[str, Loop]) -> Sweep:
         values = self.attributes(element, ("name", "loop", "point", "parameter", "low", "high"))

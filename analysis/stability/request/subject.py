@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from ...runtime.system.fmu import Fmu
@@ -24,7 +23,7 @@ class Subject:
         options = self.options.among(**layers)
         return replace(self, options=options if step is None else replace(options, step=step))
 
-    def at(self, point: Point, use: Mapping[str, str] | None = None) -> PreparedSystem:
-        """The system at a point, with the FMUs of ``use`` over all others. Raises InputError."""
-        options = self.options.among(operating_point=point.layer, study=Layer(use=use or {}))
+    def at(self, point: Point, study: Layer | None = None) -> PreparedSystem:
+        """The system at a point, with ``study`` over all other layers. Raises InputError."""
+        options = self.options.among(operating_point=point.layer, study=study or Layer())
         return prepare_system(self.system, options, self.fmus)

@@ -12,9 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.fmus_src.control.no_control import NoControl
+from perilune.fmus_src.control.output_feedback import OutputFeedback
 from perilune.fmus_src.control.robust_control import RobustControl
 from perilune.fmus_src.control.standard_control import StandardControl
-from perilune.fmus_src.interfaces.output_feedback_control import OutputFeedbackControl
 
 DEGREE = math.pi / 180.0
 COS, SIN = math.cos(-20.0 * DEGREE), math.sin(-20.0 * DEGREE)
@@ -97,7 +97,7 @@ def test_the_roll_relay_acts_on_a_limited_error_and_leads():
 
 def test_output_feedback_is_its_matrix_with_the_reference_taken_off():
     gains = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]
-    block = regulator(OutputFeedbackControl, dead_zone=0.0, gains=np.ravel(gains * 3).tolist())
+    block = regulator(OutputFeedback, dead_zone=0.0, gains=np.ravel(gains * 3).tolist())
     e, wx, wy, wz, rate, acceleration = 0.1, 0.2, -0.3, 0.01, 0.05, 0.02
     found = answer(block, bank=e, w=(wx, wy, wz), reference_bank_rate=rate, reference_bank_acceleration=acceleration)
     expected = np.array(gains) @ [e, wx - rate * COS, wy + rate * SIN]
@@ -111,13 +111,11 @@ def test_output_feedback_is_its_matrix_with_the_reference_taken_off():
 )
 def test_scheduled_gains_are_straight_in_the_logarithm_of_pressure(pressure, factor):
     gains = [[1.0] * 6, [2.0] * 6, [4.0] * 6]
-    block = regulator(
-        OutputFeedbackControl, dead_zone=0.0, gains=np.ravel(gains).tolist(), pressures=[600.0, 1200.0, 2400.0]
-    )
+    block = regulator(OutputFeedback, dead_zone=0.0, gains=np.ravel(gains).tolist(), pressures=[600.0, 1200.0, 2400.0])
     assert answer(block, bank=0.1, dynamic_pressure=pressure)[0] == pytest.approx(0.1 * factor)
 
 
-@pytest.mark.parametrize("kind", [RobustControl, StandardControl, OutputFeedbackControl, NoControl])
+@pytest.mark.parametrize("kind", [RobustControl, StandardControl, OutputFeedback, NoControl])
 def test_what_is_not_finite_asks_for_nothing(kind):
     block = regulator(kind)
     assert answer(block, bank=math.nan).tolist() == [0.0, 0.0, 0.0]

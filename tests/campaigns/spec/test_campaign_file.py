@@ -161,7 +161,7 @@ METRIC = '[metric.m]\nexpression = "a.b"\nreduction = "{}"\n'
         ("[set]\ngravity = 1\n", "set.gravity: names no component"),
         ('[set]\nplant.x = ["a"]\n', "set.plant.x: ['a'] is no value"),
         ('[set]\nplant.x = 1\n"plant.x" = 2\n', "set.plant.x: there twice"),
-        ('[set]\nplant.x = 1\n[derive]\nplant.x = "1"\n', "set.plant.x: also drawn or derived"),
+        ('[set]\nplant.x = 1\n[derive]\nplant.x = "1"\n', "set.plant.x: also dispersed or derived"),
         ('[compare]\ng = "a"\n', "compare.g: 'a' is not a list"),
         ('[compare]\ng = ["a", "a"]\n', "compare.g: 'a' is there twice"),
         (METRIC.format("median"), "metric.m.reduction: 'median' is not known; use one of final, min"),

@@ -71,9 +71,9 @@ REFUSED = {
     "no component": ("[configuration.x.set]\nmass = 3\n", "configuration.x.set.mass: names no component; write"),
     "no text": ("[configuration.x.use]\nguidance = 3\n", "configuration.x.use.guidance: 3 is not a text; write"),
     "no name": ('[configuration."a b"]\n', "configuration.a b: 'a b' is not a plain name; use"),
-    "drawn": (
+    "dispersed": (
         '[draw."a.b"]\ndistribution = "normal"\nmean = 0\nsigma = 1\n[configuration.x.set]\n"a.b" = 1\n',
-        "configuration.x.set.a.b: also drawn or derived; keep one",
+        "configuration.x.set.a.b: also dispersed or derived; keep one",
     ),
 }
 
@@ -115,8 +115,8 @@ def test_stored_and_replayed(file, tmp_path):
     perilune.batch("lunar_terminal_guidance", file, configuration="search", output=folder)
     stored = perilune.replay(folder, 1)
     assert (stored.configuration, stored.stored, stored.differences) == ("search", True, ())
-    again = perilune.replay("lunar_terminal_guidance", 1, campaign=file, configuration="search")
-    assert again.metrics == stored.metrics
+    replayed = perilune.replay("lunar_terminal_guidance", 1, campaign=file, configuration="search")
+    assert replayed.metrics == stored.metrics
     assert list(perilune.merge(folder).summary) == ["search"]
 
 

@@ -3,8 +3,6 @@
 Truth: eigenvalues of the closed loop (1e-6), the gains and norms that another program has, to the digits printed.
 """
 
-import importlib.util
-
 import numpy as np
 import pytest
 
@@ -12,17 +10,19 @@ from perilune import modal
 from perilune.analysis.design.synthesis.entry_gains import (
     DESIGN_PRESSURE,
     SCHEDULE,
+    SYSTEM,
     entry_gains,
-    gains_text,
+    gain_files,
+    gain_parameters,
     plant,
     sideslip_block,
     sideslip_moments,
 )
 from perilune.analysis.design.synthesis.entry_whole_gain import LOWER, UPPER, whole_gain, whole_model
-from perilune.fmus_src.mathlib import entry_gains as stored
+from perilune.fmus_src.control.output_feedback import OutputFeedback
 
 POLES = [-0.7 - 0.8j, -0.7 + 0.8j, -0.6, -0.35]
-NORMS = {"DIRECT_1": 2424.0, "DIRECT_0": 4459.0, "DUAL_A": 3823.0, "DUAL_B": 6375.0}
+NORMS = {"direct1": 2424.0, "direct0": 4459.0, "dual_a": 3823.0, "dual_b": 6375.0}
 
 
 @pytest.fixture(scope="module")
@@ -35,10 +35,15 @@ def closed_poles(gain, pressure):
     return np.sort_complex(np.linalg.eigvals(a + b @ gain @ c))
 
 
-def test_what_is_stored_is_what_the_table_gives():
-    path = importlib.util.find_spec(stored.__name__).origin
-    with open(path, encoding="utf-8") as file:
-        assert file.read() == gains_text()
+def test_stored_parameter_sets_are_what_the_table_gives():
+    for file, content in gain_files().items():
+        assert (SYSTEM / file).read_bytes() == content, file
+
+
+def test_the_default_of_the_block_is_direct1(gains):
+    values = gain_parameters("direct1", gains["direct1"])
+    block = OutputFeedback()
+    assert [*block.pressures, *block.gains] == list(values.values())
 
 
 def test_moments_of_the_air():
@@ -56,14 +61,14 @@ def test_poles_and_norms(gains, name):
 
 def test_some_gains(gains):
     """To the digits printed."""
-    assert gains["DIRECT_1"][0] == pytest.approx([-335.2711, -1260.9402, -890.1654], abs=6e-5)
-    assert gains["DUAL_B"][1] == pytest.approx([4.9372, 1182.2370, -3629.7474], abs=6e-5)
-    assert gains["SCHEDULED"][4] == pytest.approx([-267.4719, -809.8999, -1586.3189], abs=6e-5)
+    assert gains["direct1"][0] == pytest.approx([-335.2711, -1260.9402, -890.1654], abs=6e-5)
+    assert gains["dual_b"][1] == pytest.approx([4.9372, 1182.2370, -3629.7474], abs=6e-5)
+    assert gains["scheduled"][4] == pytest.approx([-267.4719, -809.8999, -1586.3189], abs=6e-5)
 
 
 def test_scheduled_poles_follow_the_pressure(gains):
     for number, pressure in enumerate(SCHEDULE):
-        gain = gains["SCHEDULED"][2 * number : 2 * number + 2]
+        gain = gains["scheduled"][2 * number : 2 * number + 2]
         expected = np.sort_complex([*np.linalg.eigvals(sideslip_block(pressure)), -0.35, -0.6])
         assert closed_poles(gain, pressure) == pytest.approx(expected, abs=1e-6)
 

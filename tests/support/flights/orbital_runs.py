@@ -25,13 +25,18 @@ def block_class(name, kind="navigation"):
     return getattr(module, "".join(word.capitalize() for word in name.split("_")))
 
 
+SPLIT = "_split"  # of an observer's name: with split, it follows each pulse
+
+
 class Run:
     """One observer, given (roll, pitch, rates) at each tick and the pulses before it."""
 
     def __init__(self, name, sample, pulses=(0.0, 0.0, 0.0), **parameters):
-        self.component = Component(block_class(name))
+        self.component = Component(block_class(name.removesuffix(SPLIT)))
         self.block = self.component.block
         self.tick = 0
+        if name.endswith(SPLIT):
+            parameters["split"] = True
         for parameter, value in parameters.items():
             setattr(self.block, parameter, value)
         self.give(sample, pulses, True)

@@ -1,0 +1,56 @@
+"""Bank, roll rate and yaw rate of the capsule fed back by a constant or scheduled gain that places the poles."""
+
+import math
+
+from ..block import Parameter
+from ..interfaces.entry_control import EntryControl
+from ..mathlib.orbital import applied
+from ..mathlib.vectors import Vector3, vector
+
+
+class OutputFeedback(EntryControl):
+    """u = F (bank error, wx, wy against the reference) + J (c0, -s0, 0) reference''; pitch is damped separately.
+
+    F places the poles of bank, sideslip and two rates at one dynamic pressure, or is interpolated in the logarithm of
+    the pressure between three. The default places the complex pair on bank and sideslip; the system entry_attitude has
+    parameter sets with other gains (output_feedback_*.ssv), which `make gains` computes. Source: Lapin, thesis,
+    chapters 2 and 3.2; numbers ours: docs/systems/entry_attitude.md.
+    """
+
+    dead_zone = EntryControl.dead_zone.with_start(0.05)
+    pitch_damping = Parameter(1200.0, unit="N.m.s", minimum=0.0, description="torque over pitch rate")
+    pressures = Parameter(
+        [1147.0, 1147.0, 1147.0],
+        unit="Pa",
+        minimum=1e-9,
+        description="dynamic pressures of the gains, ascending or all equal",
+    )
+    gains = Parameter(
+        [-335.2711, -1260.9402, -890.1654, -113.8432, 382.3942, -1794.4671] * 3,
+        columns=3,
+        description="torques x, y over bank, wx, wy (SI): two rows for each pressure",
+    )
+
+    def regulate(self) -> Vector3:
+        c0 = math.cos(self.trim_attack)
+        s0 = math.sin(self.trim_attack)
+        e = self.bank_error()
+        wx = self.measured_angular_velocity.x - self.reference_bank_rate * c0
+        wy = self.measured_angular_velocity.y + self.reference_bank_rate * s0
+        k = 0
+        fraction = 0.0
+        p = self.dynamic_pressure
+        if p >= self.pressures.y and self.pressures.z > self.pressures.y:
+            k = 1
+        if p > self.pressures[k] and self.pressures[k + 1] > self.pressures[k]:
+            fraction = math.log(p / self.pressures[k]) / math.log(self.pressures[k + 1] / self.pressures[k])
+        if fraction > 1.0:
+            fraction = 1.0
+        gain = [0.0] * 6
+        for i in range(6):
+            low = self.gains[6 * k + i]
+            gain[i] = low + fraction * (self.gains[6 * k + 6 + i] - low)
+        feed = applied(self.inertia, self.reference_bank_acceleration * vector(c0, -s0, 0.0))
+        x = gain[0] * e + gain[1] * wx + gain[2] * wy + feed.x
+        y = gain[3] * e + gain[4] * wx + gain[5] * wy + feed.y
+        return vector(x, y, -self.pitch_damping * self.measured_angular_velocity.z)
