@@ -8,6 +8,7 @@ from typing import Any, Unpack
 
 from ...fmus_src.catalogue import catalogue
 from ...fmus_src.export.available import fmu_flavours
+from ..authoring.describe.campaign import describe_campaign
 from ..authoring.describe.fits import blocks_of_slot, slots
 from ..authoring.describe.system import describe_system
 from ..authoring.describe.variables import variables_of
@@ -19,9 +20,8 @@ from ..runtime.system.options import SystemOptions as System
 from ..runtime.system.options import system_options
 from ..runtime.system.prepared import find_fmu, prepare_system
 from .common.description_text import description_lines
-from .options.looking import DESCRIBE
+from .options.looking import DESCRIBE, DescribeOptions
 from .options.option import FilePath
-from .options.system import SystemOptions
 from .options.verb import verb
 
 
@@ -42,16 +42,20 @@ class Description(dict[str, Any]):
 
 
 @verb(DESCRIBE)
-def describe(what: FilePath, component: str | None = None, **options: Unpack[SystemOptions]) -> Description:
+def describe(what: FilePath, component: str | None = None, **options: Unpack[DescribeOptions]) -> Description:
     """Describe a system, an FMU or a slot: `perilune describe`, as a dictionary.
 
     ``what`` is a system, an FMU by name or file, or an interface by name; ``component`` one of a system, with all its
     variables. Of a system the keys are components, connections, connectors, parameter_sets, campaigns, loops; of an FMU
     or a component ``variables``, and how an FMU is simulated ``alone`` (s); of a slot ``fmus`` too. A component says
     whether its outputs are treated as direct functions of inputs (``feedthrough``) and where that comes from; an FMU
-    lists the outputs that it does not declare it of. The options are those of `simulate`. Raises InputError.
+    lists the outputs that it does not declare it of. With ``campaign`` it is a campaign of the system: ``values`` with
+    those of all files that it extends, each with the file and line that it comes from. The other options are those of
+    `simulate`. Raises InputError.
     """
     name, system = os.fspath(what), system_options(options)
+    if options["campaign"] is not None:
+        return _describe_campaign(name, options["campaign"], component, system)
     if name.endswith(".fmu") or name in catalogue() or name in fmu_flavours():
         if component is not None:
             raise InputError("describe", component, "an FMU has no components", "name a system before it")
@@ -62,6 +66,13 @@ def describe(what: FilePath, component: str | None = None, **options: Unpack[Sys
         return _describe_system(name, component, system)
     known = [*system_names(), *slots(), *catalogue()]
     raise InputError("describe", name, "no system, FMU or slot of this name", suggestion(name, known))
+
+
+def _describe_campaign(name: str, campaign: str, component: str | None, options: System) -> Description:
+    if component is not None or options != System():
+        problem = "a campaign is described without a component and without other options"
+        raise InputError("`campaign`", campaign, problem, "leave them out")
+    return Description(describe_campaign(name, campaign))
 
 
 def _describe_fmu(name: str, options: System) -> Description:

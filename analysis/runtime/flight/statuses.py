@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 from ...common.percent import short_percent
 from ..system.names import parted
 from ..system.network import Network
-from ..system.status_words import STATUS, status_meaning
 from .results import Flight
+
+STATUS = "status"  # output of components that say how they fare, 0 for good
+MEANING = re.compile(r"(?:^|[,:] )(-?\d+):? (.+?)(?=, -?\d+:? |$)")  # "0 good, 1 clamped, 2 ..."
 
 
 def status_lines(network: Network, flight: Flight) -> list[str]:
@@ -31,3 +35,19 @@ def status_lines(network: Network, flight: Flight) -> list[str]:
 
 def _percent(share: float) -> str:
     return "all" if share == 1.0 else f"{short_percent(share)} %"
+
+
+def status_meaning(network: Network, name: str, value: int) -> str:
+    """What ``value`` of the connector ``component.status`` means, as its description lists it; else nothing."""
+    component, variable = parted(name, network.fmus)
+    fmu = network.fmus.get(component)
+    declared = fmu.variables.get(variable) if fmu is not None else None
+    description = (declared.description or "") if declared is not None else ""
+    meanings = {int(number): words for number, words in MEANING.findall(" ".join(description.split()))}
+    return meanings.get(value, "").rstrip(".")
+
+
+def with_meaning(network: Network, name: str, value: int) -> str:
+    """``guidance.status 3, no solution``."""
+    words = status_meaning(network, name, value)
+    return f"{name} {value}, {words}" if words else f"{name} {value}"

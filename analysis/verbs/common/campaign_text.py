@@ -21,7 +21,7 @@ from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.summary import requirement_values, summarise
 from ...campaigns.tables import aligned, unmet_lines
 from ...runtime.flight.results import TIMED_OUT
-from ...runtime.system.status_words import with_meaning
+from ...runtime.flight.statuses import with_meaning
 from .requirements import read_requirements, requirement_problems
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from typing import Any
 
+from ...authoring.describe.campaign import toml_value
 from ...authoring.describe.variables import of_causality
 from ...runtime.system.order.feedthrough import Origin
 from .text import text_table, wrap
@@ -17,6 +19,8 @@ def description_lines(document: Mapping[str, Any]) -> list[str]:
     """The lines of a description, by what it is of."""
     if "components" in document:
         return _system_lines(document)
+    if "campaign" in document:
+        return _campaign_lines(document)
     if "slot" in document:
         title = f"{document['slot']} ({document['interface']}): {document['description']}"
         fmus = text_table([[f"  {name}", text] for name, text in document["fmus"].items()])
@@ -32,6 +36,20 @@ def description_lines(document: Mapping[str, Any]) -> list[str]:
     else:
         lines = _fmu_lines(document)
     return lines + _variable_lines(document["variables"])
+
+
+def _campaign_lines(document: Mapping[str, Any]) -> list[str]:
+    values: list[str] = []
+    for file, rows in itertools.groupby(document["values"], key=lambda each: each["file"]):
+        values.append(file)
+        values += text_table([[f"{row['line']:6}", f"{row['name']} = {toml_value(row['value'])}"] for row in rows])
+    return [
+        *wrap(f"{document['campaign']} of {document['system']}: {document['description']}", 4),
+        *wrap(f"{'variants':{INDENT}}{', '.join(document['variants'])}", INDENT),
+        *wrap(f"{'files':{INDENT}}{', '.join(document['files'])}", INDENT),
+        "values, each with its line in the file above it",
+        *values,
+    ]
 
 
 def _fmu_lines(document: Mapping[str, Any]) -> list[str]:

@@ -17,6 +17,20 @@ LIST = Verb(
     examples=(("perilune list", "names to give to the other verbs"),),
 )
 
+
+class DescribeOptions(SystemOptions, total=False):
+    """Options of describe"""
+
+    campaign: Annotated[
+        str | None,
+        Option(
+            "of a system: a campaign with all that it extends, each value with its file and line",
+            metavar="NAME",
+            completer="campaigns",
+        ),
+    ]
+
+
 DESCRIBE = Verb(
     "describe",
     "Look",
@@ -26,12 +40,13 @@ DESCRIBE = Verb(
         Argument("what", "SYSTEM|FMU|SLOT", "a system, an FMU by name or file, or a slot", "systems_and_fmus"),
         Argument("component", "COMPONENT", "of a system: one component with all its variables", optional=True),
     ),
-    SystemOptions,
+    DescribeOptions,
     JsonFile,
     (
         ("perilune describe lunar_landing", "components, connections, values, compatible FMUs"),
         ("perilune describe lunar_landing guidance", "one component with all its variables"),
         ("perilune describe terminal_guidance", "a slot: connectors, parameters, its FMUs"),
+        ("perilune describe entry_attitude --campaign cases", "a campaign, each value with file and line"),
     ),
 )
 

@@ -38,10 +38,13 @@ class Table:
     def where(self, key: str) -> tuple[str, str]:
         """File and place of a key, as errors name them."""
         place = self.place(key) if key else self.element
-        parts = re.split(r"(?=[.\[])", place)
+        return self.origin(place)[0], place
+
+    def origin(self, name: str) -> tuple[str, int]:
+        """File and line of a place, or of the nearest one that it is part of; line 0 where none is known."""
+        parts = re.split(r"(?=[.\[])", name)
         nearest = ("".join(parts[:count]) for count in range(len(parts), 0, -1))
-        file = next((self.origins[name][0] for name in nearest if name in self.origins), self.file)
-        return file, place
+        return next((self.origins[part] for part in nearest if part in self.origins), (self.file, 0))
 
     def error(self, key: str, problem: str, remedy: str) -> InputError:
         return InputError(*self.where(key), problem, remedy)

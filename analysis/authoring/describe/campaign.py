@@ -1,0 +1,71 @@
+"""A campaign with all that it extends, as one list of values: each with the file and line that it comes from."""
+
+from __future__ import annotations
+
+import json
+import posixpath
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ....fmus_src.export.ssp_package import CAMPAIGN_FOLDER
+from ...campaigns.spec.file import parse_campaign
+from ...campaigns.spec.toml.source import read_source
+from ...campaigns.spec.toml.table import Table
+from ...runtime.ssp.archive import open_system
+
+EXTRA = posixpath.dirname(CAMPAIGN_FOLDER)  # of an archive, where all that is not SSP's own is stored
+
+PLAIN_KEY = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def describe_campaign(system: str, campaign: str) -> dict[str, Any]:
+    """A campaign of a system, or in a file. Raises InputError.
+
+    ``files`` are the campaign's own file and those that it extends, ``values`` the merged entries in the order in which
+    they are read: ``name`` as TOML writes it in full, ``value``, ``file``, ``line``.
+    """
+    archive = open_system(system)
+    raw, label = archive.campaign(campaign)
+    source = read_source(raw, label, archive)
+    table = source.table()
+    declared = parse_campaign(table)
+    return {
+        "campaign": campaign,
+        "system": declared.system,
+        "description": declared.description,
+        "variants": [variant.name for variant in declared.variants()],
+        "files": [_file(each.label) for each in source.files()],
+        "values": list(_values(table, table.content, "", "")),
+    }
+
+
+def toml_value(value: Any) -> str:
+    """A number, a text, a list or an inline table as TOML writes it."""
+    if isinstance(value, Mapping):
+        inside = ", ".join(f"{_key(name)} = {toml_value(each)}" for name, each in value.items())
+        return f"{{ {inside} }}" if inside else "{}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(toml_value, value))}]"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)  # TOML has JSON's escapes
+    return str(value).lower() if isinstance(value, bool) else repr(value)
+
+
+def _values(table: Table, content: Mapping[str, Any], path: str, name: str) -> Iterator[dict[str, Any]]:
+    for key, value in content.items():
+        inner, full = f"{path}.{key}" if path else key, f"{name}.{_key(key)}" if name else _key(key)
+        if isinstance(value, Mapping) and value:
+            yield from _values(table, value, inner, full)
+        else:
+            file, line = table.origin(inner)
+            yield {"name": full, "value": value, "file": _file(file), "line": line}
+
+
+def _key(name: str) -> str:
+    return name if PLAIN_KEY.fullmatch(name) else json.dumps(name, ensure_ascii=False)
+
+
+def _file(label: str) -> str:
+    """A file as a user of the system's folder knows it: ``campaigns/NAME.toml``; one from elsewhere by its path."""
+    return label.rpartition("!")[2].removeprefix(f"{EXTRA}/")
