@@ -75,17 +75,23 @@ def requirement_rows(summary: Summary) -> list[tuple[str, str, RequirementVerdic
     return [(variant, name, entry.requirements[name]) for name in names for variant, entry in summary.items()]
 
 
+def ordinal(number: int) -> str:
+    """1st, 2nd, 3rd, 4th, 11th."""
+    teen = number // 10 % 10 == 1
+    return f"{number}{'th' if teen else ('th', 'st', 'nd', 'rd', *['th'] * 6)[number % 10]}"
+
+
 def bound_text(result: RequirementVerdict, value: str) -> str:
     """The tolerance bound of a requirement in words, with its ``value`` as text. The requirement has a bound."""
     bound = result.bound
     assert bound is not None
-    share = f"{100 * result.share:.10g} % of flights at {100 * result.confidence:.10g} %"
+    level = f"with {100 * result.share:.10g} % probability at {100 * result.confidence:.10g} % confidence"
     if bound.rank is None:
-        more = f"a campaign longer by {bound.flights_to_decide} has one"
-        return f"no {bound.side} bound of {bound.metric} in {share}: {more}"
-    rank = "the worst" if bound.rank == 1 else f"the worst but {bound.rank - 1}"
+        more = f"{bound.flights_to_decide} more trials are needed for a bound"
+        return f"no {bound.side} bound of {bound.metric} {level}: {more}"
+    rank = "the worst" if bound.rank == 1 else f"{ordinal(bound.rank)} worst"
     sign = "<=" if bound.side == "upper" else ">="
-    return f"{bound.metric} {sign} {value} in {share}: {rank} of {bound.flights} flights"
+    return f"{bound.metric} {sign} {value} {level}: {rank} of {bound.flights}"
 
 
 def unmet_lines(summary: Summary) -> list[str]:
@@ -104,8 +110,8 @@ def verdict_text(result: RequirementVerdict) -> str:
     if result.verdict is not Verdict.UNDECIDED:
         return text
     more = result.flights_to_decide
-    longer = f"a campaign longer by {more[0]}, {more[1]} or {more[2]} flights"
-    return f"{text}; {longer} would meet it with 0, 1 or 2 more failures"
+    trials = f"{more[0]}, {more[1]} or {more[2]} additional trials"
+    return f"{text}; {trials} with 0, 1 or 2 further failures would meet it"
 
 
 def faults_line(faults: Iterable[object]) -> str:

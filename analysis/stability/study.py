@@ -131,7 +131,7 @@ def study_point(request: Request, point: Point, tell: Tell) -> PointResult:
                 joint_report = work.joint(loop, limits)
                 joint += [] if joint_report is None else [joint_report]
             except StudyError as error:
-                unstudied.append(Unstudied(loop.name, point.name, "channels at once", str(error)))
+                unstudied.append(Unstudied(loop.name, point.name, "simultaneous margins", str(error)))
         step = work.prepared.step
         result = PointResult(
             report=work.report(),

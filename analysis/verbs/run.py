@@ -100,8 +100,7 @@ class Result(results.Result):
         return {"time": float(self.time[-1]), **{name: float(value) for name, value in self.final().items()}}
 
     def _repr_html_(self) -> str:
-        end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
-        text = f"{self.status}{end}, {self.time.size} samples, {len(self.signals)} signals"
+        text = f"{self.ending}, {len(self.signals)} signals"
         grids = [
             Grid((figure.title, "value", "limit", "unit", ""), limit_rows(figure, self))
             for figure in self.figures

@@ -63,7 +63,7 @@ def test_names_that_are_wrong_get_the_nearest(flight):
 def test_a_notebook_shows_a_table_and_a_figure(flight):
     text = flight._repr_html_()
     page = html.fromstring(text)
-    assert "stop_time at t = 60 s, 601 samples" in page.text_content()
+    assert "stop time reached at t = 60 s, 601 samples" in page.text_content()
     rows = {row.xpath("td[1]")[0].text_content(): row for row in page.xpath("//tbody/tr")}
     assert "FAIL" in rows["distance from the target"].text_content()
     assert len(pictures(text)) == 1

@@ -24,7 +24,7 @@ from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.metrics import successes
 from perilune.analysis.campaigns.spec.requirements import Requirement
 from perilune.analysis.campaigns.summary import requirement_values, summarise
-from perilune.analysis.campaigns.tables import summary_text, unmet_lines
+from perilune.analysis.campaigns.tables import ordinal, summary_text, unmet_lines
 from perilune.analysis.campaigns.verdicts.stopping import stopping_rule
 from perilune.analysis.common.to_json import to_json
 
@@ -166,28 +166,32 @@ def test_the_summary_has_them(summary):
 
 def test_lines_name_variant_requirement_and_figures(summary):
     assert unmet_lines(summary) == [
-        "odd: requirement near: miss < 1 in 99.87 % of flights at 90 %: undecided: 1 of 2000 flights fail it; "
-        "a campaign longer by 991, 2093 or 3138 flights would meet it with 0, 1 or 2 more failures",
-        "bad: requirement near: miss < 1 in 99.87 % of flights at 90 %: not met: 300 of 2000 flights fail it",
+        "odd: requirement near: miss < 1, 99.87 % probability at 90 % confidence: undecided: 1 of 2000 flights "
+        "fail it; 991, 2093 or 3138 additional trials with 0, 1 or 2 further failures would meet it",
+        "bad: requirement near: miss < 1, 99.87 % probability at 90 % confidence: not met: 300 of 2000 flights fail it",
     ]
 
 
 def test_text(summary):
     lines = summary_text(summary).splitlines()
     start = next(place for place, line in enumerate(lines) if line.startswith("requirement"))
-    cells = [line.split("at 90 %")[1].split() for line in lines[start + 1 : start + 4]]
+    cells = [line.split("at 90 % confidence")[1].split() for line in lines[start + 1 : start + 4]]
     assert cells == [
         ["good", "2000", "0", "7.41", "met", "-,", "-,", "-"],
         ["odd", "2000", "1", "26.72", "undecided", "991,", "2093,", "3138"],
         ["bad", "2000", "300", "100.00", "not", "met", "-,", "-,", "-"],
     ]
-    assert "good: miss <= 0.5 m in 99.87 % of flights at 90 %: the worst of 2000 flights" in lines
+    assert "good: miss <= 0.5 m with 99.87 % probability at 90 % confidence: the worst of 2000" in lines
     permitted = max(count for count in range(300) if binom.cdf(count, 2000, 0.1) <= 0.1)
-    assert f"good: mass >= 6 kg in 90 % of flights at 90 %: the worst but {permitted} of 2000 flights" in lines
+    assert (
+        f"good: mass >= 6 kg with 90 % probability at 90 % confidence: {ordinal(permitted + 1)} worst of 2000" in lines
+    )
 
 
 def test_text_of_a_bound_that_takes_more_flights():
     variants = {"x": flights(1000, 0)}
     found = summarise(variants, METRICS, requirements=[NEAR])
-    line = "x: no upper bound of miss in 99.87 % of flights at 90 %: a campaign longer by 771 has one"
+    line = (
+        "x: no upper bound of miss with 99.87 % probability at 90 % confidence: 771 more trials are needed for a bound"
+    )
     assert line in summary_text(found).splitlines()

@@ -55,8 +55,13 @@ confidence = "90 %"
     ("limit", "share", "status", "words"),
     [
         (1e6, 75, 0, ""),
-        (1e6, 99.87, 1, "99.87 % of flights at 90 %: undecided: 0 of 10 flights fail it; a campaign longer by 1761, "),
-        (0, 50, 1, "near: position_error < 0 in 50 % of flights at 90 %: not met: 10 of 10 flights fail it\n"),
+        (1e6, 99.87, 1, "99.87 % probability at 90 % confidence: undecided: 0 of 10 flights fail it; 1761, "),
+        (
+            0,
+            50,
+            1,
+            "position_error < 0, 50 % probability at 90 % confidence: not met: 10 of 10 flights fail it\n",
+        ),
     ],
 )
 def test_requirements_of_the_campaign(capsys, tmp_path, limit, share, status, words):

@@ -76,7 +76,7 @@ def test_the_first_line_is_enough_for_a_reader(tmp_path):
         ["bash", "-o", "pipefail", "-c", line], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout == f"{SYSTEM}: finished at t = 207.2 s, 2073 rows\n"
+    assert done.stdout == f"{SYSTEM}: completed at t = 207.2 s, 2073 samples\n"
     assert (tmp_path / "a.csv").read_text().count("\n") == 2074
 
 

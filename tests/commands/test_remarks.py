@@ -103,7 +103,7 @@ def test_a_status_is_said_with_its_meaning(own, capsys):
     (line,) = [line for line in capsys.readouterr().out.splitlines() if line.startswith("control.status")]
     assert line.startswith("control.status: 1 (torque at its limit) from t = 0 s, ")
     assert values[0] == values.max() == 1
-    assert f"{100 * (values == 1).mean():.2g} %" in line or "all of the rows" in line
+    assert f"{100 * (values == 1).mean():.2g} %" in line or "all of the samples" in line
     batch = ["batch", "axis", "--campaign", "dispersed", "--trials", "2", "--workers", "1"]
     assert main([*batch, *words]) == 0
     assert "\ncontrol.status 1, torque at its limit\n" in capsys.readouterr().out

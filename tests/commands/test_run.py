@@ -37,7 +37,7 @@ def test_says_how_it_ended(capsys):
     assert main(["run", SYSTEM]) == 0
     captured = capsys.readouterr()
     lines = captured.out.splitlines()
-    assert lines[0] == f"{SYSTEM}: finished at t = 207.2 s, 2073 rows"
+    assert lines[0] == f"{SYSTEM}: completed at t = 207.2 s, 2073 samples"
     assert [line.rpartition(": ")[2] for line in lines[1:]] == ["PASS", "PASS"]
     assert captured.err == ""
     assert main(["run", SYSTEM, "--stop-time", "2"]) == 1
@@ -45,7 +45,7 @@ def test_says_how_it_ended(capsys):
     lines = captured.out.splitlines()
     words = "limits violated: distance from the target, velocity error"
     assert captured.err == f"perilune: ssp_systems/{SYSTEM}/SystemStructure.ssd: {words}\n"
-    assert lines[0] == f"{SYSTEM}: stop_time at t = 2 s, 21 rows"
+    assert lines[0] == f"{SYSTEM}: stop time reached at t = 2 s, 21 samples"
     assert [line.rpartition(": ")[2] for line in lines[1:]] == ["FAIL", "FAIL"]
 
 

@@ -33,7 +33,8 @@ class Requirement:
     description: str = ""
 
     def __str__(self) -> str:
-        return f"{self.expression.text} in {100 * self.share:.10g} % of flights at {100 * self.confidence:.10g} %"
+        probability, confidence = f"{100 * self.share:.10g} %", f"{100 * self.confidence:.10g} %"
+        return f"{self.expression.text}, {probability} probability at {confidence} confidence"
 
 
 def read_requirements(table: Table, metrics: Collection[str], draws: Iterable[Draw]) -> tuple[Requirement, ...]:

@@ -1,4 +1,4 @@
-"""The two problems whose bounds are asked for: a hover transfer, and braking and landing in one."""
+"""The two problems whose bounds are asked for: a hover transfer, and a single-burn braking and landing."""
 
 from __future__ import annotations
 

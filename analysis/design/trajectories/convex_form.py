@@ -26,7 +26,7 @@ TOLERANCE = 1e-10
 @dataclass(frozen=True)
 class PointMassPath:
     """A solution over ``time`` (s), N + 1 points: ``position`` (m) and ``velocity`` (m/s), a row each, and
-    ``log_mass``, ln of mass over the mass at the start; over each of the N intervals the ``thrust_acceleration`` (m/s2)
+    ``log_mass``, ln of mass over the initial mass; over each of the N intervals the ``thrust_acceleration`` (m/s2)
     is constant, and ``size`` is what it was held to in the convex form.
     """
 
@@ -39,7 +39,7 @@ class PointMassPath:
 
     @property
     def propellant_fraction(self) -> float:
-        """Propellant over the mass at the start."""
+        """Propellant fraction: propellant over the initial mass."""
         return -math.expm1(self.log_mass[-1])
 
     @property

@@ -17,7 +17,7 @@ THROTTLE = 0.7  # of the guess
 def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float, float]:
     """Propellant fraction and duration (s) by multiple shooting in throttle and direction, on so many intervals.
 
-    States: place, velocity, propellant over the mass at the start; raises `PlanError`.
+    States: place, velocity, propellant over the initial mass; raises `PlanError`.
     """
     length, speed = problem.length, problem.speed
     ca = casadi()

@@ -63,7 +63,7 @@ class HoverStudy:
         return self.programme.path(self.vehicle.maximum_thrust)
 
     def document(self) -> dict[str, Any]:
-        """All of it for other programs; times in s, angles in deg, propellant over the mass at the start and in kg."""
+        """All of it for other programs; times in s, angles in deg, propellant over the initial mass and in kg."""
         programme = self.programme
         least, largest = (math.degrees(angle) for angle in programme.extremes)
         return {
@@ -165,7 +165,7 @@ def _bound(vehicle: Vehicle, transfer: Transfer, intervals: int) -> PlannedPath:
 
 
 def _degrees(values: dict[str, Any]) -> dict[str, Any]:
-    """The angular acceleration in deg/s2, under a name that says so; none for a vehicle that turns at will."""
+    """The angular acceleration in deg/s2, under a name that says so; none for a vehicle that has no such limit."""
     turn = math.degrees(values.pop("angular_acceleration"))
     return values | ({"angular_acceleration_deg_s2": turn} if math.isfinite(turn) else {})
 

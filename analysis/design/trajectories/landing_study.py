@@ -1,4 +1,4 @@
-"""The bound of braking and landing in one, and the direct method that checks it."""
+"""The bound of a single-burn braking and landing, and the direct method that checks it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .vehicle import Landing, Vehicle
 
 @dataclass(frozen=True)
 class Direct:
-    """What the direct method finds: propellant over the mass at the start, and duration (s)."""
+    """What the direct method finds: propellant over the initial mass, and duration (s)."""
 
     propellant_fraction: float
     duration: float

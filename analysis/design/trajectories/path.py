@@ -24,7 +24,7 @@ class PlanError(EndedError):
 class PlannedPath:
     """A plan at N + 1 times (s) and over the N intervals between them.
 
-    ``position`` (m) and ``velocity`` (m/s), a row each, along and up; ``propellant`` over the mass at the start. Over
+    ``position`` (m) and ``velocity`` (m/s), a row each, along and up; ``propellant`` over the initial mass. Over
     each interval ``throttle``, the share of the engine's largest thrust, and ``pitch`` (rad), the angle of thrust from
     the first axis in its middle, nan where there is no thrust.
     """
@@ -43,7 +43,7 @@ class PlannedPath:
 
     @property
     def propellant_fraction(self) -> float:
-        """Propellant over the mass at the start."""
+        """Propellant fraction: propellant over the initial mass."""
         return float(self.propellant[-1])
 
     @property

@@ -1,4 +1,4 @@
-"""What a bound is asked of: a point mass that points its thrust at will, flying in a plane."""
+"""What a bound is asked of: a point mass that has any thrust direction in a plane."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class CentralGravity:
 class PointMassProblem:
     """From one state to another on least propellant, attitude free. Positions (m) and velocities (m/s) along and up.
 
-    ``exhaust_speed`` in m/s; ``least`` and ``most`` are the engine's thrust limits over the mass at the start, m/s2.
+    ``exhaust_speed`` in m/s; ``least`` and ``most`` are the engine's thrust limits over the initial mass, m/s2.
     ``length`` (m) and ``speed`` (m/s) are the scales in which it is solved.
     """
 

@@ -37,7 +37,7 @@ class Programme:
 
     @property
     def propellant_fraction(self) -> float:
-        """Propellant over the mass at the start."""
+        """Propellant fraction: propellant over the initial mass."""
         return hover_solution.propellant_fraction(list(self.times), _kernel_vehicle(self.vehicle, self.transfer))
 
     @property

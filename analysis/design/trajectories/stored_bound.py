@@ -24,9 +24,9 @@ FIELDS = ("propellant", "duration", "intervals", "burns", "pieces", "sha256", "i
 
 @dataclass(frozen=True)
 class StoredBound:
-    """``propellant`` (kg) and ``duration`` (s) of braking and landing in one, ``burns`` at full thrust (begin and end,
-    s), on so many ``intervals``; propellant (kg) of the ``pieces`` that the SSD cuts it into, by name; ``inputs``, SI,
-    and their hash.
+    """``propellant`` (kg) and ``duration`` (s) of a single-burn braking and landing, ``burns`` at full thrust
+    (begin and end, s), on so many ``intervals``; propellant (kg) of the ``pieces`` that the SSD cuts it into, by name;
+    ``inputs``, SI, and their hash.
     """
 
     propellant: float

@@ -17,7 +17,7 @@ from .programme import Programme
 from .solvers import casadi
 
 RATE = 0.1  # rad/s, the scale of the pitch's rate; pitch itself is not scaled
-SHARE = 0.05  # the scale of the propellant over the mass at the start
+SHARE = 0.05  # the scale of the propellant over the initial mass
 
 
 def find_true_optimum(programme: Programme, intervals: int, engine: float) -> PlannedPath:

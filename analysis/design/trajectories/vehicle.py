@@ -29,12 +29,12 @@ class Vehicle:
 
     @property
     def full(self) -> float:
-        """Largest thrust over the mass at the start, m/s2."""
+        """Largest thrust over the initial mass, m/s2."""
         return self.maximum_thrust / self.mass
 
     @property
     def least(self) -> float:
-        """Least thrust over the mass at the start, m/s2."""
+        """Least thrust over the initial mass, m/s2."""
         return self.minimum_thrust / self.mass
 
 
@@ -101,7 +101,7 @@ def check_hover(planned: Vehicle, transfer: Transfer) -> None:
 
 @dataclass(frozen=True)
 class Landing:
-    """Braking and landing in one: from orbit to rest over the site, around a Moon that does not turn.
+    """Single-burn braking and landing: from orbit to rest over the site, around a Moon that does not turn.
 
     The start, in the plane of flight: ``range`` (m) from the site along the ground, ``altitude`` (m), ``speed`` (m/s)
     at an angle ``climb`` (rad) above the local horizontal, towards the site. The end: ``target_altitude`` (m) above it.

@@ -89,7 +89,7 @@ def distribution_panel(metric: Metric, values: dict[str, np.ndarray], looks: Map
             x = np.linspace(min(-NORMAL_REACH, axes.get_xlim()[0]), max(NORMAL_REACH, axes.get_xlim()[1]), 121)
             axes.set_xlim(x[0], x[-1])
             axes.plot(x, 100.0 * norm.cdf(x), linewidth=1.0, **FAILED)
-        axes.set_title("share of trials, %", loc="left", fontsize=8.5)
+        axes.set_title("cumulative probability, %", loc="left", fontsize=8.5)
 
     slug = "".join(letter if letter.isalnum() else "-" for letter in metric.name)
     return panel(metric.name, f"distribution-{slug}", f"Distributions of {metric.name}", draw)

@@ -47,7 +47,7 @@ def missing_parts(
     if goes and not _has_mass(comparison):
         reasons["propellant"] = "No propellant: no metric is in kg, and [record] final does not keep a mass."
     if "consistency" not in kinds and not any(is_over_sigma(metric) for metric in comparison.metrics):
-        reasons["consistency"] = "No errors over the filter's own deviations: no metric's name ends in _over_sigma."
+        reasons["consistency"] = "No normalised estimation errors: no metric's name ends in _over_sigma."
     return reasons
 
 

@@ -149,7 +149,7 @@ def plan_panels(bundles: Mapping[str, Bundle], looks: Mapping[str, Look]) -> lis
             if equal:
                 axes.set_aspect("equal")
             else:
-                axes.set_title("two scales", loc="right", fontsize=8.0, color=FAINT)
+                axes.set_title("not to scale", loc="right", fontsize=8.0, color=FAINT)
             axes.set_xlabel(f"x, {x_unit}")
             axes.set_title(f"y, {y_unit}", loc="left", fontsize=8.5)
             plain_ticks(axes, x=5, y=5)

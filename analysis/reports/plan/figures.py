@@ -62,7 +62,7 @@ def curve_panel(label: str, name: str, curve: Curve, quantity: str, points: Sequ
         for point in points:
             axes.plot(point.at, point.propellant, linestyle="", marker=point.look.marker, color=point.look.colour)
         axes.set_xlabel(quantity)
-        axes.set_ylabel("propellant over mass")
+        axes.set_ylabel("propellant fraction")
         plain_ticks(axes, x=6, y=5)
 
     known = curve.propellant[np.isfinite(curve.propellant)]

@@ -19,6 +19,7 @@ from ..system.names import elements, vectors
 
 TIMED_OUT = "timed_out"
 COMPLETE = ("finished", "stop_time", "terminated")
+ENDINGS = {"finished": "completed", "stop_time": "stop time reached", TIMED_OUT: "timed out"}  # where words differ
 
 
 def require_pandas() -> None:
@@ -56,8 +57,13 @@ class Flight:
         return np.stack([self.signals[part] for part in parts], axis=1)
 
     def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.ending}, {len(self.signals)} signals)"
+
+    @property
+    def ending(self) -> str:
+        """How and when it ended, in words, with its number of samples."""
         end = f" at t = {self.time[-1]:g} s" if self.time.size else ""
-        return f"{type(self).__name__}({self.status}{end}, {self.time.size} rows, {len(self.signals)} signals)"
+        return f"{ENDINGS.get(self.status, self.status)}{end}, {self.time.size} samples"
 
     @property
     def complete(self) -> bool:

@@ -26,9 +26,8 @@ def status_lines(network: Network, flight: Flight) -> list[str]:
         first = float(flight.time[np.argmax(values == worst)])
         share = np.count_nonzero(values == worst) / values.size
         meaning = status_meaning(network, name, worst)
-        words = (
-            f"{name}: {worst}{f' ({meaning})' if meaning else ''} from t = {first:g} s, {_percent(share)} of the rows"
-        )
+        value = f"{worst} ({meaning})" if meaning else f"{worst}"
+        words = f"{name}: {value} from t = {first:g} s, {_percent(share)} of the samples"
         lines.append(words if last == worst else f"{words}, {last} at the end")
     return lines
 

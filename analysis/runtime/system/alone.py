@@ -1,4 +1,4 @@
-"""An FMU that flies alone: the description of a system of one component, which no SSD holds."""
+"""A stand-alone FMU: the description of a system of one component, which no SSD holds."""
 
 from __future__ import annotations
 

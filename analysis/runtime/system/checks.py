@@ -65,5 +65,5 @@ def check_samples(network: Network, settings: Settings, step: float, periods: di
         if 0.0 < period < own * (1.0 - 1e-9):
             file = settings.origins.get((component, "sample_period"), network.file)
             problem = f"{period:g} s is shorter than the communication step of {own:g} s"
-            remedy = f"give a `step` of {period:g} or a whole part of it, or a longer period"
+            remedy = f"give a `step` of {period:g} or an integer submultiple of it, or a longer period"
             raise InputError(file, f"{component}.sample_period", problem, remedy)

@@ -1,4 +1,4 @@
-"""One operating point: its bench, its linear model, its loops, and how long the frozen view holds."""
+"""One operating point: its bench, its linear model, its loops, and how long the frozen-time linearisation is valid."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .loop_study import LoopStudy
 from .responses import DOUBTFUL, LoopModel, loop_model
 
 MOST_TRIM = 8  # of the memory that changes most
-TENTH = 0.1  # relative change of L at which the frozen view no longer holds
+TENTH = 0.1  # relative change of L at which the frozen-time linearisation is no longer valid
 
 
 class PointStudy:

@@ -13,7 +13,7 @@ from .varied import SweepReport
 
 @dataclass(frozen=True)
 class PointReport:
-    """An operating point: where the system was linearised and how long the frozen view holds.
+    """An operating point: where the system was linearised and how long the frozen-time linearisation is valid.
 
     ``time`` is that of the communication point (s); ``trim`` lists, for the memory that changes most over one
     period, name, value, change over the period and unit; ``drift`` is the largest relative change of a margin's

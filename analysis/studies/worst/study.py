@@ -94,7 +94,7 @@ def worst_margin(
 ) -> WorstResult:
     """The draws that make the least margin of a loop's channels smallest, in the box of `worst_case`.
 
-    ``margin`` is one of `SIZES`. An unstable loop is worse than any margin, by its largest multiplier; draws that
+    ``margin`` is one of `SIZES`. An unstable loop is worse than any margin, by its spectral radius; draws that
     cannot be studied are the worst there is. The rest is as in `worst_case`, but for ``realisations``: 1, since noise
     moves a loop's margin only by where it has brought the flight to. Raises InputError.
     """

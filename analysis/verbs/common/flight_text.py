@@ -21,8 +21,7 @@ FINISHED = "finished"  # the root output that ends a run
 
 def flight_lines(prepared: PreparedSystem, figures: Sequence[Figure], result: Result) -> list[str]:
     """How a flight ended: status, limits, statuses of components."""
-    end = f" at t = {result.time[-1]:g} s" if result.time.size else ""
-    lines = [f"{prepared.archive.name}: {result.status}{end}, {result.time.size} rows"]
+    lines = [f"{prepared.archive.name}: {result.ending}"]
     for figure in figures:
         if isinstance(figure, Limits):
             lines += limit_lines(figure, result)

@@ -1,4 +1,4 @@
-"""`perilune.plan_landing_bound` and `perilune design bound`: the least propellant of braking and landing in one."""
+"""`perilune.plan_landing_bound` and `perilune design bound`: least propellant of a single-burn landing."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def plan_landing_bound(
     system: FilePath | None = None,
     **options: Unpack[BoundOptions],
 ) -> LandingBound:
-    """Bound the propellant of braking and landing in one: `perilune design bound`; needs the extra `plan`.
+    """Bound the propellant of a single-burn braking and landing: `perilune design bound`; needs the extra `plan`.
 
     ``landing`` and ``vehicle`` are those of a ``system`` that declares a bound, else the published case, with numbers
     replaced by keywords of their names; ``climb`` is in deg. ``direct`` checks the bound by a direct method. ``store``

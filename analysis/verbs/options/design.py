@@ -209,7 +209,7 @@ class BoundOptions(SystemOptions, VehicleOptions, total=False):
 BOUND = Verb(
     "design bound",
     "Make",
-    "bound the propellant of braking and landing in one: a point mass, attitude free",
+    "bound the propellant of a single-burn braking and landing: a point mass, attitude free",
     ("design.bound", "plan_landing_bound"),
     (
         Argument(

@@ -29,7 +29,7 @@ def test_everything_is_read(campaign):
     pinpoint, lands = campaign(METRICS + KEPT).requirements
     assert (pinpoint.name, pinpoint.share, pinpoint.confidence) == ("pinpoint", 0.9987, 0.9)
     assert (pinpoint.metric, pinpoint.bound, pinpoint.description) == ("miss", "upper", "where the crew waits")
-    assert str(pinpoint) == "miss < 10 and success in 99.87 % of flights at 90 %"
+    assert str(pinpoint) == "miss < 10 and success, 99.87 % probability at 90 % confidence"
     assert (lands.share, lands.confidence, lands.metric, lands.description) == (0.95, 0.95, None, "")
     assert campaign(METRICS).requirements == ()
 

@@ -60,7 +60,7 @@ def test_run(folder, tmp_path, capsys):
     assert main(command) == 0
     said = [BIAS, "whole.b=override:true@0.5", "ramp.count=freeze@0.25..1"]
     assert capsys.readouterr().out.splitlines() == [
-        "s: stop_time at t = 1 s, 5 rows", f"with faults: {'; '.join(said)}", f"written: {output}, {page}",
+        "s: stop time reached at t = 1 s, 5 samples", f"with faults: {'; '.join(said)}", f"written: {output}, {page}",
     ]  # fmt: skip
     table = pyarrow.parquet.read_table(output)
     assert table["gain.u"].to_pylist() == [1.0, 2.0, 2.5, 2.5, 3.0]

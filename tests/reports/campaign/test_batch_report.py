@@ -72,8 +72,11 @@ def test_requirements_have_verdicts_in_words_and_colour(tmp_path):
     assert [(cell.text, cell.get("class")) for cell in cells] == [pair for pair in words for _ in range(2)]
     shown = text_of(page)
     assert "1731, 2951, 4053" in shown
-    assert "no upper bound of tilt in 99.87 % of flights at 90 %: a campaign longer by 1731 has one" in shown
-    assert "tilt >= 5.73 deg in 50 % of flights at 90 %: the worst but 15 of 40 flights" in shown  # 0.1 rad
+    assert (
+        "no upper bound of tilt with 99.87 % probability at 90 % confidence: 1731 more trials are needed for a bound"
+        in shown
+    )
+    assert "tilt >= 5.73 deg with 50 % probability at 90 % confidence: 16th worst of 40" in shown  # 0.1 rad
     assert "one can do it" in shown
     assert "Requirements" not in text_of(write(mixed_batch(), tmp_path / "without.html"))
 

@@ -27,7 +27,7 @@ def test_a_comparison_of_six_variants_is_short(browser, tmp_path):
         assert 3 < len(sheets.pages) <= MOST_OF_A_COMPARISON
         words = words_of(sheets)
         assert "Provenance" in words
-        assert "The panels of each variant stand on the screen, not on paper." in words
+        assert "The panels of each variant are omitted in print." in words
         assert "The same over all trials: on the screen, not on paper" in words
 
 

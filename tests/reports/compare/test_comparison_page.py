@@ -128,7 +128,7 @@ def test_pairs_of_rates(page, trials):
                     discordant = table[0][1] + table[1][0]
                     p = scipy.stats.binomtest(int(table[0][1]), int(discordant)).pvalue
                     rows.append([x.mean() - y.mean(), p, table[0][0], table[0][1], table[1][0], table[1][1]])
-    tree = section(page, "Pairs on the same trials")
+    tree = section(page, "Paired comparison")
     first, others = tree.xpath(".//table")[:2]  # against the reference, and what is folded away
     found = [numbers(row) for table in (first, others) for row in table.xpath(".//tr") if numbers(row)]
     np.testing.assert_allclose([[row[0], *row[3:]] for row in found], rows, rtol=1e-9, atol=1e-12)
@@ -136,7 +136,7 @@ def test_pairs_of_rates(page, trials):
 
 
 def test_pairs_of_metrics(page, trials):
-    tree = section(page, "Pairs on the same trials")
+    tree = section(page, "Paired comparison")
     (heading,) = (part for part in tree.xpath("h3") if part.text == "Metrics, trials in which both succeed")
     table = heading.getnext().xpath(".//table")[0]
     expected = []
@@ -155,7 +155,7 @@ def test_pairs_of_metrics(page, trials):
 
 def test_intervals_without_zero_are_bold_and_others_are_not(page):
     found = []
-    for cell in section(page, "Pairs on the same trials").xpath(".//td[contains(@class, 'n')]"):
+    for cell in section(page, "Paired comparison").xpath(".//td[contains(@class, 'n')]"):
         ends = numbers(cell)
         if len(ends) == 2:
             found.append(ends[0] > 0.0 or ends[1] < 0.0)
@@ -185,7 +185,7 @@ def test_errors_over_sigma(page, trials):
         values = trials[variant]["metric.x_error_over_sigma"]
         shares = [np.mean(np.abs(values) <= limit) for limit in (1, 2, 3)]
         expected.append([values.mean(), values.std(ddof=1), *shares, 40])
-    found = table_rows(section(page, "Errors over the filter's own deviations"), 6)
+    found = table_rows(section(page, "Normalised estimation errors"), 6)
     np.testing.assert_allclose(found, expected, rtol=1e-9)
     assert "normal: 68.3" in text_of(page)
 
@@ -193,9 +193,9 @@ def test_errors_over_sigma(page, trials):
 def test_every_section_and_figure_is_there(page):
     headings = [part.text for part in parse(page).xpath("//h2")]
     assert headings == [
-        "Rates", "Metrics of the successful trials", "Pairs on the same trials", "Trajectories", "At the end",
-        "Distributions", "Commands and motion over time", "Errors over the filter's own deviations", "How trials ended",
-        "What was drawn", "Provenance",
+        "Rates", "Metrics of the successful trials", "Paired comparison", "Trajectories", "At the end",
+        "Distributions", "Commands and motion over time", "Normalised estimation errors", "Termination status",
+        "Dispersed parameters", "Provenance",
     ]  # fmt: skip
     quantities = [part.text for part in parse(page).xpath("//h4")]
     assert quantities == [
@@ -318,7 +318,7 @@ def test_what_is_not_recorded_is_said_and_not_drawn(tmp_path):
         "No dispersion of the final position and velocity: [record] final does not keep its three elements.",
         "No propellant: no metric is in kg, and [record] final does not keep a mass.",
         "Nothing is recorded over time.",
-        "No errors over the filter's own deviations: no metric's name ends in _over_sigma.",
+        "No normalised estimation errors: no metric's name ends in _over_sigma.",
     ]
 
 

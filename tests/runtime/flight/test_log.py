@@ -63,7 +63,7 @@ def test_the_command(talking, capsys):
     assert main(["run", str(talking), "--log", "warning"]) == 0
     printed = capsys.readouterr()
     assert printed.err == f"log: {WARNING}\n"
-    assert printed.out == "Talking: stop_time at t = 1 s, 5 rows\n"
+    assert printed.out == "Talking: stop time reached at t = 1 s, 5 samples\n"
 
 
 @pytest.mark.parametrize("workers", ["1", "2"])

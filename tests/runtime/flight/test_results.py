@@ -120,6 +120,6 @@ def test_a_vector_by_its_own_name_and_a_wrong_one():
     )
     assert flight["a.r"].tolist() == [[1.0, 3.0], [2.0, 4.0]]
     assert flight["a.r[2]"].tolist() == [3.0, 4.0]
-    assert repr(flight) == "Flight(finished at t = 1 s, 2 rows, 3 signals)"
+    assert repr(flight) == "Flight(completed at t = 1 s, 2 samples, 3 signals)"
     with pytest.raises(KeyError, match=r"no signal a\.sped; use one of a\.speed, a\.r, a\.r\[1\], a\.r\[2\]"):
         flight["a.sped"]

@@ -147,7 +147,7 @@ def test_refusals(linear, options, words):
 
 @pytest.mark.usefixtures("fmus")
 def test_variants_are_to_be_chosen_and_noise_can_be_held():
-    with pytest.raises(InputError, match=r"3 variants.*choose: compare guidance=analytic_guidance"):
+    with pytest.raises(InputError, match=r"3 variants.*give configuration analytic_guidance"):
         perilune.rare("lunar_terminal_guidance", "noisy")
     result = perilune.rare(
         "lunar_terminal_guidance", "noisy", compare={"guidance": "analytic_guidance"}, noise_trial=3, samples=100,

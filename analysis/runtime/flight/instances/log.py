@@ -1,4 +1,4 @@
-"""What FMUs say while they fly, as lines on standard error: time, component, status, category, message."""
+"""Log messages of FMUs, as lines on standard error: time, component, status, category, message."""
 
 from __future__ import annotations
 
