@@ -1,14 +1,14 @@
-"""The rooms of docs/architecture.md: imports run down its table only, none in a circle, and no room is crowded.
+"""The rooms of tests/rooms.toml: imports run down its list only, none in a circle, and no room is crowded.
 
-Truth: the table, and the imports as Python's own parser reads them.
+Truth: the list, and the imports as Python's own parser reads them.
 """
 
 from __future__ import annotations
 
 import ast
-import re
 import subprocess
 import sys
+import tomllib
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,7 +17,6 @@ import pytest
 
 from perilune.fmus_src.paths import ROOT
 
-PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
 OURS = {"perilune", "analysis", "fmus_src"}
 EVERYWHERE = {"analysis/common", "fmus_src/paths"}
 KINDS = ("plants", "sensors", "navigation", "guidance", "control", "actuators", "disturbances", "sequencing")
@@ -30,22 +29,21 @@ LISTS = {
 }  # of things alike, where one looks for a name
 
 
-def table() -> dict[str, set[str]]:
-    """Room -> what it may import, in the order of the table."""
-    found: dict[str, set[str]] = {}
-    for row in re.findall(r"^\| (`(?:analysis|fmus_src)[^|]*) \|[^|]*\|([^|]*)\|$", PAGE, re.MULTILINE):
-        names, allowed = row[0], set(re.findall(r"`([^`]+)`", row[1]))
-        rooms = [f"fmus_src/{kind}" for kind in KINDS] if "..." in names else re.findall(r"`([^`]+)`", names)
-        for room in rooms:
-            found[room] = {"everything"} if "everything" in row[1] else allowed
-    return found
+def read_rooms() -> dict[str, set[str]]:
+    """Room -> what it may import, in the order of the file."""
+    rooms = tomllib.loads((ROOT / "tests" / "rooms.toml").read_text(encoding="utf-8"))
+    return {
+        room.replace("KIND", kind): set(entry["imports"])
+        for room, entry in rooms.items()
+        for kind in (KINDS if "KIND" in room else ("",))
+    }
 
 
-ROOMS = table()
+ROOMS = read_rooms()
 
 
 def room_of(module: str) -> str:
-    """The most particular room of the table that a module, ``analysis.batch.flying.flyer``, lies in."""
+    """The most particular room of the list that a module, ``analysis.batch.flying.flyer``, lies in."""
     path = module.replace(".", "/")
     inside = [room for room in (*ROOMS, *EVERYWHERE) if path == room or path.startswith(f"{room}/")]
     return max(inside, key=len)
@@ -96,25 +94,25 @@ def test_every_file_has_a_room():
         assert room_of(".".join(file.relative_to(ROOT).with_suffix("").parts))
 
 
-def test_imports_are_those_of_the_table(arrows):
+def test_imports_are_those_of_the_list(arrows):
     assert len(arrows) > 20
     for room, targets in arrows.items():
         allowed = ROOMS.get(room, set()) | EVERYWHERE
         for target, file in targets:
-            assert "everything" in allowed or target in allowed, f"{file}: {room} may not import {target}"
+            assert target in allowed, f"{file}: {room} may not import {target}"
 
 
-def test_the_table_runs_downwards():
+def test_the_list_runs_downwards():
     order = list(ROOMS)
     for room, allowed in ROOMS.items():
-        for target in allowed - {"everything"}:
+        for target in allowed:
             assert order.index(target) > order.index(room), f"{room} -> {target}"
 
 
-def test_the_table_allows_nothing_that_is_not_used(arrows):
+def test_the_list_allows_nothing_that_is_not_used(arrows):
     for room, allowed in ROOMS.items():
         if room.removeprefix("fmus_src/") not in KINDS:
-            assert allowed - {"everything"} <= {target for target, _ in arrows.get(room, set())}
+            assert allowed <= {target for target, _ in arrows.get(room, set())}
 
 
 def test_no_room_is_crowded():

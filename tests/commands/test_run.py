@@ -51,7 +51,7 @@ def test_says_how_it_ended(capsys):
 
 def test_json_to_a_file_and_talk_to_the_terminal(tmp_path, capsys):
     assert main(["run", SYSTEM, "--stop-time", "1", "--json", str(tmp_path / "a" / "run.json")]) == 1
-    assert "stop_time" in capsys.readouterr().out
+    assert "stop time reached" in capsys.readouterr().out
     assert json.loads((tmp_path / "a" / "run.json").read_text())["rows"] == 11
 
 

@@ -34,22 +34,22 @@ def test_the_printed_values_are_the_campaign(system, path):
 
 
 def test_what_extends_replaces_a_value(tmp_path):
-    (tmp_path / "parts.toml").write_text('trials = 10\n[set]\n"plant.gravity" = 1.6\n[success]\nexpression = "1"\n')
-    text = 'extends = "parts.toml"\nsystem = "lunar_landing"\nseed = 1\n\n[set]\n"plant.gravity" = 1.7\n'
-    (tmp_path / "own.toml").write_text(text)
-    described = perilune.describe("lunar_landing", campaign=str(tmp_path / "own.toml"))
+    (tmp_path / "earlier.toml").write_text('trials = 10\n[set]\n"plant.gravity" = 1.6\n[success]\nexpression = "1"\n')
+    text = 'extends = "earlier.toml"\nsystem = "lunar_landing"\nseed = 1\n\n[set]\n"plant.gravity" = 1.7\n'
+    (tmp_path / "later.toml").write_text(text)
+    described = perilune.describe("lunar_landing", campaign=str(tmp_path / "later.toml"))
     origins = {each["name"]: (each["value"], Path(each["file"]).name, each["line"]) for each in described["values"]}
-    assert origins["trials"] == (10, "parts.toml", 1)
-    assert origins['set."plant.gravity"'] == (1.7, "own.toml", 6)
+    assert origins["trials"] == (10, "earlier.toml", 1)
+    assert origins['set."plant.gravity"'] == (1.7, "later.toml", 6)
 
 
 def test_the_command_line(capsys):
     assert main(["describe", "entry_attitude", "--campaign", "cases"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert all(len(line) <= 100 for line in lines)
-    own, parts = lines.index("campaigns/cases.toml"), lines.index("campaigns/parts/cases.toml")
-    assert ["7", "seed", "=", "3200"] in [line.split() for line in lines[own:]]
-    assert lines[parts + 1].split() == ["4", "draw.case.distribution", "=", '"grid"']
+    first, inherited = lines.index("campaigns/cases.toml"), lines.index("campaigns/parts/cases.toml")
+    assert ["7", "seed", "=", "3200"] in [line.split() for line in lines[first:]]
+    assert lines[inherited + 1].split() == ["4", "draw.case.distribution", "=", '"grid"']
     assert main(["describe", "entry_attitude", "--campaign", "cases", "--json", "-"]) == 0
     assert json.loads(capsys.readouterr().out)["variants"][0] == "robust_control"
 

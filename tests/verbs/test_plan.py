@@ -172,7 +172,7 @@ def test_without_a_solver(capsys, arguments, words):
 def test_the_programme_needs_no_solver(tmp_path, capsys):
     page = tmp_path / "new" / "plan.html"
     assert made(capsys, "transfer", "--report", str(page))["true_optimum"] is None
-    assert "Not asked for: true optimum, point-mass bound." in page.read_text()
+    assert "Not computed: true optimum, point-mass bound." in page.read_text()
 
 
 def test_landing(capsys):

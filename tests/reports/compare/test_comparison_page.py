@@ -91,7 +91,7 @@ def test_rates_and_their_intervals(page, trials):
             low = scipy.stats.beta.ppf(0.025, yes, 40 - yes + 1)
             high = scipy.stats.beta.ppf(0.975, yes + 1, 40 - yes) if yes < 40 else 1.0
             expected.append([yes / 40, low, high, yes, 40])
-    np.testing.assert_allclose(table_rows(section(page, "Rates"), 5), expected, rtol=1e-9)
+    np.testing.assert_allclose(table_rows(section(page, "Success probabilities"), 5), expected, rtol=1e-9)
 
 
 def test_metrics_of_the_successful_and_of_all_trials(page, trials):
@@ -176,7 +176,7 @@ def test_dispersions_at_the_end(page, trials):
             radii = [*np.percentile(miss, [50, 99], method="inverted_cdf"), miss.max()]
             expected.append([len(errors), *errors.mean(axis=0), *errors.std(axis=0, ddof=1), *axes, *radii])
     np.testing.assert_allclose(table_rows(section(page, "At the end"), 12), expected, rtol=1e-9)
-    assert "the ellipses hold 39.3, 86.5 and 98.9 %" in text_of(page)  # test_comparison_figures.py: they do
+    assert "ellipses contain 39.3, 86.5 and 98.9 % of a bivariate normal distribution" in text_of(page)  # test_comparison_figures.py: they do
 
 
 def test_errors_over_sigma(page, trials):
@@ -193,7 +193,7 @@ def test_errors_over_sigma(page, trials):
 def test_every_section_and_figure_is_there(page):
     headings = [part.text for part in parse(page).xpath("//h2")]
     assert headings == [
-        "Rates", "Metrics of the successful trials", "Paired comparison", "Trajectories", "At the end",
+        "Success probabilities", "Metrics of the successful trials", "Paired comparison", "Trajectories", "At the end",
         "Distributions", "Commands and motion over time", "Normalised estimation errors", "Termination status",
         "Dispersed parameters", "Provenance",
     ]  # fmt: skip

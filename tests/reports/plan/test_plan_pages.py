@@ -97,7 +97,7 @@ def test_straight_down(tmp_path):
     text = (tmp_path / "down.html").read_text(encoding="utf-8")
     assert_self_contained(text)
     assert parse(text).xpath("//dt[.='programme']/../dd/text()") == ["vertical"]
-    assert "Not asked for: true optimum, point-mass bound." in text_of(text)
+    assert "Not computed: true optimum, point-mass bound." in text_of(text)
 
 
 @pytest.mark.parametrize("name", ["hover", "landing"])

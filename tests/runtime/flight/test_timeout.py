@@ -143,7 +143,7 @@ def test_the_command_says_so(hanging, tmp_path, capsys):
     output, report = tmp_path / "f.csv", tmp_path / "f.html"
     assert main(["run", str(hanging), *values, "--output", str(output), "--report", str(report)]) == 1
     printed = capsys.readouterr()
-    assert printed.out.startswith("Hanging: timed_out at t = 0.75 s, 4 rows\n")
+    assert printed.out.startswith("Hanging: timed out at t = 0.75 s, 4 samples\n")
     assert printed.err.startswith(
         f"perilune: {hanging}: took longer than its time limit of 0.5 s: ended at t = 0.75 s;"
     )

@@ -59,6 +59,6 @@ def test_a_good_end_on_the_command_line(tmp_path, capsys):
     path = odd_system(tmp_path, ENDS_AT=0.6)
     assert main(["run", str(path), "--require", "time <= 0.6", "--report", str(tmp_path / "page.html")]) == 0
     found = capsys.readouterr()
-    assert "odd: terminated at t = 0.6 s, 4 rows" in found.out
+    assert "odd: terminated at t = 0.6 s, 4 samples" in found.out
     assert found.err == ""
     assert "Terminated by an FMU." in (tmp_path / "page.html").read_text()
