@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | figures | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -55,12 +55,18 @@ notebooks: build
 explore: build
 	PERILUNE_EXPLORE=1 $(BIN)/python -m pytest -n 2 $$(grep -rl 'from hypothesis' tests --include='test_*.py')
 
-# Gains that follow from the capsule's aerodynamic table, into the module that its regulators read; and how large the
-# gain of the whole model would be, which no regulator reads.
+# Gains that follow from the capsule's aerodynamic table, into the parameter sets of entry_attitude; and the norm of the
+# gain of the whole model, which no regulator has.
 gains: .venv/ready
 	$(BIN)/python -m perilune.analysis.design.synthesis.entry_gains
 	@$(BIN)/python -c "import numpy; from perilune.analysis.design.synthesis.entry_whole_gain import whole_gain; \
 		print(f'whole model: |F| = {numpy.linalg.norm(whole_gain()):.4g}')"
+
+# The pictures of docs/images, each below 100 kB; those of modal synthesis take two minutes.
+FIGURES := concept system_figures readme_figure rendezvous_figures modal_comparison
+
+figures: build
+	for name in $(FIGURES); do $(BIN)/python -m docs.figures.$$name || exit 1; done
 
 bench: build
 	$(BIN)/perilune benchmark

@@ -78,7 +78,7 @@ def test_what_the_page_says_is_printed(here, capsys):
             assert f"    {line}\n" in PAGE
     require = ["--require", "default.success_rate == 0.99"]
     assert main(["batch", NAME, "--campaign", "dispersed", *require]) == 0
-    assert "finds 99 of 100" in PAGE
+    assert "99 of 100 trials succeed" in PAGE
 
 
 def test_every_part_is_of_the_whole(here):

@@ -21,6 +21,7 @@ HEIGHT, SLIM_HEIGHT = 5.3, 7.0  # in
 SAMPLE = "#b9c9d6"
 ARROW_TIMES = 20.0  # s between thrust arrows
 CROWDED = 6.0  # km from the site, nearer than which arrows would lie on each other
+THIN = 10  # of the samples of flights in the background, one in so many is drawn
 ARROW_SCALE = 2.2  # km of arrow per m/s2
 
 
@@ -66,7 +67,8 @@ def draw_landing(figure: Figure, landing: Result, sample: list[Result]) -> None:
     _plan_view(plan, landing, sample)
     for axes, (title, history) in zip(others, HISTORIES.items(), strict=True):
         for other in sample:
-            axes.plot(*history(other), color=SAMPLE, linewidth=0.6)
+            time, values = history(other)
+            axes.plot(time[::THIN], values[::THIN], color=SAMPLE, linewidth=0.6)
         axes.plot(*history(landing), color=BLUE, linewidth=1.8)
         axes.set_title(title, loc="left")
         axes.set_xlabel("time, s")
@@ -97,7 +99,7 @@ HISTORIES = {
 
 def _side_view(axes: Axes, landing: Result, sample: list[Result], *, to_scale: bool) -> None:
     for other in sample:
-        x, y, z = vector(other, "plant.position") / 1e3
+        x, y, z = vector(other, "plant.position")[:, ::THIN] / 1e3
         axes.plot(np.hypot(x, y), z, color=SAMPLE, linewidth=0.6)
     x, y, z = vector(landing, "plant.position") / 1e3
     distance = np.hypot(x, y)
@@ -130,13 +132,13 @@ def _side_view(axes: Axes, landing: Result, sample: list[Result], *, to_scale: b
     plain_ticks(axes, x=12 if to_scale else 6, y=3)
     axes.set_xlabel("distance from the site along the ground, km")
     axes.set_ylabel("altitude, km")
-    scale = "one scale both ways" if to_scale else "heights stretched"
+    scale = "equal scales" if to_scale else "not to scale"
     axes.set_title(f"Side view, {scale}; arrows: thrust", loc="left")
 
 
 def _plan_view(axes: Axes, landing: Result, sample: list[Result]) -> None:
     for other in sample:
-        x, y, _ = vector(other, "plant.position") / 1e3
+        x, y, _ = vector(other, "plant.position")[:, ::THIN] / 1e3
         axes.plot(-y, x, color=SAMPLE, linewidth=0.6)
     x, y, _ = vector(landing, "plant.position") / 1e3
     axes.plot(-y, x, color=BLUE, linewidth=1.8)

@@ -19,10 +19,10 @@ from perilune.analysis.design.poles.output.feedback import output_feedback
 from perilune.analysis.design.poles.place import place
 from perilune.analysis.design.poles.spectrum import Spectrum
 from perilune.analysis.reports.common.style import house_style
-from perilune.analysis.reports.common.svg import svg_bytes
 from perilune.fmus_src.paths import ROOT
 
 from .modal_figures import choices_figure, free_figure, spreads_figure
+from .pictures import write_picture
 
 SYSTEMS = 20
 SIZES = ((4, 2), (6, 2), (6, 3))
@@ -93,7 +93,7 @@ def draw(folder: Path, figures: dict[str, Figure]) -> list[Path]:
     """Write figures to an existing folder and say where."""
     paths = [folder / f"modal_{name}.svg" for name in figures]
     for path, figure in zip(paths, figures.values(), strict=True):
-        path.write_bytes(svg_bytes(figure, path.stem, text_as_paths=True))
+        write_picture(figure, path)
     return paths
 
 

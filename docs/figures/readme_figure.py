@@ -6,15 +6,14 @@ from pathlib import Path
 
 from perilune.analysis.campaigns.spec.plan import read_plan
 from perilune.analysis.common.process_end import leave
-from perilune.analysis.reports.common.svg import svg_bytes
 from perilune.analysis.runtime.system.options import SystemOptions
-from perilune.fmus_src.paths import ROOT
 
 from .landing import fly_landings, landing_figure
+from .pictures import IMAGES, write_picture
 
 SYSTEM, CAMPAIGN = "lunar_terminal_guidance", "paper"
 LANDING = 42  # the trial shown in full: it starts 9.5 degrees off the direction to the site
-SAMPLE = 60  # trials behind it
+SAMPLE = 18  # trials behind it
 
 
 def sample_trials() -> list[int]:
@@ -28,12 +27,11 @@ def draw_readme_figure(path: Path) -> None:
     plan = read_plan(SYSTEM, CAMPAIGN, SystemOptions(), trials=max(LANDING, *others) + 1)
     flights = fly_landings(plan, plan.campaign.variants()[0], [LANDING, *others])
     figure = landing_figure(flights[0], flights[1:])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(svg_bytes(figure, "landing", text_as_paths=True))
+    write_picture(figure, path)
 
 
 if __name__ == "__main__":
-    target = ROOT / "docs" / "images" / "landing.svg"
+    target = IMAGES / "landing.svg"
     draw_readme_figure(target)
     print(target)
     leave(0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Any
 
@@ -23,16 +22,14 @@ from perilune.analysis.reports.common.style import (
     new_figure,
     plain_ticks,
 )
-from perilune.analysis.reports.common.svg import DECIMALS, svg_bytes
 from perilune.analysis.runtime.flight.results import Result
 from perilune.analysis.verbs.run import simulate
-from perilune.fmus_src.paths import ROOT
 
 from .landing import vector
+from .pictures import IMAGES, write_picture
 
 PHASES = ("accelerate", "turn", "approach", "hold")
 MOMENTS = (0.0, 1420.0, 1520.0, 4250.0, 5000.0)  # s, their beginnings and the end
-PATH = re.compile(r' d="[^"]*"')
 INTERVAL = 10.0  # s between the points of smooth curves; the flight has eight a second
 WHOLE, TURN = (0.0, 5000.0), (1400.0, 1560.0)  # s
 CAMERA, SPIN = 60.0, 45.0  # m of arrow, and of the spin axis either way
@@ -48,8 +45,7 @@ def draw_rendezvous_figures(flight: Result, folder: Path) -> list[Path]:
     paths = [folder / f"rendezvous_{name}.svg" for name in FIGURES]
     for path, draw in zip(paths, FIGURES.values(), strict=True):
         with house_style():
-            drawing = svg_bytes(draw(flight), path.stem, text_as_paths=True).decode()
-        path.write_text(PATH.sub(lambda data: DECIMALS.sub(r"\1", data.group()), drawing), "utf-8", newline="\n")
+            write_picture(draw(flight), path)
     return paths
 
 
@@ -154,5 +150,5 @@ def _over_time(figure: Figure, panels: Any, *labels: str, span: tuple[float, flo
 FIGURES = {"scene": scene_figure, "range": range_figure, "thrust": thrust_figure, "gyros": gyros_figure}
 
 if __name__ == "__main__":
-    print(*draw_rendezvous_figures(fly(), ROOT / "docs" / "images"), sep="\n")
+    print(*draw_rendezvous_figures(fly(), IMAGES), sep="\n")
     leave(0)

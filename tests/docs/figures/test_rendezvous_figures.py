@@ -37,7 +37,7 @@ def test_labels_are_there_and_the_kept_ones_are_these(drawn_once):
     assert {path.stem for path in drawn_once} == set(LABELS)
     for first in drawn_once:
         drawn = first.read_bytes()
-        assert len(drawn) < 150_000
+        assert len(drawn) < 100_000
         assert b"<dc:date>" not in drawn
         root, kept = etree.fromstring(drawn), etree.parse(ROOT / "docs" / "images" / first.name).getroot()
         texts = {comment.text.strip() for comment in root.iter(etree.Comment)}  # text is drawn as paths

@@ -1,0 +1,167 @@
+"""Draws the picture of each system's page, one simulation each: `python -m docs.figures.system_figures`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from perilune.analysis.common.process_end import leave
+from perilune.analysis.reports.common.style import FAINT, house_style, look, new_figure, plain_ticks
+from perilune.analysis.runtime.flight.results import Result
+from perilune.analysis.verbs.run import simulate
+
+from .pictures import IMAGES, write_picture
+
+Curve = tuple[np.ndarray, np.ndarray]
+POINTS = 400  # of a curve
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Axes with curves by label, each from a result; ``band`` are limits drawn as dashed lines."""
+
+    xlabel: str
+    ylabel: str
+    curves: Mapping[str, Callable[[Result], Curve]]
+    band: Sequence[float] = ()
+
+
+@dataclass(frozen=True)
+class SystemPicture:
+    """The panels of a system's picture and the options of the simulation behind it."""
+
+    panels: Sequence[Panel]
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+
+def over_time(signal: str, factor: float = 1.0, less: str | None = None) -> Callable[[Result], Curve]:
+    """A signal over time, times ``factor``, perhaps less another."""
+
+    def curve(flight: Result) -> Curve:
+        values = flight[signal] if less is None else flight[signal] - flight[less]
+        return flight.time, factor * values
+
+    return curve
+
+
+def against(x: str, y: str, factor: float = 1e-3) -> Callable[[Result], Curve]:
+    """A signal over another one, both times ``factor``."""
+    return lambda flight: (factor * flight[x], factor * flight[y])
+
+
+def size_over_time(vector: str, factor: float = 1.0) -> Callable[[Result], Curve]:
+    """The length of a vector over time."""
+    return lambda flight: (flight.time, factor * np.linalg.norm(flight[vector], axis=1))
+
+
+DEG = 180.0 / np.pi
+TIME = "time, s"
+NORTH = "distance north of the site"
+ANGLES = ("roll", "yaw", "pitch")
+PICTURES = {
+    "lunar_landing": SystemPicture(
+        (
+            Panel(
+                "distance north of the site, km", "altitude, km", {"": against("plant.position[1]", "plant.altitude")}
+            ),
+            Panel(TIME, "speed, m/s", {"": size_over_time("plant.velocity")}),
+            Panel(TIME, "thrust acceleration, m/s²", {"": over_time("guidance.thrust_acceleration")}),
+        )
+    ),
+    "lunar_descent_2d": SystemPicture(
+        (
+            Panel(TIME, "altitude, km", {"": over_time("plant.altitude", 1e-3)}),
+            Panel(TIME, "speed, m/s", {"": over_time("plant.speed")}),
+            Panel(TIME, "flight-path angle, deg", {"": over_time("plant.path_angle", DEG)}),
+        )
+    ),
+    "hover_transfer": SystemPicture(
+        (
+            Panel(
+                "distance north of the site, m",
+                "altitude, m",
+                {"": against("plant.position[1]", "plant.altitude", 1.0)},
+            ),
+            Panel(TIME, "tilt, deg", {"": over_time("plant.tilt", DEG)}),
+            Panel(TIME, "speed, m/s", {"": size_over_time("plant.velocity")}),
+        )
+    ),
+    "landing_mission": SystemPicture(
+        (
+            Panel(TIME, "altitude, km", {"": over_time("plant.altitude", 1e-3)}),
+            Panel(TIME, "speed, m/s", {"": size_over_time("plant.velocity")}),
+            Panel(TIME, "mass, kg", {"": over_time("plant.mass")}),
+        )
+    ),
+    "orbital_attitude": SystemPicture(
+        (
+            Panel(
+                TIME,
+                "angle to the orbital frame, deg",
+                {name: over_time(f"plant.angles[{k}]", DEG) for k, name in enumerate(ANGLES, 1)},
+                band=(-0.5, 0.5),
+            ),
+            Panel(
+                TIME,
+                "yaw estimation error, deg",
+                {"": over_time("observer.estimated_angles[2]", DEG, less="plant.angles[2]")},
+            ),
+        ),
+        {"parameters": ["noisy.ssv"], "stop_time": 150.0},
+    ),
+    "entry_attitude": SystemPicture(
+        (
+            Panel(
+                TIME,
+                "bank, deg",
+                {"bank": over_time("plant.bank", DEG), "target": over_time("programme.target_bank", DEG)},
+            ),
+            Panel(TIME, "angle of attack, deg", {"": over_time("plant.attack", DEG)}, band=(-23.0, -17.0)),
+            Panel(TIME, "sideslip, deg", {"": over_time("plant.sideslip", DEG)}, band=(-3.0, 3.0)),
+        )
+    ),
+}
+
+
+def system_figure(picture: SystemPicture, flight: Result) -> Figure:
+    """The panels of a picture next to each other."""
+    figure = new_figure(2.5, 3.4 * len(picture.panels) * 0.88)
+    panels = figure.subplots(1, len(picture.panels), squeeze=False).flatten()
+    for axes, panel in zip(panels, picture.panels, strict=True):
+        _draw(axes, panel, flight)
+    return figure
+
+
+def _draw(axes: Axes, panel: Panel, flight: Result) -> None:
+    for index, (label, curve) in enumerate(panel.curves.items()):
+        x, y = curve(flight)
+        rows = np.unique(np.linspace(0, len(x) - 1, POINTS).astype(int))
+        style = look(index)
+        axes.plot(x[rows], y[rows], color=style.colour, linestyle=style.dashes, linewidth=1.3, label=label)
+    for limit in panel.band:
+        axes.axhline(limit, color=FAINT, linewidth=0.8, linestyle=(0, (3, 2)))
+    axes.set(xlabel=panel.xlabel, ylabel=panel.ylabel)
+    plain_ticks(axes, x=5, y=5)
+    if len(panel.curves) > 1:
+        axes.legend(loc="best", fontsize=7.5)
+
+
+def draw_system_figures(folder: Path = IMAGES) -> list[Path]:
+    """Simulate every system and write its picture."""
+    paths = []
+    with house_style():
+        for system, picture in PICTURES.items():
+            flight = simulate(system, **picture.options)
+            paths.append(write_picture(system_figure(picture, flight), folder / f"{system}.svg"))
+    return paths
+
+
+if __name__ == "__main__":
+    print(*draw_system_figures(), sep="\n")
+    leave(0)
