@@ -69,7 +69,7 @@ figures: build
 	for name in $(FIGURES); do $(BIN)/python -m docs.figures.$$name || exit 1; done
 
 bench: build
-	$(BIN)/perilune benchmark
+	$(BIN)/python -m benchmarks.importers
 
 # How time and memory grow with the size of a system, to 10 000 components and 100 000 connections.
 large: build

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from .contestants.contestant import Contestant, Values
+from .contestant import Contestant, Values
 
 TOLERANCE = 1e-9
 
@@ -19,7 +19,7 @@ def differ(values: Values, reference: Values) -> int:
     return sum(values[name].hex() != expected.hex() for name, expected in reference.items())
 
 
-def strangers(contestants: Iterable[Contestant], final: Mapping[str, Values]) -> dict[str, str]:
+def disagreements(contestants: Iterable[Contestant], final: Mapping[str, Values]) -> dict[str, str]:
     """Contestants that flew elsewhere than ours by the same algorithm, with the reason.
 
     One that is exact must have been compared with ours.

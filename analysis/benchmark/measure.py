@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -14,18 +15,22 @@ from ...fmus_src.paths import SYSTEMS, built_fmu
 from ..common.errors import InputError, suggestion
 from ..common.progress import progress_bar
 from ..runtime.ssp.archive import system_names
-from .agreement import strangers
-from .contestants.all import CONTESTANTS, OURS
-from .contestants.contestant import Unavailable, Values
-from .contestants.course import Course
+from .agreement import disagreements
+from .contestant import Contestant, Unavailable, Values
+from .course import Course
+from .importers import MODULE, OURS
 from .machine import machine, versions
 from .times import Times, promised_ratios
 from .trials import ROUNDS, trials_per_second
 from .worker import Worker, WorkerError
 
 
-def run_benchmark(system: str = "lunar_terminal_guidance", steps: int = 2500, repeats: int = 5) -> dict[str, Any]:
+def run_benchmark(
+    system: str = "lunar_terminal_guidance", steps: int = 2500, repeats: int = 5, contestants: str = MODULE
+) -> dict[str, Any]:
     """Time a communication step of every contestant; ``system`` is a name under ssp_systems.
+
+    ``contestants`` is a module with a list `CONTESTANTS`.
 
     Each contestant has a process of its own; in every repeat each flies one step and then
     ``steps`` steps, and the difference is what the steps cost, without reading, instantiation
@@ -35,13 +40,14 @@ def run_benchmark(system: str = "lunar_terminal_guidance", steps: int = 2500, re
         raise InputError("benchmark", f"{steps} steps, {repeats} repeats", "too few", "give 2 and 1 at least")
     if system not in system_names():
         raise InputError("benchmark", system, "no such system", suggestion(system, system_names()))
+    listed: tuple[Contestant, ...] = import_module(contestants).CONTESTANTS
     unavailable: dict[str, str] = {}
     trials: dict[str, dict[str, float]] = {}
     with tempfile.TemporaryDirectory(prefix="perilune_benchmark_") as folder:
-        archives = _pack(system, Path(folder), unavailable)
+        archives = _pack(system, Path(folder), listed, unavailable)
         prepared = Course(next(iter(archives.values()))).prepared
-        with _workers(archives, unavailable) as workers:
-            times = _fly_in_turn(workers, steps, repeats, unavailable)
+        with _workers(archives, contestants, listed, unavailable) as workers:
+            times = _fly_in_turn(workers, listed, steps, repeats, unavailable)
         for flavour, archive in archives.items():
             if OURS[flavour] in times:
                 try:
@@ -50,7 +56,7 @@ def run_benchmark(system: str = "lunar_terminal_guidance", steps: int = 2500, re
                     )
                 except (Unavailable, WorkerError) as reason:
                     unavailable[f"trials per second, {flavour} FMUs"] = str(reason)
-    flavours = {each.name: each.flavour for each in CONTESTANTS}
+    flavours = {each.name: each.flavour for each in listed}
     return {
         "system": system,
         "step": prepared.step,
@@ -67,13 +73,14 @@ def run_benchmark(system: str = "lunar_terminal_guidance", steps: int = 2500, re
         "promised_ratios": promised_ratios(times, trials),
         "trials_per_second": trials,
         "unavailable": unavailable,
-        "what": {each.name: each.what for each in CONTESTANTS},
+        "what": {each.name: each.what for each in listed},
+        "flavours": flavours,
         "machine": machine(),
         "versions": versions(),
     }
 
 
-def _pack(system: str, folder: Path, unavailable: dict[str, str]) -> dict[str, Path]:
+def _pack(system: str, folder: Path, listed: Sequence[Contestant], unavailable: dict[str, str]) -> dict[str, Path]:
     """The system with the FMUs of each flavour that is built; reasons go to ``unavailable``."""
     archives: dict[str, Path] = {}
     for flavour in OURS:
@@ -82,21 +89,23 @@ def _pack(system: str, folder: Path, unavailable: dict[str, str]) -> dict[str, P
             folders = [*dict.fromkeys(path.parent for path in files if path), built_fmu("x", flavour).parent]
             archives[flavour] = pack_system(SYSTEMS / system, folders, folder / flavour)
         except ValueError as error:
-            unavailable |= {each.name: str(error) for each in CONTESTANTS if each.flavour == flavour}
+            unavailable |= {each.name: str(error) for each in listed if each.flavour == flavour}
     if not archives:
         raise InputError("benchmark", system, "not all of its FMUs are built", "run build_fmus.py")
     return archives
 
 
 @contextmanager
-def _workers(archives: dict[str, Path], unavailable: dict[str, str]) -> Iterator[dict[str, Worker]]:
+def _workers(
+    archives: dict[str, Path], module: str, listed: Sequence[Contestant], unavailable: dict[str, str]
+) -> Iterator[dict[str, Worker]]:
     """A worker for every contestant that can fly; the others' reasons go to ``unavailable``."""
     with ExitStack() as stack:
         workers: dict[str, Worker] = {}
-        for contestant in CONTESTANTS:
+        for contestant in listed:
             if contestant.flavour in archives:
                 try:
-                    worker = Worker(contestant.name, archives[contestant.flavour])
+                    worker = Worker(contestant.name, archives[contestant.flavour], module)
                 except (Unavailable, WorkerError) as reason:
                     unavailable[contestant.name] = str(reason)
                 else:
@@ -104,7 +113,13 @@ def _workers(archives: dict[str, Path], unavailable: dict[str, str]) -> Iterator
         yield workers
 
 
-def _fly_in_turn(workers: dict[str, Worker], steps: int, repeats: int, unavailable: dict[str, str]) -> dict[str, Times]:
+def _fly_in_turn(
+    workers: dict[str, Worker],
+    listed: Sequence[Contestant],
+    steps: int,
+    repeats: int,
+    unavailable: dict[str, str],
+) -> dict[str, Times]:
     """Times of every contestant; a first round, not counted, warms up and compares the values at the end."""
     final: dict[str, Values] = {}
     times = {name: Times(steps) for name in workers}
@@ -124,5 +139,5 @@ def _fly_in_turn(workers: dict[str, Worker], steps: int, repeats: int, unavailab
                 else:
                     times[name].add(short["seconds"], long["seconds"])
             if repeat == 0:
-                unavailable |= strangers(CONTESTANTS, final)
+                unavailable |= disagreements(listed, final)
     return {name: each for name, each in times.items() if name not in unavailable}

@@ -13,7 +13,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from .contestants.contestant import Unavailable
+from .contestant import Unavailable
+from .importers import MODULE
 
 
 class WorkerError(Exception):
@@ -21,13 +22,14 @@ class WorkerError(Exception):
 
 
 class Worker:
-    """A contestant, by name, in a process of its own; use it as a context manager."""
+    """A contestant of a module, by name, in a process of its own; use it as a context manager."""
 
-    def __init__(self, contestant: str, ssp: Path) -> None:
+    def __init__(self, contestant: str, ssp: Path, module: str = MODULE) -> None:
         self.contestant = contestant
-        command = [sys.executable, "-m", f"{__package__}.serve", contestant, str(ssp)]
+        command = [sys.executable, "-m", f"{__package__}.serve", contestant, str(ssp), module]
         # it ends without clearing up: what it unpacks lies beside the .ssp and goes with it
-        environment = {**os.environ, "TMPDIR": tempfile.mkdtemp(dir=ssp.parent)}
+        paths = os.pathsep.join(filter(None, sys.path))  # where the module is
+        environment = {**os.environ, "TMPDIR": tempfile.mkdtemp(dir=ssp.parent), "PYTHONPATH": paths}
         self._process = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment
         )

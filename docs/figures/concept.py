@@ -50,14 +50,14 @@ def _stage(axes: Axes, corner: Point, width: float, title: str, text: str) -> No
 
 def _loop(axes: Axes) -> None:
     """Sensors, navigation, guidance, allocation, plant: guidance is the slot."""
-    parts = {
+    boxes = {
         "sensors": (48.0, 24.5),
         "navigation": (58.5, 24.5),
         "guidance": (69.0, 24.5),
         "plant": (48.0, 12.0),
         "allocation": (69.0, 12.0),
     }
-    for name, (x, y) in parts.items():
+    for name, (x, y) in boxes.items():
         is_slot = name == "guidance"
         box = FancyBboxPatch(
             (x - 4.6, y - 2.4), 9.2, 4.8, boxstyle="round,pad=0,rounding_size=0.8",
@@ -67,7 +67,7 @@ def _loop(axes: Axes) -> None:
         axes.text(x, y, name, ha="center", va="center", fontsize=7.0, color=INK)
     route = ("plant", "sensors", "navigation", "guidance", "allocation", "plant")
     for start, end in pairwise(route):
-        (x0, y0), (x1, y1) = parts[start], parts[end]
+        (x0, y0), (x1, y1) = boxes[start], boxes[end]
         step_x, step_y = 4.6 * ((x1 > x0) - (x1 < x0)), 2.4 * ((y1 > y0) - (y1 < y0))
         _arrow(axes, (x0 + step_x, y0 + step_y), (x1 - step_x, y1 - step_y))
     axes.text(

@@ -47,18 +47,18 @@ def _round(element: etree._Element) -> None:
 
 def _polyline(path: str) -> str:
     """A path of moves and lines in tenths of a point, lines relative to the point before."""
-    words, last, short = path.split(), (0, 0), []
-    for index, word in enumerate(words):
-        if word in "ML":
-            x, y = (round(10.0 * float(number)) for number in words[index + 1 : index + 3])
-            if word == "M":
+    tokens, last, short = path.split(), (0, 0), []
+    for index, token in enumerate(tokens):
+        if token in "ML":
+            x, y = (round(10.0 * float(number)) for number in tokens[index + 1 : index + 3])
+            if token == "M":
                 short.append(f"M{x / 10:g} {y / 10:g}")
             elif x == last[0] or y == last[1]:
                 short.append(f"v{(y - last[1]) / 10:g}" if x == last[0] else f"h{(x - last[0]) / 10:g}")
             else:
                 short.append(f"l{(x - last[0]) / 10:g} {(y - last[1]) / 10:g}")
             last = x, y
-        elif word == "z":
+        elif token == "z":
             short.append("z")
     return "".join(short)
 

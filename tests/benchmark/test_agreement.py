@@ -6,9 +6,9 @@ import math
 
 import pytest
 
-from perilune.analysis.benchmark.agreement import strangers
-from perilune.analysis.benchmark.contestants.contestant import Contestant
-from perilune.analysis.benchmark.contestants.course import Course
+from perilune.analysis.benchmark.agreement import disagreements
+from perilune.analysis.benchmark.contestant import Contestant
+from perilune.analysis.benchmark.course import Course
 from perilune.analysis.benchmark.times import Times, promised_ratios
 
 
@@ -34,19 +34,19 @@ OURS = contestant("perilune_native")
         (contestant("other", exact=True), math.nextafter(1000.0, 0.0), True),
     ],
 )
-def test_strangers(other: Contestant, value: float, found: bool) -> None:
+def test_disagreements(other: Contestant, value: float, found: bool) -> None:
     final = {"perilune_native": {"x": 1000.0}, "other": {"x": value}}
-    assert set(strangers([OURS, other], final)) == ({"other"} if found else set())
+    assert set(disagreements([OURS, other], final)) == ({"other"} if found else set())
 
 
 def test_an_exact_contestant_keeps_the_sign_of_zero() -> None:
     final = {"perilune_native": {"x": 0.0}, "other": {"x": -0.0}}
-    assert set(strangers([OURS, contestant("other", exact=True)], final)) == {"other"}
+    assert set(disagreements([OURS, contestant("other", exact=True)], final)) == {"other"}
 
 
 def test_an_exact_contestant_needs_ours() -> None:
     others = [contestant("exact", exact=True), contestant("other")]
-    assert set(strangers(others, {"exact": {"x": 0.0}, "other": {"x": 0.0}})) == {"exact"}
+    assert set(disagreements(others, {"exact": {"x": 0.0}, "other": {"x": 0.0}})) == {"exact"}
 
 
 def test_a_step_is_what_the_long_flight_takes_over_the_short_one() -> None:

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
+import benchmarks.contestants
+from benchmarks.contestants import CONTESTANTS
 from perilune.analysis import cli
-from perilune.analysis.benchmark import measure, trials
-from perilune.analysis.benchmark.contestants.all import CONTESTANTS
+from perilune.analysis.benchmark import importers, trials
 from perilune.analysis.benchmark.measure import run_benchmark
 from perilune.analysis.benchmark.table import benchmark_text
 from perilune.analysis.common.errors import InputError
@@ -44,10 +45,8 @@ def test_a_tiny_run_has_every_contestant_and_all_agree(
 ) -> None:
     monkeypatch.setattr(trials, "SECONDS", 0.0)
     monkeypatch.setattr(trials, "LEAST", 4)
-    monkeypatch.setattr(measure, "CONTESTANTS", FLOWN)
-    capsys.readouterr()
-    assert cli.main(["benchmark", "--steps", "30", "--repeats", "1", "--json", "-"]) == 0
-    document = json.loads(capsys.readouterr().out)
+    monkeypatch.setattr(benchmarks.contestants, "CONTESTANTS", FLOWN)
+    document = run_benchmark(steps=30, repeats=1, contestants="benchmarks.contestants")
 
     # Who does not agree with our loop on the values at the end, `fused_limit` to the last bit, is listed here.
     assert document["unavailable"] == {}
@@ -63,6 +62,16 @@ def test_a_tiny_run_has_every_contestant_and_all_agree(
     }
     first = {line.split()[0] for line in benchmark_text(document).splitlines() if line}  # names are parts of others
     assert {*times, *PROMISED_RATIOS} <= first
+
+
+@pytest.mark.slow
+def test_the_command_times_what_comes_with_the_package(fmus, capsys, monkeypatch):
+    monkeypatch.setattr(trials, "SECONDS", 0.0)
+    monkeypatch.setattr(trials, "LEAST", 4)
+    assert cli.main(["benchmark", "--steps", "30", "--repeats", "1", "--json", "-"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["unavailable"] == {}
+    assert list(document["microseconds_per_step"]) == [each.name for each in importers.CONTESTANTS]
 
 
 @pytest.mark.parametrize(("steps", "repeats"), [(1, 5), (2500, 0)])

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from perilune.analysis.benchmark.contestants import fused_limit, perilune_loop
-from perilune.analysis.benchmark.contestants.contestant import Unavailable
-from perilune.analysis.benchmark.contestants.course import Course
+from benchmarks.contestants import fused_limit
+from perilune.analysis.benchmark import perilune_loop
+from perilune.analysis.benchmark.contestant import Unavailable
+from perilune.analysis.benchmark.course import Course
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import blocks_in_file
 from tests.support.builders import component, connection, document, inline, pack, retouched, system

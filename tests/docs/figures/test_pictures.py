@@ -19,7 +19,7 @@ from perilune.fmus_src.paths import ROOT
 PAGES = {path: path.read_text(encoding="utf-8") for path in [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]}
 
 
-def test_every_picture_is_small_and_shown():
+def test_every_picture_is_small_and_on_a_page():
     pictures = sorted(IMAGES.iterdir())
     assert len(pictures) > 10
     for picture in pictures:
@@ -39,18 +39,18 @@ def shapes(path):
     return [comment.text for comment in root.iter(etree.Comment)], [group.get("id") for group in root.iter("{*}g")]
 
 
-def test_the_concept_is_drawn_by_its_source(tmp_path):
+def test_the_concept_comes_from_its_source(tmp_path):
     with house_style():
         write_picture(concept_figure(), tmp_path / "concept.svg")
     assert (tmp_path / "concept.svg").read_bytes() == (IMAGES / "concept.svg").read_bytes()
 
 
 @pytest.mark.parametrize("system", ["lunar_landing", "orbital_attitude"])
-def test_a_system_is_drawn_by_its_source(fmus, system, tmp_path):
+def test_a_picture_of_a_system_comes_from_its_source(fmus, system, tmp_path):
     with house_style():
         figure = system_figure(PICTURES[system], simulate(system, **PICTURES[system].options))
-        drawn = write_picture(figure, tmp_path / f"{system}.svg")
-    assert shapes(drawn) == shapes(IMAGES / f"{system}.svg")
+        written = write_picture(figure, tmp_path / f"{system}.svg")
+    assert shapes(written) == shapes(IMAGES / f"{system}.svg")
 
 
 def test_a_line_is_relative_and_loses_no_more_than_a_twentieth_of_a_point(tmp_path):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from fmpy.fmi2 import FMU2Slave
 
-from ...runtime.system.fmu import Fmu
+from ..runtime.system.fmu import Fmu
 from .contestant import Fly, Values
 from .course import Course
 

@@ -6,13 +6,13 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ....fmus_src.block import Block, Output, State
-from ....fmus_src.export.native_fmu import native_guid
-from ....fmus_src.export.write.names import literal, member
-from ....fmus_src.export.write.translate import translate
-from ...runtime.ssp.parameter_sets import ParameterValue
-from ...runtime.system.fmu import Fmu
-from .contestant import Unavailable
+from perilune.analysis.benchmark.contestant import Unavailable
+from perilune.analysis.runtime.ssp.parameter_sets import ParameterValue
+from perilune.analysis.runtime.system.fmu import Fmu
+from perilune.fmus_src.block import Block, Output, State
+from perilune.fmus_src.export.native_fmu import native_guid
+from perilune.fmus_src.export.write.names import literal, member
+from perilune.fmus_src.export.write.translate import translate
 
 WRAPPER = '#include "fmi2_wrapper.c"\n'
 STRUCT = re.compile(r"^typedef struct (\w+) \{\n.*?^\} \1;\n", re.DOTALL | re.MULTILINE)

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from ...common.errors import InputError
-from ...runtime.ssp.parameter_sets import ParameterValue
-from ...runtime.ssp.transformations import IDENTITY
-from ...runtime.system.network import Link
-from ...runtime.system.prepared import PreparedSystem, prepare_system
+from ..common.errors import InputError
+from ..runtime.ssp.parameter_sets import ParameterValue
+from ..runtime.ssp.transformations import IDENTITY
+from ..runtime.system.network import Link
+from ..runtime.system.prepared import PreparedSystem, prepare_system
 
 
 @dataclass(frozen=True)

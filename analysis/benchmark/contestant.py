@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .course import Course
 
@@ -36,3 +36,9 @@ class Contestant:
     @property
     def is_ours(self) -> bool:
         return self.name.startswith("perilune")
+
+
+def both_flavours(*ways: Contestant) -> tuple[Contestant, ...]:
+    """Ways of simulating Python FMUs, then the same of native ones."""
+    native = [replace(way, name=f"{way.name.removesuffix('_python')}_native", flavour="native") for way in ways]
+    return (*ways, *native)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...runtime.system.network import Link
-from ...runtime.system.prepared import PreparedSystem
-from .course import Course
+from perilune.analysis.benchmark.course import Course
+from perilune.analysis.runtime.system.network import Link
+from perilune.analysis.runtime.system.prepared import PreparedSystem
+
 from .fused_component import Part
 
 FILE = "fused.c"

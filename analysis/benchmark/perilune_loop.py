@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...runtime.flight.simulation import Simulation
+from ..runtime.flight.simulation import Simulation
 from .contestant import Fly, Values
 from .course import Course
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from lxml import etree
 
-from ....fmus_src.export.ssp_package import DESCRIPTION, SSD_NAMESPACE
-from .contestant import Fly, Unavailable, Values
-from .course import Course
+from perilune.analysis.benchmark.contestant import Fly, Unavailable, Values
+from perilune.analysis.benchmark.course import Course
+from perilune.fmus_src.export.ssp_package import DESCRIPTION, SSD_NAMESPACE
 
 OSP = "http://opensimulationplatform.com/SSP/OSPAnnotations"
 COMMON = "http://ssp-standard.org/SSP1/SystemStructureCommon"

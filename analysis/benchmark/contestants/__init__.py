@@ -1,1 +1,0 @@
-"""The ways of flying a system that the benchmark times: ours, other importers, the limit."""

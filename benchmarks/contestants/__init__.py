@@ -1,0 +1,51 @@
+"""All importers that are compared: those of `perilune benchmark`, libcosim, fmucontainer, and the fused limit."""
+
+from functools import partial
+
+from perilune.analysis.benchmark.contestant import Contestant, both_flavours
+from perilune.analysis.benchmark.importers import FMPY_CALLS, FMPY_SSP, LOOPS
+
+from . import fmucontainer, fused_limit, libcosim
+
+WAYS = (
+    FMPY_SSP,
+    Contestant(
+        "libcosim_threads",
+        "python",
+        "libcosim with a worker thread, as it comes on two processors",
+        "jacobi",
+        partial(libcosim.prepare, threads=1),
+    ),
+    Contestant(
+        "libcosim",
+        "python",
+        "libcosim in its fastest configuration, without worker threads",
+        "jacobi",
+        libcosim.prepare,
+    ),
+    Contestant(
+        "fmucontainer",
+        "python",
+        "one FMU made by fmucontainer, stepped by FMPy",
+        "jacobi",
+        fmucontainer.prepare,
+    ),
+    Contestant(
+        "fmucontainer_sequential",
+        "python",
+        "the same, exchanging after each FMU in the order of the SSD",
+        "sequential",
+        partial(fmucontainer.prepare, sequential=True),
+    ),
+    FMPY_CALLS,
+    *LOOPS,
+)
+FUSED = Contestant(
+    "fused_limit",
+    "native",
+    "the blocks of the native FMUs fused into one compiled function without FMI: what the loop could cost at best",
+    "sequential",
+    fused_limit.prepare,
+    exact=True,
+)
+CONTESTANTS = (*both_flavours(*WAYS), FUSED)
