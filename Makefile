@@ -88,6 +88,7 @@ lint: .venv/ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/mypy --warn-unused-ignores --follow-imports=silent tests/verbs/wrong_calls.py
 
 # The first thing that any target does: with another Python than pyproject.toml's it says so and makes nothing.
 .venv/ready: pyproject.toml setup.py

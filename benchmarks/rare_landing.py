@@ -30,13 +30,14 @@ def main() -> None:
     print("| --- | --- | --- | --- | --- |")
     for limit, missed in misses.items():
         exact = binomtest(missed, trials).proportion_ci(method="exact")
-        found = perilune.rare(
+        estimate = perilune.rare(
             *CAMPAIGN, compare={"guidance": GUIDANCE}, failure=f"position_error > {limit}", samples=SAMPLES
         )
-        low, high = found.interval
+        low, high = estimate.interval
         batch = f"{missed} of {trials}: {exact.low:.3g} to {exact.high:.3g}"
         print(
-            f"| over {limit} m | {batch} | {low:.3g} to {high:.3g} | {high / low:.2f} | {found.flights} |", flush=True
+            f"| over {limit} m | {batch} | {low:.3g} to {high:.3g} | {high / low:.2f} | {estimate.flights} |",
+            flush=True,
         )
 
 

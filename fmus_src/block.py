@@ -141,7 +141,7 @@ class Variable:
         other.start = list(start) if isinstance(start, list | tuple) else start
         return other
 
-    def checked(self, block: Block, values: Any) -> list:
+    def check_start(self, block: Block, values: Any) -> list:
         """The values of any sequence as elements; raises TypeError where their number or type does not fit."""
         where = f"{block.fmu_name}.{self.name}"
         try:
@@ -161,7 +161,7 @@ class _StoresVector(Variable):
 
     def __set__(self, instance: Any, value: Any) -> None:
         if value.__class__ is not VECTORS[self.size]:
-            value = vector(*self.checked(instance, value))
+            value = vector(*self.check_start(instance, value))
         instance.__dict__[self.name] = value
 
 
@@ -169,7 +169,7 @@ class _StoresList(Variable):
     """A variable whose list is never another: assignment copies the elements."""
 
     def __set__(self, instance: Any, value: Any) -> None:
-        instance.__dict__.setdefault(self.name, [])[:] = self.checked(instance, value)
+        instance.__dict__.setdefault(self.name, [])[:] = self.check_start(instance, value)
 
 
 @cache

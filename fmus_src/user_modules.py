@@ -74,11 +74,11 @@ def modules_of(path: Path) -> dict[Path, bytes]:
         sources[file] = with_relative_imports(file.read_bytes(), file)
         for node in ast.walk(ast.parse(sources[file])):
             if isinstance(node, ast.ImportFrom) and node.level == 1:
-                waiting += [folder / f"{name}.py" for name in imported_names(node)]
+                waiting += [folder / f"{name}.py" for name in list_imports(node)]
     return sources
 
 
-def imported_names(node: ast.ImportFrom) -> list[str]:
+def list_imports(node: ast.ImportFrom) -> list[str]:
     """The modules of the folder that a relative import means: `from .a import x` a, `from . import a, b` both."""
     return [node.module] if node.module else [alias.name for alias in node.names]
 

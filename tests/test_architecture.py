@@ -78,14 +78,14 @@ FILES = sorted(
 @pytest.fixture(scope="module")
 def arrows() -> dict[str, set[tuple[str, str]]]:
     """Room -> (room that it imports, file that does)."""
-    found = defaultdict(set)
+    actual = defaultdict(set)
     for file in FILES:
         here = room_of(".".join(file.relative_to(ROOT).with_suffix("").parts))
         for module in imports(file):
             there = room_of(module)
             if there != here:
-                found[here].add((there, file.relative_to(ROOT).as_posix()))
-    return found
+                actual[here].add((there, file.relative_to(ROOT).as_posix()))
+    return actual
 
 
 def test_every_file_has_a_room():

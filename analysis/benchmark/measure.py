@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ...fmus_src.export.available import fmu_file
-from ...fmus_src.export.ssp_package import named_fmus, pack_system
+from ...fmus_src.export.ssp_package import list_fmus, pack_system
 from ...fmus_src.paths import SYSTEMS, built_fmu
 from ..common.errors import InputError, suggestion
 from ..common.progress import progress_bar
@@ -20,7 +20,7 @@ from .contestant import Contestant, Unavailable, Values
 from .course import Course
 from .importers import MODULE, OURS
 from .machine import machine, versions
-from .times import Times, promised_ratios
+from .times import Times, compute_promised_ratios
 from .trials import ROUNDS, trials_per_second
 from .worker import Worker, WorkerError
 
@@ -70,7 +70,7 @@ def run_benchmark(
             for name, each in times.items()
             if OURS[flavours[name]] in times
         },
-        "promised_ratios": promised_ratios(times, trials),
+        "promised_ratios": compute_promised_ratios(times, trials),
         "trials_per_second": trials,
         "unavailable": unavailable,
         "what": {each.name: each.what for each in listed},
@@ -85,7 +85,7 @@ def _pack(system: str, folder: Path, listed: Sequence[Contestant], unavailable: 
     archives: dict[str, Path] = {}
     for flavour in OURS:
         try:
-            files = [fmu_file(Path(source).stem, flavour) for source in named_fmus(SYSTEMS / system)]
+            files = [fmu_file(Path(source).stem, flavour) for source in list_fmus(SYSTEMS / system)]
             folders = [*dict.fromkeys(path.parent for path in files if path), built_fmu("x", flavour).parent]
             archives[flavour] = pack_system(SYSTEMS / system, folders, folder / flavour)
         except ValueError as error:

@@ -47,7 +47,7 @@ class Times:
         return [(long - short) / (self.steps - 1) for short, long in zip(self.short, self.long, strict=True)]
 
 
-def promised_ratios(times: Mapping[str, Times], trials: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
+def compute_promised_ratios(times: Mapping[str, Times], trials: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
     """Ratios by ``first/second``, of those that flew; for the workers trials per second, by flavour."""
     ratios = {
         f"{slow}/{fast}": times[slow].ratio(times[fast]) for slow, fast in PROMISED if slow in times and fast in times

@@ -35,7 +35,7 @@ class Shown:
         return f"the first {FIRST} of {self.trials} trials; those over two values {failures}, too"
 
 
-def shown(rows: TrialRows, draws: list[str], metrics: list[str]) -> Shown:
+def select_trials(rows: TrialRows, draws: list[str], metrics: list[str]) -> Shown:
     """What figures show of a variant's trials, with some draws and metrics."""
     names = ["success", *(f"metric.{name}" for name in metrics), *(f"draw.{name}" for name in draws)]
     first: list[Part] = []

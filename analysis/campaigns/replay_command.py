@@ -25,7 +25,7 @@ def campaign_command(plan: BatchPlan, variant: Variant) -> str:
     return write_command(BATCH, {"system": plan.system, "campaign": _campaign_name(plan)}, _options(plan, variant))
 
 
-def stored_replay(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:
+def replay_of_folder(folder: Path, configurations: Collection[object], configuration: str, trial: int) -> str:
     """The command that simulates a trial of a campaign's folder again, of one of its ``configurations``."""
     options = {"configuration": configuration if len(configurations) > 1 else None}
     return write_command(REPLAY, {"source": folder, "trial": trial}, options)

@@ -72,7 +72,8 @@ def requirement_verdict(requirement: Requirement, trials: TrialRows, until_decid
 
     With ``until_decided``, where the campaign may have ended because it was decided, all of it is by `StoppingRule`.
     """
-    rule = stopping_rule(requirement.share, requirement.confidence) if until_decided else _fixed(requirement)
+    rule_of = stopping_rule if until_decided else FixedSize
+    rule = rule_of(requirement.share, requirement.confidence)
     satisfied = satisfies(requirement, trials)
     flights, failures = len(satisfied), int(np.count_nonzero(~satisfied))
     decision = rule.decision(satisfied)
@@ -92,14 +93,10 @@ def requirement_verdict(requirement: Requirement, trials: TrialRows, until_decid
     )
 
 
-def _fixed(requirement: Requirement) -> FixedSize:
-    return FixedSize(requirement.share, requirement.confidence)
-
-
 def _bound(
     requirement: Requirement, metric: str, trials: TrialRows, total: int, rule: FixedSize | StoppingRule
 ) -> ToleranceBound:
-    flights, permitted = rule.permitted(total)
+    flights, permitted = rule.count_permitted(total)
     value = tolerance_bound(blocks(trials, f"metric.{metric}"), flights, permitted, requirement.bound == "upper")
     return ToleranceBound(
         metric=metric,
@@ -111,7 +108,7 @@ def _bound(
     )
 
 
-def decided_after(requirements: Sequence[Requirement], trials: Mapping[str, Sequence[np.ndarray]]) -> int | None:
+def trials_to_decision(requirements: Sequence[Requirement], trials: Mapping[str, Sequence[np.ndarray]]) -> int | None:
     """After how many trials every requirement of every variant is decided; None while one is not.
 
     ``trials`` are by variant, for each requirement, which of the first trials satisfy it, in order and without a gap.

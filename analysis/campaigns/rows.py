@@ -77,7 +77,7 @@ class _Held:
             yield from self.rows.parts(*names)
 
 
-def held(rows: TrialRows, names: Sequence[str], most: int) -> TrialRows:
+def has_all_in_memory(rows: TrialRows, names: Sequence[str], most: int) -> TrialRows:
     """The same trials, these columns of theirs read once and kept, if they have no more than ``most`` values in all."""
     parts: list[Part] = []
     size = 0

@@ -12,7 +12,7 @@ import scipy
 
 from ..common.to_json import optional, to_json
 from .requirement_verdicts import RequirementVerdict, requirement_verdict
-from .rows import Part, TrialRows, blocks, held
+from .rows import Part, TrialRows, blocks, has_all_in_memory
 from .spec.campaign import Metric
 from .spec.groups import Group
 from .spec.requirements import Requirement
@@ -115,7 +115,7 @@ def summarise(
     columns = ["success", *(f"metric.{metric.name}" for metric in metrics), *([f"draw.{by}"] if groups else [])]
     summary = {}
     for name, rows in variants.items():
-        trials = held(rows, columns, IN_MEMORY)
+        trials = has_all_in_memory(rows, columns, IN_MEMORY)
         summary[name] = replace(
             _summary(trials, metrics),
             groups={

@@ -12,7 +12,7 @@ from .summary import CONFIDENCE, Summary, SummaryRow, summary_rows
 from .verdicts.acceptance import Verdict
 
 
-def aligned(rows: list[list[str]]) -> list[str]:
+def align_columns(rows: list[list[str]]) -> list[str]:
     """Rows of cells as lines, the first column to the left, the others to the right."""
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     return [
@@ -47,7 +47,7 @@ def metric_lines(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str 
             cells.append(
                 [metric, *who_cells(row, group), *(_cell(values.value(key)) for key in STATISTICS), values.unit]
             )
-    return aligned(cells) if len(cells) > 1 else []
+    return align_columns(cells) if len(cells) > 1 else []
 
 
 def _cell(value: float | None) -> str:
@@ -66,7 +66,7 @@ def requirement_lines(summary: Summary) -> list[str]:
             unit = summary[variant].metrics[result.bound.metric].unit
             value = f"{_cell(result.bound.value)} {'' if unit == '1' else unit}".strip()
             bounds.append(f"{variant}: {bound_text(result, value)}")
-    return [*aligned(cells), *bounds] if len(cells) > 1 else []
+    return [*align_columns(cells), *bounds] if len(cells) > 1 else []
 
 
 def requirement_rows(summary: Summary) -> list[tuple[str, str, RequirementVerdict]]:
@@ -130,5 +130,5 @@ def summary_text(summary: Summary, group: str | None = None) -> str:
         interval = f"{percent(low)} to {percent(high)}"
         rates.append([*who_cells(row, group), str(row.entry.trials), rate, interval, statuses])
     metrics = dict.fromkeys(metric for variant in summary.values() for metric in variant.metrics)
-    tables = [aligned(rates), requirement_lines(summary), metric_lines(rows, metrics, group)]
+    tables = [align_columns(rates), requirement_lines(summary), metric_lines(rows, metrics, group)]
     return "\n\n".join("\n".join(lines) for lines in tables if lines)

@@ -61,7 +61,7 @@ class Trials(TrialColumns):
         """Which flights came to their end (trials,)."""
         return np.array([int(trial) not in self.messages for trial in self.trial])
 
-    def counted_from(self, first: int) -> Trials:
+    def renumber(self, first: int) -> Trials:
         """The same with other numbers, as many higher."""
         return replace(
             self,
@@ -71,7 +71,7 @@ class Trials(TrialColumns):
         )
 
 
-def joined(parts: Iterable[Trials]) -> Trials:
+def join_trials(parts: Iterable[Trials]) -> Trials:
     """Parts of one variant, in any order, as one in order of trial."""
     ordered = sorted(parts, key=lambda part: int(part.trial[0]))
     first = ordered[0]

@@ -59,11 +59,11 @@ def in_both_orders(request: Request, make: Callable[[Request], StabilityReport])
         try:
             other = make(replace(request, options=options, declaration=declaration))
         except StudyError as error:
-            other = _unstudied(report, str(error))
+            other = _merge_unstudied(report, str(error))
     else:
         direct, without = [], list(fmus)
     orders = Orders(fmus, tuple(direct), tuple(without), tuple(cuts), other)
-    return _judged(report, orders)
+    return _merge_verdicts(report, orders)
 
 
 def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> bool:
@@ -78,7 +78,7 @@ def _can_be_direct(subject: Subject, request: Request, names: Sequence[str]) -> 
     return True
 
 
-def _unstudied(report: StabilityReport, reason: str) -> StabilityReport:
+def _merge_unstudied(report: StabilityReport, reason: str) -> StabilityReport:
     """A study with the points of ``report`` that has no results, for this reason."""
     lost = tuple(Unstudied(report.system, point.name, "system", reason) for point in report.points)
     return replace(report, loops=(), joint=(), sweeps=(), unstudied=lost)
@@ -105,7 +105,7 @@ def _on_loops(prepared: PreparedSystem) -> set[str]:
     return looped
 
 
-def _judged(report: StabilityReport, orders: Orders) -> StabilityReport:
+def _merge_verdicts(report: StabilityReport, orders: Orders) -> StabilityReport:
     """The report with the requirements of both orders, where there are two."""
     if orders.report is None:
         return replace(report, orders=orders)

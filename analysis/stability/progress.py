@@ -18,7 +18,7 @@ _queue: SimpleQueue | None = None  # of a worker process
 
 
 @contextmanager
-def shown() -> Iterator[Tell]:
+def show_progress() -> Iterator[Tell]:
     """A bar on standard error while a study goes on, if that is a terminal."""
     with progress_bar(total=0, unit="step") as bar:
 
@@ -30,7 +30,7 @@ def shown() -> Iterator[Tell]:
 
 
 @contextmanager
-def heard(tell: Tell) -> Iterator[SimpleQueue]:
+def listen(tell: Tell) -> Iterator[SimpleQueue]:
     """A queue for worker processes, whose steps are told on; each starts with `begin` and it."""
     queue = SimpleQueue(ctx=get_context("loky"))
 

@@ -20,7 +20,7 @@ from .injection.bench import StudyError
 from .orders import in_both_orders
 from .point.limit_cycles import element_report
 from .point.point_study import PointStudy
-from .progress import Tell, begin, heard, shown, tell_parent
+from .progress import Tell, begin, listen, show_progress, tell_parent
 from .request.channels import Channel
 from .request.declaration import Point
 from .request.request import Request
@@ -28,9 +28,9 @@ from .request.subject import Subject
 from .results.loop import JointReport, LoopReport
 from .results.report import PointReport, StabilityReport, Unstudied
 from .results.varied import Dispersion
-from .variation.dispersion import dispersed
-from .variation.sampling import sampled
-from .variation.sweep import swept
+from .variation.dispersion import disperse
+from .variation.sampling import vary_step
+from .variation.sweep import run_sweep
 
 
 @dataclass
@@ -50,7 +50,7 @@ def study(request: Request, workers: int | None = None) -> StabilityReport:
 
     The report does not depend on their number. Raises InputError, and StudyError where no flight reaches a point.
     """
-    with chdir(Path.cwd()), shown() as tell:  # an FMU may change the folder
+    with chdir(Path.cwd()), show_progress() as tell:  # an FMU may change the folder
         count = worker_count(workers)
         return in_both_orders(request, lambda asked: _study(asked, count, tell))
 
@@ -59,7 +59,7 @@ def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
     begun = time.monotonic()
     points = [point for point in request.declaration.points if request.loops_at(point)]
     if min(count, len(points)) > 1:
-        with heard(tell) as queue, _processes(min(count, len(points)), queue) as pool:
+        with listen(tell) as queue, _processes(min(count, len(points)), queue) as pool:
             results = list(pool.map(_study_in_process, [request] * len(points), points))
     else:
         results = [study_point(request, point, tell) for point in points]
@@ -77,7 +77,7 @@ def _study(request: Request, count: int, tell: Tell) -> StabilityReport:
         subject = Subject(request.system, request.options)
         loop, point = request.loop(sweep.loop), request.point(sweep.point)
         try:
-            sweeps.append(swept(subject, point, loop, sweep, request.declaration.limits, known, tell))
+            sweeps.append(run_sweep(subject, point, loop, sweep, request.declaration.limits, known, tell))
         except StudyError as error:
             unstudied.append(Unstudied(sweep.name, sweep.point, "sweep", str(error)))
     return StabilityReport(
@@ -181,12 +181,12 @@ def _vary(
 ) -> None:
     """What needs the linearisation with something changed: the step, the campaign."""
     loops = [loop for loop in request.loops_at(point) if any(report.loop == loop.name for report in reports)]
-    steps = sampled(subject, point, loops, step, cells, [report.name for report in reports], tell)
+    steps = vary_step(subject, point, loops, step, cells, [report.name for report in reports], tell)
     spread: dict[str, Dispersion] = {}
     if request.plan is not None:
         try:
             limits = request.declaration.limits
-            spread = dispersed(subject, request.plan, point, loops, limits, cells, request.replay, tell)
+            spread = disperse(subject, request.plan, point, loops, limits, cells, request.replay, tell)
         except (StudyError, InputError) as error:  # wrong input has been refused before; a trial may still end early
             unstudied.append(Unstudied(request.campaign or "", point.name, "campaign", str(error)))
     for report in reports:

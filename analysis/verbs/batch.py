@@ -72,7 +72,7 @@ class BatchResult(results.BatchResult):
         """
         rows = next(iter(self.rows.values())) if variant is None else self.rows[variant]
         campaign = self.plan.campaign
-        draws = {name: whole_column(rows, f"draw.{name}") for name in campaign.drawn_names()}
+        draws = {name: whole_column(rows, f"draw.{name}") for name in campaign.input_names()}
         metrics = {metric.name: whole_column(rows, f"metric.{metric.name}") for metric in campaign.metrics}
         return rank_correlations(draws, metrics)
 

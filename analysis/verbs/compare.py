@@ -30,7 +30,7 @@ MOST_PLOTTED = 6  # metrics, in a notebook
 
 @dataclass(frozen=True, repr=False)
 class Comparison(comparison.Comparison):
-    """Variants on the same trials: ``summary`` by label, ``pairs`` of labels, `paired_rates`, `paired_values`."""
+    """Variants on the same trials: ``summary`` by label, ``pairs`` of labels, `compare_rates`, `compare_values`."""
 
     def __repr__(self) -> str:
         trials = len(next(iter(self.contenders.values())).trials.trial)

@@ -84,7 +84,7 @@ def _describe_fmu(name: str, options: System) -> Description:
         file=label,
         description=fmu.description.description or "",
         native=fmu.is_native,
-        undeclared_outputs=[output for output, inputs in fmu.declared_dependencies().items() if inputs is None],
+        undeclared_outputs=[output for output, inputs in fmu.read_dependencies().items() if inputs is None],
         alone={
             "component": alone.system.name,
             "start_time": alone.start_time,

@@ -53,7 +53,7 @@ def overview() -> str:
         examples = [
             text for verb in verbs for text, _ in verb.examples if f"{text} ".startswith(f"perilune {verb.name} ")
         ]
-        lines.append(f"  example: {_broken(examples[0], 11)}")
+        lines.append(f"  example: {_break_line(examples[0], 11)}")
     return "\n".join(lines)
 
 
@@ -65,7 +65,7 @@ def group_help(group: str) -> str:
 
 def verb_help(verb: Verb) -> str:
     """A verb's examples, and what its exit statuses mean."""
-    examples = "".join(f"  {_broken(command, 4)}\n      {comment}\n" for command, comment in verb.examples)
+    examples = "".join(f"  {_break_line(command, 4)}\n      {comment}\n" for command, comment in verb.examples)
     return f"Examples:\n{examples}\n{exit_status(verb)}"
 
 
@@ -83,7 +83,7 @@ def _rows(rows: list[tuple[str, str]]) -> list[str]:
     return lines
 
 
-def _broken(command: str, indent: int) -> str:
+def _break_line(command: str, indent: int) -> str:
     """A command as a shell reads it, its lines no longer than WIDEST: broken before options."""
     lines, first, *others = [], *command.split(" --")
     for other in others:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Unpack
 
 from ..campaigns.fly.campaign import open_folder
-from ..campaigns.fly.runner import merged_rows
+from ..campaigns.fly.runner import merge_rows
 from .batch import BatchResult
 from .common.campaign_text import campaign_requirements
 from .common.plans import resume_hint
@@ -23,4 +23,4 @@ def merge(folder: FilePath, **options: Unpack[RequireOptions]) -> BatchResult:
     with chdir(Path.cwd()), resume_hint(Path(folder)):
         campaign = open_folder(Path(folder))
         requirements = campaign_requirements(campaign.plan, options["require"])
-        return BatchResult.finish(campaign, merged_rows(campaign), requirements=tuple(requirements))
+        return BatchResult.finish(campaign, merge_rows(campaign), requirements=tuple(requirements))

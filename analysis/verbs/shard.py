@@ -12,7 +12,7 @@ from ..campaigns.fly.campaign import open_folder
 from ..campaigns.fly.cluster.connection import cluster
 from ..campaigns.fly.runner import fly_campaign
 from ..campaigns.fly.shards.numbering import numbers_of
-from .common.campaign_text import failed_flights, failure_lines
+from .common.campaign_text import failure_lines, find_failed
 from .common.plans import resume_hint
 from .options.campaigns import SHARD, ExecutionOptions
 from .options.option import FilePath
@@ -59,7 +59,7 @@ def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpac
     """
     shards = [numbers] if isinstance(numbers, int) else numbers_of([str(number) for number in numbers])
     campaign = open_folder(Path(folder))
-    wanted = campaign.checked(shards)
+    wanted = campaign.check_campaign(shards)
     workers, engine = options["workers"], options["engine"]
     with (
         chdir(Path.cwd()),  # an FMU may change the folder
@@ -69,7 +69,7 @@ def shard(folder: FilePath, numbers: Sequence[int | str] | int, **options: Unpac
         fly_campaign(campaign, wanted, workers=workers, engine=engine, elsewhere=elsewhere)
     missing = campaign.missing()
     complete = sorted(set(wanted) - set(missing))
-    failures = failed_flights(campaign.shard_rows(number) for number in complete)
+    failures = find_failed(campaign.shard_rows(number) for number in complete)
     return ShardResult(
         len(wanted),
         len(shards) - len(wanted),

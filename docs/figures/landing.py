@@ -30,7 +30,7 @@ def fly_landings(plan: BatchPlan, variant: Variant, trials: Iterable[int]) -> li
     prepared = plan.prepare(variant)
     varied = variant_names(plan, prepared).varied
     landings = []
-    with Simulation(prepared, varied=varied, faults=plan.declared_faults()) as simulation:
+    with Simulation(prepared, varied=varied, faults=plan.list_faults()) as simulation:
         for trial in trials:
             simulation.set_faults(plan.faults_of(trial))
             landings.append(_copy(simulation.fly(plan.parameters(prepared, trial))))

@@ -46,27 +46,27 @@ def draws(
 
 def state_feedback(states: int, inputs: int) -> np.ndarray:
     """Kappa and |K| (systems, ways, 2)."""
-    found = []
+    numbers = []
     for a, b, _, poles in tqdm(list(draws(states, inputs)), desc=f"n, m = {states}, {inputs}", disable=None):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # it warns where 30 iterations were too few
             gain = place_poles(a, b, poles).gain_matrix
         vectors = np.linalg.eig(a - b @ gain)[1]
         ours = [place(a, b, poles, choice=choice) for choice in WAYS[1:]]
-        found.append([(np.linalg.cond(vectors), np.linalg.norm(gain, 2)), *((one.kappa, one.norm) for one in ours)])
-    return np.array(found)
+        numbers.append([(np.linalg.cond(vectors), np.linalg.norm(gain, 2)), *((one.kappa, one.norm) for one in ours)])
+    return np.array(numbers)
 
 
 def spreads() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """|F| of every real spread, direct (systems, 20) and dual (systems, 15), and of choice smallest (systems, 1)."""
     states, inputs, outputs = OUTPUT
-    found: tuple[list, list, list] = ([], [], [])
+    numbers: tuple[list, list, list] = ([], [], [])
     for a, b, c, poles in tqdm(list(draws(*OUTPUT)), desc="n, m, p = {}, {}, {}".format(*OUTPUT), disable=None):
-        for norms, method, size in zip(found, ("direct", "dual"), (states - inputs, states - outputs), strict=False):
+        for norms, method, size in zip(numbers, ("direct", "dual"), (states - inputs, states - outputs), strict=False):
             uppers = [upper.poles for upper, _ in Spectrum.of(poles, states).splits(size)]
             norms.append([output_feedback(a, b, c, poles, method=method, upper=upper).norm for upper in uppers])
-        found[2].append([output_feedback(a, b, c, poles, choice="smallest").norm])
-    return np.array(found[0]), np.array(found[1]), np.array(found[2])
+        numbers[2].append([output_feedback(a, b, c, poles, choice="smallest").norm])
+    return np.array(numbers[0]), np.array(numbers[1]), np.array(numbers[2])
 
 
 def tables(table: dict[tuple[int, int], np.ndarray], direct: np.ndarray, dual: np.ndarray, smallest: np.ndarray) -> str:
@@ -75,13 +75,13 @@ def tables(table: dict[tuple[int, int], np.ndarray], direct: np.ndarray, dual: n
     for what, name in ((KAPPA, "kappa"), (NORM, "|K|")):
         lines.append(name)
         lines += [
-            f"{states}, {inputs}  " + "".join(f"{value:18.3g}" for value in np.median(found[:, :, what], axis=0))
-            for (states, inputs), found in table.items()
+            f"{states}, {inputs}  " + "".join(f"{value:18.3g}" for value in np.median(numbers[:, :, what], axis=0))
+            for (states, inputs), numbers in table.items()
         ]
     lines.append("median of kappa, least_condition / place_poles")
     lines += [
-        f"{states}, {inputs}  {np.median(found[:, 2, KAPPA] / found[:, 0, KAPPA]):18.3g}"
-        for (states, inputs), found in table.items()
+        f"{states}, {inputs}  {np.median(numbers[:, 2, KAPPA] / numbers[:, 0, KAPPA]):18.3g}"
+        for (states, inputs), numbers in table.items()
     ]
     lines.append("|F|, n, m, p = {}, {}, {}: first spread, best direct, best of all, smallest".format(*OUTPUT))
     columns = (direct[:, 0], direct.min(axis=1), np.hstack([direct, dual]).min(axis=1), smallest)
@@ -103,7 +103,10 @@ if __name__ == "__main__":
     print(tables(medians, *norms))
     with house_style():
         kappa, norm = (
-            {f"{n}, {m}": found[:, WAYS.index(way), what] / found[:, 0, what] for (n, m), found in medians.items()}
+            {
+                f"{n}, {m}": numbers[:, WAYS.index(way), what] / numbers[:, 0, what]
+                for (n, m), numbers in medians.items()
+            }
             for what, way in ((KAPPA, "least_condition"), (NORM, "least_norm"))
         )
         drawn = {"choices": choices_figure(kappa, norm), "spreads": spreads_figure(*norms), "free": free_figure()}

@@ -81,11 +81,11 @@ def free_figure() -> Figure:
     c, s = np.cos(TURN), np.sin(TURN)
     b = np.vstack([np.zeros((2, 2)), [[c, s], [-s, c]]])
     wanted = np.array([[[0.25, 0.0], [0.0, np.nan]], np.eye(2)])
-    found = common_feedback([turned_plant(q) for q in PLANTS], b, np.eye(4)[[0, 2, 3]], wanted)
+    feedback = common_feedback([turned_plant(q) for q in PLANTS], b, np.eye(4)[[0, 2, 3]], wanted)
     figure = new_figure(3.2)
     panels = figure.subplots(1, 2, sharex=True)
     time = np.linspace(0.0, 20.0, 401)
-    for index, (q, loop) in enumerate(zip(PLANTS, found.loops, strict=True)):
+    for index, (q, loop) in enumerate(zip(PLANTS, feedback.loops, strict=True)):
         states = np.array([expm(loop.closed_loop * t) @ [1.0, 1.0, 0.0, 0.0] for t in time])
         style = look(index)
         for axes, state in zip(panels, states.T, strict=False):

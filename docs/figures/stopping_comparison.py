@@ -13,7 +13,7 @@ import numpy as np
 from scipy.special import betainc, betaln
 from scipy.stats import binom
 
-from perilune.analysis.campaigns.verdicts.acceptance import FURTHER, flights_needed, permitted_failures, producer_risk
+from perilune.analysis.campaigns.verdicts.acceptance import FURTHER, acceptance_number, flights_needed, producer_risk
 from perilune.analysis.campaigns.verdicts.boundary import SPENT, Boundary
 from perilune.analysis.campaigns.verdicts.stopping import StoppingRule
 
@@ -65,10 +65,10 @@ def _by_evidence(name: str, looks: Sequence[int], good: Callable, bad: Callable)
     for flights in looks:
         counts = COUNTS[flights >= COUNTS]
         at_limit = counts * np.log(RATE) + (flights - counts) * np.log1p(-RATE)
-        for found, likelihood in ((permitted, good), (refused, bad)):
+        for outcomes, likelihood in ((permitted, good), (refused, bad)):
             with np.errstate(divide="ignore"):
                 enough = np.flatnonzero(likelihood(counts, flights) - at_limit >= -np.log(RISK))
-            found.append(int(enough.max(initial=-1) if found is permitted else enough.min(initial=flights + 1)))
+            outcomes.append(int(enough.max(initial=-1) if outcomes is permitted else enough.min(initial=flights + 1)))
     return Rule(name, looks, permitted, refused)
 
 
@@ -97,7 +97,7 @@ def _spent(name: str, looks: Sequence[int], spend: Callable[[int], float]) -> Ru
 
 def _one_size(name: str, looks: Sequence[int]) -> Rule:
     refused = [int(np.argmax([producer_risk(n, int(k), SHARE) <= RISK for k in COUNTS])) for n in looks]
-    return Rule(name, looks, [permitted_failures(flights, SHARE, CONFIDENCE) for flights in looks], refused)
+    return Rule(name, looks, [acceptance_number(flights, SHARE, CONFIDENCE) for flights in looks], refused)
 
 
 def rules() -> list[Rule]:
@@ -114,8 +114,8 @@ def rules() -> list[Rule]:
         Rule(
             "spending without an end",
             looks,
-            [ours.permitted_failures(flights) for flights in looks],
-            [ours.refused_failures(flights) for flights in looks],
+            [ours.acceptance_number(flights) for flights in looks],
+            [ours.rejection_number(flights) for flights in looks],
         ),
     ]
 
@@ -127,14 +127,14 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
 
 
 def main() -> None:
-    found = rules()
-    at_limit = [course(rule, RATE) for rule in found]
+    outcomes = rules()
+    at_limit = [course(rule, RATE) for rule in outcomes]
     risks = [
-        [rule.name, f"{100 * c.met:.1f}", f"{100 * c.refused:.1f}"] for rule, c in zip(found, at_limit, strict=True)
+        [rule.name, f"{100 * c.met:.1f}", f"{100 * c.refused:.1f}"] for rule, c in zip(outcomes, at_limit, strict=True)
     ]
     print(table(["rule", "met, %", "not met, %"], risks))
     rows = []
-    for rule in found:
+    for rule in outcomes:
         courses = [course(rule, 1.0 - share) for share in SHARES]
         decided = [100 * (c.met + c.refused) for c in courses]
         rows.append(

@@ -18,5 +18,7 @@ def typeset(page: str) -> str:
 
 
 def _with_mathml(text: str) -> str:
-    displayed = DISPLAYED.sub(lambda found: f'<div class="formula">{convert(found[1], display="block")}</div>', text)
-    return INLINE.sub(lambda found: convert(found[1]), displayed)
+    displayed = DISPLAYED.sub(
+        lambda matches: f'<div class="formula">{convert(matches[1], display="block")}</div>', text
+    )
+    return INLINE.sub(lambda matches: convert(matches[1]), displayed)

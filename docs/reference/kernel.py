@@ -43,7 +43,10 @@ def kernel_page() -> str:
     """Markdown of the page, to lie in reference."""
     operators = " ".join(f"`{SYMBOLS[kind]}`" for kind in (*OPERATORS, *COMPARISONS))
     constants = ", ".join(f"`math.{name}`" for name in MATH_CONSTANTS)
-    faults = [[f"`math.{name}`", str(found.arguments), _raises(found.faults)] for name, found in MATH_FUNCTIONS.items()]
+    faults = [
+        [f"`math.{name}`", str(callables.arguments), _raises(callables.faults)]
+        for name, callables in MATH_FUNCTIONS.items()
+    ]
     parts = [
         f"# {LANGUAGE_PAGE}",
         "`initialize`, `step` and all that they call are a *kernel*: Python as it stands, which `perilune export` also "
@@ -79,11 +82,11 @@ def kernel_page() -> str:
 def _helpers() -> Iterator[tuple[str, list[FunctionType]]]:
     """The public functions of each module of mathlib."""
     for module in pkgutil.iter_modules(mathlib.__path__):
-        found = import_module(f"{mathlib.__name__}.{module.name}")
+        callables = import_module(f"{mathlib.__name__}.{module.name}")
         functions = [
             value
-            for name, value in vars(found).items()
-            if isinstance(value, FunctionType) and value.__module__ == found.__name__ and not name.startswith("_")
+            for name, value in vars(callables).items()
+            if isinstance(value, FunctionType) and value.__module__ == callables.__name__ and not name.startswith("_")
         ]
         if functions:
             yield module.name, functions

@@ -33,13 +33,13 @@ def prose(docstring: str | None, root: str) -> str:
     """
     text = inspect.cleandoc(docstring or "")
     blocks = re.split(r"(\n(?:\n    .*(?:\n(?: {4}.*)?)*)+)", text)
-    found = []
+    matches = []
     for index, block in enumerate(blocks):
         if index % 2:
-            found.append("\n\n" + block.strip("\n") + "\n\n")
+            matches.append("\n\n" + block.strip("\n") + "\n\n")
         else:
-            found.append(linked(escaped(LABEL.sub("\n", block)), root))
-    return "".join(found).strip()
+            matches.append(linked(escaped(LABEL.sub("\n", block)), root))
+    return "".join(matches).strip()
 
 
 def linked(text: str, root: str) -> str:

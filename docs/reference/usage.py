@@ -23,25 +23,25 @@ class Usage:
 @cache
 def usages() -> dict[str, Usage]:
     """By FMU name, of every system under ssp_systems."""
-    found: dict[str, Usage] = {}
+    uses: dict[str, Usage] = {}
     for system in system_names():
         archive = open_system(system)
         for component, fmu in components_of(read_description(archive).system):
-            found.setdefault(fmu, Usage()).components.setdefault(system, []).append(component)
+            uses.setdefault(fmu, Usage()).components.setdefault(system, []).append(component)
         for name in sorted(archive.campaign_names()):
             campaign = read_source(*archive.campaign(name), archive).table().content
             for fmus in campaign.get("compare", {}).values():
                 for fmu in fmus:
-                    found.setdefault(fmu, Usage()).campaigns.setdefault(system, []).append(name)
-    return found
+                    uses.setdefault(fmu, Usage()).campaigns.setdefault(system, []).append(name)
+    return uses
 
 
 def components_of(system: System, within: str = "") -> list[tuple[str, str]]:
     """Components of a system and of those nested in it, each with the name of its FMU."""
-    found: list[tuple[str, str]] = []
+    uses: list[tuple[str, str]] = []
     for element in system.elements.values():
         if isinstance(element, Component):
-            found.append((within + element.name, Path(element.source).stem))
+            uses.append((within + element.name, Path(element.source).stem))
         elif isinstance(element, System):
-            found += components_of(element, f"{within}{element.name}.")
-    return found
+            uses += components_of(element, f"{within}{element.name}.")
+    return uses

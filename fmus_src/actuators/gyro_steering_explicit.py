@@ -2,7 +2,7 @@
 
 from ..block import Parameter
 from ..interfaces.gyro_steering import NEAR_SINGULAR, GyroSteering
-from ..mathlib.gyros import ISOTROPIC_RHO, distributed_rates, robust_rates
+from ..mathlib.gyros import ISOTROPIC_RHO, distribute_rates, robust_rates
 from ..mathlib.vectors import Vector3, Vector4
 
 
@@ -20,7 +20,7 @@ class GyroSteeringExplicit(GyroSteering):
     least_divisor = Parameter(0.02, unit="1", minimum=1e-6, description="below it the law is not used")
 
     def steer(self, angles: Vector4, momentum_rate: Vector3, time: float) -> None:
-        lawful, rates = distributed_rates(angles, momentum_rate, self.rho, self.law_gain, self.least_divisor)
+        lawful, rates = distribute_rates(angles, momentum_rate, self.rho, self.law_gain, self.least_divisor)
         if not lawful:
             self.status = NEAR_SINGULAR
             rates, _ = robust_rates(angles, momentum_rate, self.damping, self.damping_threshold, self.swing, time)

@@ -3,7 +3,7 @@
 from ..block import State
 from ..interfaces.orbital_control import OrbitalControl
 from ..mathlib.matrices import multiply
-from ..mathlib.orbital import applied, linear_model
+from ..mathlib.orbital import apply_matrix, linear_model
 from ..mathlib.vectors import vector
 
 
@@ -43,4 +43,5 @@ class OrbitalModalControl(OrbitalControl):
 
     def regulate(self, time: float) -> None:
         relative = self.estimated_angular_velocity + vector(0.0, 0.0, self.orbital_rate)
-        self.torque_command = applied(self.angle_gain, self.estimated_angles) + applied(self.rate_gain, relative)
+        by_angles = apply_matrix(self.angle_gain, self.estimated_angles)
+        self.torque_command = by_angles + apply_matrix(self.rate_gain, relative)

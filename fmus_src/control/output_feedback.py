@@ -4,7 +4,7 @@ import math
 
 from ..block import Parameter
 from ..interfaces.entry_control import EntryControl
-from ..mathlib.orbital import applied
+from ..mathlib.orbital import apply_matrix
 from ..mathlib.vectors import Vector3, vector
 
 
@@ -50,7 +50,7 @@ class OutputFeedback(EntryControl):
         for i in range(6):
             low = self.gains[6 * k + i]
             gain[i] = low + fraction * (self.gains[6 * k + 6 + i] - low)
-        feed = applied(self.inertia, self.reference_bank_acceleration * vector(c0, -s0, 0.0))
+        feed = apply_matrix(self.inertia, self.reference_bank_acceleration * vector(c0, -s0, 0.0))
         x = gain[0] * e + gain[1] * wx + gain[2] * wy + feed.x
         y = gain[3] * e + gain[4] * wx + gain[5] * wy + feed.y
         return vector(x, y, -self.pitch_damping * self.measured_angular_velocity.z)

@@ -4,7 +4,7 @@ import math
 
 from ..block import Parameter
 from ..interfaces.entry_control import EntryControl
-from ..mathlib.orbital import applied
+from ..mathlib.orbital import apply_matrix
 from ..mathlib.vectors import Vector3, clip, vector
 
 
@@ -39,4 +39,4 @@ class RobustControl(EntryControl):
         wanted = clip(wanted, -self.largest_acceleration, self.largest_acceleration)
         damped = -self.sideslip_damping * across
         turn = vector(c0 * wanted + s0 * damped, c0 * damped - s0 * wanted, -self.pitch_damping * w.z)
-        return applied(self.inertia, turn)
+        return apply_matrix(self.inertia, turn)

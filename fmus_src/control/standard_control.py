@@ -35,7 +35,7 @@ class StandardControl(EntryControl):
 
     def regulate(self) -> Vector3:
         w = self.measured_angular_velocity
-        error = clip(self.wrapped(self.measured_bank - self.target_bank), -self.bank_limit, self.bank_limit)
+        error = clip(self.wrap_angle(self.measured_bank - self.target_bank), -self.bank_limit, self.bank_limit)
         x = self.relay(0, error + self.lead_time * w.x)
         y = self.relay(1, w.y)
         z = self.relay(2, w.z)

@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Input, Output, Parameter, State
 from ..mathlib.rotation import rotation_between
-from ..mathlib.vectors import Vector3, across, cross, norm, shortened, vector
+from ..mathlib.vectors import Vector3, across, cross, limit_length, norm, vector
 
 GOOD = 0
 LIMITED = 1
@@ -69,7 +69,7 @@ class ThrustAxisControl(Block):
             rate = self.maximum_rate
         return rate
 
-    def wanted_rate(self, time: float) -> Vector3:
+    def command_rate(self, time: float) -> Vector3:
         """The angular rate (rad/s) that follows the command and closes the error at ``time`` (s)."""
         direction = self.thrust_direction + (time - self.command_time) * self.thrust_direction_rate
         length = norm(direction)
@@ -86,12 +86,12 @@ class ThrustAxisControl(Block):
 
     def control(self, time: float) -> None:
         """Set the command for ``time`` (s)."""
-        wanted = self.wanted_rate(time)
+        wanted = self.command_rate(time)
         demanded = self.angular_acceleration_feed + self.rate_gain * (wanted - self.angular_rate)
         self.angular_acceleration = demanded
         self.status = GOOD
         if self.maximum_angular_acceleration > 0.0 and norm(demanded) > self.maximum_angular_acceleration:
-            self.angular_acceleration = shortened(demanded, self.maximum_angular_acceleration)
+            self.angular_acceleration = limit_length(demanded, self.maximum_angular_acceleration)
             self.status = LIMITED
 
     def step(self, t: float, h: float) -> None:

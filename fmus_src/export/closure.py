@@ -19,7 +19,7 @@ from pathlib import Path
 from .. import __name__ as SOURCE_PACKAGE  # noqa: N812
 from ..block import Block
 from ..face import HOME_OF
-from ..user_modules import imported_names, module_name, modules_of
+from ..user_modules import list_imports, module_name, modules_of
 
 FACE_PACKAGE = SOURCE_PACKAGE.rpartition(".")[0]  # from which the names of `face` may be imported, too
 SOURCE_ROOT = Path(__file__).parents[1]
@@ -43,7 +43,7 @@ class Closure:
     def package(self) -> str:
         return f"perilune_{self.digest[:16]}"
 
-    def packed(self) -> dict[str, bytes]:
+    def pack_closure(self) -> dict[str, bytes]:
         """The files with imports of the source package, and of what it lies in, renamed, below the package's folder."""
         names = f"{re.escape(SOURCE_PACKAGE)}|{re.escape(FACE_PACKAGE)}"
         pattern = re.compile(rf"^(\s*(?:from|import)\s+)(?:{names})\b(?=\s|\.)".encode(), re.MULTILINE)
@@ -74,7 +74,7 @@ def closure_of(block_class: type[Block]) -> Closure:
         for file, text in modules_of(path).items():
             name = f"{OUTSIDE}.{module_name(file)}"
             files[name.replace(".", "/") + ".py"] = text
-            for imported in _imported(text, name, file, allowed):
+            for imported in _read_import(text, name, file, allowed):
                 _collect(imported, files, allowed)
     for name in RUNTIME_MODULES:
         _collect(name, files, allowed)
@@ -114,7 +114,7 @@ def _collect(module: str, files: dict[str, bytes], allowed: frozenset[str]) -> N
     if key in files and not key.endswith("__init__.py"):
         return
     files[key] = path.read_bytes()
-    for name in _imported(files[key], module, path, allowed):
+    for name in _read_import(files[key], module, path, allowed):
         _collect(name, files, allowed)
 
 
@@ -141,7 +141,7 @@ def _home(name: str, path: Path, line: int) -> str:
 
 def _check_siblings(node: ast.ImportFrom, path: Path) -> None:
     """Refuse a relative import of what is not in a user's folder."""
-    for name in imported_names(node):
+    for name in list_imports(node):
         if node.level > 1 or not path.with_name(f"{name}.py").is_file():
             written = "." * node.level + (node.module or name)
             remedy = f"import from files next to {path.name}"
@@ -149,7 +149,7 @@ def _check_siblings(node: ast.ImportFrom, path: Path) -> None:
 
 
 @cache  # all blocks share most of their files
-def _imported(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> tuple[str, ...]:
+def _read_import(text: bytes, module: str, path: Path, allowed: frozenset[str]) -> tuple[str, ...]:
     """Modules of the source package that a file imports, as dotted names below it."""
     package = module.rsplit(".", 1)[0].split(".") if "." in module else []
     modules: list[str] = []

@@ -98,7 +98,7 @@ def _identity(command: tuple[str, ...]) -> str:
     return " ".join(command[1:] if command[0] == sys.executable else command) + version
 
 
-def shared_library(
+def build_library(
     sources: Mapping[str, bytes], main: str, platform: str, cache: Path, *, portable: bool = False
 ) -> bytes:
     """The shared library of the source file ``main``, compiled or taken from the folder ``cache``.

@@ -11,7 +11,7 @@ import fmpy
 from ..block import Block
 from ..paths import CACHE
 from .archive import content_guid, write_zip
-from .compilers import PLATFORMS, shared_library
+from .compilers import PLATFORMS, build_library
 from .model_description import model_description
 from .write.translate import translate
 
@@ -65,7 +65,7 @@ def build_native_fmu(
     sources = native_sources(block_class, guid)
     name = block_class.fmu_name
     for platform in platforms:
-        library = shared_library(sources, f"{name}.c", platform, cache, portable=portable)
+        library = build_library(sources, f"{name}.c", platform, cache, portable=portable)
         files[f"binaries/{platform}/{name}{PLATFORMS[platform].extension}"] = library
     write_zip(path, files)
     return path

@@ -76,7 +76,7 @@ def _with_pythonfmu(closure: Closure, script_name: str, script: str) -> dict[str
         script_file = work / f"{script_name}.py"
         script_file.parent.mkdir()
         script_file.write_text(script, encoding="utf-8")
-        for name, text in closure.packed().items():
+        for name, text in closure.pack_closure().items():
             target = work / name
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_bytes(text)

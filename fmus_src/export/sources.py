@@ -38,7 +38,7 @@ def remove_outdated(folder: Path, source: Path, fmu: Path) -> None:
         fmu.unlink()
 
 
-def changed_source(fmu: Path) -> tuple[Path, Path] | None:
+def find_changed_source(fmu: Path) -> tuple[Path, Path] | None:
     """The first file with other content than when the FMU was built of it, and the file to export again.
 
     None where no such change is certain.

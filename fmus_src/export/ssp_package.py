@@ -39,7 +39,7 @@ def system_files(folder: Path) -> dict[str, Path]:
     return files
 
 
-def named_fmus(folder: Path) -> dict[str, str]:
+def list_fmus(folder: Path) -> dict[str, str]:
     """FMUs that the SSDs of a system name and its folder does not hold: source -> the SSD that names it first."""
     files = system_files(folder)
     sources: dict[str, str] = {}
@@ -58,7 +58,7 @@ def pack_system(folder: Path, fmus: Sequence[Path], target: Path) -> Path:
     the SSD and the FMU that is in none.
     """
     files = {name: path.read_bytes() for name, path in system_files(folder).items()}
-    for source, name in named_fmus(folder).items():
+    for source, name in list_fmus(folder).items():
         built = [path / Path(source).name for path in fmus if (path / Path(source).name).is_file()]
         if not built:
             places = " or ".join(str(path) for path in fmus)

@@ -29,7 +29,7 @@ class AstarProgramme(TerminalGuidance, interface=True):
             self.status = CLAMPED
         return math.asin(clip(sine, -1.0, 1.0))
 
-    def weighted(self, weight: float, theta: float, psi: float) -> Vector3:
+    def apply_weights(self, weight: float, theta: float, psi: float) -> Vector3:
         """Weight times the unit vector of the angles, landing-site frame."""
         forward = weight * math.cos(theta) * math.cos(psi)
         return vector(forward, weight * math.sin(psi), weight * math.sin(theta) * math.cos(psi))
@@ -56,16 +56,16 @@ class AstarProgramme(TerminalGuidance, interface=True):
         span = clip(time, 0.0, self.cycle)
         if (abs(psi_rate) + abs(theta_rate)) * span > 1.0:
             half = 0.5 * span
-            direction = direction + self.weighted(1.0 / 6.0, theta, psi)
-            direction = direction + self.weighted(4.0 / 6.0, theta + theta_rate * half, psi + psi_rate * half)
-            direction = direction + self.weighted(1.0 / 6.0, theta + theta_rate * span, psi + psi_rate * span)
+            direction = direction + self.apply_weights(1.0 / 6.0, theta, psi)
+            direction = direction + self.apply_weights(4.0 / 6.0, theta + theta_rate * half, psi + psi_rate * half)
+            direction = direction + self.apply_weights(1.0 / 6.0, theta + theta_rate * span, psi + psi_rate * span)
             share = norm(direction)
             self.thrust_acceleration = w * share
             if share > 0.0:
                 direction = direction / share
             self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
         else:
-            direction = direction + self.weighted(1.0, theta, psi)
+            direction = direction + self.apply_weights(1.0, theta, psi)
             self.thrust_direction_rate = vector(
                 -st * cpsi * theta_rate - ct * spsi * psi_rate,
                 cpsi * psi_rate,

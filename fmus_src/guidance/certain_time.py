@@ -61,7 +61,7 @@ class CertainTime(TerminalGuidance, interface=True):
 
     def burn_span(self, time: float) -> float:
         """How long (s) a command lasts that is given with ``time`` (s) to go."""
-        held = self.held_time()
+        held = self.hold_time()
         if self.plan_frozen():
             held = self.cycle  # no last burn
         if time <= held:

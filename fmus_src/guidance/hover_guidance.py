@@ -5,7 +5,7 @@ import math
 from ..block import Input, Output, Parameter, State
 from ..mathlib.gravity import STANDARD_GRAVITY
 from ..mathlib.lagged_thrust import lagged_thrust
-from ..mathlib.vectors import Vector3, across, clip, dot, norm, shortened, vector
+from ..mathlib.vectors import Vector3, across, clip, dot, limit_length, norm, vector
 from .hover_plan import GOOD, HOLDING, POLYNOMIAL, HoverPlan
 
 # Modes
@@ -211,7 +211,7 @@ class HoverGuidance(HoverPlan):
 
     def reference(self, t: float) -> None:
         """Set reference_position and reference_velocity at the time t (s) after the plan's start."""
-        self.reference_position, self.reference_velocity = self.planned_motion(t)
+        self.reference_position, self.reference_velocity = self.plan_motion(t)
         if self.sinking():
             speed = self.sink_speed(t)
             sunk = speed * t - 0.5 * speed * speed / self.descent_acceleration
@@ -229,7 +229,7 @@ class HoverGuidance(HoverPlan):
         left = clip(self.duration - begin, 0.0, end - begin)
         impulse = gravity * (end - begin - left)
         if left > 0.0:
-            impulse = impulse + self.planned_impulse(begin, begin + left)
+            impulse = impulse + self.plan_impulse(begin, begin + left)
         return impulse / (end - begin)
 
     def frequency(self, t: float) -> float:
@@ -249,16 +249,16 @@ class HoverGuidance(HoverPlan):
         self.time_to_go = clip(self.duration - t, 0.0, self.duration)
         self.finished = t >= self.duration and not self.sinking()
         self.reference(t)
-        direction, rate = self.planned_direction(t)
+        direction, rate = self.plan_direction(t)
         # beyond the end the plan's rate is 0
-        self.angular_acceleration_feed = (self.planned_rate(t + self.cycle) - self.planned_rate(t)) / self.cycle
+        self.angular_acceleration_feed = (self.plan_rate(t + self.cycle) - self.plan_rate(t)) / self.cycle
         ahead = self.reference_thrust(t + self.engine_lag, t + self.engine_lag + self.cycle)
         self.command(direction, rate, ahead, self.frequency(t))
 
     def command(self, direction: Vector3, rate: Vector3, planned: float, frequency: float) -> None:
         """The law, from direction, its derivative (1/s) and thrust over mass (m/s2) of the plan."""
         error = self.reference_position - self.position
-        near = shortened(error, self.largest_error)
+        near = limit_length(error, self.largest_error)
         push = frequency * (frequency * near + 2.0 * self.damping * (self.reference_velocity - self.velocity))
         wanted = planned + dot(push, direction)
         lever = wanted
@@ -267,7 +267,7 @@ class HoverGuidance(HoverPlan):
         lateral = across(push, direction) / lever
         reach = math.tan(self.largest_tilt)
         self.saturated = norm(error) > self.largest_error or norm(lateral) > reach
-        lateral = shortened(lateral, reach)
+        lateral = limit_length(lateral, reach)
         share = 1.0
         if self.tilt_filter > 0.0:
             share = -math.expm1(-self.elapsed / self.tilt_filter)

@@ -230,7 +230,7 @@ class HoverPlan(Block, interface=True):
         """Thrust over mass (m/s2) that holds the plan's gravity."""
         return self.plan_gravity * self.up
 
-    def planned_motion(self, t: float) -> tuple[Vector3, Vector3]:
+    def plan_motion(self, t: float) -> tuple[Vector3, Vector3]:
         """Position (m) and velocity (m/s) of the plan at the time t (s) after its start."""
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
@@ -245,7 +245,7 @@ class HoverPlan(Block, interface=True):
         place = self.origin + state[0] * self.along + state[2] * self.up
         return place, state[1] * self.along + state[3] * self.up
 
-    def planned_direction(self, t: float) -> tuple[Vector3, Vector3]:
+    def plan_direction(self, t: float) -> tuple[Vector3, Vector3]:
         """Thrust direction of the plan at the time t (s) after its start, and its derivative (1/s)."""
         rest = vector(0.0, 0.0, 0.0)
         if t >= self.duration:
@@ -259,12 +259,12 @@ class HoverPlan(Block, interface=True):
         direction = cosine * self.up - sine * self.along
         return direction, -speed * (sine * self.up + cosine * self.along)
 
-    def planned_rate(self, t: float) -> Vector3:
+    def plan_rate(self, t: float) -> Vector3:
         """Angular rate (rad/s) of the thrust axis of the plan at the time t (s) after its start."""
-        direction, rate = self.planned_direction(t)
+        direction, rate = self.plan_direction(t)
         return cross(direction, rate)
 
-    def planned_impulse(self, begin: float, end: float) -> float:
+    def plan_impulse(self, begin: float, end: float) -> float:
         """Integral (m/s) of the plan's thrust over mass between two times (s) after its start, within its duration."""
         if self.plan_kind != POLYNOMIAL:
             return thrust_impulse(self.times, self.vehicle, begin, end)

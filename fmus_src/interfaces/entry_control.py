@@ -55,13 +55,13 @@ class EntryControl(Block, interface=True):
         """The torque (N m, body) for the present inputs."""
         return vector(0.0, 0.0, 0.0)
 
-    def wrapped(self, angle: float) -> float:
+    def wrap_angle(self, angle: float) -> float:
         """An angle (rad) within +-pi."""
         return angle - 2.0 * math.pi * float(math.floor(angle / (2.0 * math.pi) + 0.5))
 
     def bank_error(self) -> float:
         """Measured bank less the reference (rad), within error_limit."""
-        return clip(self.wrapped(self.measured_bank - self.reference_bank), -self.error_limit, self.error_limit)
+        return clip(self.wrap_angle(self.measured_bank - self.reference_bank), -self.error_limit, self.error_limit)
 
     def beyond(self, demand: float, level: float) -> float:
         """A demand, 0 within the dead zone of a level (N m)."""

@@ -1,7 +1,7 @@
 """What observers of the whole state have in common: one gain for angles and rates."""
 
 from ..block import State
-from ..mathlib.orbital import measured_state
+from ..mathlib.orbital import index_of_measured
 from ..mathlib.vectors import Vector3, vector
 from .attitude_observer import AttitudeObserver
 
@@ -19,7 +19,7 @@ class FullAttitudeObserver(AttitudeObserver, interface=True):
         """gain = m (C' + e row): m 6 x 6 by rows, row of five."""
         for i in range(6):
             for j in range(5):
-                self.gain[5 * i + j] = m[6 * i + measured_state(j)] + m[6 * i + 1] * row[j]
+                self.gain[5 * i + j] = m[6 * i + index_of_measured(j)] + m[6 * i + 1] * row[j]
 
     def correction(
         self, angles: Vector3, w: Vector3, roll: float, pitch: float, rates: Vector3

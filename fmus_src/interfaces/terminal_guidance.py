@@ -207,14 +207,14 @@ class TerminalGuidance(Block, interface=True):
             if self.cycle <= 0.0:
                 self.cycle = h
             burn_left = self.command_time + self.burn_duration - t - h
-            if self.terminal_step == 0 or not self.started or burn_left > self.held_time() - self.cycle:
+            if self.terminal_step == 0 or not self.started or burn_left > self.hold_time() - self.cycle:
                 self.follow(t + h)
             elif burn_left > self.cycle * ROUNDING:
                 self.time_to_go = burn_left
             else:
                 self.finish(t + h)
 
-    def held_time(self) -> float:
+    def hold_time(self) -> float:
         """How long the last command is held at most (s)."""
         held = LAST_BURN * self.cycle
         if self.last_burn > held:
@@ -249,7 +249,7 @@ class TerminalGuidance(Block, interface=True):
         """At ``time`` (s): the last burn where it is due, or the end where less than a cycle is left."""
         if self.terminal_step == 1:
             self.burn_duration = UNLIMITED
-            if self.time_to_go <= self.held_time():
+            if self.time_to_go <= self.hold_time():
                 # from command_time on, which is earlier where the last command is held
                 self.burn_duration = time - self.command_time + self.time_to_go
         elif self.time_to_go < self.cycle:

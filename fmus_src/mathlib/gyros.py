@@ -45,7 +45,7 @@ def nearest_turn(angle: float, reference: float) -> float:
     return angle + math.tau * float(math.floor(turns + 0.5))
 
 
-def distributed_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[bool, Vector4]:
+def distribute_angles(momentum: Vector3, rho: float, near: Vector4) -> tuple[bool, Vector4]:
     """Whether there are angles that give a momentum under the distribution law, and they or those of ``near``.
 
     They are by whole turns nearest to ``near``.
@@ -80,7 +80,7 @@ def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
     return vector(nearest_turn(direction + opening, near.x), nearest_turn(direction - opening, near.y))
 
 
-def distributed_rates(
+def distribute_rates(
     angles: Vector4, momentum_rate: Vector3, rho: float, gain: float, least: float
 ) -> tuple[bool, Vector4]:
     """Whether the law has rates (rad/s) that change the momentum at momentum_rate (1/s) and keep it, and they.

@@ -75,14 +75,14 @@ def little_aside(x: float, vehicle: list, p: list) -> bool:
     return True
 
 
-def widened(p: list, factor: float, other: list) -> None:
+def widen(p: list, factor: float, other: list) -> None:
     """other = p with both turns longer by a factor."""
     copy(p, other)
     other[TURN] = factor * p[TURN]
     other[RETURN] = p[END] - factor * (p[END] - p[RETURN])
 
 
-def lengthened(p: list, end: float, other: list) -> None:
+def lengthen(p: list, end: float, other: list) -> None:
     """other = p with another end (s), what comes last moved with it."""
     copy(p, other)
     other[END] = end
@@ -106,7 +106,7 @@ def aside(x: float, y: float, vehicle: list, p: list) -> float:
             goal = growth * place
             if goal > x:
                 goal = x
-            widened(p, math.sqrt(goal / place), trial)
+            widen(p, math.sqrt(goal / place), trial)
             is_feasible = solve(WITHOUT_FIRST_BURN, trial, vehicle, goal, y)
             if is_feasible:
                 copy(trial, p)
@@ -121,14 +121,14 @@ def ending(end: float, x: float, y: float, vehicle: list, p: list, other: list) 
 
     Propellant is over the mass at the start.
     """
-    lengthened(p, end, other)
+    lengthen(p, end, other)
     is_feasible = solve(WITH_FIRST_BURN, other, vehicle, x, y)
     if not is_feasible:
         return math.inf
     return propellant_fraction(other, vehicle)
 
 
-def stretched(end: float, x: float, y: float, vehicle: list, p: list) -> bool:
+def stretch(end: float, x: float, y: float, vehicle: list, p: list) -> bool:
     """Change p to the programme with first burn that ends at ``end`` (s), in steps; whether it is reached."""
     trial = [0.0] * UNKNOWNS
     part = LARGEST_STRETCH * p[END]
@@ -153,32 +153,32 @@ def further(reached: float, x: float, y: float, vehicle: list, p: list) -> bool:
     """
     trial = [0.0] * UNKNOWNS
     place = 0.9 * reached
-    widened(p, math.sqrt(0.9), trial)
+    widen(p, math.sqrt(0.9), trial)
     is_feasible = solve(WITHOUT_FIRST_BURN, trial, vehicle, place, y)
     if not is_feasible:
         return False
     copy(trial, p)
     p[WIDTH] = 0.1
     end = p[END]
-    lengthened(p, 1.01 * end, trial)
+    lengthen(p, 1.01 * end, trial)
     is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, place, y)
     if not is_feasible:
         return False
     copy(trial, p)
-    longer = stretched(ROOM * end, place, y, vehicle, p)
+    longer = stretch(ROOM * end, place, y, vehicle, p)
     growth = GROWTH_WITH_FIRST_BURN
     for _ in range(LARGEST_PATH):
         if place < x and growth > LEAST_GROWTH:
             goal = growth * place
             if goal > x:
                 goal = x
-            widened(p, math.sqrt(goal / place), trial)
+            widen(p, math.sqrt(goal / place), trial)
             is_feasible = solve(WITH_FIRST_BURN, trial, vehicle, goal, y)
             if is_feasible:
                 copy(trial, p)
                 place = goal
             else:
-                longer = stretched(1.04 * p[END], place, y, vehicle, p)
+                longer = stretch(1.04 * p[END], place, y, vehicle, p)
                 if not longer:
                     growth = 0.5 * (1.0 + growth)
     return place >= x

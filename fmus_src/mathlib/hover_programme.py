@@ -7,7 +7,7 @@ plane of the transfer. Source: Huang 2017; the path of the search is ours.
 import math
 
 from .hover_motion import FULL, GRAVITY, LEAST, VEHICLE
-from .hover_path import aside, ending, further, stretched, vertical
+from .hover_path import aside, ending, further, stretch, vertical
 from .hover_shape import END, UNKNOWNS, WIDTH, clear, copy
 from .hover_solution import NONE, VERTICAL, WITH_FIRST_BURN, WITHOUT_FIRST_BURN, propellant_fraction, solve
 
@@ -65,7 +65,7 @@ def programme_of_duration(x: float, y: float, duration: float, vehicle: list, p:
     if is_feasible and kind == WITHOUT_FIRST_BURN:
         p[WIDTH] = FIRST_WIDTH
     if is_feasible:
-        is_feasible = stretched(duration, x, y, vehicle, p)
+        is_feasible = stretch(duration, x, y, vehicle, p)
     if not is_feasible:
         clear(p)
         return NONE

@@ -21,7 +21,7 @@ def site_below(position: Vector3, radius: float) -> Vector3:
     return above_site(position, 0.0, radius)
 
 
-def redesignated(site: Vector3, move: Vector2, radius: float) -> Vector3:
+def redesignate(site: Vector3, move: Vector2, radius: float) -> Vector3:
     """The site moved by x and y (m), put back on the sphere along its vertical."""
     return site_below(vector(site.x + move.x, site.y + move.y, site.z), radius)
 

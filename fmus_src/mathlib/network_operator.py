@@ -35,12 +35,12 @@ UNARY_OPERATIONS = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 1
 BINARY_OPERATIONS = (0, 1, 2, 3)
 
 
-def known_unary(operation: int) -> bool:
+def is_unary(operation: int) -> bool:
     """Whether a number names a unary operation."""
     return operation >= 1 and operation <= 23 and operation != 22
 
 
-def known_binary(operation: int) -> bool:
+def is_binary(operation: int) -> bool:
     """Whether a number names a binary operation."""
     return operation >= 0 and operation <= 3
 
@@ -140,10 +140,10 @@ def decode(matrix: list, edges: list) -> int:
             place = SIZE * row + column
             operation = matrix[place]
             if row == column:
-                if not known_binary(operation):
+                if not is_binary(operation):
                     return -1
             elif operation != 0:
-                if row > column or not known_unary(operation):
+                if row > column or not is_unary(operation):
                     return -1
                 edges[count] = place
                 count = count + 1

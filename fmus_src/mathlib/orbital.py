@@ -12,7 +12,7 @@ from .matrices import multiply
 from .vectors import Vector3, cross, vector
 
 
-def measured_state(j: int) -> int:
+def index_of_measured(j: int) -> int:
     """Which of (roll, yaw, pitch, rates) is the j-th that is measured: all but yaw."""
     if j == 0:
         return 0
@@ -73,7 +73,7 @@ def angle_rate_derivatives(angles: Vector3, w: Vector3, w0: float, by_angles: li
     by_rates[8] = cos_roll
 
 
-def applied(a: list, v: Vector3) -> Vector3:
+def apply_matrix(a: list, v: Vector3) -> Vector3:
     """The 3 x 3 matrix a, in row order, times v."""
     return vector(
         a[0] * v.x + a[1] * v.y + a[2] * v.z,
@@ -90,8 +90,8 @@ def angular_acceleration(
     J w' = 3 w0^2 j x (J j) + (J w) x w + torque, j radially up; inertia J (kg m2) and its inverse by rows.
     """
     j = radial_direction(angles)
-    gravity_gradient = 3.0 * w0 * w0 * cross(j, applied(inertia, j))
-    return applied(inverse_inertia, gravity_gradient + cross(applied(inertia, w), w) + torque)
+    gravity_gradient = 3.0 * w0 * w0 * cross(j, apply_matrix(inertia, j))
+    return apply_matrix(inverse_inertia, gravity_gradient + cross(apply_matrix(inertia, w), w) + torque)
 
 
 def cross_matrix(v: Vector3, a: list) -> None:
@@ -112,7 +112,7 @@ def gyric_matrix(inertia: list, inverse_inertia: list, v: Vector3, a: list) -> N
     of_momentum = [0.0] * 9
     of_rate = [0.0] * 9
     turned = [0.0] * 9
-    cross_matrix(applied(inertia, v), of_momentum)
+    cross_matrix(apply_matrix(inertia, v), of_momentum)
     cross_matrix(v, of_rate)
     multiply(of_rate, inertia, turned, 3)
     for i in range(9):

@@ -13,7 +13,7 @@ def next_switch_off(pulses: Vector3, time: float, end: float) -> float:
     return first
 
 
-def shortened(length: float, h: float) -> float:
+def limit_pulse(length: float, h: float) -> float:
     """What is left of one pulse (s, with its sign) after h (s)."""
     if length > h:
         return length - h
@@ -24,7 +24,7 @@ def shortened(length: float, h: float) -> float:
 
 def left_after(pulses: Vector3, h: float) -> Vector3:
     """What is left of the pulses (s, with their signs) after h (s)."""
-    return vector(shortened(pulses.x, h), shortened(pulses.y, h), shortened(pulses.z, h))
+    return vector(limit_pulse(pulses.x, h), limit_pulse(pulses.y, h), limit_pulse(pulses.z, h))
 
 
 def lengths_of(pulses: Vector3) -> Vector3:

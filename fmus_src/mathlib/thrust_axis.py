@@ -4,18 +4,18 @@ The axis d, a unit vector, turns with the angular rate w (rad/s) perpendicular t
 acceleration (rad/s2) without its part along d, no longer than a limit (0: none). Roll about d does not exist.
 """
 
-from .vectors import Vector3, across, cross, norm, shortened
+from .vectors import Vector3, across, cross, limit_length, norm
 
 
 def axis_slopes(d: Vector3, w: Vector3, acceleration: Vector3, limit: float) -> tuple[Vector3, Vector3]:
     """The derivatives of axis and angular rate."""
     turning = across(acceleration, d)
     if limit > 0.0:
-        turning = shortened(turning, limit)
+        turning = limit_length(turning, limit)
     return cross(w, d), turning
 
 
-def turned_axis(d: Vector3, w: Vector3, acceleration: Vector3, limit: float, h: float) -> tuple[Vector3, Vector3]:
+def turn_axis(d: Vector3, w: Vector3, acceleration: Vector3, limit: float, h: float) -> tuple[Vector3, Vector3]:
     """Axis and angular rate h (s) later under a constant acceleration: one step of Runge-Kutta's fourth order."""
     d1, w1 = axis_slopes(d, w, acceleration, limit)
     d2, w2 = axis_slopes(d + 0.5 * h * d1, w + 0.5 * h * w1, acceleration, limit)

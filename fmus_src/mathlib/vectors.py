@@ -16,8 +16,8 @@ __all__ = [
     "cross",
     "dot",
     "is_finite",
+    "limit_length",
     "norm",
-    "shortened",
     "smallest_component",
     "vector",
 ]
@@ -43,7 +43,7 @@ def across(a: Vector3, direction: Vector3) -> Vector3:
     return a - dot(a, direction) * direction
 
 
-def shortened(a: Vector3, longest: float) -> Vector3:
+def limit_length(a: Vector3, longest: float) -> Vector3:
     """The vector, no longer than ``longest``."""
     length = norm(a)
     if length > longest:

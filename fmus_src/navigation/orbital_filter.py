@@ -5,7 +5,7 @@ import math
 from ..block import Parameter, State
 from ..interfaces.attitude_observer import NOT_POSITIVE, AttitudeObserver
 from ..mathlib.kalman import predict, update
-from ..mathlib.orbital import angle_rate_derivatives, angle_rates, applied
+from ..mathlib.orbital import angle_rate_derivatives, angle_rates, apply_matrix
 from ..mathlib.vectors import Vector3, vector
 
 
@@ -71,17 +71,17 @@ class OrbitalFilter(AttitudeObserver):
         self.angles_now = vector(*x[0:3])
         self.bias = vector(*x[3:6])
 
-    def missed(self) -> Vector3:
+    def coning_correction(self) -> Vector3:
         """What the mean of the rates at both ends of a tick misses of its pulses (rad/s, body)."""
         px, py, pz = self.fired_pulses
         period = self.sample_period
         after = vector(period - abs(px), period - abs(py), period - abs(pz))
-        return applied(self.inverse_inertia, self.jet_torque * self.fired_pulses * after / (2.0 * period))
+        return apply_matrix(self.inverse_inertia, self.jet_torque * self.fired_pulses * after / (2.0 * period))
 
     def observe(self) -> None:
-        gained = self.sample_period * applied(self.inverse_inertia, self.mean_torque(self.fired_pulses))
+        gained = self.sample_period * apply_matrix(self.inverse_inertia, self.mean_torque(self.fired_pulses))
         mean = 0.5 * (self.last_rates + self.measured_angular_velocity)
-        self.advance(mean + self.missed() - self.bias)
+        self.advance(mean + self.coning_correction() - self.bias)
         self.correct()
         expected = self.rates_now + gained
         self.rates_now = expected + self.rate_gain * (self.measured_angular_velocity - self.bias - expected)

@@ -5,7 +5,7 @@ import math
 from ..block import Parameter
 from ..interfaces.full_attitude_observer import FullAttitudeObserver
 from ..mathlib.matrices import exponential
-from ..mathlib.orbital import linear_model, measured_state
+from ..mathlib.orbital import index_of_measured, linear_model
 
 
 class OrbitalObserverDiscrete(FullAttitudeObserver):
@@ -30,7 +30,7 @@ class OrbitalObserverDiscrete(FullAttitudeObserver):
         exponential(a, -period, back, 6)
         square = 0.0
         for j in range(5):
-            row[j] = ahead[6 * measured_state(j) + 1]
+            row[j] = ahead[6 * index_of_measured(j) + 1]
             square = square + row[j] * row[j]
         if not square > 0.0:
             return False

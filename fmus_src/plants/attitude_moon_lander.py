@@ -6,7 +6,7 @@ from ..block import Input, Output, Parameter
 from ..interfaces.moon_lander import MoonLander
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity, vertical_at
 from ..mathlib.lagged_thrust import lagged_thrust
-from ..mathlib.thrust_axis import turned_axis
+from ..mathlib.thrust_axis import turn_axis
 from ..mathlib.vectors import Vector3, across, clip, cross, dot, norm, vector
 
 HALVINGS = 60  # of a step, until the moment at which the tank is empty is exact
@@ -91,7 +91,7 @@ class AttitudeMoonLander(MoonLander):
 
     def turn(self, t: float, h: float) -> None:
         """Advance attitude and angular rate by h (s)."""
-        self.attitude, self.angular_rate = turned_axis(
+        self.attitude, self.angular_rate = turn_axis(
             self.attitude, self.angular_rate, self.angular_acceleration, self.maximum_angular_acceleration, h
         )
 

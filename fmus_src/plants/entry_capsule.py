@@ -7,7 +7,7 @@ from ..mathlib.cubic_spline import cubic_value, curvatures
 from ..mathlib.entry_motion import attitude_rates, body_axes, earth_forces, path_rates, velocity_axes_rate
 from ..mathlib.matrices import inverse
 from ..mathlib.newtonian_cap import cap_tables
-from ..mathlib.orbital import applied
+from ..mathlib.orbital import apply_matrix
 from ..mathlib.pulses import left_after, lengths_of, next_switch_off
 from ..mathlib.standard_atmosphere import air
 from ..mathlib.vectors import Vector3, cross, dot, norm, vector
@@ -176,7 +176,7 @@ class EntryCapsule(Block):
         push = push + earth_forces(place, path, self.gravitational_parameter, self.earth_rate)
         moved, turned = path_rates(place, path, push)
         relative = w - self.in_body(x, y, z, velocity_axes_rate(place, path, turned, self.earth_rate))
-        spun = applied(self.inverse_inertia, cross(applied(self.inertia, w), w) + moment)
+        spun = apply_matrix(self.inverse_inertia, cross(apply_matrix(self.inertia, w), w) + moment)
         return moved, turned, attitude_rates(attitude, relative), spun
 
     def in_body(self, x: Vector3, y: Vector3, z: Vector3, v: Vector3) -> Vector3:

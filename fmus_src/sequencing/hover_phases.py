@@ -2,7 +2,7 @@
 
 from ..block import Parameter, State
 from ..mathlib.gravity import altitude_of, from_centre, vertical_at
-from ..mathlib.landing_site import above_site, redesignated, site_below, within_reach
+from ..mathlib.landing_site import above_site, redesignate, site_below, within_reach
 from ..mathlib.vectors import Vector2, across, clip, norm
 from .landing_sequence import (
     CAPTURE,
@@ -89,7 +89,7 @@ class HoverPhases(LandingSequence, interface=True):
         reached, allowed = within_reach(move, reach)
         if not reached:
             self.note(SHORTENED, time)
-        self.site = redesignated(self.site, allowed, self.moon_radius)
+        self.site = redesignate(self.site, allowed, self.moon_radius)
 
     def begin_transfer(self, time: float) -> None:
         """Down to the second hover, over the site of the first re-designation."""

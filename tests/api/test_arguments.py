@@ -64,8 +64,8 @@ def test_parameters_take_paths(name, tmp_path):
         more = {"campaign": "paper", "compare": {"guidance": "analytic_guidance"}, **COMPARING[name]}
     said = ""
     try:
-        found = getattr(perilune, name)(system, parameters=[missing], **more)
-        said = found[0].problems[0]  # of validate
+        actual = getattr(perilune, name)(system, parameters=[missing], **more)
+        said = actual[0].problems[0]  # of validate
     except perilune.InputError as error:
         said = str(error)
     assert "missing.ssv" in said

@@ -127,8 +127,8 @@ def test_a_vector_is_set_as_a_whole(fmus, tmp_path):
     by_element = {f"guidance.target_position[{place}]": value for place, value in enumerate(target, 1)}
     expected = perilune.simulate(SYSTEM, stop_time=2.0, set=by_element)
     for value in (target, tuple(target), np.array(target), "10, -5, 2100"):
-        found = perilune.simulate(SYSTEM, stop_time=2.0, set={"guidance.target_position": value})
-        np.testing.assert_array_equal(found["guidance.thrust_acceleration"], expected["guidance.thrust_acceleration"])
+        actual = perilune.simulate(SYSTEM, stop_time=2.0, set={"guidance.target_position": value})
+        np.testing.assert_array_equal(actual["guidance.thrust_acceleration"], expected["guidance.thrust_acceleration"])
     campaign = tmp_path / "c.toml"
     metric = '[metric.last]\nexpression = "guidance.thrust_acceleration"\nreduction = "final"\n'
     text = f'system = "{SYSTEM}"\ntrials = 1\nseed = 1\n[set]\n"guidance.target_position" = {target}\n{metric}'
@@ -140,8 +140,8 @@ def test_a_vector_is_set_as_a_whole(fmus, tmp_path):
 def test_faults_are_given_as_texts_too(fmus):
     fault = perilune.Fault("plant.thrust", "override", 0.0, 1.0)
     expected = perilune.simulate(SYSTEM, stop_time=3.0, faults=[fault])
-    found = perilune.simulate(SYSTEM, stop_time=3.0, faults=[str(fault)])
-    np.testing.assert_array_equal(found["plant.velocity"], expected["plant.velocity"])
+    actual = perilune.simulate(SYSTEM, stop_time=3.0, faults=[str(fault)])
+    np.testing.assert_array_equal(actual["plant.velocity"], expected["plant.velocity"])
     with pytest.raises(perilune.InputError, match=r"faults: plant\.thrust=broken@1: unknown kind broken"):
         perilune.simulate(SYSTEM, stop_time=3.0, faults=["plant.thrust=broken@1"])
     with pytest.raises(perilune.InputError, match="one name where a list is meant"):

@@ -9,7 +9,7 @@ import pytest
 from perilune.analysis.benchmark.agreement import disagreements
 from perilune.analysis.benchmark.contestant import Contestant
 from perilune.analysis.benchmark.course import Course
-from perilune.analysis.benchmark.times import Times, promised_ratios
+from perilune.analysis.benchmark.times import Times, compute_promised_ratios
 
 
 def contestant(name: str, algorithm: str | None = "sequential", exact: bool = False) -> Contestant:
@@ -23,7 +23,7 @@ OURS = contestant("perilune_native")
 
 
 @pytest.mark.parametrize(
-    ("other", "value", "found"),
+    ("other", "value", "disagrees"),
     [
         (contestant("other"), 1000.0 + 0.5e-6, False),
         (contestant("other"), 1000.0 + 2e-6, True),
@@ -34,9 +34,9 @@ OURS = contestant("perilune_native")
         (contestant("other", exact=True), math.nextafter(1000.0, 0.0), True),
     ],
 )
-def test_disagreements(other: Contestant, value: float, found: bool) -> None:
+def test_disagreements(other: Contestant, value: float, disagrees: bool) -> None:
     final = {"perilune_native": {"x": 1000.0}, "other": {"x": value}}
-    assert set(disagreements([OURS, other], final)) == ({"other"} if found else set())
+    assert set(disagreements([OURS, other], final)) == ({"other"} if disagrees else set())
 
 
 def test_an_exact_contestant_keeps_the_sign_of_zero() -> None:
@@ -55,7 +55,7 @@ def test_a_step_is_what_the_long_flight_takes_over_the_short_one() -> None:
     theirs.add(short=5.0, long=8.0)
     assert ours.step() == pytest.approx(0.01)
     assert ours.start() == pytest.approx(0.99)
-    ratios = promised_ratios(
+    ratios = compute_promised_ratios(
         {"fused_limit": ours, "perilune_native": theirs, "libcosim": ours}, {"native": {"1": 20.0, "2": 38.0}}
     )
     assert ratios == pytest.approx({"perilune_native/fused_limit": 3.0, "two_workers/one_worker_native": 1.9})

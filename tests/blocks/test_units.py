@@ -56,10 +56,10 @@ def test_compositions(name):
 
 @pytest.mark.parametrize(("scale", "value"), [("degC", 21.5), ("degF", -40.0)])
 def test_temperatures(scale, value):
-    found = unit_definition(scale)
+    actual = unit_definition(scale)
     names = {"degC": "Celsius", "degF": "Fahrenheit"}
     expected = constants.convert_temperature(value, names[scale], "Kelvin")
-    assert found.factor * value + found.offset == pytest.approx(expected, rel=1e-14)
+    assert actual.factor * value + actual.offset == pytest.approx(expected, rel=1e-14)
 
 
 @given(
@@ -81,9 +81,9 @@ def test_products_multiply(parts):
         factor *= SYMBOLS[symbol].factor ** times
         for base, exponent in SYMBOLS[symbol].exponents.items():
             exponents[base] += times * exponent
-    found = unit_definition(name)
-    assert found.factor == pytest.approx(factor, rel=1e-12)
-    assert found.exponents == {base: power for base, power in exponents.items() if power}
+    actual = unit_definition(name)
+    assert actual.factor == pytest.approx(factor, rel=1e-12)
+    assert actual.exponents == {base: power for base, power in exponents.items() if power}
 
 
 @pytest.mark.parametrize("name", ["", "ell", "m//s", "m.", "/s", "m s", "degC/s", "m^2", "m2.5", "2m"])

@@ -35,51 +35,53 @@ def counted(values, percent):
 
 @given(st.lists(NUMBERS, min_size=2, max_size=300))
 def test_finite_columns_against_other_libraries(values):
-    found = statistics(np.array(values), "m")
-    assert (found.count, found.unit) == (len(values), "m")
-    assert (found.min, found.max) == (min(values), max(values))
-    assert found.mean == pytest.approx(exact.fmean(values), rel=1e-9, abs=1e-9)
-    assert found.std == pytest.approx(exact.stdev(values), rel=1e-9, abs=1e-9)
-    assert found.rms == pytest.approx(math.sqrt(exact.fmean(value * value for value in values)), rel=1e-9)
+    actual = statistics(np.array(values), "m")
+    assert (actual.count, actual.unit) == (len(values), "m")
+    assert (actual.min, actual.max) == (min(values), max(values))
+    assert actual.mean == pytest.approx(exact.fmean(values), rel=1e-9, abs=1e-9)
+    assert actual.std == pytest.approx(exact.stdev(values), rel=1e-9, abs=1e-9)
+    assert actual.rms == pytest.approx(math.sqrt(exact.fmean(value * value for value in values)), rel=1e-9)
     share = ecdf(values).cdf
     for key, percent in QUANTILES.items():
         assert (
-            share.evaluate(found.value(key))
+            share.evaluate(actual.value(key))
             >= percent / 100
-            > share.evaluate(np.nextafter(found.value(key), -math.inf))
+            > share.evaluate(np.nextafter(actual.value(key), -math.inf))
         )
 
 
 @given(st.lists(ANY, max_size=120))
 def test_quantiles_by_counting(values):
-    found = statistics(np.array(values, dtype=float), "1")
+    actual = statistics(np.array(values, dtype=float), "1")
     for key, percent in QUANTILES.items():
         expected = counted(values, percent)
-        assert (None if found.value(key) is None else float(found.value(key))) == expected
-        assert found.value(key) is None or math.isinf(found.value(key)) == math.isinf(expected)
+        assert (None if actual.value(key) is None else float(actual.value(key))) == expected
+        assert actual.value(key) is None or math.isinf(actual.value(key)) == math.isinf(expected)
 
 
 @given(st.lists(ANY, max_size=60))
 def test_other_statistics_are_those_of_the_finite_values(values):
     column = np.array(values, dtype=float)
-    found = statistics(column, "1")
-    assert found.count == sum(map(math.isfinite, values))
+    actual = statistics(column, "1")
+    assert actual.count == sum(map(math.isfinite, values))
     alone = statistics(column[np.isfinite(column)], "1")
     for key in set(STATISTICS) - set(QUANTILES):
-        assert found.value(key) == alone.value(key)
-        assert (found.value(key) is None) == (found.count < (2 if key == "std" else 1))
+        assert actual.value(key) == alone.value(key)
+        assert (actual.value(key) is None) == (actual.count < (2 if key == "std" else 1))
 
 
 @pytest.mark.parametrize("trials", [20, 100, 1000, 2000])
 def test_quantiles_of_whole_numbers(trials):
-    found = statistics(np.random.default_rng(trials).permutation(trials) + 1.0, "1")
-    assert [found.value(key) for key in QUANTILES] == [math.ceil(percent * trials / 100) for percent in (5, 50, 95, 99)]
+    actual = statistics(np.random.default_rng(trials).permutation(trials) + 1.0, "1")
+    assert [actual.value(key) for key in QUANTILES] == [
+        math.ceil(percent * trials / 100) for percent in (5, 50, 95, 99)
+    ]
 
 
 def test_one_trial_in_twenty_that_never_settles():
     settled = np.array([math.inf, math.nan, *range(1, 20)])
-    found = statistics(settled, "s")
-    assert (found.count, found.max, found.p95, found.p99) == (19, 19.0, 19.0, math.inf)
+    actual = statistics(settled, "s")
+    assert (actual.count, actual.max, actual.p95, actual.p99) == (19, 19.0, 19.0, math.inf)
     assert statistics(settled[:-1], "s").p95 == math.inf
 
 
@@ -113,11 +115,11 @@ def test_quantiles_are_numpys(parts, share):
     arrays = [np.array(part, dtype=float) for part in parts]
     everything = np.concatenate([*arrays, np.zeros(0)])
     known = everything[~np.isnan(everything)]
-    found = asked(arrays, share)
+    actual = asked(arrays, share)
     if known.size:
-        assert found == np.quantile(known, share, method="inverted_cdf")
+        assert actual == np.quantile(known, share, method="inverted_cdf")
     else:
-        assert math.isnan(found)
+        assert math.isnan(actual)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.001, 0.05, 0.25, 0.5, 0.95, 0.99, 0.999, 1.0])

@@ -38,13 +38,13 @@ def test_what_was_written_is_read_back_to_the_bit(original):
     assert list(read.variants) == list(written.trials)
     assert read.provenance == json.loads(json.dumps(written.provenance))
     for variant, trials in written.trials.items():
-        found = read.variants[variant]
-        assert found.statuses == trials.statuses
-        assert found.success.tolist() == trials.success.tolist()
+        actual = read.variants[variant]
+        assert actual.statuses == trials.statuses
+        assert actual.success.tolist() == trials.success.tolist()
         for name, values in trials.metrics.items():
-            assert found.metrics[name].tobytes() == values.tobytes()
+            assert actual.metrics[name].tobytes() == values.tobytes()
         for name, values in trials.final.items():
-            assert found.final[name].tobytes() == values.tobytes()
+            assert actual.final[name].tobytes() == values.tobytes()
         assert read.traced[variant] == list(trials.traces)
         for trial, trace in trials.traces.items():
             assert {name: values.tobytes() for name, values in read.trace(variant, trial).items()} == {
@@ -170,17 +170,17 @@ def test_a_variant_named_by_a_path_keeps_its_traces_in_the_folder(tmp_path):
 
 def test_several_batches_are_put_side_by_side(original, tmp_path):
     write_sample(tmp_path / "loud", noise=2.0)
-    found = compare([original, tmp_path / "loud"])
-    assert list(found.contenders) == [f"{f}: {v}" for f in ("batch", "loud") for v in ("alpha", "beta", "gamma")]
-    assert found.notes == ()
-    assert list(found.batches) == ["batch", "loud"]
-    assert found.reference == "alpha"
-    pairs = set(found.pairs)
+    actual = compare([original, tmp_path / "loud"])
+    assert list(actual.contenders) == [f"{f}: {v}" for f in ("batch", "loud") for v in ("alpha", "beta", "gamma")]
+    assert actual.notes == ()
+    assert list(actual.batches) == ["batch", "loud"]
+    assert actual.reference == "alpha"
+    pairs = set(actual.pairs)
     assert ("loud: beta", "batch: beta") in pairs
     assert ("loud: beta", "loud: alpha") in pairs
     assert not any({a, b} == {"loud: beta", "batch: alpha"} for a, b in pairs)  # differ in two things
     assert len(pairs) == 3 + 3 + 3
-    first = {pair for pair in pairs if found.against_reference(pair)}
+    first = {pair for pair in pairs if actual.against_reference(pair)}
     assert len(first) == 2 + 2 + 3
 
 
@@ -191,9 +191,9 @@ def test_one_variant_in_several_batches_is_called_by_its_folder(tmp_path):
 
 
 def test_the_reference_is_b(original):
-    found = compare([original], "gamma")
-    assert set(found.pairs) == {("alpha", "gamma"), ("beta", "gamma"), ("beta", "alpha")}
-    assert [found.against_reference(pair) for pair in found.pairs].count(True) == 2
+    actual = compare([original], "gamma")
+    assert set(actual.pairs) == {("alpha", "gamma"), ("beta", "gamma"), ("beta", "alpha")}
+    assert [actual.against_reference(pair) for pair in actual.pairs].count(True) == 2
 
 
 @pytest.mark.parametrize(
@@ -235,7 +235,7 @@ def test_differences_that_matter_are_noted(original, tmp_path):
 
 
 def test_rates_are_what_is_true_or_false(original, tmp_path):
-    names = lambda found: [None if rate is None else rate.name for rate in found.rates]  # noqa: E731
+    names = lambda actual: [None if rate is None else rate.name for rate in actual.rates]  # noqa: E731
     assert names(compare([original])) == [None, "pinpoint"]
     # by its values where the expression does not say so; a number that happens to be 0 in every trial is none
     text = CAMPAIGN.replace('"ship.position[1] < 12 and ship.position[1] > 8"', '"ship.position[1]"')
@@ -244,15 +244,15 @@ def test_rates_are_what_is_true_or_false(original, tmp_path):
     write_sample(tmp_path / "zero", text=text, noise=1e-9)
     assert names(compare([tmp_path / "zero"])) == [None]
     write_sample(tmp_path / "true", noise=1e-9)
-    found = compare([tmp_path / "true"])
-    assert names(found) == [None, "pinpoint"]
-    assert found.summary["beta"].rates["pinpoint"].count == 40
+    actual = compare([tmp_path / "true"])
+    assert names(actual) == [None, "pinpoint"]
+    assert actual.summary["beta"].rates["pinpoint"].count == 40
 
 
 def test_a_metric_that_only_one_batch_has(original, tmp_path):
     cut = CAMPAIGN[: CAMPAIGN.index("[metric.tilt]")] + CAMPAIGN[CAMPAIGN.index("[metric.pinpoint]") :]
     write_sample(tmp_path / "fewer", text=cut)
-    found = compare([tmp_path / "fewer", original])
-    assert [metric.name for metric in found.metrics] == ["miss", "propellant", "x_error_over_sigma", "tilt"]
-    assert np.all(np.isnan(found.values("fewer: alpha", "tilt")))
-    assert found.summary["fewer: alpha"].metrics["tilt"].count == 0
+    actual = compare([tmp_path / "fewer", original])
+    assert [metric.name for metric in actual.metrics] == ["miss", "propellant", "x_error_over_sigma", "tilt"]
+    assert np.all(np.isnan(actual.values("fewer: alpha", "tilt")))
+    assert actual.summary["fewer: alpha"].metrics["tilt"].count == 0

@@ -14,9 +14,9 @@ from scipy.stats import binom
 
 from perilune.analysis.campaigns.requirement_verdicts import (
     ToleranceBound,
-    decided_after,
     requirement_verdict,
     satisfies,
+    trials_to_decision,
 )
 from perilune.analysis.campaigns.rows import TrialColumns
 from perilune.analysis.campaigns.spec.campaign import Metric
@@ -52,16 +52,16 @@ def decided(requirements, **variants):
     flown = {
         name: [satisfies(requirement, trials) for requirement in requirements] for name, trials in variants.items()
     }
-    return decided_after(requirements, flown)
+    return trials_to_decision(requirements, flown)
 
 
 @given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=1, max_size=20))
 def test_a_flight_is_judged_as_by_success(rows):
     text = "miss / mass < 1 or mass == 0"
     miss, mass = np.array(rows).T
-    found = satisfies(Requirement("r", Expression(text), 0.9, 0.9), columns(miss, mass))
+    actual = satisfies(Requirement("r", Expression(text), 0.9, 0.9), columns(miss, mass))
     each = [successes(Expression(text), {"miss": np.array([a]), "mass": np.array([b])}, 1) for a, b in rows]
-    assert found.tolist() == np.concatenate(each).tolist()
+    assert actual.tolist() == np.concatenate(each).tolist()
 
 
 def test_a_flight_that_did_not_end_fails_it():
@@ -88,18 +88,18 @@ def test_a_flight_that_did_not_end_fails_it():
     ],
 )
 def test_a_campaign_of_a_fixed_size(count, failures, verdict, missing):
-    found = requirement_verdict(NEAR, flights(count, failures))
-    assert (found.verdict, found.flights, found.failures) == (verdict, count, failures)
-    assert found.consumer_risk == pytest.approx(binom.cdf(failures, count, 0.0013))
-    assert list(found.flights_to_decide.values()) == missing
-    assert found.decided_after == (None if verdict == "undecided" else count)
-    assert found.rule == "fixed size"
+    actual = requirement_verdict(NEAR, flights(count, failures))
+    assert (actual.verdict, actual.flights, actual.failures) == (verdict, count, failures)
+    assert actual.consumer_risk == pytest.approx(binom.cdf(failures, count, 0.0013))
+    assert list(actual.flights_to_decide.values()) == missing
+    assert actual.decided_after == (None if verdict == "undecided" else count)
+    assert actual.rule == "fixed size"
 
 
 def test_bounds():
     """Of 1771 flights the worst is the bound; of 38, the worst but one is for 90 % at 90 %."""
-    found = requirement_verdict(NEAR, columns(np.arange(1771) / 1000)).bound
-    assert found == ToleranceBound("miss", "upper", 1.77, rank=1, flights=1771, flights_to_decide=0)
+    actual = requirement_verdict(NEAR, columns(np.arange(1771) / 1000)).bound
+    assert actual == ToleranceBound("miss", "upper", 1.77, rank=1, flights=1771, flights_to_decide=0)
     few = requirement_verdict(NEAR, columns(np.ones(1000))).bound
     assert (few.value, few.rank, few.flights_to_decide) == (None, None, 771)
     low = requirement_verdict(HEAVY, columns(np.zeros(38), np.arange(38))).bound
@@ -119,13 +119,13 @@ def test_until_decided_only_the_looks_count():
     assert fixed.bound.flights_to_decide == 529
     late = np.full(3000, 0.5)
     late[2500:] = 2.0  # after the verdict, which stands
-    found = requirement_verdict(NEAR, columns(late), until_decided=True)
-    assert (found.verdict, found.decided_after, found.failures) == ("met", 2300, 500)
+    actual = requirement_verdict(NEAR, columns(late), until_decided=True)
+    assert (actual.verdict, actual.decided_after, actual.failures) == ("met", 2300, 500)
 
 
 def test_all_of_all_variants_have_to_be_decided():
     rule = stopping_rule(0.9, 0.9)
-    first = next(count for count in rule.looks(100) if rule.permitted_failures(count) >= 0)
+    first = next(count for count in rule.looks(100) if rule.acceptance_number(count) >= 0)
     assert decided([HEAVY], a=flights(200, 0)) == first
     assert decided([NEAR, HEAVY], a=flights(2400, 0)) == 2300
     assert decided([NEAR, HEAVY], a=flights(2299, 0)) is None
@@ -190,8 +190,8 @@ def test_text(summary):
 
 def test_text_of_a_bound_that_takes_more_flights():
     variants = {"x": flights(1000, 0)}
-    found = summarise(variants, METRICS, requirements=[NEAR])
+    actual = summarise(variants, METRICS, requirements=[NEAR])
     line = (
         "x: no upper bound of miss with 99.87 % probability at 90 % confidence: 771 more trials are needed for a bound"
     )
-    assert line in summary_text(found).splitlines()
+    assert line in summary_text(actual).splitlines()

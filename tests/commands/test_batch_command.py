@@ -75,9 +75,9 @@ def test_requirements_of_the_campaign(capsys, tmp_path, limit, share, status, wo
     captured = capsys.readouterr()
     assert words in captured.err
     assert captured.err.startswith("perilune: analytic_guidance: requirement near: " if status else "")
-    found = json.loads(captured.out)["variants"]["analytic_guidance"]["requirements"]["near"]
-    assert (found["verdict"] == "met") == (status == 0)
-    assert found["flights"] == 10
+    actual = json.loads(captured.out)["variants"]["analytic_guidance"]["requirements"]["near"]
+    assert (actual["verdict"] == "met") == (status == 0)
+    assert actual["flights"] == 10
 
 
 @pytest.mark.parametrize(
@@ -104,9 +104,9 @@ def test_wrong_input(capsys, options, words):
 def test_files_and_json(tmp_path, capsys):
     options = ["--seed", "9", "--compare", "guidance=analytic_guidance,analytic_exact_guidance", "--json", "-"]
     assert main([*SMALL, *options, "--output", str(tmp_path / "out"), "--report", str(tmp_path / "page.html")]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert list(found["variants"]) == ["analytic_guidance", "analytic_exact_guidance"]
-    assert found == json.loads((tmp_path / "out" / "summary.json").read_text())
+    actual = json.loads(capsys.readouterr().out)
+    assert list(actual["variants"]) == ["analytic_guidance", "analytic_exact_guidance"]
+    assert actual == json.loads((tmp_path / "out" / "summary.json").read_text())
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "draws.parquet",
         "files",
@@ -144,9 +144,9 @@ def test_replay_of_a_flight_without_metrics_is_still_json(capsys):
     failing = ["replay", SYSTEM, "0", "--campaign", "paper", "--trials", "10"]
     failing += ["--compare", "guidance=analytic_guidance", *OVERFLOW]
     assert main([*failing, "--json", "-"]) == 1
-    found = json.loads(capsys.readouterr().out)
-    assert (found["status"], found["success"]) == ("nonfinite", False)
-    assert set(found["metrics"].values()) == {None}
+    actual = json.loads(capsys.readouterr().out)
+    assert (actual["status"], actual["success"]) == ("nonfinite", False)
+    assert set(actual["metrics"].values()) == {None}
     assert main(failing) == 1
     assert "position_error none" in " ".join(capsys.readouterr().out.split())
 
@@ -154,9 +154,9 @@ def test_replay_of_a_flight_without_metrics_is_still_json(capsys):
 def test_a_batch_in_which_all_fail_is_reported_not_crashed(tmp_path, capsys):
     failing = ["--compare", "guidance=analytic_guidance", *OVERFLOW]
     assert main([*SMALL, *failing, "--output", str(tmp_path), "--report", str(tmp_path / "r.html"), "--json", "-"]) == 1
-    found = json.loads(capsys.readouterr().out)["variants"]["analytic_guidance"]
-    assert found["statuses"] == {"nonfinite": 10}
-    assert found["metrics"]["position_error"]["mean"] is None
+    actual = json.loads(capsys.readouterr().out)["variants"]["analytic_guidance"]
+    assert actual["statuses"] == {"nonfinite": 10}
+    assert actual["metrics"]["position_error"]["mean"] is None
     messages = pyarrow.parquet.read_table(tmp_path / "trials")["message"].to_pylist()
     assert all("allocation.thrust is inf" in text for text in messages)
 

@@ -9,7 +9,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.fmus_src.export.sources import NAME, changed_source, record_source
+from perilune.fmus_src.export.sources import NAME, find_changed_source, record_source
 
 pytestmark = pytest.mark.usefixtures("fmus")
 
@@ -72,15 +72,15 @@ def test_the_record_names_no_place_of_this_machine(own):
     assert record.read_bytes() == first
     fmu = own / "build" / "fmus" / "python" / "axis_plant.fmu"
     edited(own / "axis" / "blocks.py")
-    assert changed_source(fmu) == (own / "axis" / "blocks.py",) * 2
+    assert find_changed_source(fmu) == (own / "axis" / "blocks.py",) * 2
     fmu.write_bytes(fmu.read_bytes() + b"x")  # another FMU in its place: of it nothing is known
-    assert changed_source(fmu) is None
+    assert find_changed_source(fmu) is None
     (own / "axis" / "blocks.py").unlink()
-    assert changed_source(own / "build" / "fmus" / "python" / "axis_control.fmu") is None
+    assert find_changed_source(own / "build" / "fmus" / "python" / "axis_control.fmu") is None
     record.write_text("no JSON")
-    assert changed_source(fmu) is None
+    assert find_changed_source(fmu) is None
     record_source(own / "build" / "fmus", own / "axis" / "heavy.ssv", [fmu])
-    assert changed_source(fmu) is None
+    assert find_changed_source(fmu) is None
 
 
 def test_inputs_that_a_system_of_others_does_not_declare(own, capsys):

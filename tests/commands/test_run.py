@@ -19,14 +19,14 @@ def test_writes_what_the_api_returns(tmp_path, capsys):
     output, report = tmp_path / "new" / "flight.csv", tmp_path / "new" / "flight.html"
     options = ["--use", "guidance=astar_modified_guidance", "--set", "plant.initial_position[2]=3000", "--step", "0.5"]
     assert main(["run", SYSTEM, *options, "--output", str(output), "--report", str(report), "--json", "-"]) == 0
-    found = json.loads(capsys.readouterr().out)
+    actual = json.loads(capsys.readouterr().out)
     expected = perilune.simulate(
         SYSTEM, use={"guidance": "astar_modified_guidance"}, set={"plant.initial_position[2]": 3000}, step=0.5
     )
-    assert found["status"] == expected.status == "finished"
-    assert found["final"] == expected.final()
-    assert found["parameters"]["plant.initial_position[2]"] == 3000.0
-    assert found["system_sha256"] == expected.provenance["system_sha256"]
+    assert actual["status"] == expected.status == "finished"
+    assert actual["final"] == expected.final()
+    assert actual["parameters"]["plant.initial_position[2]"] == 3000.0
+    assert actual["system_sha256"] == expected.provenance["system_sha256"]
     with output.open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert [float(row["plant.position[3]"]) for row in rows] == expected["plant.position[3]"].tolist()

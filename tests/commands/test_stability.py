@@ -90,10 +90,10 @@ def nearest(gains):
 
 
 def test_json_on_standard_output(plain, capsys):
-    found, errors = run(capsys, plain)
+    actual, errors = run(capsys, plain)
     assert errors == []
-    assert (found["system"], found["verdict"]) == ("late_double_integrator", "pass")
-    (loop,) = found["loops"]
+    assert (actual["system"], actual["verdict"]) == ("late_double_integrator", "pass")
+    (loop,) = actual["loops"]
     gain, phase, frequency = crossings(LATE.loop)
     assert loop["gain_margin_db"] == pytest.approx(nearest(gain), abs=1e-3)
     assert loop["phase_margin_deg"] == pytest.approx(np.degrees(np.min(abs(phase))), abs=1e-3)
@@ -106,9 +106,9 @@ def test_json_on_standard_output(plain, capsys):
     for pole in LATE.closed:
         assert np.min(abs(poles - pole)) < 1e-8
     assert (loop["name"], loop["point"], loop["cut"], loop["verdict"]) == ("loop", "there", "control.y", "pass")
-    assert found["limits"]["gain_margin_db"] == 6.0
+    assert actual["limits"]["gain_margin_db"] == 6.0
     assert {item["quantity"] for item in loop["requirements"] if item["passed"]} >= {"gain margin", "phase margin"}
-    assert len(found["provenance"]["system_sha256"]) == 64
+    assert len(actual["provenance"]["system_sha256"]) == 64
 
 
 def test_page_json_file_and_talk_to_the_terminal(plain, tmp_path, capsys):
@@ -130,9 +130,9 @@ def test_page_json_file_and_talk_to_the_terminal(plain, tmp_path, capsys):
 
 def test_a_line_for_every_limit_that_is_missed(packed, capsys):
     limits = 'gain_margin_db="40" phase_margin_deg="10" modulus_margin="0.99"'
-    found, errors = run(capsys, packed(limits), status=1)
-    (loop,) = found["loops"]
-    assert loop["verdict"] == found["verdict"] == "fail"
+    actual, errors = run(capsys, packed(limits), status=1)
+    (loop,) = actual["loops"]
+    assert loop["verdict"] == actual["verdict"] == "fail"
     assert errors == [
         f"perilune: loop loop at there: gain margin {nearest(crossings(LATE.loop)[0]):.4g} dB misses the limit 40 dB",
         f"perilune: loop loop at there: modulus margin {loop['modulus_margin']:.4g} misses the limit 0.99",
@@ -143,8 +143,8 @@ def test_a_line_for_every_limit_that_is_missed(packed, capsys):
 
 def test_a_setting_that_eats_the_margin(plain, capsys):
     """Without derivative a double integrator with delay is unstable: that is the one line, it has no margins."""
-    found, errors = run(capsys, plain, "--set", "control.derivative=0", status=1)
-    (loop,) = found["loops"]
+    actual, errors = run(capsys, plain, "--set", "control.derivative=0", status=1)
+    (loop,) = actual["loops"]
     assert (loop["stable"], loop["verdict"]) == (False, "fail")
     (error,) = errors
     largest = max(abs(complex(*pole)) for pole in loop["poles_z"])
@@ -164,24 +164,24 @@ def test_loops_are_picked_by_name_or_connector(packed, capsys):
     (loop,) = cut["loops"]
     assert (loop["name"], loop["point"], loop["cut"]) == ("plant.u", "t = 20 s", "plant.u")
     assert cut["points"][0]["time_s"] == pytest.approx(20.0)
-    for found in (*everything["loops"], *one["loops"], loop):
+    for actual in (*everything["loops"], *one["loops"], loop):
         for name in NUMBERS:
-            assert found[name] == pytest.approx(everything["loops"][0][name], rel=1e-4)
+            assert actual[name] == pytest.approx(everything["loops"][0][name], rel=1e-4)
 
 
 def test_a_declared_loop_at_several_times(packed, tmp_path, capsys):
     """A system that does not change has the margins of python-control all the time."""
     page = tmp_path / "page.html"
-    found, _ = run(capsys, packed(loops=TWO), "--loop", "loop", "--at", "30,20.5", "--report", str(page))
-    assert [(point["name"], point["time_s"]) for point in found["points"]] == [
+    actual, _ = run(capsys, packed(loops=TWO), "--loop", "loop", "--at", "30,20.5", "--report", str(page))
+    assert [(point["name"], point["time_s"]) for point in actual["points"]] == [
         ("there, t = 20.5 s", 20.5),
         ("there, t = 30 s", 30.0),
     ]
-    assert [(loop["name"], loop["point"]) for loop in found["loops"]] == [
-        ("loop", point["name"]) for point in found["points"]
+    assert [(loop["name"], loop["point"]) for loop in actual["loops"]] == [
+        ("loop", point["name"]) for point in actual["points"]
     ]
     gain, phase, _ = crossings(LATE.loop)
-    for loop in found["loops"]:
+    for loop in actual["loops"]:
         assert loop["gain_margin_db"] == pytest.approx(nearest(gain), abs=1e-3)
         assert loop["phase_margin_deg"] == pytest.approx(np.degrees(np.min(abs(phase))), abs=1e-3)
     text = page.read_text(encoding="utf-8")
@@ -233,8 +233,8 @@ def test_a_system_without_loops(capsys):
 
 def test_margins_over_a_campaign_and_its_worst_trial_again(plain, campaign, capsys):
     given = [plain, "--campaign", campaign]
-    found, _ = run(capsys, *given)
-    (loop,) = found["loops"]
+    actual, _ = run(capsys, *given)
+    (loop,) = actual["loops"]
     spread = loop["dispersion"]
     assert (spread["trials"], spread["unstable_trials"]) == (TRIALS, 0)
     columns = {name: [] for name in ("gain_margin_db", "phase_margin_deg", "disk_margin")}
@@ -269,8 +269,8 @@ def test_unstable_trials_are_counted_and_the_worst_is_named(plain, tmp_path, cap
     path = tmp_path / "wild.toml"
     path.write_text(CAMPAIGN.replace("high = 0.03", "high = 0.4"))
     given = [plain, "--campaign", str(path)]
-    found, errors = run(capsys, *given, status=1)
-    (loop,) = found["loops"]
+    actual, errors = run(capsys, *given, status=1)
+    (loop,) = actual["loops"]
     spread = loop["dispersion"]
     largest = []
     for trial in range(TRIALS):
@@ -307,8 +307,8 @@ def test_the_same_numbers_twice_whatever_the_workers(packed, campaign, capsys):
 def test_fewer_trials_and_another_seed_draw_others(plain, campaign, capsys):
     drawn = []
     for seed in ("11", "12"):
-        found, _ = run(capsys, plain, "--campaign", campaign, "--trials", "2", "--seed", seed)
-        (loop,) = found["loops"]
+        actual, _ = run(capsys, plain, "--campaign", campaign, "--trials", "2", "--seed", seed)
+        (loop,) = actual["loops"]
         assert loop["dispersion"]["trials"] == 2
         assert f"--seed {seed}" in loop["dispersion"]["replay"]
         drawn.append(loop["dispersion"]["gain_margin_db"]["least"])
@@ -316,31 +316,31 @@ def test_fewer_trials_and_another_seed_draw_others(plain, campaign, capsys):
 
 
 def test_dispersed_limits_fail_with_a_line_of_their_own(packed, campaign, capsys):
-    found, errors = run(
+    actual, errors = run(
         capsys, packed('dispersed_gain_margin_db="30"'), "--campaign", campaign, "--trials", "2", status=1
     )
-    (loop,) = found["loops"]
+    (loop,) = actual["loops"]
     least = loop["dispersion"]["gain_margin_db"]["least"]
     assert errors == [
         f"perilune: loop loop at there: dispersed gain margin {least:.4g} dB misses the limit 30 dB",
     ]
-    assert found["verdict"] == "fail"
+    assert actual["verdict"] == "fail"
 
 
 @pytest.mark.usefixtures("fmus")
 @pytest.mark.slow
 def test_the_robot_s_margins_over_its_uncertain_inertia(capsys):
     given = ["robot_rendezvous", "--parameters", "paper.ssv", "--loop", "translation_4s"]
-    found, _ = run(capsys, *given, "--campaign", "inertia", "--trials", "3")
+    actual, _ = run(capsys, *given, "--campaign", "inertia", "--trials", "3")
     exact = translation_loop(4.0).margins
-    assert [loop["name"] for loop in found["loops"]] == [f"translation_4s[{axis}]" for axis in (1, 2, 3)]
-    worst = {loop["dispersion"]["worst_trial"] for loop in found["loops"]}
+    assert [loop["name"] for loop in actual["loops"]] == [f"translation_4s[{axis}]" for axis in (1, 2, 3)]
+    worst = {loop["dispersion"]["worst_trial"] for loop in actual["loops"]}
     assert len(worst) == 1  # the lightest robot
-    _, *replay = shlex.split(found["loops"][0]["dispersion"]["replay"])
+    _, *replay = shlex.split(actual["loops"][0]["dispersion"]["replay"])
     assert main([*replay, "--json", "-"]) == 0
     again = strict(capsys.readouterr().out)
     mass = again["provenance"]["parameters"]["robot.mass"]
-    for loop, one in zip(found["loops"], again["loops"], strict=True):
+    for loop, one in zip(actual["loops"], again["loops"], strict=True):
         spread = loop["dispersion"]
         assert (spread["trials"], spread["unstable_trials"]) == (3, 0)
         assert one["gain_margin_db"] == pytest.approx(exact.gain + DECIBEL * np.log(mass / 1000.0), abs=1e-3)

@@ -36,8 +36,8 @@ def test_warnings_are_a_line_without_their_place(monkeypatch):
 
 def test_suggestions_are_few_nearest_first_and_in_natural_order():
     known = [f"guidance.target_position[{i}]" for i in (10, 3, 1, 2)] + [f"plant.{name}" for name in "abcdefghi"]
-    found = suggestion("guidance.target_position[9]", known)
-    assert found.endswith(": " + ", ".join(f"guidance.target_position[{i}]" for i in (1, 2, 3, 10)))
+    actual = suggestion("guidance.target_position[9]", known)
+    assert actual.endswith(": " + ", ".join(f"guidance.target_position[{i}]" for i in (1, 2, 3, 10)))
     few = ["guidance", "plant", "control"]
     assert suggestion("contrl", few) == "use one of control, guidance, plant"
     many = [f"block_{chr(97 + i)}" for i in range(20)]

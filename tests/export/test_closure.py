@@ -31,13 +31,13 @@ class Outside(Block):
 def block(folder, imports="", value="1.0", name="outside.py"):
     path = folder / name
     path.write_text(HEAD + imports + BODY.format(value=value))
-    (found,) = blocks_in_file(path)
-    return found
+    (actual,) = blocks_in_file(path)
+    return actual
 
 
 def runs(closure, folder, class_name="Outside"):
     """Whether the packed files run where the repository cannot be imported; the output at the start."""
-    for name, text in closure.packed().items():
+    for name, text in closure.pack_closure().items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(text)
     code = (
@@ -98,15 +98,15 @@ def test_what_cannot_be_packed_is_refused_with_its_line(tmp_path, imports):
     path = tmp_path / "outside.py"
     guarded = f"if False:\n    {imports}"
     path.write_text(HEAD + guarded + BODY.format(value="1.0"))
-    (found,) = blocks_in_file(path)
+    (actual,) = blocks_in_file(path)
     with pytest.raises(ClosureError, match=r"outside\.py:3: import of .*not packed into the FMU; .*requires"):
-        closure_of(found)
+        closure_of(actual)
 
 
 def test_libraries_that_a_block_requires_are_let_through(tmp_path):
-    found = block(tmp_path, "if False:\n    import filterpy\n")
-    found.requires = ("filterpy",)
-    assert b"import filterpy" in closure_of(found).files["outside/outside.py"]
+    actual = block(tmp_path, "if False:\n    import filterpy\n")
+    actual.requires = ("filterpy",)
+    assert b"import filterpy" in closure_of(actual).files["outside/outside.py"]
 
 
 def test_the_name_follows_the_content(tmp_path):
@@ -123,7 +123,7 @@ def test_no_more_than_the_closure():
 
 
 def test_nothing_of_the_repository_is_imported_by_a_packed_file():
-    for found in catalogue().values():
-        for name, text in closure_of(found).packed().items():
+    for actual in catalogue().values():
+        for name, text in closure_of(actual).pack_closure().items():
             for line in text.decode().splitlines():
                 assert not line.strip().startswith(("from fmus_src", "import fmus_src", "from analysis")), (name, line)

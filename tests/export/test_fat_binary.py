@@ -32,10 +32,10 @@ def test_every_part_is_found_again(rests, variant):
     stream = io.BytesIO(joined)
     assert fat_header.from_fileobj(stream, _endian_=">").nfat_arch == len(parts)
     for part, processor in zip(parts, (X86_64, ARM64), strict=False):
-        found = fat_arch.from_fileobj(stream, _endian_=">")
-        assert (found.cputype, found.cpusubtype) == (processor, variant)
-        assert found.offset % 2**found.align == 0
-        assert joined[found.offset : found.offset + found.size] == part
+        actual = fat_arch.from_fileobj(stream, _endian_=">")
+        assert (actual.cputype, actual.cpusubtype) == (processor, variant)
+        assert actual.offset % 2**actual.align == 0
+        assert joined[actual.offset : actual.offset + actual.size] == part
 
 
 def test_macholib_reads_it(tmp_path):

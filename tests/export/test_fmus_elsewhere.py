@@ -39,7 +39,7 @@ os._exit(0)
 
 
 @pytest.fixture(scope="module", params=["python", "native"])
-def found(request: pytest.FixtureRequest, fmus: Path) -> dict[str, list]:
+def actual(request: pytest.FixtureRequest, fmus: Path) -> dict[str, list]:
     """What FMPy says of each FMU: problems, rows of its simulation, whether all values are finite."""
     folder = fmus.with_name(request.param)
     if request.param == "native" and not folder.is_dir():
@@ -54,11 +54,11 @@ def found(request: pytest.FixtureRequest, fmus: Path) -> dict[str, list]:
     return {name: answers[path] for name, path in paths.items()}
 
 
-def test_fmpy_finds_no_fault(found: dict[str, list]) -> None:
-    assert {name: problems for name, (problems, _, _) in found.items() if problems} == {}
+def test_fmpy_finds_no_fault(actual: dict[str, list]) -> None:
+    assert {name: problems for name, (problems, _, _) in actual.items() if problems} == {}
 
 
-def test_fmpy_simulates_on_declared_starts(found: dict[str, list]) -> None:
-    assert {name: (rows, finite) for name, (_, rows, finite) in found.items()} == dict.fromkeys(
-        found, (STEPS + 1, True)
+def test_fmpy_simulates_on_declared_starts(actual: dict[str, list]) -> None:
+    assert {name: (rows, finite) for name, (_, rows, finite) in actual.items()} == dict.fromkeys(
+        actual, (STEPS + 1, True)
     )

@@ -39,15 +39,17 @@ def test_variables_are_those_declared(fmus, name):
     assert references == list(range(len(references)))
     for declared in block.variables.values():
         for element, start in zip(declared.element_names(), declared.elements, strict=True):
-            found = variables[element]
-            assert (found.causality, found.type) == (declared.causality, declared.type_name)
-            assert found.description.startswith(re.sub(r"\s+", " ", declared.description))
+            actual = variables[element]
+            assert (actual.causality, actual.type) == (declared.causality, declared.type_name)
+            assert actual.description.startswith(re.sub(r"\s+", " ", declared.description))
             if isinstance(declared, Parameter | Input):
-                value = {"Real": float, "Integer": int, "Boolean": lambda text: text == "true"}[found.type](found.start)
+                value = {"Real": float, "Integer": int, "Boolean": lambda text: text == "true"}[actual.type](
+                    actual.start
+                )
                 assert value == start
-            if found.type == "Real":
-                assert found.unit == declared.unit
-            for bound, text in ((declared.minimum, found.min), (declared.maximum, found.max)):
+            if actual.type == "Real":
+                assert actual.unit == declared.unit
+            for bound, text in ((declared.minimum, actual.min), (declared.maximum, actual.max)):
                 assert (bound is None) == (text is None)
                 assert bound is None or float(text) == bound
     assert {unit.name for unit in description.unitDefinitions} == {

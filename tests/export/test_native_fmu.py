@@ -13,7 +13,7 @@ import pytest
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
 from perilune.fmus_src.export import compilers
-from perilune.fmus_src.export.compilers import CompilationFailed, CompilerMissing, local_platform, shared_library
+from perilune.fmus_src.export.compilers import CompilationFailed, CompilerMissing, build_library, local_platform
 from perilune.fmus_src.export.native_fmu import C_FILES, STANDARD_HEADERS, WRAPPER_FILES, build_native_fmu
 from perilune.fmus_src.export.write.names import WRAPPER_NAMES
 from perilune.fmus_src.runtime import Component
@@ -68,9 +68,9 @@ def test_compiler_errors_are_passed_on(tmp_path: Path) -> None:
     platform = local_platform()
     assert platform is not None
     with pytest.raises(CompilationFailed, match="broken"):
-        shared_library({"broken.c": b"this is not C"}, "broken.c", platform, tmp_path)
+        build_library({"broken.c": b"this is not C"}, "broken.c", platform, tmp_path)
     with pytest.raises(ValueError, match="give one of linux64"):
-        shared_library({}, "broken.c", "amiga", tmp_path)
+        build_library({}, "broken.c", "amiga", tmp_path)
 
 
 def test_sources_compile_without_warnings_by_themselves(tmp_path: Path) -> None:
@@ -116,5 +116,5 @@ def test_every_name_of_the_wrapper_is_kept_from_blocks() -> None:
         types.append(f"Vector{size}")
         functions += [f"{name}{size}" for name in re.findall(r"VECTOR_INLINE Vector##n (\w+)##n\(", text)]
     declared = {"Block", "model_initialize", "model_step", "model_sample_period", "model_set_start_time"}
-    found = {name for name in types + functions if not name.startswith("py_")} | declared
-    assert found == WRAPPER_NAMES
+    actual = {name for name in types + functions if not name.startswith("py_")} | declared
+    assert actual == WRAPPER_NAMES

@@ -243,8 +243,8 @@ run()
 
 
 def statuses(count):
-    found = [run(FLIGHT) for _ in range(count)]
-    return {(done.returncode, done.stderr) for done in found}
+    actual = [run(FLIGHT) for _ in range(count)]
+    return {(done.returncode, done.stderr) for done in actual}
 
 
 @pytest.mark.slow

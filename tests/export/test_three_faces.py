@@ -30,11 +30,11 @@ TYPES = ("Real", "Integer", "Boolean")
 
 def by_type(block: type[Block], kinds: tuple[type, ...]) -> dict[str, list[int]]:
     """Value references of a block's variables of some kinds, by FMI type."""
-    found: dict[str, list[int]] = {name: [] for name in TYPES}
+    actual: dict[str, list[int]] = {name: [] for name in TYPES}
     for reference, (variable, _) in enumerate(elements(block)):
         if isinstance(variable, kinds):
-            found[variable.type_name].append(reference)
-    return found
+            actual[variable.type_name].append(reference)
+    return actual
 
 
 class Face:
@@ -52,14 +52,14 @@ class Face:
                 getattr(self.slave, f"set{name}")([r for r, _ in chosen], [v for _, v in chosen])
 
     def values(self) -> list:
-        found: dict[int, Any] = {}
+        actual: dict[int, Any] = {}
         for name in TYPES:
             references = self.everything[name]
             if references:
                 read = getattr(self.slave, f"get{name}")(references)
                 convert = bool if name == "Boolean" else (lambda value: value)
-                found |= dict(zip(references, map(convert, read), strict=True))
-        return [found[reference] for reference in sorted(found)]
+                actual |= dict(zip(references, map(convert, read), strict=True))
+        return [actual[reference] for reference in sorted(actual)]
 
 
 def drawn(block: type[Block], kind: type, random: Random, h: float, before: list | None) -> tuple[list[int], list]:

@@ -22,7 +22,7 @@ PRESENT = re.compile("bleed|breed|embed|exceed|feed|need|proceed|seed|shed|speed
 COMMAND_LINE = {"verbs", "commands", "cli", "cli.py", "examples.py"}
 
 
-def found(checkout: Checkout) -> Measure:
+def actual(checkout: Checkout) -> Measure:
     """`found` as a name (`given_names`) in `analysis` and `fmus_src`; in brackets by top folder of the whole tree."""
     entries = [f"{s.path}:{line}" for s in checkout.sources for name, line in given_names(s) if whole(name) == "found"]
     tops = Counter(entry.split("/")[0] for entry in entries)

@@ -21,7 +21,7 @@ from perilune.fmus_src.mathlib.deorbit import (
     ground_range,
     lowest_altitude,
 )
-from perilune.fmus_src.mathlib.landing_site import above_site, redesignated, site_below, within_reach
+from perilune.fmus_src.mathlib.landing_site import above_site, redesignate, site_below, within_reach
 from perilune.fmus_src.mathlib.vectors import vector
 
 RADIUS = 1.7374e6
@@ -46,8 +46,8 @@ def test_the_central_angle_is_that_of_the_plane(angle):
 @given(st.floats(0.0, 3.1), st.floats(-3.14, 3.14), st.floats(-1e4, 1e5))
 def test_the_ground_range_is_the_angle_from_the_site(angle, azimuth, altitude):
     up = Rotation.from_euler("zy", [azimuth, angle]).inv().apply([0.0, 0.0, 1.0])
-    found = ground_range(vector(*((RADIUS + altitude) * up + CENTRE)), RADIUS)
-    assert found == pytest.approx(RADIUS * angle, abs=1e-3)
+    actual = ground_range(vector(*((RADIUS + altitude) * up + CENTRE)), RADIUS)
+    assert actual == pytest.approx(RADIUS * angle, abs=1e-3)
 
 
 def test_against_the_horizontal_velocity_turns_with_the_vertical():
@@ -104,8 +104,8 @@ def test_who_is_slow_already_has_nothing_to_burn():
 
 @given(metres, metres, metres, metres, st.floats(0.0, 3e3))
 def test_a_moved_site_lies_on_the_sphere_where_it_was_asked_for(x, y, first_x, first_y, altitude):
-    first = redesignated(vector(0.0, 0.0, 0.0), vector(first_x, first_y), RADIUS)
-    site = np.array(redesignated(first, vector(x, y), RADIUS))
+    first = redesignate(vector(0.0, 0.0, 0.0), vector(first_x, first_y), RADIUS)
+    site = np.array(redesignate(first, vector(x, y), RADIUS))
     assert np.linalg.norm(site - CENTRE) == pytest.approx(RADIUS, abs=1e-6)
     # the sphere falls off by 7 m at 5 km, and putting back on it moves by the cube of the way over its radius squared
     assert site[:2] == pytest.approx([first[0] + x, first[1] + y], abs=0.5)

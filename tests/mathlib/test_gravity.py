@@ -31,10 +31,10 @@ def test_altitude_is_exact_above_the_site_and_on_the_sphere():
 
 
 def test_gravity_at_the_site_points_down():
-    found = gravity_at([0.0, 0.0, 0.0])
-    assert found.tolist()[:2] == [0.0, 0.0]
-    assert found[2] == pytest.approx(-MU / RADIUS**2, rel=1e-15)
-    assert found[2] == pytest.approx(-1.6242, abs=1e-4)
+    actual = gravity_at([0.0, 0.0, 0.0])
+    assert actual.tolist()[:2] == [0.0, 0.0]
+    assert actual[2] == pytest.approx(-MU / RADIUS**2, rel=1e-15)
+    assert actual[2] == pytest.approx(-1.6242, abs=1e-4)
 
 
 @given(positions)
@@ -42,14 +42,14 @@ def test_gravity_is_the_gradient_of_the_potential(position):
     assume(altitude_of(vector(*position), RADIUS) > -0.5 * RADIUS)
     centred = np.add(position, [0.0, 0.0, RADIUS])
     distance = np.linalg.norm(centred)
-    found = gravity_at(position)
-    assert np.linalg.norm(found) == pytest.approx(MU / distance**2, rel=1e-14)
+    actual = gravity_at(position)
+    assert np.linalg.norm(actual) == pytest.approx(MU / distance**2, rel=1e-14)
     step = 1e-4 * distance
     slope = [
         (MU / np.linalg.norm(centred + step * axis) - MU / np.linalg.norm(centred - step * axis)) / (2.0 * step)
         for axis in np.eye(3)
     ]
-    assert found == pytest.approx(np.array(slope), abs=4e-8 * np.linalg.norm(found))
+    assert actual == pytest.approx(np.array(slope), abs=4e-8 * np.linalg.norm(actual))
 
 
 @given(positions)

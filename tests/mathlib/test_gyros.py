@@ -18,8 +18,8 @@ from perilune.fmus_src.mathlib.gyros import (
     ISOTROPIC_RHO,
     cluster_jacobian,
     cluster_momentum,
-    distributed_angles,
-    distributed_rates,
+    distribute_angles,
+    distribute_rates,
     robust_rates,
     singularity_measure,
 )
@@ -56,7 +56,7 @@ def direction(seed):
 
 
 def lawful_angles(momentum, rho=RHO, near=ISOTROPIC_ANGLES):
-    possible, angles = distributed_angles(vector(*momentum), rho, vector(*near))
+    possible, angles = distribute_angles(vector(*momentum), rho, vector(*near))
     assert possible
     return angles
 
@@ -104,7 +104,7 @@ def test_explicit_solution_is_the_root_of_the_implicit_law(seed, size, rho):
     def excess(u):
         return u * a + b * (u - rho) / (1.0 - rho * u) - x
 
-    possible, angles = distributed_angles(vector(x, y, z), rho, ISOTROPIC)
+    possible, angles = distribute_angles(vector(x, y, z), rho, ISOTROPIC)
     if not possible:
         assert excess(-1.0) * excess(1.0) > -1e-9  # no root
         return
@@ -129,7 +129,7 @@ def test_angles_come_by_whole_turns_nearest_to_those_before(seed):
     "momentum", [[0.0, 2.0, 0.0], [0.0, 0.0, -2.0], [0.0, 3.0, 0.0], [5.0, 0.0, 0.0], [4.0, 0.0, 0.1]]
 )
 def test_what_the_law_cannot_give_leaves_the_angles(momentum):
-    possible, angles = distributed_angles(vector(*momentum), RHO, ISOTROPIC)
+    possible, angles = distribute_angles(vector(*momentum), RHO, ISOTROPIC)
     assert not possible
     assert angles == ISOTROPIC
 
@@ -158,7 +158,7 @@ def test_rates_give_the_momentum_rate_and_pull_the_law_to_zero(seed, size, off):
     random = np.random.default_rng([seed, 7])
     angles = np.array(lawful_angles(size * direction(seed))) + off * random.normal(size=4)
     wanted, gain = random.normal(size=3), 0.2
-    lawful, rates = distributed_rates(vector(*angles), vector(*wanted), RHO, gain, 0.02)
+    lawful, rates = distribute_rates(vector(*angles), vector(*wanted), RHO, gain, 0.02)
     if not lawful:
         return
     scale = 1.0 + np.abs(np.array(rates)).max()
@@ -171,7 +171,7 @@ def test_rates_give_the_momentum_rate_and_pull_the_law_to_zero(seed, size, off):
 
 def test_rates_on_the_law_are_the_derivatives_of_its_angles():
     momentum, wanted = np.array([0.4, -0.9, 0.7]), np.array([0.01, 0.02, -0.015])
-    lawful, rates = distributed_rates(lawful_angles(momentum), vector(*wanted), RHO, 0.2, 0.02)
+    lawful, rates = distribute_rates(lawful_angles(momentum), vector(*wanted), RHO, 0.2, 0.02)
     assert lawful
     before, after = (np.array(lawful_angles(momentum + k * 1e-4 * wanted)) for k in (-1.0, 1.0))
     assert rates == pytest.approx((after - before) / 2e-4, abs=1e-10)
@@ -182,8 +182,8 @@ def test_rates_on_the_law_are_the_derivatives_of_its_angles():
 )
 def test_law_is_refused_in_singular_states(angles):
     wanted = vector(0.1, 0.1, 0.1)
-    assert not distributed_rates(vector(*angles), wanted, RHO, 0.2, 0.02)[0]
-    assert not distributed_rates(ISOTROPIC, wanted, RHO, 0.2, 0.0)[0]  # no margin given
+    assert not distribute_rates(vector(*angles), wanted, RHO, 0.2, 0.02)[0]
+    assert not distribute_rates(ISOTROPIC, wanted, RHO, 0.2, 0.0)[0]  # no margin given
 
 
 @given(seeds)

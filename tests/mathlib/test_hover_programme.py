@@ -101,8 +101,8 @@ def test_propellant_over_duration(duration, fraction):
     ],
 )
 def test_propellant_over_distance(x, fraction, kind):
-    found, _, mu = planned(x)
-    assert found == kind
+    actual, _, mu = planned(x)
+    assert actual == kind
     assert mu == pytest.approx(fraction, abs=6e-6)
 
 
@@ -168,8 +168,8 @@ def test_motion_pitch_and_propellant_on_the_way(t):
     assert shape(p, PAPER[4], s)
     assert motion(s, PAPER, t, state)
     deviation, rate = pitch(s, PAPER[4], t)
-    found = [*state, propellant(s, PAPER, t), 0.5 * math.pi + deviation, rate]
-    assert found == pytest.approx(flown(p, PAPER, until=t), abs=1e-7)
+    actual = [*state, propellant(s, PAPER, t), 0.5 * math.pi + deviation, rate]
+    assert actual == pytest.approx(flown(p, PAPER, until=t), abs=1e-7)
 
 
 def test_impulse_is_the_integral_of_thrust_over_mass():

@@ -90,9 +90,9 @@ def test_covariance_moves_as_with_full_matrices(sensing, gradient, seed):
     transition[3:6, 0:6] += h * pull
     expected = transition @ p @ transition.T + walk * h * noise @ noise.T
     expected[6:9, 6:9] += drift * h * np.eye(3)
-    found = p.ravel().tolist()
-    predict_errors(found, vector(*f), sensing, walk, drift, vector(*up), gradient, h)
-    assert np.reshape(found, (15, 15)) == pytest.approx(expected, abs=1e-12 * abs(expected).max())
+    actual = p.ravel().tolist()
+    predict_errors(actual, vector(*f), sensing, walk, drift, vector(*up), gradient, h)
+    assert np.reshape(actual, (15, 15)) == pytest.approx(expected, abs=1e-12 * abs(expected).max())
 
 
 def test_a_gradient_of_gravity_moves_errors_as_the_motion_itself_does():
@@ -115,10 +115,10 @@ def test_a_gradient_of_gravity_moves_errors_as_the_motion_itself_does():
     first = np.diag([100.0**2] * 3 + [0.1**2] * 3)
     p = np.zeros((15, 15))
     p[:6, :6] = first
-    found = p.ravel().tolist()
+    actual = p.ravel().tolist()
     for k in range(3500):
         angle = rate * (k + 0.5)
         up = vector(np.sin(angle), 0.0, np.cos(angle))
-        predict_errors(found, vector(0.0, 0.0, 0.0), False, 1.0, 0.0, up, rate**2, 1.0)
+        predict_errors(actual, vector(0.0, 0.0, 0.0), False, 1.0, 0.0, up, rate**2, 1.0)
     expected = transition @ first @ transition.T
-    assert np.reshape(found, (15, 15))[:6, :6] == pytest.approx(expected, abs=1e-4 * abs(expected).max())
+    assert np.reshape(actual, (15, 15))[:6, :6] == pytest.approx(expected, abs=1e-4 * abs(expected).max())

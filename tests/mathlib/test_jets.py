@@ -52,9 +52,9 @@ B = published_matrix()
 
 
 def strengths(tilt=TILT, azimuth=AZIMUTH, arm=ARM):
-    found = [0.0] * 6
-    jet_strengths(tilt, azimuth, vector(*arm), found)
-    return found
+    actual = [0.0] * 6
+    jet_strengths(tilt, azimuth, vector(*arm), actual)
+    return actual
 
 
 def shared(wrench, rule, maximum=MAXIMUM):
@@ -70,9 +70,11 @@ def programmes(wrenches, maximum=MAXIMUM):
     sums = []
     for block in np.array_split(np.asarray(wrenches), max(1, len(wrenches) // 500)):
         matrix = sparse.block_diag([B] * len(block), format="csc")
-        found = linprog(np.ones(8 * len(block)), A_eq=matrix, b_eq=block.ravel(), bounds=(0.0, maximum), method="highs")
-        assert found.status == 0, found.message
-        sums += found.x.reshape(-1, 8).sum(axis=1).tolist()
+        actual = linprog(
+            np.ones(8 * len(block)), A_eq=matrix, b_eq=block.ravel(), bounds=(0.0, maximum), method="highs"
+        )
+        assert actual.status == 0, actual.message
+        sums += actual.x.reshape(-1, 8).sum(axis=1).tolist()
     return np.array(sums)
 
 
@@ -99,8 +101,8 @@ def test_matrix_is_that_of_the_published_geometry():
         jet_wrench(strengths(), np.eye(8)[p].tolist(), wrench)
         assert wrench == pytest.approx(B[:, p], abs=1e-15)
     for tilt, azimuth, arm in [(0.2, 1.1, (0.3, 2.0, 0.9)), (-0.4, 0.3, (1.0, 1.0, 2.0))]:
-        found = [strengths(tilt, azimuth, arm)[k] * np.array(WALSH[8 * k : 8 * k + 8]) for k in range(6)]
-        assert np.array(found) == pytest.approx(published_matrix(tilt, azimuth, arm), abs=1e-15)
+        actual = [strengths(tilt, azimuth, arm)[k] * np.array(WALSH[8 * k : 8 * k + 8]) for k in range(6)]
+        assert np.array(actual) == pytest.approx(published_matrix(tilt, azimuth, arm), abs=1e-15)
 
 
 def test_a_jet_at_a_corner_pushes_towards_the_opposite_one():
@@ -247,14 +249,14 @@ def test_lattice_of_forces_without_torque():
     highest = 3
     free, sums = torque_free_levels(highest)
     assert (sums % 2 == 0).all()
-    found = {tuple(n) for n in sums // 2}
+    actual = {tuple(n) for n in sums // 2}
     axis = range(-2 * highest, 2 * highest + 1)
     expected = {
         n
         for n in itertools.product(axis, repeat=3)
         if len({k % 2 for k in n}) == 1 and sum(map(abs, n)) - min(map(abs, n)) <= 2 * highest
     }
-    assert found == expected
+    assert actual == expected
     least = {}
     for thrust, n in zip(free, map(tuple, sums // 2), strict=True):
         least[n] = min(least.get(n, 10**9), int(thrust.sum()))

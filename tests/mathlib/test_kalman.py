@@ -24,9 +24,9 @@ def random_system(generator, n):
     return generator.normal(size=n), root @ root.T + np.eye(n), f, 0.1 * noise @ noise.T + 0.01 * np.eye(n)
 
 
-def assert_close(found, expected, tolerance=1e-10):
+def assert_close(actual, expected, tolerance=1e-10):
     expected = np.asarray(expected).ravel()
-    assert np.asarray(found) == pytest.approx(expected, rel=0.0, abs=tolerance * max(1.0, abs(expected).max()))
+    assert np.asarray(actual) == pytest.approx(expected, rel=0.0, abs=tolerance * max(1.0, abs(expected).max()))
 
 
 @pytest.mark.parametrize("n", range(1, 16))

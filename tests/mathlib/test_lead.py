@@ -22,11 +22,11 @@ DESIGNS = [(1.5625e-4, 160.0, 13.3, 8.0), (6.25e-4, 80.0, 6.67, 4.0), (0.16, 5.0
 
 def respond(law, errors):
     """Outputs for a sequence of 3-vectors."""
-    g, found = vector(0.0, 0.0, 0.0), []
+    g, actual = vector(0.0, 0.0, 0.0), []
     for e in errors:
-        found.append(lead_output(law, g, vector(*e)))
+        actual.append(lead_output(law, g, vector(*e)))
         g = advance_lead(law, g, vector(*e))
-    return np.array(found)
+    return np.array(actual)
 
 
 @given(gains, times, times, periods)
@@ -34,8 +34,8 @@ def test_response_is_that_of_the_bilinear_rule(gain, lead, lag, period):
     errors = np.random.default_rng(1).normal(size=(50, 3))
     numerator, denominator, _ = signal.cont2discrete(([gain * lead, gain], [lag, 1.0]), period, method="bilinear")
     expected = signal.lfilter(np.ravel(numerator), denominator, errors, axis=0)
-    found = respond(tustin_lead(gain, lead, lag, period), errors)
-    assert found == pytest.approx(expected, rel=1e-8, abs=1e-9 * abs(expected).max())
+    actual = respond(tustin_lead(gain, lead, lag, period), errors)
+    assert actual == pytest.approx(expected, rel=1e-8, abs=1e-9 * abs(expected).max())
 
 
 @pytest.mark.parametrize("design", DESIGNS)

@@ -37,10 +37,10 @@ def test_up_and_acceleration(angles, w):
     assert [*up] == pytest.approx(body_from_orbital(angles)[:, 1], abs=1e-15)
     inverse = np.linalg.inv(INERTIA).ravel().tolist()
     torque = (3.0, -2.0, 1.0)
-    found = angular_acceleration(
+    actual = angular_acceleration(
         vector(*angles), vector(*w), vector(*torque), INERTIA.ravel().tolist(), inverse, ORBITAL_RATE
     )
-    assert [*found] == pytest.approx(acceleration(body_from_orbital(angles), np.array(w), torque), abs=1e-15)
+    assert [*actual] == pytest.approx(acceleration(body_from_orbital(angles), np.array(w), torque), abs=1e-15)
 
 
 @settings(max_examples=50)

@@ -78,19 +78,19 @@ def test_positive_roots_of_chosen_roots(chosen, factor, scale):
     roots = sorted(scale * root for root in chosen)
     expected = [root for root in roots if root > 0.0]
     polynomial = factor * Polynomial.fromroots(roots)
-    found = found_roots(polynomial)
+    actual = found_roots(polynomial)
     # as well determined as the slope there lets them be
     slope = abs(polynomial.deriv()(np.array(expected)))
     error = 1e-14 * Polynomial(abs(polynomial.coef))(np.array(expected))
-    assert len(found) == len(expected)
-    assert np.all(abs(np.array(found) - expected) <= 10.0 * error / slope)
+    assert len(actual) == len(expected)
+    assert np.all(abs(np.array(actual) - expected) <= 10.0 * error / slope)
 
 
 @given(st.lists(numbers, min_size=2, max_size=5))
 def test_signs_change_at_the_positive_roots_and_nowhere_else(coefficients):
     polynomial = Polynomial(coefficients)
-    found = found_roots(polynomial)
-    edges = [0.0, *found, 2.0 * (found[-1] if found else 1.0) + 1e4]
+    actual = found_roots(polynomial)
+    edges = [0.0, *actual, 2.0 * (actual[-1] if actual else 1.0) + 1e4]
     for number, (low, high) in enumerate(itertools.pairwise(edges)):
         inside = polynomial(np.linspace(low, high, 41)[1:-1])
         doubtful = abs(inside) <= 1e-9 * Polynomial(np.abs(coefficients))(high)

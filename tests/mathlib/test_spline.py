@@ -49,11 +49,11 @@ def by_conditions(value, slope, end_value, end_slope, duration, degree):
 
 @given(ordinary, ordinary, ordinary, ordinary, durations, st.sampled_from([5, 6]))
 def test_conditions_at_both_ends(value, slope, end_value, end_slope, duration, degree):
-    found = coefficients(value, slope, end_value, end_slope, duration, degree)
+    actual = coefficients(value, slope, end_value, end_slope, duration, degree)
     expected = by_conditions(value, slope, end_value, end_slope, duration, degree)
     scale = 1.0 + max(abs(value), abs(end_value), abs(slope * duration), abs(end_slope * duration))
-    assert found[: degree + 1] == pytest.approx(expected, abs=1e-9 * scale)
-    assert found[degree + 1 :] == [0.0] * (6 - degree)
+    assert actual[: degree + 1] == pytest.approx(expected, abs=1e-9 * scale)
+    assert actual[degree + 1 :] == [0.0] * (6 - degree)
 
 
 @given(ordinary, ordinary, ordinary, ordinary, durations, st.sampled_from([5, 6]), st.floats(0.0, 1.0))
@@ -65,8 +65,8 @@ def test_value_rate_and_acceleration_are_those_of_the_polynomial(
     scale = 1.0 + max(abs(x) for x in c)
     assert spline_value(c, s) == pytest.approx(polynomial(s), abs=1e-13 * scale)
     assert spline_rate(c, s, duration) * duration == pytest.approx(polynomial.deriv()(s), abs=1e-12 * scale)
-    found = spline_acceleration(c, s, duration) * duration * duration
-    assert found == pytest.approx(polynomial.deriv(2)(s), abs=1e-11 * scale)
+    actual = spline_acceleration(c, s, duration) * duration * duration
+    assert actual == pytest.approx(polynomial.deriv(2)(s), abs=1e-11 * scale)
 
 
 def test_turn_of_the_paper():

@@ -65,8 +65,8 @@ def condition(dr, v, dv, g=GRAVITY):
 
 def roots_of(coefficients):
     """Real roots by numpy, each improved by one step of Newton's method."""
-    found = np.roots(np.asarray(coefficients)[::-1])
-    real = found[abs(found.imag) < 1e-6 * abs(found)].real
+    actual = np.roots(np.asarray(coefficients)[::-1])
+    real = actual[abs(actual.imag) < 1e-6 * abs(actual)].real
     whole = Polynomial(coefficients)
     return real - whole(real) / whole.deriv()(real)
 
@@ -112,8 +112,8 @@ def test_quadratic_time_is_the_positive_root_without_the_cubic_term(state):
     dr = TARGET - position
     coefficients = condition(dr, velocity, -velocity).coef
     positive = [root for root in roots_of(coefficients[:3]) if root > 0.0]
-    found = quadratic_time(dr.tolist(), velocity.tolist(), (-velocity).tolist(), GRAVITY)
-    assert min(abs(found - root) for root in positive) < 1e-9 * found
+    actual = quadratic_time(dr.tolist(), velocity.tolist(), (-velocity).tolist(), GRAVITY)
+    assert min(abs(actual - root) for root in positive) < 1e-9 * actual
 
 
 def falling_roots(dr, v, dv, g=GRAVITY):
@@ -130,10 +130,10 @@ def test_cubic_time_is_a_root_of_the_full_condition(state, arrival):
     position, velocity = state
     dr, dv = TARGET - position, np.array(arrival) - velocity
     assert abs(condition(dr, velocity, dv).coef[4:]).max(initial=0.0) < 1e-9
-    found = cubic_time(dr.tolist(), velocity.tolist(), dv.tolist(), GRAVITY)
-    assert found == pytest.approx(falling_roots(dr, velocity, dv)[0][0], rel=1e-12)
-    a, b = impulse(dr, velocity, dv, found)
-    assert np.linalg.norm(a) * found == pytest.approx(2.0 * np.linalg.norm(b), rel=1e-9)
+    actual = cubic_time(dr.tolist(), velocity.tolist(), dv.tolist(), GRAVITY)
+    assert actual == pytest.approx(falling_roots(dr, velocity, dv)[0][0], rel=1e-12)
+    a, b = impulse(dr, velocity, dv, actual)
+    assert np.linalg.norm(a) * actual == pytest.approx(2.0 * np.linalg.norm(b), rel=1e-9)
     assert a @ b > 0.0
 
 
@@ -144,11 +144,11 @@ def test_cubic_time_of_any_start_is_the_root_where_the_condition_falls(place, sp
     assume(dr.any())
     falling, steepness = falling_roots(dr, v, -v, g)
     assume(steepness > 1e-6)  # roots that almost coincide may be there or not
-    found = cubic_time(place, speed, (-v).tolist(), g)
-    assert found == pytest.approx(falling[0] if falling else 0.0, rel=1e-9)
-    if found > 0.0:
-        a, b = impulse(dr, v, -v, found, g)
-        assert steady(place, speed, (-v).tolist(), g, found) == (a @ b > 0.0)
+    actual = cubic_time(place, speed, (-v).tolist(), g)
+    assert actual == pytest.approx(falling[0] if falling else 0.0, rel=1e-9)
+    if actual > 0.0:
+        a, b = impulse(dr, v, -v, actual, g)
+        assert steady(place, speed, (-v).tolist(), g, actual) == (a @ b > 0.0)
 
 
 def test_cubic_time_is_the_root_that_newton_reaches_from_the_quadratic_one_all_over_the_box():
@@ -163,8 +163,8 @@ def test_cubic_time_is_the_root_that_newton_reaches_from_the_quadratic_one_all_o
     for _ in range(20):
         time = time - (((c3 * time + c2) * time + c1) * time + c0) / ((3.0 * c3 * time + 2.0 * c2) * time + c1)
     rows = zip(dr.tolist(), velocity.tolist(), (-velocity).tolist(), strict=True)
-    found = np.array([cubic_time(*row, GRAVITY) for row in rows])
-    assert found == pytest.approx(time, rel=1e-12)
+    actual = np.array([cubic_time(*row, GRAVITY) for row in rows])
+    assert actual == pytest.approx(time, rel=1e-12)
 
 
 @pytest.mark.parametrize(

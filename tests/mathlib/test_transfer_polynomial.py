@@ -106,16 +106,16 @@ def excess_by_hand(truth, duration, mass):
 
     times = np.linspace(0.0, duration, 41)
     spent = solve_ivp(lambda t, _: [push(t)], (0.0, duration), [0.0], t_eval=times, rtol=1e-9, atol=1e-9).y[0]
-    found = 0.0
+    actual = 0.0
     for k, t in enumerate(times):
         force = mass * math.exp(-spent[k] / LIMITS[3]) * push(t)
-        found = max(found, force / LIMITS[0] - 1.0, 1.0 - force / LIMITS[1])
+        actual = max(actual, force / LIMITS[0] - 1.0, 1.0 - force / LIMITS[1])
         if k:
             f, df, ddf = (truth.derivative(n)(t) for n in (2, 3, 4))
             d, a = (f + up) / push(t), push(t)
             swing = np.cross(d, ddf / a - 2.0 * (df @ d) / a * (df / a - (df @ d) / a * d))
-            found = max(found, np.linalg.norm(swing) / LIMITS[2] - 1.0)
-    return spent[-1], found
+            actual = max(actual, np.linalg.norm(swing) / LIMITS[2] - 1.0)
+    return spent[-1], actual
 
 
 @pytest.mark.parametrize("duration", [15.0, 40.0, 120.0])
@@ -137,8 +137,8 @@ def test_capture_is_the_cheapest_of_all_durations():
         expected, worst = excess_by_hand(made(START, GOAL, trial)[1], trial, 560.0) if k % 10 == 0 else (None, None)
         other = [0.0] * TRANSFER
         transfer(*start, vector(*GOAL), trial, other)
-        found = expense(other, trial, LIFT, 560.0, LIMITS, math.inf)
-        prices[trial] = found[0] + 1000.0 * found[1]
+        actual = expense(other, trial, LIFT, 560.0, LIMITS, math.inf)
+        prices[trial] = actual[0] + 1000.0 * actual[1]
         if expected is not None:
             assert spent + 1000.0 * excess <= (expected + 1000.0 * worst) * 1.01
     best = min(prices, key=prices.__getitem__)

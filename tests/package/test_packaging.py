@@ -33,9 +33,9 @@ print(json.dumps({"packages": command.packages, "files": files}))
 
 def test_all_that_is_not_python_is_packed_under_one_name():
     done = subprocess.run([sys.executable, "-c", FILES], cwd=ROOT, capture_output=True, text=True, check=True)
-    found = json.loads(done.stdout.splitlines()[-1])
-    assert {name.split(".")[0] for name in found["packages"]} == {"perilune"}
-    packed = {(ROOT / name).resolve().relative_to(ROOT).as_posix() for name in found["files"]}
+    actual = json.loads(done.stdout.splitlines()[-1])
+    assert {name.split(".")[0] for name in actual["packages"]} == {"perilune"}
+    packed = {(ROOT / name).resolve().relative_to(ROOT).as_posix() for name in actual["files"]}
     expected = {"perilune/py.typed", "perilune/__init__.pyi"}
     for room, kinds in {
         "ssp_systems": ("*",),

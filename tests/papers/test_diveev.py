@@ -75,11 +75,11 @@ def table_1():
 
 @pytest.fixture(scope="module")
 def table_2():
-    found = defaultdict(list)
+    actual = defaultdict(list)
     for row in flown("table2"):
         assert row["success"]
-        found[start_of(row)].append(row)
-    return found
+        actual[start_of(row)].append(row)
+    return actual
 
 
 # ---- table 1 -----------------------------------------------------------------------------------------------

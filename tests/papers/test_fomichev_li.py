@@ -74,19 +74,19 @@ def test_errors_of_the_stop_at_the_last_full_cycle(result):
     rows = [row for row in result.table().to_pylist() if row["variant"] == "analytic_guidance"]
     left = np.array([row["final.guidance.time_to_go"] for row in rows])
     assert stats.kstest(left / 0.1, stats.uniform(0, 1).cdf).pvalue > 1e-3
-    found = result.summary["analytic_guidance"].metrics
-    assert found["velocity_error"].mean == pytest.approx(0.27, abs=0.05)
-    assert found["velocity_error"].std == pytest.approx(0.16, abs=0.03)
-    assert found["position_error"].mean == pytest.approx(0.009, abs=0.003)
+    actual = result.summary["analytic_guidance"].metrics
+    assert actual["velocity_error"].mean == pytest.approx(0.27, abs=0.05)
+    assert actual["velocity_error"].std == pytest.approx(0.16, abs=0.03)
+    assert actual["position_error"].mean == pytest.approx(0.009, abs=0.003)
 
 
 @pytest.mark.parametrize(("step", "miss", "velocity"), [(0.1, 1e-6, 1e-3), (1.0, 1e-3, 0.05)])
 def test_exact_method_meets_the_target(step, miss, velocity):
     compare = {"guidance": ["analytic_exact_guidance"]}
-    found = perilune.batch(
+    actual = perilune.batch(
         SYSTEM, "paper", trials=EXACT_TRIALS, compare=compare, parameters=["exact.ssv"], step=step, workers=1
     ).summary["analytic_exact_guidance"]
-    assert found.success_rate == 1.0
-    assert found.metrics_all["position_error"].count == EXACT_TRIALS
-    assert found.metrics_all["position_error"].max < miss
-    assert found.metrics_all["velocity_error"].max < velocity
+    assert actual.success_rate == 1.0
+    assert actual.metrics_all["position_error"].count == EXACT_TRIALS
+    assert actual.metrics_all["position_error"].max < miss
+    assert actual.metrics_all["velocity_error"].max < velocity

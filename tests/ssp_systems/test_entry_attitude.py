@@ -93,8 +93,8 @@ def test_cases_without_sensor_errors(ideal):
 
 def test_case_0_of_the_robust_regulator(ideal):
     trials = ideal["robust_control"]
-    found = [trials.metrics[name][0] for name in UPPER]
-    assert found == pytest.approx([0.758, 0.744, 0.205], abs=6e-4)
+    actual = [trials.metrics[name][0] for name in UPPER]
+    assert actual == pytest.approx([0.758, 0.744, 0.205], abs=6e-4)
     assert trials.end_time[0] == pytest.approx(472.8)  # the tick after the last one above 25 km
 
 
@@ -106,9 +106,9 @@ def noisy(fmus):
 def test_cases_with_sensor_errors(noisy):
     for regulator, trials in noisy.items():
         expected, tolerance = CASES[regulator]
-        found = [*largest(trials), float(trials.metrics["propellant"].mean())]
-        for value, wanted, within in zip(found, expected, tolerance, strict=True):
-            assert value < wanted + within, (regulator, found)
+        actual = [*largest(trials), float(trials.metrics["propellant"].mean())]
+        for value, wanted, within in zip(actual, expected, tolerance, strict=True):
+            assert value < wanted + within, (regulator, actual)
         assert not trials.metrics["beyond_tables"].any()
 
 
@@ -163,12 +163,12 @@ def test_a_gust_and_a_change_of_density():
 def test_disturbed_air_over_the_cases():
     """Another program: a gust takes attack to 2.3 and sideslip to 1.5 deg, else 1.0 and 0.9; density does nothing."""
     flown = perilune.batch(SYSTEM, "disturbed_air")
-    found, air = flown.trials["default"], flown.plan.draws.columns["air"]
-    attack, sideslip = found.metrics["gust_attack"], found.metrics["gust_sideslip"]
+    actual, air = flown.trials["default"], flown.plan.draws.columns["air"]
+    attack, sideslip = actual.metrics["gust_attack"], actual.metrics["gust_sideslip"]
     assert [attack[air == 1].max(), sideslip[air == 1].max()] == pytest.approx([2.3, 1.5], abs=0.15)
     for calm in (0, 2):
         assert [attack[air == calm].max(), sideslip[air == calm].max()] == pytest.approx([1.0, 0.9], abs=0.1)
-    assert found.success.all()
+    assert actual.success.all()
 
 
 @pytest.mark.slow
@@ -192,9 +192,9 @@ def test_dead_jets():
     [("thousand", 0.997, 0.2), ("thousand_tripled_noise", 0.99, 0.25), ("thousand_doubled", 0.9, 0.1)],
 )
 def test_a_thousand_cases(campaign, robust, standard):
-    found = fly(campaign, ["robust_control", "standard_control"])
-    assert found["robust_control"].success.mean() >= robust
-    assert found["standard_control"].success.mean() <= standard
+    actual = fly(campaign, ["robust_control", "standard_control"])
+    assert actual["robust_control"].success.mean() >= robust
+    assert actual["standard_control"].success.mean() <= standard
 
 
 # Gain (dB), phase (deg), modulus and disk margin of the sampled loops along the flight: least and largest of 18.

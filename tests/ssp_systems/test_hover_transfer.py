@@ -44,14 +44,14 @@ def rms(values):
 def beyond(metrics, chosen, row, margin=MARGIN):
     """What of a row's RMS is larger than it may be, as texts."""
     positions, speeds, tilt, held, held_speed = row
-    found = [(rms(metrics[name][chosen]), limit, "m", name) for name, limit in zip(PLACES, positions, strict=True)]
-    found += [(rms(metrics[f"{n}_speed"][chosen]), limit, "m/s", n) for n, limit in zip(PLACES, speeds, strict=True)]
-    found.append((rms(metrics["tilt"][chosen]), tilt, "deg", "tilt"))
-    found.append((max(rms(metrics[f"held_{n}"][chosen]) for n in PLACES), held, "m", "held"))
-    found.append((max(rms(metrics[f"held_{n}_speed"][chosen]) for n in PLACES), held_speed, "m/s", "held"))
+    actual = [(rms(metrics[name][chosen]), limit, "m", name) for name, limit in zip(PLACES, positions, strict=True)]
+    actual += [(rms(metrics[f"{n}_speed"][chosen]), limit, "m/s", n) for n, limit in zip(PLACES, speeds, strict=True)]
+    actual.append((rms(metrics["tilt"][chosen]), tilt, "deg", "tilt"))
+    actual.append((max(rms(metrics[f"held_{n}"][chosen]) for n in PLACES), held, "m", "held"))
+    actual.append((max(rms(metrics[f"held_{n}_speed"][chosen]) for n in PLACES), held_speed, "m/s", "held"))
     return [
         f"{name}: {value:.3f} {unit} for {limit}"
-        for value, limit, unit, name in found
+        for value, limit, unit, name in actual
         if value > max(margin * limit, REACHED[unit])
     ]
 

@@ -117,14 +117,14 @@ def test_noisy_flights_touch_down_within_all_limits(guidance):
     batch = perilune.batch(
         SYSTEM, "contacts", parameters=["noisy.ssv"], compare={"guidance": [guidance]}, trials=trials
     )
-    found = batch.trials[guidance]
-    assert found.success.sum() >= 0.99 * trials
+    actual = batch.trials[guidance]
+    assert actual.success.sum() >= 0.99 * trials
     for name, limit in LIMITS.items():
-        assert np.max(found.metrics[name][found.success]) <= limit
-    assert np.median(found.metrics["distance"]) < 2.0
+        assert np.max(actual.metrics[name][actual.success]) <= limit
+    assert np.median(actual.metrics["distance"]) < 2.0
     for phase in range(3, 9):
         low, high = stats.chi2.interval(0.999, 6 * trials)
-        assert low < np.sum(found.metrics[f"nees_{phase}"]) < high, phase
+        assert low < np.sum(actual.metrics[f"nees_{phase}"]) < high, phase
 
 
 def test_a_start_that_is_badly_known_lands_too():
@@ -277,11 +277,11 @@ def test_another_vehicle_lands_by_parameters_alone():
 @pytest.mark.slow
 def test_faults_are_survived_but_for_a_camera_that_dies_before_braking():
     batch = perilune.batch(SYSTEM, "faults", parameters=["noisy.ssv"])
-    found, case = batch.trials["default"], batch.plan.draws.columns["case"]
+    actual, case = batch.trials["default"], batch.plan.draws.columns["case"]
     for number in range(8):
-        rate = found.success[case == number].mean()
+        rate = actual.success[case == number].mean()
         assert rate == 1.0 if number != 4 else 0.3 < rate < 1.0, number
-    assert np.max(found.metrics["vertical_speed"]) < 3.0  # soft, wherever it is
+    assert np.max(actual.metrics["vertical_speed"]) < 3.0  # soft, wherever it is
 
 
 @pytest.mark.slow
@@ -295,13 +295,13 @@ def test_without_the_gradient_of_gravity_the_gate_locks_the_camera_out():
         set={"navigation.gravity_gradient": False},
         compare={"guidance": ["analytic_exact_guidance"]},
     )
-    (found,) = batch.trials.values()
-    assert 0.7 < found.success.mean() < 0.97
-    assert np.max(found.metrics["distance"]) > 500.0
+    (actual,) = batch.trials.values()
+    assert 0.7 < actual.success.mean() < 0.97
+    assert np.max(actual.metrics["distance"]) > 500.0
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("campaign", ["reach", "thrust", "aside", "elsewhere"])
 def test_campaigns_of_harder_landings(campaign):
-    (found,) = perilune.batch(SYSTEM, campaign, parameters=["noisy.ssv"]).trials.values()
-    assert found.success.all()
+    (actual,) = perilune.batch(SYSTEM, campaign, parameters=["noisy.ssv"]).trials.values()
+    assert actual.success.all()

@@ -38,36 +38,36 @@ def last(result, name, size=3):
 @pytest.mark.parametrize("campaign", ["compare", "terminal_box"])
 def test_exact_guidances_meet_the_target_without_limits_and_errors(campaign):
     exact = ["analytic_exact_guidance", "astar_robust_guidance"]
-    for found in fly(campaign, exact, either(40, 4), parameters=["ideal.ssv", "without_limits.ssv"]).values():
-        assert found.success.all()
-        assert np.max(found.metrics["position_error"]) < 0.01
-        assert np.max(found.metrics["velocity_error"]) < 0.002
+    for actual in fly(campaign, exact, either(40, 4), parameters=["ideal.ssv", "without_limits.ssv"]).values():
+        assert actual.success.all()
+        assert np.max(actual.metrics["position_error"]) < 0.01
+        assert np.max(actual.metrics["velocity_error"]) < 0.002
 
 
 def test_every_guidance_hands_over_and_all_but_one_hit_the_point():
-    for name, found in fly("compare", GUIDANCES, either(25, 3), parameters=["ideal.ssv"]).items():
-        assert found.success.all(), name
-        assert np.all(found.metrics["pinpoint"] == (name != "network_operator_guidance")), name
+    for name, actual in fly("compare", GUIDANCES, either(25, 3), parameters=["ideal.ssv"]).items():
+        assert actual.success.all(), name
+        assert np.all(actual.metrics["pinpoint"] == (name != "network_operator_guidance")), name
 
 
 def test_noisy_flights_hit_the_point_and_the_filter_knows_its_errors():
     guidances = ["analytic_exact_guidance", "network_operator_guidance"]
-    for name, found in fly("compare", guidances, either(200, 100), parameters=["noisy.ssv"]).items():
-        assert found.success.mean() >= 0.99
+    for name, actual in fly("compare", guidances, either(200, 100), parameters=["noisy.ssv"]).items():
+        assert actual.success.mean() >= 0.99
         if name == "analytic_exact_guidance":
-            assert found.metrics["pinpoint"].mean() >= 0.99
+            assert actual.metrics["pinpoint"].mean() >= 0.99
         for axis in ("x", "y", "z", "vx", "vy", "vz"):
-            assert 0.8 < np.std(found.metrics[f"{axis}_error_over_sigma"], ddof=1) < 1.3, (name, axis)
+            assert 0.8 < np.std(actual.metrics[f"{axis}_error_over_sigma"], ddof=1) < 1.3, (name, axis)
 
 
 def test_the_filter_is_consistent_at_five_epochs():
     batch = perilune.batch(SYSTEM, "consistency")
-    found = batch.trials["default"]
-    flights = len(found.trial)
+    actual = batch.trials["default"]
+    flights = len(actual.trial)
     assert flights == 200
     degrees = {"nees": 6, "altitude_nis": 1, "velocity_nis": 3, "position_nis": 3}
     outside, looked_at = [], 0
-    for name, values in found.metrics.items():
+    for name, values in actual.metrics.items():
         kind = next((kind for kind in degrees if name.startswith(kind)), None)
         if kind is not None:
             looked_at += 1
@@ -92,8 +92,8 @@ def test_the_filterpy_filter_gives_the_same_flight():
 def test_raw_navigation_costs_the_point_and_ideal_navigation_does_not():
     rates = {}
     for navigation in ("ideal_navigation", "raw_navigation", "kalman_navigation"):
-        found = fly("compare", ["analytic_exact_guidance"], either(40, 15), use={"navigation": navigation})
-        rates[navigation] = found["analytic_exact_guidance"].metrics["pinpoint"].mean()
+        actual = fly("compare", ["analytic_exact_guidance"], either(40, 15), use={"navigation": navigation})
+        rates[navigation] = actual["analytic_exact_guidance"].metrics["pinpoint"].mean()
     assert rates["ideal_navigation"] == rates["kalman_navigation"] == 1.0
     assert rates["raw_navigation"] < 0.5
 
@@ -108,8 +108,8 @@ def test_propellant_obeys_the_rocket_equation_where_attitude_is_free_of_lag():
 
 def test_the_engine_s_lag_costs_its_impulse_unless_it_is_led():
     def left(lead):
-        found = fly("lag", ["analytic_exact_guidance"], either(10, 4), set={"allocation.thrust_lead": lead})
-        return found["analytic_exact_guidance"].metrics["settled_velocity_error"]
+        actual = fly("lag", ["analytic_exact_guidance"], either(10, 4), set={"allocation.thrust_lead": lead})
+        return actual["analytic_exact_guidance"].metrics["settled_velocity_error"]
 
     # what an engine of first order gives behind its cut-off: thrust acceleration times lag, here about 5.5 m/s2 0.1 s
     flight = perilune.simulate(SYSTEM, parameters=["ideal.ssv"])

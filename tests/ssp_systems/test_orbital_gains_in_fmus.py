@@ -63,8 +63,8 @@ def test_the_modal_regulator(number):
     placed = modal.place_levels(
         linear_matrix(inertia), driven, [-np.diag(rates), -np.diag(angles)], bases=[columns[:, 3:], columns[:, :3]]
     )
-    found = np.hstack([fmu.matrix("angle_gain", 3, 3), fmu.matrix("rate_gain", 3, 3)])
-    assert np.abs(found + placed.gain).max() < 1e-9 * np.abs(placed.gain).max()
+    actual = np.hstack([fmu.matrix("angle_gain", 3, 3), fmu.matrix("rate_gain", 3, 3)])
+    assert np.abs(actual + placed.gain).max() < 1e-9 * np.abs(placed.gain).max()
 
 
 @pytest.mark.parametrize("number", DRAWS)

@@ -21,22 +21,22 @@ AXES = either({"roll": 0, "yaw": 1, "pitch": 2}, {"yaw": 1})
 @pytest.fixture(scope="module")
 def studied(fmus):
     report = perilune.stability("orbital_attitude", loops=list(AXES), stop_time=2000)
-    return {(found.name, found.point): found for found in report.loops}
+    return {(actual.name, actual.point): actual for actual in report.loops}
 
 
 @pytest.mark.parametrize("point", ["filter", "observer"])
 @pytest.mark.parametrize("name", AXES)
 def test_margins_are_those_of_the_closed_form(studied, name, point):
     """1e-3 dB, 1e-2 deg and 1e-3 of the disk margin: with ideal sensors every estimate is the state."""
-    found, exact = studied[name, point], loop(AXES[name])
+    actual, exact = studied[name, point], loop(AXES[name])
     gains, phases, _ = crossings(exact)
     nearest = min(gains, key=lambda k: abs(np.log(k)))
-    assert DECIBEL * np.log(found.classical.gain_margin.value / nearest) == pytest.approx(0.0, abs=1e-3)
-    assert np.degrees(found.classical.phase_margin.value) == pytest.approx(np.degrees(min(phases, key=abs)), abs=1e-2)
-    assert found.robust.disk_margin == pytest.approx(disk_margin(exact), rel=1e-3)
-    assert found.agreement.agrees
-    assert found.stable
-    assert found.verdict == "pass"
+    assert DECIBEL * np.log(actual.classical.gain_margin.value / nearest) == pytest.approx(0.0, abs=1e-3)
+    assert np.degrees(actual.classical.phase_margin.value) == pytest.approx(np.degrees(min(phases, key=abs)), abs=1e-2)
+    assert actual.robust.disk_margin == pytest.approx(disk_margin(exact), rel=1e-3)
+    assert actual.agreement.agrees
+    assert actual.stable
+    assert actual.verdict == "pass"
 
 
 @pytest.mark.parametrize("name", AXES)

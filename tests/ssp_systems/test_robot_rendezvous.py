@@ -98,9 +98,9 @@ def test_velocity_gained_is_the_impulse_of_the_force_on_the_body():
 
 
 def test_both_gyro_steerings_fly_the_turn():
-    found = {}
+    actual = {}
     for steering in ("gyro_steering_explicit", "gyro_steering_robust"):
         flight = perilune.simulate(SYSTEM, parameters=["kalman.ssv"], use={"gyros": steering}, stop_time=1600.0)
         error = np.abs(vector(flight, "monitor.attitude_error"))[flight.time >= 1420.0]
-        found[steering] = np.max(error) * 648000 / np.pi
-    assert max(found.values()) < 2.0
+        actual[steering] = np.max(error) * 648000 / np.pi
+    assert max(actual.values()) < 2.0

@@ -42,10 +42,10 @@ def robot(fmus):
 @pytest.fixture(scope="module")
 def channels(robot):
     """The three channels of each loop."""
-    found = {name: [loop for loop in robot.loops if loop.loop == name] for name in ROBOT}
-    for name, loops in found.items():
+    actual = {name: [loop for loop in robot.loops if loop.loop == name] for name in ROBOT}
+    for name, loops in actual.items():
         assert [loop.name for loop in loops] == [f"{name}[{axis}]" for axis in AXES]
-    return found
+    return actual
 
 
 @pytest.fixture(scope="module")
@@ -53,10 +53,10 @@ def hover(fmus):
     """The three loops of the lunar landing by axis, and all at once, at the point with a time-to-go, studied once."""
     request = read_request("lunar_landing", SystemOptions())
     subject, limits = Subject(request.system, request.options), request.declaration.limits
-    found = {}
+    actual = {}
 
     def reports(time_to_go):
-        if time_to_go not in found:
+        if time_to_go not in actual:
             point = request.point(f"time_to_go_{time_to_go}")
             loops = request.loops_at(point)
             with PointStudy(subject, point, loops) as here:
@@ -65,8 +65,8 @@ def hover(fmus):
                 for loop in studies.values():
                     loop.measure()
                 axes = {name.rpartition(".")[2]: loop.report(()) for name, loop in studies.items()}
-                found[time_to_go] = axes, here.joint(loops[0], limits)
-        return found[time_to_go]
+                actual[time_to_go] = axes, here.joint(loops[0], limits)
+        return actual[time_to_go]
 
     return reports
 

@@ -29,28 +29,28 @@ GAIN_CROSSOVERS = {"late_double_integrator": 1, "resonance": 2, "pendulum": 1}
 @pytest.fixture(scope="module")
 def studied(exact_fmus, tmp_path_factory):
     """Each system with its report, studied once."""
-    found = {}
+    actual = {}
 
     def study(name):
-        if name not in found:
+        if name not in actual:
             make, every = SYSTEMS[name]
             exact = make(every)
-            found[name] = exact, perilune.stability(exact.packed(tmp_path_factory.mktemp("systems"), exact_fmus))
-        return found[name]
+            actual[name] = exact, perilune.stability(exact.packed(tmp_path_factory.mktemp("systems"), exact_fmus))
+        return actual[name]
 
     return study
 
 
-def assert_classical(found, loop):
+def assert_classical(actual, loop):
     """Every crossing to 1e-3 dB and 1e-3 deg."""
     gain, phase, frequency = crossings(loop)
-    assert len(found.gain) == len(gain)
-    ratio = np.array([crossing.value for crossing in found.gain]) / gain
+    assert len(actual.gain) == len(gain)
+    ratio = np.array([crossing.value for crossing in actual.gain]) / gain
     assert abs(DECIBEL * np.log(ratio)).max() < 1e-3
-    assert len(found.phase) == len(phase)
-    assert np.degrees([crossing.value for crossing in found.phase]) == pytest.approx(np.degrees(phase), abs=1e-3)
-    assert [crossing.frequency for crossing in found.phase] == pytest.approx(frequency.tolist(), rel=1e-5)
-    assert found.delay_margin == pytest.approx(min(phase % (2.0 * np.pi) / frequency), rel=1e-4)
+    assert len(actual.phase) == len(phase)
+    assert np.degrees([crossing.value for crossing in actual.phase]) == pytest.approx(np.degrees(phase), abs=1e-3)
+    assert [crossing.frequency for crossing in actual.phase] == pytest.approx(frequency.tolist(), rel=1e-5)
+    assert actual.delay_margin == pytest.approx(min(phase % (2.0 * np.pi) / frequency), rel=1e-4)
 
 
 def assert_poles(report, exact):

@@ -38,8 +38,8 @@ def difference(one, other, name, period, start=0.0):
     return (one[name] - other[name])[rows]
 
 
-def assert_near(found, expected, tolerance):
-    assert found == pytest.approx(expected, abs=tolerance * np.max(np.abs(expected)))
+def assert_near(actual, expected, tolerance):
+    assert actual == pytest.approx(expected, abs=tolerance * np.max(np.abs(expected)))
 
 
 @each_loop
@@ -79,13 +79,13 @@ def test_at_low_frequencies_the_loop_is_lead_double_integrator_and_the_delays(na
 def test_margins(name):
     loop = LOOPS[name]
     gain, phase, modulus = EXACT[name]
-    found = loop.margins
-    assert found.gain == pytest.approx(gain, abs=0.006)
-    assert found.phase == pytest.approx(phase, abs=0.006)
-    assert found.modulus == pytest.approx(modulus, abs=6e-4)
+    actual = loop.margins
+    assert actual.gain == pytest.approx(gain, abs=0.006)
+    assert actual.phase == pytest.approx(phase, abs=0.006)
+    assert actual.modulus == pytest.approx(modulus, abs=6e-4)
     near_gain, near_phase = INTERPOLATED[name]
-    assert found.gain == pytest.approx(near_gain, abs=0.45)
-    assert found.phase == pytest.approx(near_phase, abs=0.35)
+    assert actual.gain == pytest.approx(near_gain, abs=0.45)
+    assert actual.phase == pytest.approx(near_phase, abs=0.35)
     assert np.max(np.abs(loop.poles)) < 1.0
 
 
@@ -110,12 +110,12 @@ def test_translation_flies_as_the_closed_loop(period, settings):
     offset = {f"robot.initial_position[{axis}]": x for axis, (x, _) in enumerate(starts, 1)}
     offset |= {f"robot.initial_velocity[{axis}]": v for axis, (_, v) in enumerate(starts, 1)}
     plan = flight(settings, TICKS * period)
-    found = flight(settings | offset, TICKS * period)
-    assert not found["jets.status"].any()
+    actual = flight(settings | offset, TICKS * period)
+    assert not actual["jets.status"].any()
     for axis, (x, v) in enumerate(starts, 1):
         expected = loop.closed(x, v, np.zeros(TICKS))
         for column, name in enumerate(("robot.position", "robot.velocity", "translation_filter.position_error")):
-            change = difference(found, plan, f"{name}[{axis}]", period)
+            change = difference(actual, plan, f"{name}[{axis}]", period)
             assert_near(change, expected[:, column], 1e-9)
 
 
@@ -125,13 +125,13 @@ def test_an_error_of_the_ranger_in_hold_is_followed_as_by_the_closed_loop():
     error, start = 0.02, 4400.0
     plan = flight({}, start + 4.0 * TICKS)
     fault = perilune.Fault("ranger.robot_position[1]", "bias", error, 4401.5)
-    found = flight({}, start + 4.0 * TICKS, [fault])
-    assert not found["jets.status"].any()
+    actual = flight({}, start + 4.0 * TICKS, [fault])
+    assert not actual["jets.status"].any()
     expected = translation_loop(4.0).closed(0.0, 0.0, error * np.array([0.0, 0.75] + [1.0] * (TICKS - 2)))
     for column, name in [(0, "robot.position"), (1, "robot.velocity"), (2, "translation_filter.position_error")]:
-        assert_near(difference(found, plan, f"{name}[1]", 4.0, start), expected[:, column], 1e-8)
+        assert_near(difference(actual, plan, f"{name}[1]", 4.0, start), expected[:, column], 1e-8)
         for axis in (2, 3):
-            across = difference(found, plan, f"{name}[{axis}]", 4.0, start)
+            across = difference(actual, plan, f"{name}[{axis}]", 4.0, start)
             assert across == pytest.approx(np.zeros(TICKS), abs=1e-8 * error)
 
 
@@ -140,10 +140,10 @@ def test_an_error_of_the_ranger_in_hold_is_followed_as_by_the_closed_loop():
 def test_attitude_flies_as_the_closed_loop(axis):
     """What is not linear, gimbals that turn and angles against sines, is of the order of the angle squared."""
     loop, angle = attitude_loop(), 1e-6
-    found = flight({f"robot.initial_quaternion[{axis + 1}]": 0.5 * angle}, TICKS * loop.period)
-    assert not found["gyros.status"].any()
+    actual = flight({f"robot.initial_quaternion[{axis + 1}]": 0.5 * angle}, TICKS * loop.period)
+    assert not actual["gyros.status"].any()
     rows = np.arange(TICKS) * round(loop.period * PER_SECOND)
     expected = loop.closed(angle, 0.0, np.zeros(TICKS))
-    assert_near(2.0 * found[f"robot.quaternion[{axis + 1}]"][rows], expected[:, 0], 1e-8)
-    assert_near(found[f"robot.angular_velocity[{axis}]"][rows], expected[:, 1], 1e-8)
-    assert_near(found[f"attitude_filter.attitude_error[{axis}]"][rows], expected[:, 2], 1e-8)
+    assert_near(2.0 * actual[f"robot.quaternion[{axis + 1}]"][rows], expected[:, 0], 1e-8)
+    assert_near(actual[f"robot.angular_velocity[{axis}]"][rows], expected[:, 1], 1e-8)
+    assert_near(actual[f"attitude_filter.attitude_error[{axis}]"][rows], expected[:, 2], 1e-8)

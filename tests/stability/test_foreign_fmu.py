@@ -72,8 +72,8 @@ def test_the_command_line(path, tmp_path, capsys):
     page, file = tmp_path / "report.html", tmp_path / "report.json"
     options = ["--loop", "law.y", "--at", "1", "--feedthrough", "law", "--report", str(page), "--json", str(file)]
     assert main(["stability", str(path), *options]) == 0
-    found = json.loads(file.read_text())
-    (loop,) = found["loops"]
+    actual = json.loads(file.read_text())
+    (loop,) = actual["loops"]
     assert loop["cut"] == "law.y"
     assert loop["gain_margin_db"] == pytest.approx(GAIN_MARGIN, abs=0.01)
     assert loop["phase_margin_deg"] == pytest.approx(PHASE_MARGIN, abs=0.05)

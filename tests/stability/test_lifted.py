@@ -8,7 +8,7 @@ import control
 import numpy as np
 import pytest
 
-from perilune.analysis.stability.linear.lifted import LiftedModel, Port, reached
+from perilune.analysis.stability.linear.lifted import LiftedModel, Port, reachable
 from perilune.analysis.stability.linear.modes import modes, structure
 from perilune.analysis.stability.request.channels import Channel
 from tests.support.loops.exact_periodic import STATES, exact_model, flown_response, hyperperiod
@@ -52,9 +52,9 @@ def periodic():
 def test_response_is_what_a_flight_with_a_wave_shows(periodic, axis, cycles, samples):
     place = periodic.ports[axis]
     frequency = 2.0 * np.pi * cycles / samples / place.seconds
-    found = periodic.response((place,), np.array([frequency]))
-    assert found.shape == (1, 1, 1)
-    assert found[0, 0, 0] == pytest.approx(flown_response(axis, cycles, samples), rel=1e-11)
+    actual = periodic.response((place,), np.array([frequency]))
+    assert actual.shape == (1, 1, 1)
+    assert actual[0, 0, 0] == pytest.approx(flown_response(axis, cycles, samples), rel=1e-11)
 
 
 def test_a_periodic_loop_answers_at_other_frequencies_too(periodic):
@@ -69,12 +69,12 @@ def test_a_time_invariant_loop_over_several_samples_is_its_transfer_function(sam
     loop = control.ss(0.5, 1.0, 0.3, 0.6, 0.5) * held(control.tf([1.0], [1.0, 0.4, 0.0]), 0.5)
     model = lifted(loop, samples)
     frequency = np.geomspace(1e-3, 1.0, 30) * np.pi / loop.dt
-    found = model.response(model.ports, frequency)[:, 0, 0]
-    assert found == pytest.approx(response_of(loop)(frequency), rel=1e-9)
+    actual = model.response(model.ports, frequency)[:, 0, 0]
+    assert actual == pytest.approx(response_of(loop)(frequency), rel=1e-9)
     assert model.periodicity(model.ports[0], frequency[::8]) < 1e-12
     closed = np.linalg.eigvals(loop.A - loop.B @ np.linalg.solve(np.eye(1) + loop.D, loop.C))
     assert np.sort_complex(model.poles()) == pytest.approx(np.sort_complex(closed**samples), abs=1e-12)
-    poles = model.opened(model.ports)
+    poles = model.open_loops(model.ports)
     assert lasting(poles) == pytest.approx(lasting(np.linalg.eigvals(loop.A) ** samples), abs=1e-7)
 
 
@@ -90,9 +90,9 @@ def test_multipliers(periodic):
 def test_multipliers_with_one_cut_open(periodic, axis):
     """The open axis drifts: a double pole at 1, which rounding splits by its square root."""
     state, _, _ = hyperperiod((axis,))
-    found, expected = periodic.opened((periodic.ports[axis],)), np.linalg.eigvals(state[:, :STATES])
-    assert lasting(found) == pytest.approx(lasting(expected), abs=1e-6)
-    both, expected = periodic.opened(periodic.ports), np.linalg.eigvals(hyperperiod((0, 1))[0][:, :STATES])
+    actual, expected = periodic.open_loops((periodic.ports[axis],)), np.linalg.eigvals(state[:, :STATES])
+    assert lasting(actual) == pytest.approx(lasting(expected), abs=1e-6)
+    both, expected = periodic.open_loops(periodic.ports), np.linalg.eigvals(hyperperiod((0, 1))[0][:, :STATES])
     assert lasting(both) == pytest.approx(lasting(expected), abs=1e-6)
 
 
@@ -118,7 +118,7 @@ def test_reduced_to_what_lies_between():
     assert np.sort(small.poles()) == pytest.approx([0.4, 0.5])
     frequency = np.array([0.1, 1.0, 6.0])
     assert small.response(small.ports, frequency) == pytest.approx(model.response(model.ports, frequency), rel=1e-14)
-    assert reached(a != 0.0, b[:, 0] != 0.0).tolist() == [True, True, True, False, False]
+    assert reachable(a != 0.0, b[:, 0] != 0.0).tolist() == [True, True, True, False, False]
 
 
 def test_modes_that_the_cut_does_not_move_or_see():
@@ -128,10 +128,10 @@ def test_modes_that_the_cut_does_not_move_or_see():
     model = LiftedModel(
         turn.T @ a @ turn, turn.T @ b, c @ turn, np.eye(1), c @ turn, np.zeros((1, 1)), tuple("abcd"), 0.5, (port(1),)
     )
-    found = modes(model, model.ports[0])
-    assert [mode.z for mode in found] == pytest.approx([0.9, 0.8, 0.7, 0.6])
-    assert [mode.kind for mode in found] == ["loop", "not controllable", "not observable", "neither"]
-    assert found[0].s == pytest.approx(np.log(0.9) / 0.5)
+    actual = modes(model, model.ports[0])
+    assert [mode.z for mode in actual] == pytest.approx([0.9, 0.8, 0.7, 0.6])
+    assert [mode.kind for mode in actual] == ["loop", "not controllable", "not observable", "neither"]
+    assert actual[0].s == pytest.approx(np.log(0.9) / 0.5)
     ranks = structure(model, model.ports[0], 7)
     assert (ranks.states, ranks.order, ranks.controllable, ranks.observable) == (7, 4, 2, 2)
 
@@ -142,9 +142,9 @@ def test_damping_and_frequency_of_a_mode():
     loop = held(control.tf([1.0], [1.0, 2.0 * damping * rate, rate**2]), seconds)
     nothing = np.zeros((1, 2))
     model = LiftedModel(loop.A, loop.B, loop.C, np.eye(1), nothing, np.eye(1) * 0.0, ("a", "b"), seconds, (port(1),))
-    found = modes(model, model.ports[0])
-    assert len(found) == 2
-    for mode in found:
+    actual = modes(model, model.ports[0])
+    assert len(actual) == 2
+    for mode in actual:
         assert (mode.damping, mode.frequency) == (pytest.approx(damping), pytest.approx(rate))
         assert mode.s.real == pytest.approx(-damping * rate)
 

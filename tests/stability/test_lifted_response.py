@@ -48,5 +48,5 @@ def test_a_closed_loop_gives_back_its_open_loop() -> None:
     a, b, c = system.A, system.B, system.C
     model = LiftedModel(a - b @ c, b, -c, np.eye(1), -c, np.zeros((1, 1)), (), 0.25, (port(0.25, 0, 1),))
     frequency = np.geomspace(0.1, np.pi / 0.25, 200)
-    found = model.response(model.ports, frequency)[:, 0, 0]
-    np.testing.assert_allclose(found, response_of(system)(frequency), rtol=1e-9, atol=1e-13)
+    actual = model.response(model.ports, frequency)[:, 0, 0]
+    np.testing.assert_allclose(actual, response_of(system)(frequency), rtol=1e-9, atol=1e-13)

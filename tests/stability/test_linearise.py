@@ -54,11 +54,11 @@ def test_the_lifted_model_of_a_periodic_system(bench_of, exact_folder, flavour):
     """Multipliers, and all that what is added does within four hyperperiods, which no choice of states changes."""
     bench = bench_of(description(), exact_folder / flavour, Point("there", time=1.0), LOOPS)
     assert (bench.period, bench.time) == (HYPERPERIOD, pytest.approx(HYPERPERIOD * STEP))
-    found, exact = linearise(OperatingPoint(bench)), exact_model()
-    assert [(port.first, port.count) for port in found.model.ports] == [(0, 3), (3, 2)]
-    assert [port.seconds for port in found.model.ports] == pytest.approx([0.4, 0.6])
-    assert found.model.poles() == pytest.approx(exact.poles(), abs=1e-8)
-    for model in (found.model, found.neighbour):
+    actual, exact = linearise(OperatingPoint(bench)), exact_model()
+    assert [(port.first, port.count) for port in actual.model.ports] == [(0, 3), (3, 2)]
+    assert [port.seconds for port in actual.model.ports] == pytest.approx([0.4, 0.6])
+    assert actual.model.poles() == pytest.approx(exact.poles(), abs=1e-8)
+    for model in (actual.model, actual.neighbour):
         assert model.du == pytest.approx(exact.du, abs=1e-9)
         assert model.dv == pytest.approx(exact.dv, abs=1e-9)
         for power in range(4):
@@ -94,11 +94,11 @@ def test_noise_is_the_same_in_every_flight(bench_of, exact_fmus, tmp_path):
     """Neither route sees it; nor are the counter's means, which move nothing, in the model."""
     loop = Loop("l", "control.y", ("there",), period=0.75)
     bench = bench_of(ring(NOISY, 0.25, 60.0), exact_fmus, Point("there", time=10.0), [loop])
-    found = linearise(OperatingPoint(bench))
-    assert not any(name.startswith("noise.mean") or "generator" in name for name in found.model.names)
+    actual = linearise(OperatingPoint(bench))
+    assert not any(name.startswith("noise.mean") or "generator" in name for name in actual.model.names)
     exact = difference(0.02, 0.2, 0.75) * held(control.tf(1.0, [1.0, 0.0, 0.0]), 0.75) * delay(1, 0.75)
     frequency = np.geomspace(1e-2, 1.0, 50) * np.pi / 0.75
-    response = found.model.response(found.model.ports, frequency)[:, 0, 0]
+    response = actual.model.response(actual.model.ports, frequency)[:, 0, 0]
     truth = response_of(exact)(frequency)
     assert abs(response - truth).max() < 1e-7 * abs(truth).max()
     path = pack(tmp_path / "noisy.ssp", exact_fmus, ring(NOISY, 0.25, 60.0))

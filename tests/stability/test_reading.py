@@ -31,7 +31,7 @@ def test_nothing_is_declared():
 
 
 def test_all_that_can_be_declared():
-    _, found = read(
+    _, actual = read(
         '<Limits gain_margin_db="8" phase_margin_deg="40"/>',
         '<Limits modulus_margin="0.6" dispersed_gain_margin_db="4" dispersed_phase_margin_deg="25"/>',
         "<!-- a comment -->",
@@ -59,7 +59,7 @@ def test_all_that_can_be_declared():
     one = Loop(
         "one", "plant.u", ("near", "hold"), returned="plant.position", period=0.5, amplitude=0.01, elements=elements
     )
-    assert found == Declaration(
+    assert actual == Declaration(
         limits=Limits(8.0, 40.0, 0.6, 4.0, 25.0),
         points=(hold, Point("near", signal="plant.position", falls_to=-10.0)),
         loops=(one, Loop("thrust", "plant.u", ("near",), direction="plant.v")),

@@ -23,8 +23,8 @@ def path(exact_fmus, tmp_path_factory):
 @pytest.fixture(scope="module")
 def element(path):
     (loop,) = perilune.stability(path).loops
-    (found,) = loop.nonlinearities
-    return found
+    (actual,) = loop.nonlinearities
+    return actual
 
 
 @pytest.fixture(scope="module")

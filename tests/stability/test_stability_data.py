@@ -48,8 +48,8 @@ def structs(folder):
 
 
 def named(loops, name):
-    (found,) = (loop for loop in loops if loop["name"] == name)
-    return found
+    (actual,) = (loop for loop in loops if loop["name"] == name)
+    return actual
 
 
 def state_space(loop):
@@ -72,10 +72,10 @@ def assert_late(loop):
     exact = response_of(LATE.loop)(frequency)
     np.testing.assert_allclose(response_of(system)(frequency), exact, rtol=1e-6)
     gain, phase, _ = crossings(LATE.loop)
-    found, angle, _, _ = control.margin(control.frd(system, frequency))
-    assert DECIBEL * np.log(found) == pytest.approx(np.min(abs(DECIBEL * np.log(gain))), abs=0.02)
+    actual, angle, _, _ = control.margin(control.frd(system, frequency))
+    assert DECIBEL * np.log(actual) == pytest.approx(np.min(abs(DECIBEL * np.log(gain))), abs=0.02)
     assert angle == pytest.approx(np.degrees(np.min(abs(phase))), abs=0.02)
-    assert loop["gain_margin_db"] == pytest.approx(DECIBEL * np.log(found), abs=0.02)
+    assert loop["gain_margin_db"] == pytest.approx(DECIBEL * np.log(actual), abs=0.02)
     assert loop["phase_margin_deg"] == pytest.approx(angle, abs=0.02)
 
 
@@ -193,24 +193,24 @@ def test_a_loop_of_several_samples_is_given_at_its_own_sample_period(samples):
     """The model of the hyperperiod gives back the very matrices that it was made of."""
     loop = control.ss(0.5, 1.0, 0.3, 0.6, 0.5) * held(control.tf([1.0], [1.0, 0.4, 0.0]), 0.5)
     model = lifted(loop, samples)
-    found = open_loop(model, model.ports)
-    assert (found.samples, found.period) == (1, pytest.approx(0.5))
-    assert found.error < 1e-9
-    for one, other in zip((found.a, found.b, found.c, found.d), (loop.A, loop.B, loop.C, loop.D), strict=True):
+    actual = open_loop(model, model.ports)
+    assert (actual.samples, actual.period) == (1, pytest.approx(0.5))
+    assert actual.error < 1e-9
+    for one, other in zip((actual.a, actual.b, actual.c, actual.d), (loop.A, loop.B, loop.C, loop.D), strict=True):
         np.testing.assert_allclose(one, other, atol=1e-9)
-    assert (found.state_units, found.signal_units) == (("m",) * loop.nstates, ("N",))
+    assert (actual.state_units, actual.signal_units) == (("m",) * loop.nstates, ("N",))
 
 
 def test_a_loop_that_changes_from_sample_to_sample_is_given_over_its_hyperperiod():
     model = exact_model()
     model = replace(model, variables={name: StateVariable(1.0, None) for name in model.names})
     port = model.ports[0]
-    found = open_loop(model, (port,))
-    assert (found.samples, found.period) == (port.count, model.period)
-    assert 1e-6 < found.error < 1e-2  # what comes back at other frequencies, and comes round again
-    assert found.inputs == tuple(f"first in at sample {place + 1}" for place in range(port.count))
+    actual = open_loop(model, (port,))
+    assert (actual.samples, actual.period) == (port.count, model.period)
+    assert 1e-6 < actual.error < 1e-2  # what comes back at other frequencies, and comes round again
+    assert actual.inputs == tuple(f"first in at sample {place + 1}" for place in range(port.count))
     wave = np.exp(1j * 0.8 * port.seconds * np.arange(port.count))
-    value = wave.conj() @ found.response(np.array([0.8]))[0] @ wave / port.count
+    value = wave.conj() @ actual.response(np.array([0.8]))[0] @ wave / port.count
     flown = model.response((port,), np.array([0.8]))[0, 0, 0]
     assert abs(value / flown - 1.0) < 1e-3
 

@@ -212,12 +212,12 @@ def test_text_json_page_and_exit_status(folder, exact_fmus, tmp_path, capsys):
     (line,) = [line for line in told.err.splitlines() if "modulus margin withheld" in line]
     assert line.startswith("perilune: loop attitude at there: modulus margin withheld: 0.3963 without")
     assert line.endswith("limit 0.5; say --feedthrough wheel or --no-feedthrough wheel, or take a smaller step")
-    found = json.loads(file.read_text())
-    assert found["verdict"] == "withheld"
-    orders = found["feedthrough_orders"]
+    actual = json.loads(file.read_text())
+    assert actual["verdict"] == "withheld"
+    orders = actual["feedthrough_orders"]
     assert (orders["undeclared"], orders["direct"]) == ({"wheel": "lag"}, ["wheel"])
     assert orders["as_feedthrough"]["loops"][0]["modulus_margin"] > 0.5
-    (judged,) = [item for item in found["loops"][0]["requirements"] if item["quantity"] == "modulus margin"]
+    (judged,) = [item for item in actual["loops"][0]["requirements"] if item["quantity"] == "modulus margin"]
     assert (judged["passed"], judged["verdict"], judged["as_feedthrough"]["passed"]) == (None, "withheld", True)
     text = page.read_text(encoding="utf-8")
     assert "Undeclared dependencies" in text

@@ -48,10 +48,10 @@ def test_nothing_holds_a_pendulum(every, exact_fmus, tmp_path):
 
 def test_its_command_says_so(exact_fmus, tmp_path, capsys):
     path = str(pendulum().packed(tmp_path, exact_fmus))
-    found = tmp_path / "z.json"
+    actual = tmp_path / "z.json"
     words = [word for name in NOTHING for word in ("--set", f"{name}=0")]
-    assert main(["stability", path, *words, "--json", str(found)]) == 1
-    (loop,) = json.loads(found.read_text())["loops"]
+    assert main(["stability", path, *words, "--json", str(actual)]) == 1
+    (loop,) = json.loads(actual.read_text())["loops"]
     assert (loop["stable"], loop["gain_margin_db"], loop["verdict"]) == (False, "unstable", "fail")
     captured = capsys.readouterr()
     assert f"unstable, spectral radius {falling(1):.4g}, linearised and measured responses agree: fail" in captured.out
@@ -84,9 +84,9 @@ def test_over_a_parameter_that_a_loop_does_not_see(exact_fmus, tmp_path):
     )
     report = perilune.stability(pack(tmp_path / "two.ssp", exact_fmus, ssd))
     assert report.loops[0].stable
-    (found,) = report.sweeps
-    assert [item.unstable for item in found.margins] == [value < -1e-4 for value in found.values]
-    (crossing,) = (item for item in found.crossings if item.quantity == "stability")
+    (actual,) = report.sweeps
+    assert [item.unstable for item in actual.margins] == [value < -1e-4 for value in actual.values]
+    (crossing,) = (item for item in actual.crossings if item.quantity == "stability")
     assert crossing.below
     assert crossing.value == pytest.approx(0.0, abs=1e-3)
 
@@ -107,6 +107,6 @@ def test_blocks_of_a_matrix():
     whole[5, 4] = 1.0  # is forgotten
     order = random.permutation(6)
     mixed = whole[np.ix_(order, order)]
-    found = np.concatenate([multipliers(mixed, cells) for cells in circles(mixed)])
+    actual = np.concatenate([multipliers(mixed, cells) for cells in circles(mixed)])
     exact = np.linalg.eigvals(whole[:4, :4])
-    assert sorted(abs(found)) == pytest.approx(sorted(abs(exact)), rel=1e-12)
+    assert sorted(abs(actual)) == pytest.approx(sorted(abs(exact)), rel=1e-12)

@@ -268,13 +268,15 @@ def write_zip(path: Path, files: Mapping[str, bytes | str]) -> Path:
 
 def connectors(text: str) -> str:
     """``output y Real m; input u Integer``: kind, name, type and unit; an Enumeration is named by its unit."""
-    found = []
+    collected = []
     for part in filter(None, (piece.strip() for piece in text.split(";"))):
         kind, name, type_name, *unit = part.split()
         attribute = "name" if type_name == "Enumeration" else "unit"
         inner = f"<ssc:{type_name}{f' {attribute}={chr(34)}{unit[0]}{chr(34)}' if unit else ''}/>"
-        found.append(f'<ssd:Connector name="{name}" kind="{kind}">{inner if type_name != "-" else ""}</ssd:Connector>')
-    return f"<ssd:Connectors>{''.join(found)}</ssd:Connectors>" if found else ""
+        collected.append(
+            f'<ssd:Connector name="{name}" kind="{kind}">{inner if type_name != "-" else ""}</ssd:Connector>'
+        )
+    return f"<ssd:Connectors>{''.join(collected)}</ssd:Connectors>" if collected else ""
 
 
 def component(name: str, fmu: str, declared: str = "", bindings: str = "", attributes: str = "") -> str:
@@ -336,17 +338,17 @@ def external(source: str, prefix: str = "", mapping: str = "") -> str:
 
 def parameter_set(values: str) -> str:
     """An ssv:ParameterSet, complete with namespaces and units."""
-    found = []
+    collected = []
     for part in filter(None, (piece.strip() for piece in values.split(";"))):
         name, _, rest = part.partition("=")
         type_name, _, value = rest.partition(":")
         value, _, unit = value.partition(" ")
         unit = f' unit="{unit}"' if unit else ""
-        found.append(f'<ssv:Parameter name="{name}"><ssv:{type_name} value="{value}"{unit}/></ssv:Parameter>')
+        collected.append(f'<ssv:Parameter name="{name}"><ssv:{type_name} value="{value}"{unit}/></ssv:Parameter>')
     units = UNITS.replace("ssd:Units", "ssv:Units")
     return (
         f'<ssv:ParameterSet version="1.0" name="set" {NAMESPACES}>'
-        f"<ssv:Parameters>{''.join(found)}</ssv:Parameters>{units}</ssv:ParameterSet>"
+        f"<ssv:Parameters>{''.join(collected)}</ssv:Parameters>{units}</ssv:ParameterSet>"
     )
 
 

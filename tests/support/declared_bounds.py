@@ -34,12 +34,12 @@ START = """<?xml version="1.0" encoding="UTF-8"?>
 
 def declared_system(folder, pieces="", **roles):
     """A copy of the lunar landing in a folder, whose SSD declares a bound; roles that are None are left out."""
-    found = {name: value for name, value in (ROLES | roles).items() if value is not None}
+    collected = {name: value for name, value in (ROLES | roles).items() if value is not None}
     place = folder / "landing"
     shutil.copytree(SYSTEMS / "lunar_landing", place)
     (place / "lighter.ssv").write_text(START)
     ssd = place / "SystemStructure.ssd"
-    words = " ".join(f'{name}="{value}"' for name, value in found.items())
+    words = " ".join(f'{name}="{value}"' for name, value in collected.items())
     text = ssd.read_text(encoding="utf-8")
     before = '<ssc:Annotation type="org.perilune.stability">'
     assert text.count(before) == 1

@@ -17,22 +17,22 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").r
 
 def commands_in(text: str) -> list[str]:
     """The commands of a page, in order, each on one line and without its comment."""
-    found = []
+    collected = []
     for language, block in BLOCK.findall(text):
         for line in block.replace("\\\n", " ").splitlines():
             if language == "console" and not line.startswith("$ "):
                 continue  # what it prints
             words = shlex.split(line.removeprefix("$ "), comments=True)
             if words:
-                found.append(line.removeprefix("$ ").split("  #")[0].strip())
-    return found
+                collected.append(line.removeprefix("$ ").split("  #")[0].strip())
+    return collected
 
 
 def documented() -> dict[str, list[str]]:
     """All commands by where they stand: a page's path, or ``VERB --help``."""
-    found = {path.relative_to(ROOT).as_posix(): commands_in(path.read_text(encoding="utf-8")) for path in PAGES}
-    found |= {f"{name} --help": [command for command, _ in verb.examples] for name, verb in VERBS.items()}
-    return {place: commands for place, commands in found.items() if commands}
+    collected = {path.relative_to(ROOT).as_posix(): commands_in(path.read_text(encoding="utf-8")) for path in PAGES}
+    collected |= {f"{name} --help": [command for command, _ in verb.examples] for name, verb in VERBS.items()}
+    return {place: commands for place, commands in collected.items() if commands}
 
 
 def saved_files(text: str) -> Iterator[tuple[str, str]]:

@@ -31,8 +31,8 @@ class Installed:
 
     def files(self) -> dict[str, tuple[int, int]]:
         """All of site-packages: size and date by name."""
-        found = {path: path.stat() for path in self.site.rglob("*") if path.is_file()}
-        return {str(path.relative_to(self.site)): (stat.st_size, stat.st_mtime_ns) for path, stat in found.items()}
+        collected = {path: path.stat() for path in self.site.rglob("*") if path.is_file()}
+        return {str(path.relative_to(self.site)): (stat.st_size, stat.st_mtime_ns) for path, stat in collected.items()}
 
 
 def build_wheel(folder: Path) -> Path:
@@ -49,18 +49,18 @@ def install(wheel: Path, folder: Path) -> None:
     (Not for the superuser, who may write everywhere: compare `Installed.files` before and after.)
     """
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder / "venv"], check=True)
-    found = installed_in(folder)
-    pip = [sys.executable, "-m", "pip", "--python", found.python, "install", "--quiet", "--no-deps", "--no-index"]
+    collected = installed_in(folder)
+    pip = [sys.executable, "-m", "pip", "--python", collected.python, "install", "--quiet", "--no-deps", "--no-index"]
     subprocess.run([*pip, wheel], check=True, capture_output=True)
     shared = folder / "shared"
     shared.mkdir()
     for entry in Path(numpy.__file__).parents[1].iterdir():
         if not entry.name.startswith(HIDDEN) and entry.suffix != ".pth":
             (shared / entry.name).symlink_to(entry)
-    (found.site / "shared.pth").write_text(f"{shared}\n", encoding="utf-8")
-    for path in [found.site, *(entry for entry in found.site.rglob("*") if entry.is_dir())]:
+    (collected.site / "shared.pth").write_text(f"{shared}\n", encoding="utf-8")
+    for path in [collected.site, *(entry for entry in collected.site.rglob("*") if entry.is_dir())]:
         path.chmod(0o555)
-    found.home.mkdir()
+    collected.home.mkdir()
 
 
 def installed_in(folder: Path) -> Installed:

@@ -52,20 +52,20 @@ def test_table_on_the_console(folders, capsys):
         expected = [name, "16", f"{100 * entry['success_rate']:.2f}", f"({low:.2f}", "to", f"{high:.2f})"]
         assert line.split()[:6] == expected
     for name, entry in summary.items():
-        found = entry["metrics"]["velocity_error"]
-        row = ["velocity_error", name, *(f"{found[key]:.4g}" for key in STATISTICS), "m/s"]
+        actual = entry["metrics"]["velocity_error"]
+        row = ["velocity_error", name, *(f"{actual[key]:.4g}" for key in STATISTICS), "m/s"]
         assert row in [line.split() for line in lines]
 
 
 def test_json_holds_rates_metrics_and_pairs(folders, capsys):
     assert main(["compare", *map(str, folders), "--json", "-"]) == 0
-    found = json.loads(capsys.readouterr().out)
+    actual = json.loads(capsys.readouterr().out)
     for folder in folders:
         summary = json.loads((folder / "summary.json").read_text())
         table = pyarrow.parquet.read_table(folder / "trials").to_pylist()
-        assert found["batches"][str(folder)] == {key: value for key, value in summary.items() if key != "variants"}
+        assert actual["batches"][str(folder)] == {key: value for key, value in summary.items() if key != "variants"}
         for name, entry in summary["variants"].items():
-            mine = found["variants"][f"{folder.name}: {name}"]
+            mine = actual["variants"][f"{folder.name}: {name}"]
             assert mine["success_rate"] == entry["success_rate"] == mine["rates"]["success"]["rate"]
             assert mine["metrics"]["position_error"] == entry["metrics"]["position_error"]
             yes = sum(row["metric.finished"] for row in table if row["variant"] == name)
@@ -74,9 +74,9 @@ def test_json_holds_rates_metrics_and_pairs(folders, capsys):
             assert mine["rates"]["finished"]["interval"] == pytest.approx([low, high], rel=1e-9)
     rows = pyarrow.parquet.read_table(folders[1] / "trials").to_pylist()
     good = {name: np.array([row["success"] for row in rows if row["variant"] == name]) for name in VARIANTS}
-    (pair,) = (p for p in found["pairs"] if (p["a"], p["b"]) == ("noisy: astar_guidance", "noisy: analytic_guidance"))
+    (pair,) = (p for p in actual["pairs"] if (p["a"], p["b"]) == ("noisy: astar_guidance", "noisy: analytic_guidance"))
     assert pair["rates"]["success"]["only_b"] == int(np.sum(good["analytic_guidance"] & ~good["astar_guidance"]))
-    assert len(found["pairs"]) == 3 + 3 + 3
+    assert len(actual["pairs"]) == 3 + 3 + 3
 
 
 def test_json_file_and_page(folders, tmp_path, capsys):
@@ -86,9 +86,9 @@ def test_json_file_and_page(folders, tmp_path, capsys):
     assert "astar_guidance" in capsys.readouterr().out
     text = page.read_text(encoding="utf-8")
     assert_self_contained(text)
-    found = json.loads(document.read_text())
+    actual = json.loads(document.read_text())
     values = set(data_values(text))
-    for entry in found["variants"].values():
+    for entry in actual["variants"].values():
         assert {repr(entry["success_rate"]), *map(repr, entry["success_interval"])} <= values
     assert "B is astar_guidance" in text_of(text)
     assert f"perilune compare {folders[0]} --reference astar_guidance" in text_of(text)

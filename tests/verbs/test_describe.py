@@ -27,13 +27,15 @@ def described(capsys):
 
 
 def test_components_and_connections_are_those_of_the_ssd(described):
-    found = described(SYSTEM)
+    actual = described(SYSTEM)
     root = etree.parse(SYSTEMS / SYSTEM / "SystemStructure.ssd").getroot()
     space = {"ssd": root.nsmap["ssd"]}
-    assert [component["name"] for component in found["components"]] == root.xpath(
+    assert [component["name"] for component in actual["components"]] == root.xpath(
         "//ssd:Component/@name", namespaces=space
     )
-    assert sum(row["elements"] for row in found["connections"]) == len(root.xpath("//ssd:Connection", namespaces=space))
+    assert sum(row["elements"] for row in actual["connections"]) == len(
+        root.xpath("//ssd:Connection", namespaces=space)
+    )
 
 
 def test_values_come_with_the_line_that_gives_them(described):
@@ -65,20 +67,20 @@ def test_what_fits_flies_there_and_what_does_not_is_left_out(described):
 
 
 def test_an_fmu_by_its_name_and_by_its_file(described):
-    found = described("spherical_moon_lander")
+    actual = described("spherical_moon_lander")
     declared = catalogue()["spherical_moon_lander"].variables
-    rows = {row["name"]: row for row in found["variables"]}
+    rows = {row["name"]: row for row in actual["variables"]}
     assert set(rows) == set(declared)
     assert rows["initial_velocity"]["size"] == 3
     assert rows["initial_velocity"]["value"] == declared["initial_velocity"].start
     assert rows["specific_impulse"]["minimum"] == pytest.approx(1e-3)
-    assert described(found["file"]) == found
+    assert described(actual["file"]) == actual
 
 
 def test_a_slot_names_its_blocks(described):
-    found = described("terminal_guidance")
-    assert {"analytic_guidance", "astar_robust_guidance"} <= set(found["fmus"])
-    assert "thrust_allocation" not in found["fmus"]
+    actual = described("terminal_guidance")
+    assert {"analytic_guidance", "astar_robust_guidance"} <= set(actual["fmus"])
+    assert "thrust_allocation" not in actual["fmus"]
 
 
 def test_a_matrix_keeps_its_shape(described):

@@ -144,9 +144,9 @@ def folder(fmus, exact_fmus, tmp_path_factory):
 @pytest.mark.parametrize(("command", "status"), ROWS)
 def test_the_status_of_a_command(command, status, folder, tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
-    found = main(shlex.split(command.format(folder=folder)))
+    actual = main(shlex.split(command.format(folder=folder)))
     said = capfd.readouterr().err
-    assert found == status, said
+    assert actual == status, said
     if status:
         assert said.startswith("perilune: "), "nobody is told why"
     if status == 2:

@@ -11,7 +11,7 @@ from lxml import etree
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.design.laws.law import named_law
+from perilune.analysis.design.laws.law import find_law
 from perilune.analysis.runtime.ssp.parameter_sets import read_parameter_file
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -30,7 +30,7 @@ def test_the_parameter_set_is_the_law(tmp_path, capsys):
     for name in ("diveev_2013", "diveev_2013_basic"):
         path = tmp_path / "new" / f"{name}.ssv"
         assert main(["design", "law", name, "--output", str(path)]) == 0
-        law = json.loads(named_law(name).read_text())
+        law = json.loads(find_law(name).read_text())
         values = {entry.name: entry.value for entry in read_parameter_file(path.read_bytes(), str(path))}
         assert len(values) == 256 + 3 + 1
         for row in range(16):
@@ -51,7 +51,7 @@ def test_the_parameter_set_is_the_law(tmp_path, capsys):
 
 
 def test_another_component_and_the_true_exponential(tmp_path):
-    law = json.loads(named_law("diveev_2013").read_text()) | {"exp_saturation": "true"}
+    law = json.loads(find_law("diveev_2013").read_text()) | {"exp_saturation": "true"}
     (tmp_path / "mine.json").write_text(json.dumps(law))
     path = tmp_path / "mine.ssv"
     assert (
@@ -72,13 +72,13 @@ def test_draws_the_graph(tmp_path):
 
 def test_json(tmp_path, capsys):
     assert main(["design", "law", "diveev_2013_basic", "--json", "-"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found.pop("formula") == {
+    actual = json.loads(capsys.readouterr().out)
+    assert actual.pop("formula") == {
         "z3": "(hf - h)/h0",
         "z15": "(pi + theta)*q1 + step(z3)*z3*q2",
         "z16": "-cos(theta)*theta*q3",
     }
-    assert found == json.loads(named_law("diveev_2013_basic").read_text())
+    assert actual == json.loads(find_law("diveev_2013_basic").read_text())
     assert main(["design", "law", "diveev_2013_basic", "--json", str(tmp_path / "law.json")]) == 0
     assert "u1 = z15" in capsys.readouterr().out
 
@@ -97,7 +97,7 @@ def test_json(tmp_path, capsys):
 )
 def test_wrong_input(tmp_path, monkeypatch, capsys, arguments, words):
     monkeypatch.chdir(tmp_path)
-    law = json.loads(named_law("diveev_2013").read_text())
+    law = json.loads(find_law("diveev_2013").read_text())
     law["matrix"][7][2] = 5
     (tmp_path / "bad.json").write_text(json.dumps(law))
     assert main(["design", "law", *arguments]) == 2

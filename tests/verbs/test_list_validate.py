@@ -17,13 +17,13 @@ pytestmark = pytest.mark.usefixtures("fmus")
 
 def test_list(capsys):
     assert main(["list", "--json", "-"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert set(found["systems"]) == {path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd")}
-    landing = found["systems"]["lunar_terminal_guidance"]
+    actual = json.loads(capsys.readouterr().out)
+    assert set(actual["systems"]) == {path.parent.name for path in SYSTEMS.glob("*/SystemStructure.ssd")}
+    landing = actual["systems"]["lunar_terminal_guidance"]
     assert landing["parameter_sets"] == ["exact.ssv", "ideal.ssv", "noisy.ssv", "paper.ssv"]
     assert landing["campaigns"] == ["noisy", "paper"]
-    assert set(catalogue()) <= set(found["fmus"])
-    assert "python" in found["fmus"]["astar_guidance"]["built"]
+    assert set(catalogue()) <= set(actual["fmus"])
+    assert "python" in actual["fmus"]["astar_guidance"]["built"]
     assert main(["list"]) == 0
     text = capsys.readouterr().out
     first = {line.split()[0] for line in text.splitlines() if line}  # some names stand in the lines of others
@@ -49,9 +49,9 @@ def test_notes_of_a_system(tiny_folder, tmp_path, capsys):
     wires = connection("left.ya", "right.a") + connection("right.ya", "left.b") + connection("left.yb", "right.b")
     path = pack(tmp_path / "s.ssp", tiny_folder / "python", document(system(left, right, connections=wires)))
     assert main(["validate", str(path), "--json", "-"]) == 0
-    (found,) = json.loads(capsys.readouterr().out)
-    assert found["problems"] == []
-    assert found["notes"] == [
+    (actual,) = json.loads(capsys.readouterr().out)
+    assert actual["problems"] == []
+    assert actual["notes"] == [
         "left.a: input not declared in the SSD, keeps 0.25",
         "right.ya -> left.b: read one step late",
     ]

@@ -46,13 +46,13 @@ def test_a_given_time(capsys):
 
 
 def test_margins(capsys):
-    found = made(capsys, "transfer", "--margins")
-    assert found["programme"]["propellant_fraction"] == pytest.approx(0.052518, abs=5e-6)
-    assert found["margins"] == pytest.approx(
+    actual = made(capsys, "transfer", "--margins")
+    assert actual["programme"]["propellant_fraction"] == pytest.approx(0.052518, abs=5e-6)
+    assert actual["margins"] == pytest.approx(
         {"maximum_throttle": 0.9, "minimum_throttle": 0.1, "angular_acceleration_deg_s2": 0.7}
     )
     single = ["--maximum-throttle", "0.9", "--minimum-throttle", "0.1", "--angular-acceleration", "0.7"]
-    assert made(capsys, "transfer", *single)["programme"] == found["programme"]
+    assert made(capsys, "transfer", *single)["programme"] == actual["programme"]
     fewer = made(capsys, "transfer", "--angular-acceleration", "0.7")
     assert fewer["margins"]["minimum_throttle"] == pytest.approx(1.0 / 15.0)
 
@@ -78,16 +78,16 @@ def test_optimum_bound_and_curves(tmp_path, capsys):
     lines = capsys.readouterr().out.splitlines()
     assert lines[4].startswith("true optimum: propellant fraction 0.0487")
     assert lines[6].startswith("point-mass bound: propellant fraction 0.0448")
-    found = json.loads(document.read_text())
-    assert found["true_optimum"]["propellant_fraction"] == pytest.approx(0.0488, abs=5e-5)
-    assert found["bound"]["propellant_fraction"] == pytest.approx(0.04481, abs=1e-5)
-    assert found["bound"]["intervals"] == 60
-    over = found["over_distance"]
-    assert over["propellant_fraction"][over["distance_m"].index(1600.0)] == found["programme"]["propellant_fraction"]
+    actual = json.loads(document.read_text())
+    assert actual["true_optimum"]["propellant_fraction"] == pytest.approx(0.0488, abs=5e-5)
+    assert actual["bound"]["propellant_fraction"] == pytest.approx(0.04481, abs=1e-5)
+    assert actual["bound"]["intervals"] == 60
+    over = actual["over_distance"]
+    assert over["propellant_fraction"][over["distance_m"].index(1600.0)] == actual["programme"]["propellant_fraction"]
     assert None not in over["propellant_fraction"]
     assert (
-        min(value for value in found["over_duration"]["propellant_fraction"] if value is not None)
-        == (found["programme"]["propellant_fraction"])
+        min(value for value in actual["over_duration"]["propellant_fraction"] if value is not None)
+        == (actual["programme"]["propellant_fraction"])
     )
 
 
@@ -176,12 +176,12 @@ def test_the_programme_needs_no_solver(tmp_path, capsys):
 
 
 def test_landing(capsys):
-    found = made(capsys, "bound", "--direct", "--intervals", "60")
-    assert found["bound"]["propellant_kg"] == pytest.approx(400.82, abs=0.01)
-    assert found["direct_method"]["propellant_kg"] == pytest.approx(400.82, abs=0.01)
-    assert found["bound"]["looseness_m_s2"] < 3e-7
-    assert found["landing"]["range"] == 285e3
-    assert "angular_acceleration_deg_s2" not in found["vehicle"]
+    actual = made(capsys, "bound", "--direct", "--intervals", "60")
+    assert actual["bound"]["propellant_kg"] == pytest.approx(400.82, abs=0.01)
+    assert actual["direct_method"]["propellant_kg"] == pytest.approx(400.82, abs=0.01)
+    assert actual["bound"]["looseness_m_s2"] < 3e-7
+    assert actual["landing"]["range"] == 285e3
+    assert "angular_acceleration_deg_s2" not in actual["vehicle"]
 
 
 def test_landing_in_words(capsys):
@@ -201,12 +201,12 @@ def test_a_systems_bound_is_stored(tmp_path, capsys):
     assert lines[3].startswith("  braking alone: ")
     assert lines[-2:] == [f"stored: {place / PLACE}", f"written: {tmp_path / 'bound.json'}"]
     stored = find_bound(prepare_system(place, SystemOptions()))
-    found = json.loads((tmp_path / "bound.json").read_text())
-    assert stored.propellant == found["bound"]["propellant_kg"]
-    assert stored.pieces == found["pieces_kg"]
+    actual = json.loads((tmp_path / "bound.json").read_text())
+    assert stored.propellant == actual["bound"]["propellant_kg"]
+    assert stored.pieces == actual["pieces_kg"]
     assert stored.pieces["braking"] < stored.propellant
-    assert stored.duration == found["bound"]["duration_s"]
-    assert found["vehicle"]["mass"] == 940.0
+    assert stored.duration == actual["bound"]["duration_s"]
+    assert actual["vehicle"]["mass"] == 940.0
     assert main(["validate", str(place)]) == 0
 
 

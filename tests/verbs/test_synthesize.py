@@ -52,17 +52,17 @@ def test_a_law_that_is_found_ends_with_status_0(file, capsys):
     assert main(["design", "search", str(file), "--workers", "1", "--json", "-"]) == 0
     captured = capsys.readouterr()
     assert captured.err == ""
-    found = json.loads(captured.out)
-    assert (found["ended"], found["chosen"]["successes"], found["chosen"]["flights"]) == ("success", 4, 4)
+    actual = json.loads(captured.out)
+    assert (actual["ended"], actual["chosen"]["successes"], actual["chosen"]["flights"]) == ("success", 4, 4)
 
 
 def test_evaluations_limit_the_search(file, capsys):
     command = ["design", "search", str(file), "--workers", "1", "--evaluations", "9", "--json", "-"]
     assert main(command) == 1
-    found = json.loads(capsys.readouterr().out)
-    assert found["ended"] == "evaluations"
-    assert found["evaluations"] >= 9
-    assert found["generations"] < 3
+    actual = json.loads(capsys.readouterr().out)
+    assert actual["ended"] == "evaluations"
+    assert actual["evaluations"] >= 9
+    assert actual["generations"] < 3
 
 
 @pytest.mark.parametrize(

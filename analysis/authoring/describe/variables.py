@@ -28,7 +28,7 @@ def variables_of(fmu: Fmu, values: Mapping[str, Any] | None = None, origins: Map
             row = rows[whole.group(1)]
             row["value"].append(value)
             row["size"] = [int(index) for index in whole.group(2).split(",")]
-            row["from"] = _joined(row["from"], origins.get(name))
+            row["from"] = _join_elements(row["from"], origins.get(name))
             continue
         rows[whole.group(1) if whole else name] = {
             "name": whole.group(1) if whole else name,
@@ -68,7 +68,7 @@ def _number(text: Any) -> float | None:
     return None if text is None else float(text)
 
 
-def _joined(before: str | None, now: str | None) -> str | None:
+def _join_elements(before: str | None, now: str | None) -> str | None:
     """Where the elements of a vector come from, each place once, lines that follow each other as one stretch."""
     if now is None or before is None:
         return before or now

@@ -16,7 +16,7 @@ from ...verbs.options.command import write_command
 from ...verbs.options.flights import RUN
 from ..describe.fits import slots
 from .names import check_free, check_name, class_name
-from .rendering import rendered, template_names
+from .rendering import render, template_names
 
 SLOTS = "slots"
 
@@ -43,7 +43,7 @@ def new_block(name: str, slot: str | None) -> Written:
     path = Path(f"{name}.py")
     check_free(path)
     template = "block.py" if slot is None else f"{SLOTS}/{slot}.py"
-    text = rendered(template, name=name, class_name=class_name(name))
+    text = render(template, name=name, class_name=class_name(name))
     system, component = ("SYSTEM", "control") if slot is None else where_it_flies(slot)
     first = ["perilune new system SYSTEM", "perilune export SYSTEM/blocks.py"] if slot is None else []
     write_atomically(path, text.encode())

@@ -27,7 +27,7 @@ def check_name(name: str, fmus: tuple[str, ...]) -> None:
     if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z][a-z0-9]*)*", name) or keyword.iskeyword(name):
         problem = "not a name that a file, a class and an FMU can share"
         remedy = "small letters, digits and single underscores, a letter first and behind each of them"
-        raise InputError("new", name, problem, f"{remedy}, as {_mended(name)}")
+        raise InputError("new", name, problem, f"{remedy}, as {_suggest_name(name)}")
     if name == "perilune" or name in sys.stdlib_module_names:
         raise InputError("new", name, f"Python's own {name} would be hidden by it", f"take another, as my_{name}")
     if name in system_names():
@@ -41,7 +41,7 @@ def check_name(name: str, fmus: tuple[str, ...]) -> None:
             raise InputError("new", name, f"there is {there} already", "take another name, or remove it")
 
 
-def _mended(name: str) -> str:
+def _suggest_name(name: str) -> str:
     """A good name that is near."""
     words = re.sub(r"[^a-z0-9]+", "_", snake_case(name)).strip("_")
     words = re.sub(r"_(?=\d)", "", words).lstrip("0123456789_")

@@ -17,7 +17,7 @@ def template_names(folder: str) -> list[str]:
     return sorted(path.relative_to(root).as_posix().removesuffix(SUFFIX) for path in root.rglob(f"*{SUFFIX}"))
 
 
-def rendered(template: str, **content: Any) -> str:
+def render(template: str, **content: Any) -> str:
     """The text of a file; a value that its template needs and does not get is an error."""
     environment = Environment(
         loader=FileSystemLoader(FOLDER),

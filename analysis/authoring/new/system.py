@@ -15,7 +15,7 @@ from ...verbs.options.stability import STABILITY
 from .block import Written
 from .connectors import part_of, units_of
 from .names import check_free, check_name, class_name
-from .rendering import rendered, template_names
+from .rendering import render, template_names
 
 SYSTEM, BLOCKS = "system", "blocks.py"
 PARTS = ("plant", "control")  # what the SSD calls the blocks, in order of definition
@@ -49,7 +49,7 @@ def _write(folder: Path, name: str) -> list[str]:
     """All files of the system; those of the blocks first, since connectors follow from their declarations."""
     words = {"name": name, "class_name": class_name(name)}
     blocks = folder / BLOCKS
-    blocks.write_text(rendered(f"{SYSTEM}/{BLOCKS}", **words), encoding="utf-8")
+    blocks.write_text(render(f"{SYSTEM}/{BLOCKS}", **words), encoding="utf-8")
     parts = dict(zip(PARTS, map(part_of, blocks_in_file(blocks)), strict=True))
     shutil.rmtree(folder / "__pycache__", ignore_errors=True)
     units = units_of(list(parts.values()), SHOWN_UNITS)
@@ -57,7 +57,7 @@ def _write(folder: Path, name: str) -> list[str]:
     for entry in rest:
         path = folder / entry
         path.parent.mkdir(exist_ok=True)
-        path.write_text(rendered(f"{SYSTEM}/{entry}", **words, **parts, units=units), encoding="utf-8")
+        path.write_text(render(f"{SYSTEM}/{entry}", **words, **parts, units=units), encoding="utf-8")
     return [BLOCKS, *rest]
 
 

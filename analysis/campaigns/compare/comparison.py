@@ -17,9 +17,9 @@ from ..rows import TrialColumns
 from ..spec.campaign import Metric
 from ..spec.groups import Group
 from ..summary import CONFIDENCE, Rate, Summary, VariantSummary, success_rate, summarise, summary_rows
-from ..tables import aligned, faults_line, metric_lines, who_cells, who_heads
+from ..tables import align_columns, faults_line, metric_lines, who_cells, who_heads
 from ..trials import Trials
-from .paired import PairedRates, PairedValues, paired_rates, paired_values
+from .paired import PairedRates, PairedValues, compare_rates, compare_values
 
 SUCCESS = "success"
 NO_FAULTS = "without faults"
@@ -167,17 +167,17 @@ class Comparison:
         first, second = (self.contenders[label] for label in pair)
         return second.name == self.reference if first.batch == second.batch else second.batch == 0
 
-    def paired_rates(self, pair: tuple[str, str], rate: Metric | None) -> PairedRates:
+    def compare_rates(self, pair: tuple[str, str], rate: Metric | None) -> PairedRates:
         """A rate of two contenders on the same trials."""
-        return paired_rates(self.outcomes(pair[0], rate), self.outcomes(pair[1], rate))
+        return compare_rates(self.outcomes(pair[0], rate), self.outcomes(pair[1], rate))
 
-    def paired_values(self, pair: tuple[str, str], metric: str, successful: bool) -> PairedValues:
+    def pair_values(self, pair: tuple[str, str], metric: str, successful: bool) -> PairedValues:
         """A metric of two contenders on the same trials: those in which both succeed, or all."""
         a, b = (self.values(label, metric) for label in pair)
         if successful:
             both = self.outcomes(pair[0], None) & self.outcomes(pair[1], None)
             a, b = a[both], b[both]
-        return paired_values(a, b)
+        return compare_values(a, b)
 
     @property
     def has_faults(self) -> bool:
@@ -195,9 +195,9 @@ class Comparison:
                 {
                     "a": pair[0],
                     "b": pair[1],
-                    "rates": {name_of(rate): to_json(self.paired_rates(pair, rate)) for rate in self.rates},
-                    "metrics": {m.name: to_json(self.paired_values(pair, m.name, True)) for m in self.metrics},
-                    "metrics_all": {m.name: to_json(self.paired_values(pair, m.name, False)) for m in self.metrics},
+                    "rates": {name_of(rate): to_json(self.compare_rates(pair, rate)) for rate in self.rates},
+                    "metrics": {m.name: to_json(self.pair_values(pair, m.name, True)) for m in self.metrics},
+                    "metrics_all": {m.name: to_json(self.pair_values(pair, m.name, False)) for m in self.metrics},
                 }
                 for pair in self.pairs
             ],
@@ -212,7 +212,8 @@ class Comparison:
             rates = [rate_text(row.entry.rates[name]) for name in names]
             cells.append([*who_cells(row, self.group), str(row.entry.trials), *rates])
         metrics = metric_lines(rows, [metric.name for metric in self.metrics], self.group)
-        return "\n".join([*aligned(cells), *(["", *metrics] if metrics else []), *self._fault_lines(), *self.notes])
+        table = [*align_columns(cells), *(["", *metrics] if metrics else [])]
+        return "\n".join([*table, *self._fault_lines(), *self.notes])
 
     def _fault_lines(self) -> list[str]:
         """With which faults every batch flew; nothing where none did."""

@@ -49,7 +49,7 @@ class PairedValues:
     p_value: float | None
 
 
-def paired_rates(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) -> PairedRates:
+def compare_rates(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) -> PairedRates:
     """Compare outcomes ``a`` and ``b`` (booleans, one per trial, one trial or more).
 
     The interval of the difference is Bonett and Price's (2012, J. Educ. Behav. Stat. 37, 479): Wald's with
@@ -73,7 +73,7 @@ def paired_rates(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) -
     )
 
 
-def paired_values(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) -> PairedValues:
+def compare_values(a: np.ndarray, b: np.ndarray, confidence: float = CONFIDENCE) -> PairedValues:
     """Compare numbers ``a`` and ``b``, one per trial.
 
     The median's interval lies between two order statistics of the differences and covers at least

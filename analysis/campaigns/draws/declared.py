@@ -128,7 +128,7 @@ class Declared(Protocol):
     def derived(self) -> Mapping[str, Formula]: ...
 
 
-def drawn_names(campaign: Declared) -> list[str]:
+def input_names(campaign: Declared) -> list[str]:
     """The values that the draws fill, in their order."""
     return [name for draw in campaign.draws for name in draw.names]
 

@@ -12,7 +12,7 @@ import pyarrow
 import pyarrow.parquet
 
 from ...common.errors import InputError, suggestion
-from .declared import Declared, drawn_names
+from .declared import Declared, input_names
 
 STREAMS = "streams_of"  # the column that says whose random streams a row flies with; streams_of.NAME of one component
 ALL = ""  # the component that stands for all that have no streams of their own
@@ -97,7 +97,7 @@ def read_given(path: Path, campaign: Declared) -> GivenDraws:
         raise InputError(path, "", error.strerror or str(error), "give a Parquet file of draws") from error
     except pyarrow.ArrowInvalid as error:
         raise InputError(path, "", f"not Parquet: {error}", "give a Parquet file of draws") from error
-    drawn = drawn_names(campaign)
+    drawn = input_names(campaign)
     for name in drawn:
         if name not in table.column_names:
             raise InputError(path, name, "is drawn, and no column has it", "add the column")

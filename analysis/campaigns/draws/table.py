@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from ...common.errors import InputError
-from .declared import Columns, Declared, designs_of, drawn_names
+from .declared import Columns, Declared, designs_of, input_names
 from .generators import generator, independent_draws, sample_columns, stream_of
 from .given import stream_component
 
@@ -62,7 +62,7 @@ class DrawTable:
         }
 
 
-def parted(trials: int, size: int) -> Iterator[range]:
+def split_trials(trials: int, size: int) -> Iterator[range]:
     """All trials, ``size`` of them at a time."""
     return (range(first, min(first + size, trials)) for first in range(0, trials, size))
 
@@ -80,7 +80,7 @@ def draw_parts(campaign: Declared, size: int) -> Iterator[DrawTable]:
     ordered = sorted(campaign.draws, key=lambda draw: draw.names)
     designs = [kind.design(draws, trials, seed, file) for kind, draws in designs_of(ordered).items()]
     sources = [(*pair, generator(seed, stream_of(pair[0]))) for pair in independent_draws(ordered)]
-    for part in parted(trials, size):
+    for part in split_trials(trials, size):
         columns: Columns = {}
         for design in designs:
             columns |= design(part)
@@ -101,7 +101,7 @@ def table_of(campaign: Declared, drawn: Mapping[str, np.ndarray], trials: range 
     value is not finite.
     """
     numbers = range(campaign.trials) if trials is None else trials
-    names = drawn_names(campaign)
+    names = input_names(campaign)
     columns: Columns = {name: drawn[name] for name in (*names, *(other for other in drawn if other not in names))}
     for name, formula in campaign.derived.items():
         columns[name] = np.array(np.broadcast_to(formula.evaluate(columns), (len(numbers),)))

@@ -78,7 +78,7 @@ class Campaign:
             return list(shards)
         return [shard for shard in shards if not is_flown(self.folder, self.batch, shard, self.numbering.of(shard))]
 
-    def checked(self, shards: Iterable[int]) -> list[int]:
+    def check_campaign(self, shards: Iterable[int]) -> list[int]:
         """Those of some shards that its folder does not hold. Raises InputError for a number that is none's."""
         wanted = set(shards)
         for shard in sorted(wanted):

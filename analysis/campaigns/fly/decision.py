@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..requirement_verdicts import decided_after, satisfies
+from ..requirement_verdicts import satisfies, trials_to_decision
 from ..rows import TrialRows
 from ..spec.plan import BatchPlan
 
@@ -44,5 +44,5 @@ class Decision:
                     rows if before is None else [np.concatenate(both) for both in zip(before, rows, strict=True)]
                 )
             self._looked += 1
-            if decided_after(requirements, self._kept) is not None:
+            if trials_to_decision(requirements, self._kept) is not None:
                 self.shards = self._looked

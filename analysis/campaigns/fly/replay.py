@@ -62,7 +62,7 @@ def replay_trial(
     manifest = read_manifest(folder)
     plan = restore(folder, manifest if timeout is None else replace(manifest, timeout=timeout), log)
     flight, outcome = Flyer(plan).replay(variant.name, trial)
-    stored = _stored(campaign, variant, trial)
+    stored = _read_stored(campaign, variant, trial)
     return ReplayedTrial(
         plan=plan,
         prepared=campaign.systems[variant.name],
@@ -110,7 +110,7 @@ def _variant_of(plan: BatchPlan, file: str | Path, name: str | None) -> Variant:
     return variants[name] if name is not None else next(iter(variants.values()))
 
 
-def _stored(campaign: Campaign, variant: Variant, trial: int) -> TrialResult | None:
+def _read_stored(campaign: Campaign, variant: Variant, trial: int) -> TrialResult | None:
     """What the folder says of a trial; None where its shard has not flown. Raises InputError for a damaged one."""
     numbering, folder = campaign.numbering, campaign.folder
     shard = trial // numbering.size

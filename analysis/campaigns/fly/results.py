@@ -13,7 +13,7 @@ import pyarrow
 
 from ...common.atomic import write_atomically
 from ...common.to_json import to_json
-from ..plotted_sample import Shown, shown
+from ..plotted_sample import Shown, select_trials
 from ..spec.plan import BatchPlan
 from ..summary import Summary, summarise
 from ..tables import assumption_lines, faults_line, summary_text
@@ -74,7 +74,7 @@ class BatchResult:
         """What figures show of each variant."""
         campaign = self.plan.campaign
         metrics = [metric.name for metric in campaign.metrics]
-        return {variant: shown(rows, campaign.drawn_names(), metrics) for variant, rows in self.rows.items()}
+        return {variant: select_trials(rows, campaign.input_names(), metrics) for variant, rows in self.rows.items()}
 
     def table(self) -> pyarrow.Table:
         """A row per variant and trial: variant, trial, status, draws, the campaign's faults, final values, metrics."""

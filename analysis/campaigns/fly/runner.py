@@ -44,7 +44,7 @@ def run_batch(
     return BatchResult.finish(campaign, rows)
 
 
-def merged_rows(campaign: Campaign) -> Mapping[str, FlownRows]:
+def merge_rows(campaign: Campaign) -> Mapping[str, FlownRows]:
     """The trials by variant of a campaign whose shards are in its folder. Raises InputError where some are missing."""
     missing = campaign.missing()
     decision = _decision(campaign, missing)

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from ..rows import TrialRows
 from ..spec.plan import BatchPlan
-from ..trials import Trials, joined
+from ..trials import Trials, join_trials
 from .shards.files import write_shard
 from .shards.numbering import Numbering
 from .shards.rows import ShardRows
@@ -39,8 +39,8 @@ class HeldShards:
     def rows(self, numbering: Numbering) -> dict[str, FlownRows]:
         """The trials of shards that are all there, by variant."""
         parts = [self._parts[shard] for shard in range(numbering.count)]
-        drawn = self._plan.drawn(range(numbering.trials)).table.columns
-        return {name: replace(joined(part[name] for part in parts), draws=drawn) for name in parts[0]}
+        drawn = self._plan.values_of(range(numbering.trials)).table.columns
+        return {name: replace(join_trials(part[name] for part in parts), draws=drawn) for name in parts[0]}
 
 
 class StoredShards:

@@ -12,7 +12,7 @@ from ..fly.campaign import open_folder
 from ..fly.manifest.manifest import FILE as MANIFEST
 from ..fly.manifest.manifest import WRITE
 from ..fly.metadata import batch_digest
-from ..fly.shards.files import FOLDER, SUMMARY, described
+from ..fly.shards.files import FOLDER, SUMMARY, describe_columns
 from ..fly.shards.reading import AGAIN, trials_in
 from .stored import read_summary
 
@@ -77,7 +77,7 @@ class ResultFolder:
         return sum(len(shard.trials) for shard in self.shards) if self.paths else 0
 
     def _shard(self, path: Path) -> Shard:
-        return Shard(path, trials_in(path, described(path), self.batch, SUMMARY if self.is_whole else MANIFEST))
+        return Shard(path, trials_in(path, describe_columns(path), self.batch, SUMMARY if self.is_whole else MANIFEST))
 
 
 def read_folder(folder: Path) -> ResultFolder:

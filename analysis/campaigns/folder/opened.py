@@ -84,7 +84,7 @@ class OpenedResults:
         a column that there is not, InputError for a damaged shard.
         """
         self._check(columns)
-        with self._told():
+        with self._describe():
             return self.dataset.to_table(columns=None if columns is None else list(columns), filter=where)
 
     def batches(
@@ -93,7 +93,7 @@ class OpenedResults:
         """What `arrow` gives, in parts and in order; memory does not grow with the campaign. Raises as `arrow` does."""
         self._check(columns)
         names = self._schema.names if columns is None else list(columns)
-        with self._told():
+        with self._describe():
             # each shard to its end: to_batches of the whole reads ahead, and Arrow 26 may crash where it is left early
             for shard in self.dataset.get_fragments():
                 table = shard.to_table(self._schema, names, filter=where, use_threads=False, cache_metadata=False)
@@ -146,7 +146,7 @@ class OpenedResults:
                 raise KeyError(f"no column {name}; {suggestion(name, self.columns)}")
 
     @contextmanager
-    def _told(self) -> Iterator[None]:
+    def _describe(self) -> Iterator[None]:
         """Arrow's errors as ours: a column that ``where`` names and there is not, a shard that is damaged."""
         try:
             yield

@@ -15,16 +15,16 @@ import pyarrow
 import pyarrow.compute
 
 from ...common.errors import InputError
-from ...runtime.system.names import parted
+from ...runtime.system.names import split_name
 from ..fly.manifest.manifest import FILE as MANIFEST
 from ..fly.manifest.manifest import WRITE
 from ..fly.metadata import batch_digest
-from ..fly.shards.files import DRAWS, FOLDER, SUMMARY, about_of, described, shard_path, trace_path
+from ..fly.shards.files import DRAWS, FOLDER, SUMMARY, about_of, describe_columns, shard_path, trace_path
 from ..fly.shards.reading import AGAIN, numbers, read_table, trials_in, trials_of
 from ..spec.campaign import Metric
 from ..spec.expressions import Expression
 from ..spec.groups import Group, groups_of
-from ..trials import Trials, joined
+from ..trials import Trials, join_trials
 
 FACTS = (
     "system", "system_sha256", "campaign", "campaign_sha256", "parameter_sets", "set", "variant", "trials", "seed",
@@ -74,9 +74,9 @@ class StoredBatch:
             raise InputError(*where, f"{self.group} is not a column of draws.parquet", AGAIN)
         return groups_of([self.draws[self.group]], where)
 
-    def parted(self, name: str) -> tuple[str, str]:
+    def split_rows(self, name: str) -> tuple[str, str]:
         """Component and variable of a signal or parameter of any variant."""
-        return parted(name, (component for fmus in self.document["fmus"].values() for component in fmus))
+        return split_name(name, (component for fmus in self.document["fmus"].values() for component in fmus))
 
     def trace(self, variant: str, trial: int, names: Collection[str] | None = None) -> dict[str, np.ndarray]:
         """The kept signals of one flight, ``time`` (s) among them; of ``names`` those that there are, or all."""
@@ -99,7 +99,7 @@ def read_batch(folder: Path) -> StoredBatch:
     columns = _draws(folder, shards, document.get("draw_scheme") == "counter")
     variants = _variants(shards, document["trials"], metrics, columns)
     _check_summary(document, variants, folder / SUMMARY)
-    traced, strangers = _traced(folder, list(variants), batch)
+    traced, strangers = _list_traces(folder, list(variants), batch)
     columns.pop("trial")
     return StoredBatch(folder, document, metrics, columns, variants, traced, strangers)
 
@@ -208,7 +208,7 @@ def _variants(
             parts.setdefault(variant, []).append(trials)
     if len({sum(len(part.trial) for part in variants) for variants in parts.values()}) != 1:
         raise InputError(next(iter(shards)).parent, "variant", "not every variant has every trial", AGAIN)
-    return {variant: joined(variants) for variant, variants in parts.items()}
+    return {variant: join_trials(variants) for variant, variants in parts.items()}
 
 
 def _column(draw: str) -> str:
@@ -227,7 +227,7 @@ def _check_summary(document: Mapping[str, Any], variants: Mapping[str, Trials], 
             raise InputError(path, f"variants.{name}", "its success rate is not that of trials/", AGAIN)
 
 
-def _traced(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, list[int]], int]:
+def _list_traces(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, list[int]], int]:
     """Trials of each variant with a trace of this batch, and how many traces are of others."""
     traced: dict[str, list[int]] = {}
     strangers = 0
@@ -235,7 +235,7 @@ def _traced(folder: Path, variants: list[str], batch: str) -> tuple[dict[str, li
         traced[variant] = []
         for path in sorted(trace_path(folder, variant, 0).parent.glob("*.parquet")):
             trial = int(path.stem) if path.stem.isdecimal() else -1
-            if described(path) == {"batch": batch, "variant": variant, "trial": trial}:
+            if describe_columns(path) == {"batch": batch, "variant": variant, "trial": trial}:
                 traced[variant].append(trial)
             else:
                 strangers += 1

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...common.errors import InputError, suggestion
-from ..fly.shards.files import described, trace_path
+from ..fly.shards.files import describe_columns, trace_path
 from ..fly.shards.reading import AGAIN, numbers, read_table
 from .folder import ResultFolder
 
@@ -59,7 +59,7 @@ def _paths(results: ResultFolder, variant: str) -> dict[int, Path]:
     for path in sorted(trace_path(results.folder, variant, 0).parent.glob("*.parquet")):
         trial = int(path.stem) if path.stem.isdecimal() else -1
         ours = {"batch": results.batch, "variant": variant, "trial": trial}
-        if any(trial in shard.trials for shard in results.shards) and described(path) == ours:
+        if any(trial in shard.trials for shard in results.shards) and describe_columns(path) == ours:
             paths[trial] = path
     return paths
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from ...common.errors import InputError, suggestion
 from ...runtime.system.assignments import SINGLE
 from ...runtime.system.options import Layer
-from ..draws.declared import Draw, drawn_names
+from ..draws.declared import Draw, input_names
 from .expressions import Expression
 from .faults import CampaignFault
 from .requirements import Requirement
@@ -140,9 +140,9 @@ class Campaign:
         places = dict.fromkeys(settings, (self.file, 0))
         return Layer(use=variant.use, parameters=self.parameters + variant.parameters, set=settings, places=places)
 
-    def drawn_names(self) -> list[str]:
+    def input_names(self) -> list[str]:
         """Names of all drawn and derived values."""
-        return drawn_names(self) + list(self.derived)
+        return input_names(self) + list(self.derived)
 
     def place_of(self, drawn: str) -> str:
         """Where a drawn value is asked for, as errors name it: the file, or the option that sweeps it."""
@@ -153,9 +153,9 @@ class Campaign:
 
         Of these only the ``selected`` one, if any.
         """
-        return [each for each in self._declared_variants() if self.selected in (None, each.name)]
+        return [each for each in self._list_variants() if self.selected in (None, each.name)]
 
-    def _declared_variants(self) -> list[Variant]:
+    def _list_variants(self) -> list[Variant]:
         if self.configurations:
             return list(self.configurations)
         if not self.compare:
@@ -165,7 +165,7 @@ class Campaign:
 
     def select(self, configuration: str) -> Campaign:
         """The same campaign with one of its variants only. Raises InputError."""
-        names = [each.name for each in self._declared_variants()]
+        names = [each.name for each in self._list_variants()]
         if configuration not in names:
             element = f"`configuration` {configuration}"
             raise InputError(self.file, element, "no such configuration", suggestion(configuration, names))

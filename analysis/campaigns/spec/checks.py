@@ -21,7 +21,7 @@ from .plan import BatchPlan
 def check_plan(plan: BatchPlan) -> dict[str, PreparedSystem]:
     """Prepare every variant once, so that wrong input is reported before anything flies; by variant."""
     first = next(plan.draw_parts())  # what all trials draw is looked at part by part, once the rest is right
-    plan.drawn_from(first, range(first.trials))
+    plan.values_from(first, range(first.trials))
     _ = plan.groups
     _refuse_conflicts(plan)
     systems = prepare_variants(plan)
@@ -41,11 +41,11 @@ def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
     """Refuse draws and drawn faults that a prepared system cannot have. Raises InputError."""
     systems = list(systems)
     _check_streams(plan, systems)
-    drawn = set(plan.campaign.drawn_names())
+    drawn = set(plan.campaign.input_names())
     varied = [(prepared, _variables(plan, prepared, drawn)) for prepared in systems]
     first = 0
     for part in plan.draw_parts():
-        trials = plan.drawn_from(part, range(first, first + part.trials))
+        trials = plan.values_from(part, range(first, first + part.trials))
         for prepared, variables in varied:
             for name, variable in variables.items():
                 _check_values(plan, name, variable, part.columns[name], first)
@@ -68,7 +68,7 @@ def _check_streams(plan: BatchPlan, systems: Sequence[PreparedSystem]) -> None:
 
 def _variables(plan: BatchPlan, prepared: PreparedSystem, drawn: set[str]) -> dict[str, Any]:
     """The variables that draws set, by name; what is varied and is no parameter is refused."""
-    variables = {name: _varied(plan, prepared, name) for name in variant_names(plan, prepared).varied}
+    variables = {name: _vary(plan, prepared, name) for name in variant_names(plan, prepared).varied}
     return {name: variable for name, variable in variables.items() if name in drawn}
 
 
@@ -83,12 +83,12 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
     for name in plan.options.set:
         if any(name in variant.settings for variant in variants):
             raise InputError("`set`", name, "configurations of the campaign set it", "change the campaign")
-        drawn = any(column == name or column.startswith(f"{name}[") for column in plan.campaign.drawn_names())
+        drawn = any(column == name or column.startswith(f"{name}[") for column in plan.campaign.input_names())
         if drawn or name.endswith((".seed", ".stream")):
             raise InputError("`set`", name, "the campaign draws it in every trial", "change the campaign, or `seed`")
 
 
-def _varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> Any:
+def _vary(plan: BatchPlan, prepared: PreparedSystem, name: str) -> Any:
     """The variable that is varied under a name; refused where it is no parameter, or cannot be drawn."""
     place = plan.campaign.place_of(name)
     known: list[str] = []
@@ -103,7 +103,7 @@ def _varied(plan: BatchPlan, prepared: PreparedSystem, name: str) -> Any:
         raise InputError(place, name, problem, "leave out the column or the draw")
     component = max((part for part in prepared.network.fmus if name.startswith(f"{part}.")), key=len)
     variable = prepared.network.fmus[component].variables[name.removeprefix(f"{component}.")]
-    if variable.type == "String" and name in plan.campaign.drawn_names():
+    if variable.type == "String" and name in plan.campaign.input_names():
         raise InputError(place, name, "a String cannot be drawn", "draw numbers only")
     return variable
 
@@ -136,7 +136,7 @@ class VariantNames:
 def variant_names(plan: BatchPlan, prepared: PreparedSystem) -> VariantNames:
     """Names that a variant's simulation needs. Raises InputError for one that does not exist."""
     campaign = plan.campaign
-    needed = names_needed(campaign.metrics, campaign.drawn_names())
+    needed = names_needed(campaign.metrics, campaign.input_names())
     recorded = {*campaign.record.final, *campaign.record.signals}
     needed |= recorded
     signals: list[str] = []

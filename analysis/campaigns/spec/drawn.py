@@ -4,23 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from ...runtime.system.fault import Fault
 from ...runtime.system.prepared import PreparedSystem
+from ..draws.given import GivenDraws
 from ..draws.streams import stream_numbers
 from ..draws.table import DrawTable
+from .campaign import Campaign
 from .faults import DrawnFault
-
-if TYPE_CHECKING:
-    from .plan import BatchPlan
 
 
 @dataclass(frozen=True)
 class DrawnTrials:
-    """What is drawn for the trials ``numbers`` of a plan, which are asked for by their numbers in it."""
+    """The samples of the trials ``numbers`` of a plan with its campaign, ``given`` samples and ``user_faults``."""
 
-    plan: BatchPlan
+    campaign: Campaign
+    given: GivenDraws | None
+    user_faults: Sequence[Fault]
     numbers: range
     table: DrawTable
     faults: Sequence[DrawnFault]
@@ -30,15 +30,15 @@ class DrawnTrials:
         return self.table.row(trial - self.numbers.start)
 
     def faults_of(self, trial: int) -> list[Fault | None]:
-        """The faults of a trial, in the order of `BatchPlan.declared_faults`; None for one that does not fly in it."""
-        return [*(fault.in_trial(trial - self.numbers.start) for fault in self.faults), *self.plan.faults]
+        """The faults of a trial, in the order of `BatchPlan.list_faults`; None for one that does not fly in it."""
+        return [*(fault.in_trial(trial - self.numbers.start) for fault in self.faults), *self.user_faults]
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of a trial: draws, and seed and stream of every component that has them."""
         values: dict[str, float | int] = dict(self.table.parameters(trial - self.numbers.start))
         noisy = with_streams(prepared)
         if noisy:
-            given, campaign = self.plan.given, self.plan.campaign
+            given, campaign = self.given, self.campaign
             trials = {name: trial if given is None else given.stream_of(trial, name) for name in noisy}
             streams = {
                 whose: stream_numbers(campaign.seed, whose, prepared.network.fmus, campaign.file)

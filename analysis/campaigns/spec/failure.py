@@ -62,7 +62,7 @@ def failure_of(campaign: Campaign, text: str | None) -> Failure:
     if text is None:
         return Failure(Expression(f"not ({campaign.success.text})", campaign.success.where))
     wanted = Failure(Expression(text, ("`failure`", text)))
-    known = [metric.name for metric in campaign.metrics] + campaign.drawn_names()
+    known = [metric.name for metric in campaign.metrics] + campaign.input_names()
     for name in sorted(wanted.names - set(known)):
         raise InputError("`failure`", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
     return wanted
@@ -75,19 +75,19 @@ def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
             return _margin(operand, not negated, where)
         case ast.BoolOp(op=joint, values=values):
             either = isinstance(joint, ast.Or) != negated  # of not (a and b): not a or not b
-            return _joined([_margin(value, negated, where) for value in values], either)
+            return _join_limit_states([_margin(value, negated, where) for value in values], either)
         case ast.Compare(left=left, ops=operators, comparators=comparators):
             sides = [left, *comparators]
             links = []
             for place, operator in enumerate(operators):
                 kind = OPPOSITE[type(operator)] if negated else type(operator)
                 links.append(_difference(sides[place], kind, sides[place + 1], where))
-            return _joined(links, negated)
+            return _join_limit_states(links, negated)
     nothing = ast.Constant(0)
     return _difference(node, ast.Eq if negated else ast.NotEq, nothing, where)
 
 
-def _joined(margins: list[Margin], either: bool) -> Margin:
+def _join_limit_states(margins: list[Margin], either: bool) -> Margin:
     """The margin of one of several (``either``), or of all of them."""
     join = np.maximum if either else np.minimum
     return lambda values: join.reduce(np.broadcast_arrays(*(margin(values) for margin in margins)))

@@ -46,13 +46,13 @@ class CampaignFault:
         return self.file, f"fault.{self.name}.{key}"
 
     def __str__(self) -> str:
-        value = "" if self.value is None else f":{_written(self.value)}"
-        end = "" if self.end is None else f"..{_written(self.end)}"
-        when = "" if self.when is None else f" when {_written(self.when)}"
-        return f"{self.name}: {self.connector}={self.kind}{value}@{_written(self.start)}{end}{when}"
+        value = "" if self.value is None else f":{_write_number(self.value)}"
+        end = "" if self.end is None else f"..{_write_number(self.end)}"
+        when = "" if self.when is None else f" when {_write_number(self.when)}"
+        return f"{self.name}: {self.connector}={self.kind}{value}@{_write_number(self.start)}{end}{when}"
 
 
-def _written(part: Expression | bool) -> str:
+def _write_number(part: Expression | bool) -> str:
     return str(part).lower() if isinstance(part, bool) else part.text
 
 
@@ -116,7 +116,7 @@ class DrawnFault:
         return {name: self.flies, **value, f"{name}.start": self.start, f"{name}.end": self.end}
 
 
-def drawn_fault(declared: CampaignFault, draws: Mapping[str, np.ndarray], numbers: range) -> DrawnFault:
+def fault_of_trials(declared: CampaignFault, draws: Mapping[str, np.ndarray], numbers: range) -> DrawnFault:
     """A fault worked out for trials in a row, of these ``numbers``, from their ``draws``.
 
     Raises InputError where an expression is not finite or a window is empty in a trial in which the fault flies.

@@ -50,7 +50,7 @@ def _draws(table: Table) -> tuple[Draw, ...]:
     return tuple(draws)
 
 
-def _derived(table: Table, draws: tuple[Draw, ...]) -> dict[str, Expression]:
+def _read_derived(table: Table, draws: tuple[Draw, ...]) -> dict[str, Expression]:
     known = [name for draw in draws for name in draw.names]
     derived: dict[str, Expression] = {}
     for name, value in table.flat():
@@ -195,7 +195,7 @@ def parse_campaign(table: Table) -> Campaign:
     ]
     table.only([*keys, *tables, "scatter"])
     draws = _draws(table.table("draw"))
-    derived = _derived(table.table("derive"), draws)
+    derived = _read_derived(table.table("derive"), draws)
     drawn = [name for draw in draws for name in draw.names] + list(derived)
     metrics = _metrics(table.table("metric"), drawn)
     return Campaign(

@@ -55,7 +55,7 @@ def _holds(condition: np.ndarray) -> np.ndarray:
     return (condition != 0.0) & ~np.isnan(condition)
 
 
-def settled(times: np.ndarray, condition: np.ndarray, start: float) -> float:
+def settling_time(times: np.ndarray, condition: np.ndarray, start: float) -> float:
     """The time (s) from ``start`` to the first row from which on the condition holds to the last row.
 
     0 when it holds in every row, inf when it does not in the last one.
@@ -101,7 +101,7 @@ def evaluate_metric(metric: Metric, times: np.ndarray, values: Mapping[str, np.n
         return last_outside(rows, signal, metric.band)
     if metric.reduction == "settled":
         flight = float(times[0])
-        return settled(rows, signal, flight if metric.window is None else max(metric.window[0], flight))
+        return settling_time(rows, signal, flight if metric.window is None else max(metric.window[0], flight))
     if metric.reduction == "first":
         assert metric.condition is not None  # as the campaign was read
         return first(rows, signal, rows_of(metric.condition), metric.delay)

@@ -17,10 +17,10 @@ from ...runtime.system.prepared import PreparedSystem, prepare_system
 from ..draws.counted import CountedDraws
 from ..draws.given import GivenDraws, read_given
 from ..draws.streams import StreamNumbers
-from ..draws.table import Draws, DrawTable, draw_parts, draw_table, parted, table_of
+from ..draws.table import Draws, DrawTable, draw_parts, draw_table, split_trials, table_of
 from .campaign import Campaign, Variant
 from .drawn import DrawnTrials, with_streams
-from .faults import drawn_fault
+from .faults import fault_of_trials
 from .file import parse_campaign
 from .groups import Group, groups_of
 from .sweeps import with_sweeps
@@ -74,17 +74,17 @@ class BatchPlan:
         if self.given is None and not self.is_counted and self.known_draws is None:
             yield from draw_parts(self.campaign, size)
             return
-        for part in parted(self.campaign.trials, size):
+        for part in split_trials(self.campaign.trials, size):
             yield self.draws.of_part(part)
 
-    def drawn(self, trials: range) -> DrawnTrials:
+    def values_of(self, trials: range) -> DrawnTrials:
         """All that is drawn for trials in a row. Raises InputError."""
-        return self.drawn_from(self.draws.of_part(trials), trials)
+        return self.values_from(self.draws.of_part(trials), trials)
 
-    def drawn_from(self, table: DrawTable, trials: range) -> DrawnTrials:
+    def values_from(self, table: DrawTable, trials: range) -> DrawnTrials:
         """The same from their table of draws. Raises InputError."""
-        faults = [drawn_fault(fault, table.columns, trials) for fault in self.campaign.faults]
-        return DrawnTrials(self, trials, table, faults)
+        faults = [fault_of_trials(fault, table.columns, trials) for fault in self.campaign.faults]
+        return DrawnTrials(self.campaign, self.given, self.faults, trials, table, faults)
 
     def of_first(self, trials: int) -> BatchPlan:
         """A plan of the first ``trials`` trials, with the draws that they have in this one."""
@@ -112,13 +112,13 @@ class BatchPlan:
         parts = (part.columns[self.campaign.group] for part in self.draw_parts())
         return groups_of(parts, (self.campaign.file, "group.by"))
 
-    def declared_faults(self) -> list[Fault]:
+    def list_faults(self) -> list[Fault]:
         """All faults, the campaign's first, with their connectors and kinds; value and times are a trial's."""
         return [*(Fault(fault.connector, fault.kind) for fault in self.campaign.faults), *self.faults]
 
     def faults_of(self, trial: int) -> list[Fault | None]:
-        """The faults of one trial, in the order of `declared_faults`; None for one that does not fly in it."""
-        return self.drawn(range(trial, trial + 1)).faults_of(trial)
+        """The faults of one trial, in the order of `list_faults`; None for one that does not fly in it."""
+        return self.values_of(range(trial, trial + 1)).faults_of(trial)
 
     def fault_texts(self) -> list[str]:
         """All faults as results name them."""
@@ -132,10 +132,10 @@ class BatchPlan:
         except InputError as error:
             compared = {*variant.use, *variant.use.values(), *(f"{slot}={fmu}" for slot, fmu in variant.use.items())}
             if error.file == "`use`" and error.element in compared:
-                raise InputError(self._declared_by(variant), error.element, error.problem, error.remedy) from error
+                raise InputError(self._origin_of_fault(variant), error.element, error.problem, error.remedy) from error
             raise
 
-    def _declared_by(self, variant: Variant) -> str:
+    def _origin_of_fault(self, variant: Variant) -> str:
         """What errors name for the FMUs of a variant."""
         if self.campaign.configurations:
             return f"{self.campaign.file}: configuration.{variant.name}.use"
@@ -143,11 +143,11 @@ class BatchPlan:
 
     def parameters(self, prepared: PreparedSystem, trial: int) -> dict[str, float | int]:
         """The parameters of one trial: draws, and seed and stream of every component that has them."""
-        return self.drawn(range(trial, trial + 1)).parameters(prepared, trial)
+        return self.values_of(range(trial, trial + 1)).parameters(prepared, trial)
 
     def parameter_names(self, prepared: PreparedSystem) -> set[str]:
         """The names of `parameters`, which are those of every trial."""
-        drawn = {name for name in self.campaign.drawn_names() if "." in name}
+        drawn = {name for name in self.campaign.input_names() if "." in name}
         return drawn | {f"{name}.{number}" for name in with_streams(prepared) for number in StreamNumbers._fields}
 
 

@@ -38,7 +38,7 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
     """
     if not sweeps:
         return campaign
-    drawn = campaign.drawn_names()
+    drawn = campaign.input_names()
     grids = {name: Grid(_values(name, text)) for name, text in sweeps.items()}
     draws = [Draw(name, (name,), grid) for name, grid in grids.items()]
     for name, text in sweeps.items():

@@ -41,7 +41,7 @@ class Decision:
     consumer_risk: float
 
 
-def permitted_risk(confidence: float) -> float:
+def risk_limit(confidence: float) -> float:
     """The probability of a wrong verdict that a confidence permits."""
     return (1.0 - confidence) * (1.0 + ROUNDING)
 
@@ -62,7 +62,7 @@ def producer_risk(flights: int, failures: int, share: float) -> float:
     return float(scipy.stats.binom.sf(failures - 1, flights, 1.0 - share))
 
 
-def fixed_verdict(flights: int, failures: int, share: float, confidence: float) -> Verdict:
+def decide_by_size(flights: int, failures: int, share: float, confidence: float) -> Verdict:
     """The verdict on a campaign of a size that did not depend on what came of it.
 
     Met where the consumer's risk is at most 1 - ``confidence``, not met where the producer's is: Clopper and Pearson's
@@ -71,15 +71,15 @@ def fixed_verdict(flights: int, failures: int, share: float, confidence: float) 
     """
     if not 0.5 <= confidence < 1.0:
         raise ValueError(f"a confidence of {confidence:g} is not in 0.5 to 1")
-    risk = permitted_risk(confidence)
+    risk = risk_limit(confidence)
     if consumer_risk(flights, failures, share) <= risk:
         return Verdict.MET
     return Verdict.NOT_MET if producer_risk(flights, failures, share) <= risk else Verdict.UNDECIDED
 
 
-def permitted_failures(flights: int, share: float, confidence: float) -> int:
+def acceptance_number(flights: int, share: float, confidence: float) -> int:
     """With how many failures at most the requirement is met; -1 where none are few enough."""
-    risk = permitted_risk(confidence)
+    risk = risk_limit(confidence)
     # the fewest that are no longer few enough, or exactly so
     failures = int(scipy.stats.binom.ppf(risk, flights, 1.0 - share))
     while failures >= 0 and consumer_risk(flights, failures, share) > risk:
@@ -89,7 +89,7 @@ def permitted_failures(flights: int, share: float, confidence: float) -> int:
 
 def flights_needed(failures: int, share: float, confidence: float) -> int:
     """The fewest flights that meet the requirement with that many failures."""
-    risk = permitted_risk(confidence)
+    risk = risk_limit(confidence)
     few, enough = failures, failures + 1  # with failures alone the risk is 1
     while consumer_risk(enough, failures, share) > risk:
         few, enough = enough, 2 * enough
@@ -112,12 +112,12 @@ class FixedSize:
     def decision(self, kept: np.ndarray) -> Decision:
         """The verdict on all flights, True where the requirement was kept."""
         flights, failures = len(kept), int(np.count_nonzero(~np.asarray(kept, dtype=bool)))
-        verdict = fixed_verdict(flights, failures, self.share, self.confidence)
+        verdict = decide_by_size(flights, failures, self.share, self.confidence)
         return Decision(verdict, flights, failures, consumer_risk(flights, failures, self.share))
 
-    def permitted(self, flights: int) -> tuple[int, int]:
+    def count_permitted(self, flights: int) -> tuple[int, int]:
         """How many of the flights count, all, and with how many failures they meet the requirement, -1 for none."""
-        return flights, permitted_failures(flights, self.share, self.confidence)
+        return flights, acceptance_number(flights, self.share, self.confidence)
 
     def flights_to_meet(self, flights: int, failures: int) -> dict[int, int]:
         """How many flights one campaign would have needed besides, by failures in those."""

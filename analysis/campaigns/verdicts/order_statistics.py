@@ -37,7 +37,7 @@ def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
     for place in range(64 - DIGIT, -1, -DIGIT):
         counts = {start: np.zeros(1 << DIGIT, dtype=np.int64) for start in below}
         for values in column():
-            keys = _ordered(values[~np.isnan(values)]) >> np.uint64(place)
+            keys = _order_bits(values[~np.isnan(values)]) >> np.uint64(place)
             digits = (keys & np.uint64((1 << DIGIT) - 1)).astype(np.int64)
             starts = None if len(counts) == 1 and 0 in counts else keys >> np.uint64(DIGIT)
             for start, count in counts.items():
@@ -54,7 +54,7 @@ def _select(column: Blocks, ranks: Sequence[int]) -> list[float]:
     return np.where(bits & SIGN, bits ^ SIGN, ~bits).view(np.float64).tolist()
 
 
-def _ordered(values: np.ndarray) -> np.ndarray:
+def _order_bits(values: np.ndarray) -> np.ndarray:
     """Doubles as unsigned integers in the same order; both zeros are one number."""
     bits = (values + 0.0).view(np.uint64)
     return np.where(bits & SIGN, ~bits, bits ^ SIGN)

@@ -13,7 +13,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from .acceptance import FURTHER, Decision, Verdict, flights_needed, permitted_risk
+from .acceptance import FURTHER, Decision, Verdict, flights_needed, risk_limit
 from .boundary import Boundary, Look, spending
 
 FINEST = 32  # looks at one distance; then the distance doubles whenever the flights do
@@ -38,7 +38,7 @@ class StoppingRule:
         self.confidence = confidence
         half = flights_needed(0, share, confidence)
         self.look = look or _round_look(half)
-        spend = partial(spending, risk=permitted_risk(confidence), half=half)
+        spend = partial(spending, risk=risk_limit(confidence), half=half)
         self._met = Boundary(1.0 - share, spend)  # counts failures: few are good
         self._not_met = Boundary(share, spend)  # counts good flights: few are bad
         self._places: dict[int, int] = {}
@@ -49,21 +49,21 @@ class StoppingRule:
         self._extend(most)
         return [flights for flights in self._places if flights <= most]
 
-    def permitted_failures(self, flights: int) -> int:
+    def acceptance_number(self, flights: int) -> int:
         """With how many failures at most a look meets the requirement, -1 where none are few enough; ValueError
         where there is no look."""
         return self._look(self._met, flights).most
 
-    def refused_failures(self, flights: int) -> int:
+    def rejection_number(self, flights: int) -> int:
         """With how many failures at least a look finds the requirement not met; more than ``flights`` where no number
         is enough. ValueError where there is no look."""
         return flights - self._look(self._not_met, flights).most
 
     def decide(self, flights: int, failures: int) -> Verdict:
         """The verdict at a look that none came before; ValueError where there is no look."""
-        if failures <= self.permitted_failures(flights):
+        if failures <= self.acceptance_number(flights):
             return Verdict.MET
-        return Verdict.NOT_MET if failures >= self.refused_failures(flights) else Verdict.UNDECIDED
+        return Verdict.NOT_MET if failures >= self.rejection_number(flights) else Verdict.UNDECIDED
 
     def decision(self, kept: np.ndarray) -> Decision:
         """The first verdict on flights in order of trial, True where the requirement was kept; the rest is not seen.
@@ -80,17 +80,17 @@ class StoppingRule:
                 return self._decision(verdict, flights, failures)
         return self._decision(Verdict.UNDECIDED, last, failures)
 
-    def permitted(self, flights: int) -> tuple[int, int]:
+    def count_permitted(self, flights: int) -> tuple[int, int]:
         """The last look in so many flights, and with how many failures it meets the requirement, -1 for none."""
         last = max(self.looks(flights), default=0)
-        return last, self.permitted_failures(last) if last else -1
+        return last, self.acceptance_number(last) if last else -1
 
     def flights_to_meet(self, flights: int, failures: int) -> dict[int, int]:
         """How many more flights meet the requirement, by failures still to come."""
         by_failures = {}
         for more in FURTHER:
             looks = (look for look in self._all_looks() if look >= flights)
-            enough = next(look for look in looks if self.permitted_failures(look) >= failures + more)
+            enough = next(look for look in looks if self.acceptance_number(look) >= failures + more)
             by_failures[more] = enough - flights
         return by_failures
 

@@ -26,11 +26,11 @@ def tolerance_bound(column: Blocks, flights: int, permitted: int, upper: bool) -
         return None
     worst = np.inf if upper else -np.inf
 
-    def counted() -> Iterator[np.ndarray]:
+    def count_permitted() -> Iterator[np.ndarray]:
         left = flights
         for values in column():
             yield np.where(np.isfinite(values), values, worst)[:left]
             left = max(0, left - len(values))
 
-    (bound,) = order_statistics(counted, [flights - 1 - permitted if upper else permitted])
+    (bound,) = order_statistics(count_permitted, [flights - 1 - permitted if upper else permitted])
     return bound

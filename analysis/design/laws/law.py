@@ -58,7 +58,7 @@ class Law:
         write_atomically(path, f"{{\n{text}\n}}\n".encode())
 
 
-def named_law(name: str, folder: Path | None = None) -> Path:
+def find_law(name: str, folder: Path | None = None) -> Path:
     """The file of a law: NAME for laws/NAME.json of this repository, else a path, relative to ``folder``."""
     if (LAWS / f"{name}.json").is_file() and Path(name).name == name:
         return LAWS / f"{name}.json"

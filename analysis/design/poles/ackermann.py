@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from .controllability import controllability_matrix
-from .polynomial import block_companion, wanted_polynomial
+from .polynomial import block_companion, make_polynomial
 from .refusal import PlacementError, Reason
 from .results import StateFeedback
 from .spectrum import Spectrum
@@ -26,7 +26,7 @@ FORMULA = "generalised Ackermann"  # as refusals name it
 def ackermann(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:
     """Place the spectrum with diagonal N_i as far as its pairs let. Raises PlacementError."""
     rows, _ = last_rows(a, b)
-    return ackermann_of(a, b, wanted_polynomial(spectrum, [len(a) // len(rows)] * len(rows)), spectrum.poles)
+    return ackermann_of(a, b, make_polynomial(spectrum, [len(a) // len(rows)] * len(rows)), spectrum.poles)
 
 
 def ackermann_of(

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from .ackermann import row_stack
-from .polynomial import wanted_polynomial
+from .polynomial import make_polynomial
 from .results import StateFeedback
 from .spectrum import Spectrum
 
@@ -24,6 +24,6 @@ def bass_gura(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback
     stack, power, condition = row_stack(a, b, FORMULA)
     inputs = b.shape[1]
     own = np.linalg.solve(stack.T, -power.T).T
-    wanted = np.hstack(list(wanted_polynomial(spectrum, [len(a) // inputs] * inputs)))
+    wanted = np.hstack(list(make_polynomial(spectrum, [len(a) // inputs] * inputs)))
     gain = (wanted - own) @ stack
     return StateFeedback("bass_gura", gain, spectrum.poles, a - b @ gain, condition)

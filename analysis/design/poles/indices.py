@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from .controllability import TOLERANCE, controllability_indices
-from .polynomial import wanted_polynomial
+from .polynomial import make_polynomial
 from .results import StateFeedback
 from .spectrum import Spectrum
 
@@ -35,7 +35,7 @@ def indices(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float =
         powers.append(powers[-1] @ a)
     gamma = np.array([powers[degree - 1][i] @ b[:, used] for i, degree in enumerate(degrees)])
     rows = np.array([powers[degree][i] for i, degree in enumerate(degrees)])
-    for level, block in enumerate(wanted_polynomial(spectrum, degrees)):
+    for level, block in enumerate(make_polynomial(spectrum, degrees)):
         rows += block @ powers[level]
     gain = np.zeros(b.T.shape)
     gain[used] = np.linalg.solve(gamma, rows)

@@ -101,7 +101,7 @@ def multilevel(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: floa
     Raises PlacementError. A pair needs a level of rank 2 or more to itself.
     """
     levels = decompose(a, b, tolerance)
-    parts = spectrum.ranked([level.rank for level in levels])
+    parts = spectrum.rank([level.rank for level in levels])
     if parts is None:
         raise PlacementError(
             "multilevel placement",

@@ -81,11 +81,11 @@ def place(
         if tolerance is not None:
             raise InputError("modal", "tolerance", f"method {method} has none", "take method indices or multilevel")
         return _ONE_CLASS[method](state, inputs, spectrum)
-    solver = _EVERY_PAIR[method] if method else placed
+    solver = _EVERY_PAIR[method] if method else make_placement
     return solver(state, inputs, spectrum, _above(tolerance))
 
 
-def placed(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
+def make_placement(a: np.ndarray, b: np.ndarray, spectrum: Spectrum, tolerance: float = TOLERANCE) -> StateFeedback:
     """By the method that applies. Raises PlacementError for a pair that is not controllable."""
     try:
         return multilevel(a, b, spectrum, tolerance)

@@ -14,7 +14,7 @@ from .plant import real_matrix
 from .spectrum import Spectrum
 
 
-def wanted_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
+def make_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
     """N (largest degree, r, r) of a matrix polynomial that has the spectrum; column j is of degree k_j at most.
 
     Each element of the diagonal has poles of its own. Where conjugate pairs outnumber what fits there, a pair a +- i b
@@ -24,7 +24,7 @@ def wanted_polynomial(spectrum: Spectrum, degrees: Sequence[int]) -> np.ndarray:
     across = max(0, len(spectrum.pairs) - sum(degree // 2 for degree in degrees))
     lying = list(zip(odd[0 : 2 * across : 2], odd[1 : 2 * across : 2], spectrum.pairs[:across], strict=True))
     rooms = [degree - any(j in (first, second) for first, second, _ in lying) for j, degree in enumerate(degrees)]
-    parts = Spectrum(spectrum.real, spectrum.pairs[across:]).dealt(rooms)
+    parts = Spectrum(spectrum.real, spectrum.pairs[across:]).deal(rooms)
     assert parts is not None  # what does not fit lies across
     coefficients = np.zeros((max(degrees) + 1, len(degrees), len(degrees)))
     for j, part in enumerate(parts):

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .spectrum import distance, matched
+from .spectrum import distance, match
 
 _SEMISIMPLE = 1e-9  # relative, of the singular values that count as none
 
@@ -46,7 +46,7 @@ class Placement:
         where there is no full set.
         """
         vectors = self._eigen[1].astype(complex)
-        places = matched(self.wanted, self.poles)
+        places = match(self.wanted, self.poles)
         for pole in np.unique(self.wanted):
             alike = np.flatnonzero(places == pole)
             if len(alike) > 1:

@@ -34,7 +34,7 @@ class Spectrum:
         conjugates = [complex(pole).conjugate() for pole in values if pole.imag < 0.0]
         pairs = []
         for pole in [complex(pole) for pole in values if pole.imag > 0.0]:
-            partner = _taken(conjugates, pole)
+            partner = _take(conjugates, pole)
             if partner is None:
                 raise _alone(name, pole)
             pairs.append(0.5 * (pole + partner))
@@ -88,11 +88,11 @@ class Spectrum:
         """What remains when ``part`` is taken away. Raises InputError for a pole that is not there."""
         real, pairs = list(self.real), list(self.pairs)
         for pole in (*part.real, *part.pairs):
-            if _taken(real if isinstance(pole, float) else pairs, pole) is None:
+            if _take(real if isinstance(pole, float) else pairs, pole) is None:
                 raise InputError("modal", "upper", f"{pole:g} is none of the poles", "name some of them")
         return Spectrum(tuple(real), tuple(pairs))
 
-    def dealt(self, sizes: Sequence[int]) -> list[Spectrum] | None:
+    def deal(self, sizes: Sequence[int]) -> list[Spectrum] | None:
         """Parts of the ``sizes``, neighbours in different ones where it can be; None where the pairs do not fit.
 
         Pairs go first. The parts take turns, those with most room first.
@@ -110,7 +110,7 @@ class Spectrum:
             room[place] -= 1
         return [Spectrum.sorted(*part) for part in zip(real, pairs, strict=True)]
 
-    def ranked(self, sizes: Sequence[int]) -> list[Spectrum] | None:
+    def rank(self, sizes: Sequence[int]) -> list[Spectrum] | None:
         """Parts of the ``sizes``, the fastest poles in the first and so on as far as pairs let; None where they do not.
 
         A pole goes to the first part that has room for it and leaves room for the pairs to come.
@@ -134,7 +134,7 @@ class Spectrum:
         return len(self.pairs) <= sum(size // 2 for size in sizes)
 
 
-def _taken(poles: list, pole: complex) -> complex | None:
+def _take(poles: list, pole: complex) -> complex | None:
     """The nearest of the poles, taken out of the list; None when none is the same within rounding."""
     nearest = min(poles, key=lambda other: abs(other - pole), default=None)
     if nearest is None or abs(nearest - pole) > _CONJUGATE * abs(pole):
@@ -147,7 +147,7 @@ def _lists(sizes: Sequence[int]) -> list[list]:
     return [[] for _ in sizes]
 
 
-def matched(wanted: np.ndarray, actual: np.ndarray) -> np.ndarray:
+def match(wanted: np.ndarray, actual: np.ndarray) -> np.ndarray:
     """For each pole found the wanted one, one to one, so that the sum of the distances is least."""
     rows, columns = linear_sum_assignment(np.abs(actual[:, None] - wanted[None, :]))
     return wanted[columns[np.argsort(rows)]]
@@ -155,7 +155,7 @@ def matched(wanted: np.ndarray, actual: np.ndarray) -> np.ndarray:
 
 def distance(wanted: np.ndarray, actual: np.ndarray) -> float:
     """The largest distance between poles that are matched."""
-    return float(np.max(np.abs(matched(wanted, actual) - actual), initial=0.0))
+    return float(np.max(np.abs(match(wanted, actual) - actual), initial=0.0))
 
 
 def _alone(name: str, pole: complex) -> InputError:

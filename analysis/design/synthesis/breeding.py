@@ -9,7 +9,7 @@ import numpy as np
 from ..laws.law import Matrix
 from .candidate import Genes
 from .gray_code import Coding
-from .variations import Variation, random_variation, varied
+from .variations import Variation, apply_variations, random_variation
 
 MOST_FLIPS = 3  # bits in which half of the random genes differ from their basis
 
@@ -25,17 +25,17 @@ def random_genes(
     variations: list[Variation] = []
     for _ in range(count):
         variations.append(random_variation(random, matrix))
-        matrix = varied(matrix, variations[-1:])
+        matrix = apply_variations(matrix, variations[-1:])
     if random.random() < 0.5:
         for _ in range(int(random.integers(MOST_FLIPS + 1))):
-            code = flipped(random, code, coding)
+            code = flip_bit(random, code, coding)
     else:
         for bit in random.integers(2, size=coding.bits).tolist():
             code = code << 1 & 2**coding.bits - 1 | bit
     return Genes(basis, tuple(variations), code)
 
 
-def crossed(random: np.random.Generator, first: Genes, second: Genes, coding: Coding) -> list[Genes]:
+def cross(random: np.random.Generator, first: Genes, second: Genes, coding: Coding) -> list[Genes]:
     """Four children of two parents: both joins of their variations, each with both joins of their codes.
 
     Either is cut at one random place. A child's variations belong to the basis of the parent that
@@ -50,15 +50,15 @@ def crossed(random: np.random.Generator, first: Genes, second: Genes, coding: Co
     ]
 
 
-def mutated(random: np.random.Generator, genes: Genes, bases: Sequence[Matrix], coding: Coding) -> Genes:
+def mutate(random: np.random.Generator, genes: Genes, bases: Sequence[Matrix], coding: Coding) -> Genes:
     """One bit of the code flipped, one variation drawn anew where those before it let it apply."""
     place = int(random.integers(len(genes.variations)))
     before = genes.variations[:place]
-    variation = random_variation(random, varied(bases[genes.basis], before))
+    variation = random_variation(random, apply_variations(bases[genes.basis], before))
     variations = (*before, variation, *genes.variations[place + 1 :])
-    return Genes(genes.basis, variations, flipped(random, genes.code, coding))
+    return Genes(genes.basis, variations, flip_bit(random, genes.code, coding))
 
 
-def flipped(random: np.random.Generator, code: int, coding: Coding) -> int:
+def flip_bit(random: np.random.Generator, code: int, coding: Coding) -> int:
     """The code with one random bit flipped."""
     return code ^ 1 << int(random.integers(coding.bits))

@@ -12,7 +12,7 @@ import numpy as np
 from ..laws.law import Matrix
 from .gray_code import Coding
 from .pareto import ParetoOrder, Standing
-from .variations import Variation, edges_out, pruned, varied
+from .variations import Variation, apply_variations, edges_out, prune
 
 PARAMETER_NODES = (1, 3, 5)  # the sources q1, q2, q3, counted from 0
 
@@ -58,7 +58,7 @@ class Candidate(NamedTuple):
 
 def phenotype(genes: Genes, bases: list[Matrix], coding: Coding) -> Phenotype:
     """The law that genes stand for."""
-    return Phenotype(pruned(varied(bases[genes.basis], genes.variations)), coding.decode(genes.code))
+    return Phenotype(prune(apply_variations(bases[genes.basis], genes.variations)), coding.decode(genes.code))
 
 
 class Bar(NamedTuple):

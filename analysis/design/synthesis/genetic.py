@@ -13,11 +13,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..laws.law import Matrix
-from .breeding import crossed, mutated, random_genes
+from .breeding import cross, mutate, random_genes
 from .candidate import Bar, Candidate, Evaluation, Evaluator, Genes, Phenotype, Task, phenotype
-from .pareto import ParetoOrder, dominated, dominators
+from .pareto import ParetoOrder, dominators, is_dominated
 from .search_settings import SearchSettings
-from .variations import NO_VARIATION, varied
+from .variations import NO_VARIATION, apply_variations
 
 BROOD = 16  # couples whose children are evaluated together: fixed, so that workers do not change the result
 
@@ -72,9 +72,9 @@ class Search:
         """The first population: the basic solution as coded and, unless that is enough, others around it."""
         state = self.state
         basic = Genes(0, (NO_VARIATION,) * self.settings.variations, state.code)
-        state.population = self._evaluated([basic])
+        state.population = self._evaluate([basic])
         if not self.is_over:
-            state.population += self._evaluated(self._random(0, state.code, self.settings.population - 1))
+            state.population += self._evaluate(self._random(0, state.code, self.settings.population - 1))
 
     def chosen(self) -> Candidate:
         """The candidate to hand out: most successes, then the best compromise of the Pareto set."""
@@ -104,15 +104,15 @@ class Search:
             likely = max((1.0 + settings.crossover * rank) / (1.0 + rank) for rank in order.ranks[pair])
             if random.random() < likely:
                 first, second = (self.state.population[place].genes for place in pair)
-                children += crossed(random, first, second, self.coding)
+                children += cross(random, first, second, self.coding)
         grown = [self._maybe_mutated(child) for child in children]
-        for candidate in self._evaluated(grown, bar):
+        for candidate in self._evaluate(grown, bar):
             if not bar.rejects(candidate.evaluation.objectives) and self._let_in(candidate, order):
                 order = ParetoOrder(objectives_of(self.state.population))
 
     def _maybe_mutated(self, genes: Genes) -> Genes:
         if self.state.random.random() < self.settings.mutation:
-            return mutated(self.state.random, genes, self.state.bases, self.coding)
+            return mutate(self.state.random, genes, self.state.bases, self.coding)
         return genes
 
     def _let_in(self, candidate: Candidate, order: ParetoOrder) -> bool:
@@ -129,15 +129,15 @@ class Search:
         """The chosen candidate is the new basis; the elites stay as they are, the others are drawn anew."""
         state = self.state
         best = self.chosen().genes
-        state.bases.append(varied(state.bases[best.basis], best.variations))
+        state.bases.append(apply_variations(state.bases[best.basis], best.variations))
         basis = len(state.bases) - 1
         order = ParetoOrder(objectives_of(state.population)).order()
         elites = [state.population[place] for place in order[: self.settings.elites]]
         basic = Genes(basis, (NO_VARIATION,) * self.settings.variations, best.code)
         others = self._random(basis, best.code, self.settings.population - len(elites) - 1)
-        state.population = elites + self._evaluated([basic, *others])
+        state.population = elites + self._evaluate([basic, *others])
 
-    def _evaluated(self, genes: Sequence[Genes], bar: Bar | None = None) -> list[Candidate]:
+    def _evaluate(self, genes: Sequence[Genes], bar: Bar | None = None) -> list[Candidate]:
         """Candidates of genes. Known laws are not flown again, nor on where the bar rejects what is known.
 
         What the bar rejects leaves no other trace than its evaluation, flown to the end or not, so that
@@ -170,7 +170,7 @@ class Search:
         point = np.array(evaluation.objectives)
         objectives = objectives_of(state.front)
         if not state.front or not (dominators(objectives, point) or np.any(np.all(objectives == point, axis=1))):
-            beaten = dominated(objectives, point) if state.front else np.zeros(0, dtype=bool)
+            beaten = is_dominated(objectives, point) if state.front else np.zeros(0, dtype=bool)
             stay = [member for member, out in zip(state.front, beaten, strict=True) if not out]
             state.front = [*stay, candidate]
         best = state.champion
@@ -179,7 +179,7 @@ class Search:
             or evaluation.successes > best.evaluation.successes
             or (
                 evaluation.successes == best.evaluation.successes
-                and dominated(np.array([best.evaluation.objectives]), point)[0]
+                and is_dominated(np.array([best.evaluation.objectives]), point)[0]
             )
         ):
             state.champion = candidate

@@ -13,7 +13,7 @@ def dominators(objectives: np.ndarray, point: np.ndarray) -> int:
     return int(np.count_nonzero(no_worse & np.any(objectives < point, axis=1)))
 
 
-def dominated(objectives: np.ndarray, point: np.ndarray) -> np.ndarray:
+def is_dominated(objectives: np.ndarray, point: np.ndarray) -> np.ndarray:
     """Which rows of ``objectives`` (n, m) a point (m,) dominates."""
     return np.all(objectives >= point, axis=1) & np.any(objectives > point, axis=1)
 

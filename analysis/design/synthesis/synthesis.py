@@ -48,7 +48,7 @@ def run_synthesis(
         raise InputError("`evaluations`", str(evaluations), "not a positive number", "give 1 or more")
     checkpoint = _checkpoint(output, resume)
     plan = synthesis.plan(seed)
-    prepared = _checked(synthesis, plan)
+    prepared = _check(synthesis, plan)
     facts = provenance(synthesis, plan, prepared)
     stored = {name: fact for name, fact in facts.items() if name != "campaign"}  # the file may have moved
     state = _first_state(synthesis, plan)
@@ -95,7 +95,7 @@ def _checkpoint(output: Path | None, resume: bool) -> Path | None:
     return path
 
 
-def _checked(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
+def _check(synthesis: Synthesis, plan: BatchPlan) -> PreparedSystem:
     """The system, with a component that a law can be given to."""
     without_law = BatchPlan(plan.system, plan.campaign, plan.options, plan.campaign_sha256)
     prepared = check_plan(without_law)[VARIANT]

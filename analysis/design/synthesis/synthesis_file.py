@@ -17,7 +17,7 @@ from ...campaigns.spec.toml.source import read_source_file
 from ...campaigns.spec.toml.table import Table, expression, integer, number, text
 from ...common.errors import InputError
 from ...runtime.system.options import SystemOptions
-from ..laws.law import Law, named_law, read_law
+from ..laws.law import Law, find_law, read_law
 from ..laws.parameter_set import law_parameters
 from .search_settings import SearchSettings
 from .variations import OUTPUTS, SIZE, SOURCES, edges_in, edges_out
@@ -72,7 +72,7 @@ class Synthesis:
         return BatchPlan(campaign.system, campaign, options, self.sha256, overlaid)
 
 
-def named_search(name: str) -> Path:
+def find_search(name: str) -> Path:
     """The file of a search: NAME for laws/searches/NAME.toml of this repository, else a path."""
     own = SEARCHES / f"{name}.toml"
     return own if own.is_file() and Path(name).name == name else Path(name)
@@ -93,10 +93,10 @@ def read_synthesis(path: Path) -> Synthesis:
     table.only([*OWN_KEYS, *settings_keys])
     settings = _settings(table)
     component = table.get("component", text)
-    law_path = named_law(table.get("law", text), path.parent)
+    law_path = find_law(table.get("law", text), path.parent)
     basic = read_law(law_path)
     _check_basic(basic, settings, law_path)
-    for name in (*campaign.drawn_names(), *campaign.settings):
+    for name in (*campaign.input_names(), *campaign.settings):
         if name in law_parameters(basic, component):
             raise InputError(campaign.file, name, "a part of the law that is searched for", "do not draw or set it")
     return Synthesis(

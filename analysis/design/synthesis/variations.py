@@ -55,7 +55,7 @@ def edges_out(matrix: Sequence[Sequence[int]], node: int) -> int:
     return sum(entry != 0 for entry in matrix[node][node + 1 :])
 
 
-def varied(matrix: Matrix, variations: Iterable[Variation]) -> Matrix:
+def apply_variations(matrix: Matrix, variations: Iterable[Variation]) -> Matrix:
     """The matrix after variations, one after another."""
     rows = [list(row) for row in matrix]
     for kind, row, column, operation in variations:
@@ -70,7 +70,7 @@ def varied(matrix: Matrix, variations: Iterable[Variation]) -> Matrix:
     return tuple(tuple(row) for row in rows)
 
 
-def pruned(matrix: Matrix) -> Matrix:
+def prune(matrix: Matrix) -> Matrix:
     """The same law without what no output depends on: what a node gathers that leads nowhere."""
     needed = [node in OUTPUTS for node in range(SIZE)]
     for node in reversed(range(SIZE)):

@@ -47,7 +47,7 @@ class PointMassPath:
         """Largest s - |u| (m/s2): near 0, and the convex form has the solutions of the problem itself."""
         return float(np.max(self.size - np.linalg.norm(self.thrust_acceleration, axis=1)))
 
-    def planned(self, problem: PointMassProblem) -> PlannedPath:
+    def make_path(self, problem: PointMassProblem) -> PlannedPath:
         """How it goes, for pages and tables."""
         force = self.thrust_acceleration
         throttle = self.size / problem.most * np.exp((self.log_mass[1:] + self.log_mass[:-1]) / 2.0)
@@ -129,13 +129,13 @@ def _solve(
     away = sparse.csr_array((here + there) / 2.0) @ z  # y = away z - middle
     most = problem.most / unit * ratio
     below = [(s + sparse.diags_array(most) @ away, most * (1.0 + middle))]
-    cones: list[tuple[Any, Any]] = [(_interleaved([s, *(u[axis::axes] for axis in range(axes))]), None)]
+    cones: list[tuple[Any, Any]] = [(_interleave([s, *(u[axis::axes] for axis in range(axes))]), None)]
     kinds = [clarabel().SecondOrderConeT(1 + axes)] * intervals
     if problem.least > 0.0:
         # q = s/(a1 e) - 1 + y >= y^2/2, as the cone |(y, q - 1/2)| <= q + 1/2
         q = sparse.diags_array(unit / (problem.least * ratio)) @ s + away
         offset = 1.0 + middle
-        cones.append((_interleaved([q, q, away]), -np.stack([offset - 0.5, offset + 0.5, middle], axis=1).ravel()))
+        cones.append((_interleave([q, q, away]), -np.stack([offset - 0.5, offset + 0.5, middle], axis=1).ravel()))
         kinds += [clarabel().SecondOrderConeT(3)] * intervals
 
     rows = [matrix for matrix, _ in equal + below] + [-matrix for matrix, _ in cones]
@@ -158,7 +158,7 @@ def _solve(
     )
 
 
-def _interleaved(parts: list[Any]) -> sparse.csr_array:
+def _interleave(parts: list[Any]) -> sparse.csr_array:
     """First rows of all parts, then second rows, and so on: one cone after another."""
     count = parts[0].shape[0]
     order = np.arange(count * len(parts)).reshape(len(parts), count).T.ravel()

@@ -13,7 +13,7 @@ from lxml import etree
 
 from ...common.errors import InputError
 from ...runtime.ssp.annotations import AnnotationReader
-from ...runtime.system.names import parted
+from ...runtime.system.names import split_name
 from ...runtime.system.prepared import PreparedSystem, prepare_system
 from .bounds import landing_problem, transfer_problem
 from .point_mass import PointMassProblem
@@ -85,7 +85,7 @@ class _Reader(AnnotationReader):
         """A parameter as it is set, or as its FMU starts; a number is itself."""
         if NUMBER.fullmatch(name):
             return float(name)
-        component, variable = parted(name, prepared.network.fmus)
+        component, variable = split_name(name, prepared.network.fmus)
         if not component or variable not in prepared.network.fmus[component].variables:
             raise self.refuse(element, f"{name}: no such parameter", "name one as COMPONENT.VARIABLE")
         start = prepared.network.fmus[component].variables[variable].start

@@ -161,7 +161,7 @@ def vehicle_document(vehicle: Vehicle) -> dict[str, Any]:
 
 def _bound(vehicle: Vehicle, transfer: Transfer, intervals: int) -> PlannedPath:
     problem = transfer_problem(vehicle, transfer)
-    return least_propellant(problem, intervals).planned(problem)
+    return least_propellant(problem, intervals).make_path(problem)
 
 
 def _degrees(values: dict[str, Any]) -> dict[str, Any]:

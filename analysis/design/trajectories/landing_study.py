@@ -45,7 +45,7 @@ class LandingStudy:
         """The bound, kg."""
         return self.bound.propellant_fraction * self.vehicle.mass
 
-    def stored(self, inputs: Inputs) -> StoredBound:
+    def to_stored_bound(self, inputs: Inputs) -> StoredBound:
         """What is kept of it for a system, with the inputs that it was made of."""
         burns = tuple(self.bound.burns())
         return StoredBound(
@@ -106,4 +106,4 @@ def landing_study(
         for name, (part, mass) in (pieces or {}).items():
             cut[name] = least_propellant(part, count).propellant_fraction * mass
             progress.update()
-    return LandingStudy(vehicle, landing, path.planned(problem), path.looseness, check, cut)
+    return LandingStudy(vehicle, landing, path.make_path(problem), path.looseness, check, cut)

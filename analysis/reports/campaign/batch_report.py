@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...campaigns.draws.declared import drawn_names
+from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.results import BatchResult
 from ..common.page import write_page
 from .distributions import distribution_panels, legend_of, sort_metrics
@@ -45,7 +45,7 @@ def write_batch_report(result: BatchResult, path: Path, title: str) -> None:
         statuses=component_statuses(result),
         influences={variant: values for variant, values in influences.items() if values},
         drivers=drivers(result),
-        input_names=drawn_names(campaign),
+        input_names=input_names(campaign),
         draws=draw_rows(campaign),
         hash_rows=[system, *fmu_rows(result.provenance["fmus"])],
     )

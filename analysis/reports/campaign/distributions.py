@@ -14,7 +14,7 @@ from ...campaigns.fly.results import BatchResult
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.verdicts.quantiles import quantiles
 from ..common.panels import Panel, panel, swatch
-from ..common.quantities import labelled, shown_factor
+from ..common.quantities import display_factor, label_with_unit
 from ..common.style import WIDTH, Look, house_style, log_ticks_x, look, new_figure, plain_ticks
 
 CUMULATIVE = "cumulative probability (CDF), %"
@@ -67,7 +67,7 @@ def legend_of(result: BatchResult) -> list[tuple[Markup, str]]:
 
 def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray], looks: Sequence[Look]) -> None:
     """One panel: the empirical distribution of a metric in several series with their line styles."""
-    scaled = [series * shown_factor(metric.unit) for series in values.values()]
+    scaled = [series * display_factor(metric.unit) for series in values.values()]
     everything = np.concatenate(scaled)
     everything = everything[np.isfinite(everything)]
     low, high, logarithmic = _limits(everything)
@@ -88,7 +88,7 @@ def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray],
     axes.set_xlim(low, high)
     axes.set_ylim(-3.0, 103.0)
     axes.set_yticks([0, 25, 50, 75, 100])
-    axes.set_xlabel(labelled(metric.name, metric.unit))
+    axes.set_xlabel(label_with_unit(metric.name, metric.unit))
 
 
 def _limits(values: np.ndarray) -> tuple[float, float, bool]:

@@ -9,11 +9,11 @@ import numpy as np
 from markupsafe import Markup
 
 from ...campaigns.fly.results import BatchResult
-from ...campaigns.replay_command import replay_command, stored_replay
+from ...campaigns.replay_command import replay_command, replay_of_folder
 from ...campaigns.rows import TrialRows
 from ...campaigns.spec.campaign import Variant
 from ..common.page import exact
-from ..common.quantities import shown_unit
+from ..common.quantities import display_unit
 
 FAILURES = 3  # of a variant, the first ones
 
@@ -66,7 +66,7 @@ def _extremes(result: BatchResult, variant: str) -> list[tuple[int, Markup]]:
     for metric in result.plan.campaign.metrics:
         maximum, trials = _maximum(result.rows[variant], f"metric.{metric.name}")
         if len(trials) == 1:
-            reason = Markup("{}: {} {}").format(metric.name, exact(maximum, metric.unit), shown_unit(metric.unit))
+            reason = Markup("{}: {} {}").format(metric.name, exact(maximum, metric.unit), display_unit(metric.unit))
             extremes.append((trials[0], reason))
     return extremes
 
@@ -86,4 +86,4 @@ def replay_of(result: BatchResult, variant: Variant, trial: int) -> str:
     """The command that replays one trial of one variant, from the campaign's folder if it has one."""
     if result.folder is None:
         return replay_command(result.plan, variant, trial)
-    return stored_replay(result.folder, result.rows, variant.name, trial)
+    return replay_of_folder(result.folder, result.rows, variant.name, trial)

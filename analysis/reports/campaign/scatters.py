@@ -10,12 +10,12 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 
-from ...campaigns.draws.declared import drawn_names
+from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.spec.campaign import Metric, Scatter
 from ..common.page import exact
 from ..common.panels import Panel, panel
-from ..common.quantities import labelled, number, shown_factor, shown_unit
+from ..common.quantities import display_factor, display_unit, label_with_unit, number
 from ..common.style import INK, VERMILION, plain_ticks
 
 SIDE = 3.4  # in, of a panel over metrics
@@ -61,12 +61,12 @@ def _scatter_figure(result: BatchResult, scatter: Scatter) -> ScatterFigure:
     metrics = {metric.name: metric for metric in result.plan.campaign.metrics}
     pair = (metrics[scatter.x], metrics[scatter.y])
     points = {
-        variant: np.stack([sample.dots.metrics[metric.name] * shown_factor(metric.unit) for metric in pair])
+        variant: np.stack([sample.dots.metrics[metric.name] * display_factor(metric.unit) for metric in pair])
         for variant, sample in result.shown.items()
     }
     title = scatter.title or f"{scatter.y} vs. {scatter.x}"
     everything = np.concatenate(list(points.values()), axis=1)
-    limits = _limits(everything, 0.0 if scatter.circle is None else shown_factor(pair[0].unit) * scatter.circle)
+    limits = _limits(everything, 0.0 if scatter.circle is None else display_factor(pair[0].unit) * scatter.circle)
     to_scale = pair[0].unit == pair[1].unit
     if to_scale and limits is not None:
         limits = _square(limits)
@@ -111,11 +111,11 @@ def _draw_panel(
 ) -> None:
     plot_outcomes(axes, points[0], points[1], success, minimum_size=0.5)
     if scatter.circle is not None:
-        radius = scatter.circle * shown_factor(pair[0].unit)
+        radius = scatter.circle * display_factor(pair[0].unit)
         axes.add_patch(Circle((0.0, 0.0), radius, fill=False, edgecolor=INK, linewidth=1.0, linestyle=(0, (4, 2))))
         axes.plot(0.0, 0.0, "+", color=INK, markersize=8)
-    axes.set_xlabel(labelled(pair[0].name, pair[0].unit))
-    axes.set_ylabel(labelled(pair[1].name, pair[1].unit))
+    axes.set_xlabel(label_with_unit(pair[0].name, pair[0].unit))
+    axes.set_ylabel(label_with_unit(pair[1].name, pair[1].unit))
     if limits is not None:
         axes.set_xlim(*limits[0])
         axes.set_ylim(*limits[1])
@@ -128,7 +128,7 @@ def _notes(scatter: Scatter, metric: Metric, points: dict[str, np.ndarray]) -> l
     notes = []
     if scatter.circle is not None:
         radius = exact(scatter.circle, metric.unit)
-        notes.append(Markup("Dashed: {} {} around the origin.").format(radius, shown_unit(metric.unit)))
+        notes.append(Markup("Dashed: {} {} around the origin.").format(radius, display_unit(metric.unit)))
     for variant, values in points.items():
         lacking = int(np.count_nonzero(~np.all(np.isfinite(values), axis=0)))
         if lacking:
@@ -148,7 +148,7 @@ def influence_on_success(result: BatchResult, variant: str) -> dict[str, float]:
     if success.min() == success.max():
         return {}
     influence = {}
-    for name in drawn_names(result.plan.campaign):
+    for name in input_names(result.plan.campaign):
         values = result.shown[variant].dots.draws[name]
         columns = [column for column in (values, np.abs(values - values.mean())) if np.ptp(column) > 0.0]
         if columns:

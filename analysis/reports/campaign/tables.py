@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from ...campaigns.draws.declared import drawn_names
+from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.fly.workers.status_texts import worst_statuses
 from ...campaigns.requirement_verdicts import RequirementVerdict
@@ -15,7 +15,7 @@ from ...campaigns.statistics import QUANTILES, STATISTICS
 from ...campaigns.summary import Summary, SummaryRow, summary_rows
 from ...campaigns.tables import bound_text, requirement_rows
 from ...studies.sensitivity.ranks import rank_correlations
-from ..common.quantities import in_shown_unit, number, shown_unit
+from ..common.quantities import display_unit, in_shown_unit, number
 
 HEADINGS = {name: f"{QUANTILES[name]} %" if name in QUANTILES else name for name in STATISTICS}
 
@@ -54,7 +54,7 @@ def _bound(result: RequirementVerdict, units: Mapping[str, str]) -> str:
     if result.bound is None:
         return ""
     unit = units[result.bound.metric]
-    return bound_text(result, f"{number(in_shown_unit(result.bound.value, unit))} {shown_unit(unit)}".strip())
+    return bound_text(result, f"{number(in_shown_unit(result.bound.value, unit))} {display_unit(unit)}".strip())
 
 
 MOST_INPUTS = 3  # of a metric
@@ -70,7 +70,7 @@ class Driver(NamedTuple):
 
 def drivers(result: BatchResult) -> list[Driver]:
     """A row for each metric of each variant that has a rank correlation, the largest first."""
-    names = drawn_names(result.plan.campaign)
+    names = input_names(result.plan.campaign)
     rows = []
     for variant, sample in result.shown.items():
         trials = sample.first

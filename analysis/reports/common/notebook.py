@@ -14,7 +14,7 @@ from ...campaigns.statistics import STATISTICS
 from ...campaigns.summary import SummaryRow
 from ...campaigns.tables import who_cells, who_heads
 from .page import render_page
-from .quantities import in_shown_unit, number, shown_unit
+from .quantities import display_unit, in_shown_unit, number
 from .svg import svg_bytes
 
 TEMPLATE = Path(__file__).with_name("notebook.html")
@@ -44,7 +44,7 @@ def _picture(plot: Plot) -> str:
 def value_text(values: Iterable[Any], unit: str | None) -> str:
     """Numbers with their unit, angles in deg."""
     text = ", ".join(number(in_shown_unit(value, unit)) for value in values)
-    return f"{text} {shown_unit(unit)}".strip()
+    return f"{text} {display_unit(unit)}".strip()
 
 
 def metric_grid(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str | None) -> Grid:
@@ -54,5 +54,5 @@ def metric_grid(rows: Sequence[SummaryRow], metrics: Iterable[str], group: str |
         for row in rows:
             statistics = row.entry.metrics[metric]
             numbers = [number(in_shown_unit(statistics.value(name), statistics.unit)) for name in STATISTICS]
-            cells.append((metric, *who_cells(row, group), *numbers, shown_unit(statistics.unit)))
+            cells.append((metric, *who_cells(row, group), *numbers, display_unit(statistics.unit)))
     return Grid(("metric, successful trials", *who_heads(group), *STATISTICS, "unit"), cells)

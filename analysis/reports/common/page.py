@@ -10,7 +10,7 @@ from markupsafe import Markup
 
 from ...common.atomic import write_atomically
 from ...common.percent import percent
-from .quantities import in_shown_unit, number, shown_unit
+from .quantities import display_unit, in_shown_unit, number
 
 FOLDER = Path(__file__).parent
 
@@ -44,7 +44,7 @@ def render_page(template: Path, **content: Any) -> str:
     )
     environment.filters |= {
         "exact": exact,
-        "unit": shown_unit,
+        "unit": display_unit,
         "number": number,
         "breakable": breakable,
         "percent": percent,

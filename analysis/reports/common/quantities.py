@@ -14,7 +14,7 @@ NONE = "\N{EN DASH}"
 PLAIN_DIGITS = 6  # before the point; larger numbers have an exponent
 
 
-def shown_unit(unit: str | None) -> str:
+def display_unit(unit: str | None) -> str:
     """A unit as it is shown: ``m/s2`` is m/s², radians (per second) are degrees, ``1`` and None are nothing."""
     if unit is None or unit == "1":
         return ""
@@ -23,14 +23,14 @@ def shown_unit(unit: str | None) -> str:
     return POWER.sub(lambda power: power.group(1).translate(SUPERSCRIPTS), unit).replace(".", "·")
 
 
-def shown_factor(unit: str | None) -> float:
-    """What a value in ``unit`` is multiplied by to be shown in `shown_unit`."""
+def display_factor(unit: str | None) -> float:
+    """What a value in ``unit`` is multiplied by to be shown in `display_unit`."""
     return math.degrees(1.0) if unit is not None and RADIANS.fullmatch(unit) else 1.0
 
 
-def labelled(name: str, unit: str | None) -> str:
+def label_with_unit(name: str, unit: str | None) -> str:
     """An axis label: ``name, unit``, or the name alone where there is no unit."""
-    shown = shown_unit(unit)
+    shown = display_unit(unit)
     return f"{name}, {shown}" if shown else name
 
 
@@ -55,7 +55,7 @@ def number(value: Any, digits: int = 4) -> str:
 
 def in_shown_unit(value: Any, unit: str | None) -> Any:
     """A value in ``unit`` in the unit that is shown; Integers, Booleans and None stay as they are."""
-    factor = shown_factor(unit)
+    factor = display_factor(unit)
     return value if factor == 1.0 or value is None or isinstance(value, bool | str) else value * factor
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...runtime.flight.results import Result
-from ...runtime.system.names import parted
+from ...runtime.system.names import split_name
 
 STATES = (
     "position", "relative_position", "altitude", "height", "central_angle", "longitude", "latitude", "velocity",
@@ -56,7 +56,7 @@ def signal_groups(result: Result) -> list[SignalGroup]:
     components = result.provenance["fmus"]
     by_key: dict[tuple[str, str, str | None, str, bool], list[tuple[str, str]]] = {}
     for name in result.signals:
-        component, variable = parted(name, components)
+        component, variable = split_name(name, components)
         indexed = INDEXED.fullmatch(variable)
         base, index = indexed.groups() if indexed else (variable, "")
         key = (component, base, result.units[name], result.types[name], bool(indexed))

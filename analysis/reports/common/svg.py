@@ -28,13 +28,13 @@ def svg_bytes(figure: Figure, name: str, *, text_as_paths: bool) -> bytes:
     """A figure as an SVG document without date or version; ``name`` salts its identifiers."""
     buffer = io.BytesIO()
     settings: Any = {"svg.hashsalt": name, "svg.fonttype": "path" if text_as_paths else "none"}
-    with matplotlib.rc_context(settings), _laid_out(figure) as canvas:
+    with matplotlib.rc_context(settings), _lay_out(figure) as canvas:
         canvas.print_svg(buffer, metadata={"Date": None, "Creator": None})
     return buffer.getvalue()
 
 
 @contextmanager
-def _laid_out(figure: Figure) -> Iterator[FigureCanvasSVG]:
+def _lay_out(figure: Figure) -> Iterator[FigureCanvasSVG]:
     """The figure's SVG, with its layout made: savefig would draw the whole once more to have it made."""
     before, dpi, engine = figure.canvas, figure.dpi, figure.get_layout_engine()
     canvas = FigureCanvasSVG(figure)  # whose text the layout measures

@@ -11,7 +11,7 @@ from scipy.stats import chi2, norm
 
 from ...campaigns.verdicts.quantiles import quantiles
 from ..common.panels import Panel, far, panel
-from ..common.quantities import number, shown_factor, shown_unit
+from ..common.quantities import display_factor, display_unit, number
 from ..common.style import FAILED, FAINT, Look, plain_ticks
 from .recorded import ALL, RATIO, Flight, Quantity, doubling
 
@@ -62,7 +62,7 @@ def bands_of(quantity: Quantity, flights: Sequence[Flight]) -> Bands | None:
         return None
     longest = max((time for time, _ in histories), key=lambda time: float(time[-1]))
     grid = longest[:: doubling(longest.size / MOST_TIMES)]
-    values = np.stack([_resampled(grid, time, row, quantity.held) for time, row in histories])
+    values = np.stack([_resample(grid, time, row, quantity.held) for time, row in histories])
     flying = np.sum(np.isfinite(values), axis=0)
     enough = flying >= max(1.0, FEWEST * len(histories))
     percentiles = quantiles(values[:, enough], [level / 100.0 for level in LEVELS])
@@ -79,7 +79,7 @@ def _history(quantity: Quantity, flight: Flight) -> History:
     return flight.time[rows], quantity.values(flight.signals)[rows]
 
 
-def _resampled(grid: np.ndarray, time: np.ndarray, values: np.ndarray, held: bool) -> np.ndarray:
+def _resample(grid: np.ndarray, time: np.ndarray, values: np.ndarray, held: bool) -> np.ndarray:
     """Values at the times of a grid; nan where the flight does not fly."""
     margin = 1e-9 * max(1.0, abs(time[-1]))
     inside = (grid >= time[0] - margin) & (grid <= time[-1] + margin)
@@ -119,7 +119,7 @@ def frame_of(quantity: Quantity, bands: Mapping[str, Bands]) -> Frame:
     """One scale for all, which failed flights may leave, and errors over sigma far beyond what is to be expected."""
     expected = expectation(quantity)
     everything = np.concatenate([band.shown() for band in bands.values()] + [np.asarray(expected)])
-    factor, unit = shown_factor(quantity.unit), shown_unit(quantity.unit)
+    factor, unit = display_factor(quantity.unit), display_unit(quantity.unit)
     if quantity.unit == "m":
         factor, unit = far(everything)
     low, high = float(everything.min()), float(everything.max())

@@ -46,7 +46,7 @@ def target_of(contender: Contender, variable: str) -> Target:
     known = {
         name: value
         for name, value in contender.stored.document.get("targets", {}).get(contender.name, {}).items()
-        if contender.stored.parted(name)[1].startswith(f"target_{variable}[")
+        if contender.stored.split_rows(name)[1].startswith(f"target_{variable}[")
     }
     for base, elements in vectors(known).items():
         drawn = contender.stored.draws
@@ -121,21 +121,23 @@ def dispersion_panels(
     """Panels to one scale; and, where these differ much, each to its own."""
     reaches = {label: reach_of(points) for label, points in ends.items()}
     most = max(reaches.values())
-    common = [_panel(label, points, looks[label], most, unit, f"{name}-{i}") for i, (label, points) in _numbered(ends)]
+    common = [
+        _panel(label, points, looks[label], most, unit, f"{name}-{i}") for i, (label, points) in _number_axes(ends)
+    ]
     if most <= UNEVEN * min(reaches.values()):
         return common, []
     own = [
         _panel(label, points, looks[label], reaches[label], unit, f"{name}-own-{i}")
-        for i, (label, points) in _numbered(ends)
+        for i, (label, points) in _number_axes(ends)
     ]
     return common, own
 
 
-def _numbered(ends: Mapping[str, Ends]) -> list[tuple[int, tuple[str, Ends]]]:
+def _number_axes(ends: Mapping[str, Ends]) -> list[tuple[int, tuple[str, Ends]]]:
     return list(enumerate(ends.items()))
 
 
-def shown_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
+def select_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
     """Horizontal errors of successful and of failed trials; those that are not finite left out."""
     finite = np.all(np.isfinite(ends.errors), axis=1)
     return ends.errors[finite & ends.success], ends.errors[finite & ~ends.success]
@@ -143,7 +145,7 @@ def shown_ends(ends: Ends) -> tuple[np.ndarray, np.ndarray]:
 
 def reach_of(ends: Ends) -> float:
     """How far from the target a contender's panel goes: its successful trials and 3-sigma ellipse, if any."""
-    good, bad = shown_ends(ends)
+    good, bad = select_ends(ends)
     points = good if good.size else bad
     values = [np.abs(points[:, :2]).ravel()]
     if len(good) > 1:
@@ -154,7 +156,7 @@ def reach_of(ends: Ends) -> float:
 
 def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: str) -> Panel:
     factor, shown = far(np.array([reach])) if unit == "m" else (1.0, unit)
-    good, bad = (factor * points for points in shown_ends(ends))
+    good, bad = (factor * points for points in select_ends(ends))
     reach *= factor
 
     def draw(axes: Axes) -> None:
@@ -198,7 +200,7 @@ def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str
 
     def draw(axes: Axes) -> None:
         for label, points in ends.items():
-            good, style = factor * shown_ends(points)[0], looks[label]
+            good, style = factor * select_ends(points)[0], looks[label]
             if len(good) > 1:
                 axes.plot(*ellipse(good, SIGMAS[-1]), color=style.colour, linestyle=style.dashes)
                 axes.plot(*good[:, :2].mean(axis=0), "+", color=style.colour, markersize=8, markeredgewidth=1.4)

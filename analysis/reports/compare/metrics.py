@@ -31,7 +31,7 @@ def all_values(comparison: Comparison, metric: Metric) -> dict[str, np.ndarray]:
     return by_label
 
 
-def distributed(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
+def make_distribution(comparison: Comparison) -> dict[Metric, dict[str, np.ndarray]]:
     """Metrics by contender, nan in failed trials; without one in kg also the final masses: they tell the propellant."""
     contenders = comparison.contenders
     distributions = {
@@ -97,12 +97,12 @@ def distribution_panel(metric: Metric, values: dict[str, np.ndarray], looks: Map
 
 def varying_metrics(comparison: Comparison) -> list[Metric]:
     """Metrics that are finite somewhere and not the same everywhere."""
-    return sort_metrics(distributed(comparison))[0]
+    return sort_metrics(make_distribution(comparison))[0]
 
 
 def metric_plot(comparison: Comparison, metrics: Sequence[Metric]) -> Figure:
     """Empirical distributions over the successful trials, a panel per metric, a line per contender."""
-    shown = distributed(comparison)
+    shown = make_distribution(comparison)
     return distribution_plot({metric: shown[metric] for metric in metrics}, looks_of(comparison))
 
 

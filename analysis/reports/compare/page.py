@@ -18,9 +18,9 @@ from ..common.style import Look
 from .bands import Bands, band_panels, bands_of, expectation, overlaid_bands
 from .consistency import LIMITS, NORMAL, is_over_sigma, sigma_rows
 from .dispersions import UNITS, Dispersion, dispersion, dispersion_panels, ends_of, overlaid_ends
-from .metrics import all_values, distributed, distribution_panel, looks_of, sort_metrics
+from .metrics import all_values, distribution_panel, looks_of, make_distribution, sort_metrics
 from .missing_data import is_biased, missing_parts
-from .recorded import Flight, Quantity, kept_names, quantities, read_flights, sampled_trials
+from .recorded import Flight, Quantity, names_of_record, quantities, read_flights, trials_with_traces
 from .tables import draw_ranges, failures_to_replay, metric_pairs, rate_pairs
 from .trajectories import DRAWN, bundle_of, plan_panels, side_panels
 
@@ -63,7 +63,7 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
     }
     histories = _histories(comparison, flights, looks)
     ends = [end for variable in UNITS if (end := _end(comparison, variable, looks)) is not None]
-    shown = distributed(comparison)
+    shown = make_distribution(comparison)
     drawn, still, empty = sort_metrics(shown)
     errors = {metric: all_values(comparison, metric) for metric in comparison.metrics if is_over_sigma(metric)}
     first = comparison.first.document
@@ -124,9 +124,9 @@ def _axis_start(rows: Iterable[SummaryRow], rate: str) -> float:
 
 def _flights(comparison: Comparison) -> dict[str, list[Flight]]:
     """The flights with traces that are shown, by contender."""
-    trials = sampled_trials(comparison.contenders.values())
+    trials = trials_with_traces(comparison.contenders.values())
     return {
-        label: read_flights(contender, trials[label], kept_names(contender.stored))
+        label: read_flights(contender, trials[label], names_of_record(contender.stored))
         for label, contender in comparison.contenders.items()
     }
 

@@ -50,12 +50,12 @@ class Flight:
 
 def variable_of(batch: StoredBatch, name: str) -> str:
     """``plant.position[1]`` and ``plant.position``: ``position``."""
-    variable = batch.parted(name)[1]
+    variable = batch.split_rows(name)[1]
     indexed = INDEXED.fullmatch(variable)
     return indexed[1] if indexed else variable
 
 
-def kept_names(batch: StoredBatch) -> list[str]:
+def names_of_record(batch: StoredBatch) -> list[str]:
     """Signals over time that a page can use: those that were asked for, or of full traces the known ones.
 
     Of a variable that several components have, as inputs repeat outputs, the first component's is taken.
@@ -68,7 +68,7 @@ def kept_names(batch: StoredBatch) -> list[str]:
     owners: dict[str, str] = {}
     kept = []
     for name in batch.document["signals"]:
-        owner, variable = batch.parted(name)[0], variable_of(batch, name)
+        owner, variable = batch.split_rows(name)[0], variable_of(batch, name)
         known = variable in KNOWN or variable.endswith(RATIO)
         if known and owners.setdefault(variable, owner) == owner:
             kept.append(name)
@@ -103,7 +103,7 @@ def _unit(batch: StoredBatch, name: str) -> str | None:
 
 def quantities(batch: StoredBatch) -> list[Quantity]:
     """Every quantity over time that can be drawn, in order of their signals."""
-    names = kept_names(batch)
+    names = names_of_record(batch)
     listed: list[Quantity] = []
     taken: set[str] = set()
     altitude = any(variable_of(batch, name) == "altitude" for name in names)
@@ -151,7 +151,7 @@ def _elevation(names: Sequence[str]) -> Callable[[Signals], np.ndarray]:
     return lambda signals: np.arctan2(signals[z], np.hypot(signals[x], signals[y]))
 
 
-def sampled_trials(contenders: Iterable[Contender]) -> dict[str, list[int]]:
+def trials_with_traces(contenders: Iterable[Contender]) -> dict[str, list[int]]:
     """Trials of which each contender's traces are shown: those that all have; without such, each its own.
 
     Where signals are sampled, flights that failed and are kept in full beyond them do not count: they

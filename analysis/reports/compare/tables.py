@@ -12,7 +12,7 @@ from markupsafe import Markup
 from ...campaigns.compare.comparison import Comparison, name_of
 from ...campaigns.compare.paired import PairedRates, PairedValues
 from ...campaigns.fly.manifest.manifest import FILE as MANIFEST
-from ...campaigns.replay_command import stored_replay
+from ...campaigns.replay_command import replay_of_folder
 from ...campaigns.spec.campaign import Metric
 from ..campaign.replays import FAILURES, Replay
 
@@ -25,12 +25,12 @@ class PairRow(Generic[T]):
 
     a: str
     b: str
-    found: T
+    estimate: T
 
     @property
     def is_sure(self) -> bool:
         """Whether the interval of the difference does not contain 0."""
-        interval = self.found.interval
+        interval = self.estimate.interval
         return interval is not None and not interval[0] <= 0.0 <= interval[1]
 
 
@@ -51,7 +51,7 @@ def rate_pairs(comparison: Comparison) -> list[PairGroup[PairedRates]]:
             comparison,
             name_of(rate),
             "1",
-            [PairRow(*pair, comparison.paired_rates(pair, rate)) for pair in comparison.pairs],
+            [PairRow(*pair, comparison.compare_rates(pair, rate)) for pair in comparison.pairs],
         )
         for rate in comparison.rates
     ]
@@ -67,7 +67,7 @@ def metric_pairs(
             metric.name,
             metric.unit,
             [
-                PairRow(*pair, comparison.paired_values(pair, metric.name, successful=successful))
+                PairRow(*pair, comparison.pair_values(pair, metric.name, successful=successful))
                 for pair in comparison.pairs
             ],
         )
@@ -100,6 +100,6 @@ def failures_to_replay(comparison: Comparison) -> list[Replay]:
             if others:
                 count = sum(bool(success[row]) for success in others)
                 reasons.append(Markup("{} of {} others succeed").format(count, len(others)))
-            command = stored_replay(stored.folder, stored.variants, contender.name, trial)
+            command = replay_of_folder(stored.folder, stored.variants, contender.name, trial)
             replays.append(Replay(label, trial, reasons, command))
     return replays

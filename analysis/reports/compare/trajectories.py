@@ -13,7 +13,7 @@ from ..common.panels import Panel, far, panel
 from ..common.round_body import radius_of, track_angles
 from ..common.style import FAILED, FAINT, GRID, INK, Look, plain_ticks
 from .dispersions import TARGET, target_of
-from .recorded import Flight, find_vector, kept_names, variable_of
+from .recorded import Flight, find_vector, names_of_record, variable_of
 
 DRAWN = 40  # flights of a panel
 SHAPE = 1.45  # width over height of a panel's axes
@@ -52,13 +52,13 @@ class Bundle:
 
 def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
     """The paths of a contender's flights, to their ends where the batch keeps the final values; None without any."""
-    names = kept_names(contender.stored)
+    names = names_of_record(contender.stored)
     position = find_vector(contender.stored, names, "position", "m")
     if position is None:
         return None
-    owner = contender.stored.parted(position[0])[0]
+    owner = contender.stored.split_rows(position[0])[0]
     altitudes = [name for name in names if variable_of(contender.stored, name) == "altitude"]
-    height = next((name for name in altitudes if contender.stored.parted(name)[0] == owner), position[2])
+    height = next((name for name in altitudes if contender.stored.split_rows(name)[0] == owner), position[2])
     target = target_of(contender, "position")
     row = {int(trial): index for index, trial in enumerate(contender.trials.trial)}
     drawn: list[tuple[bool, np.ndarray, np.ndarray, np.ndarray]] = []  # success, path, heights, target
@@ -99,7 +99,7 @@ def _along(plan: np.ndarray, target: np.ndarray) -> np.ndarray:
 
 def side_panels(bundles: Mapping[str, Bundle], looks: Mapping[str, Look]) -> list[Panel]:
     """Height over downrange distance, one scale in all panels, with the surface below altitudes; not to scale."""
-    framed = _framed(bundles)
+    framed = _frame(bundles)
     ground = all(bundle.over_ground for bundle in bundles.values())
     along = np.concatenate([path.along for path in framed] + [np.zeros(1)])
     height = np.concatenate([path.height for path in framed] + ([np.zeros(1)] if ground else []))
@@ -129,7 +129,7 @@ def side_panels(bundles: Mapping[str, Bundle], looks: Mapping[str, Look]) -> lis
 
 def plan_panels(bundles: Mapping[str, Bundle], looks: Mapping[str, Look]) -> list[Panel]:
     """Paths from above with the target, one scale in all panels."""
-    plans = [path.plan for path in _framed(bundles)]
+    plans = [path.plan for path in _frame(bundles)]
     x, y = np.concatenate(plans + [bundle.target[:, np.newaxis] for bundle in bundles.values()], axis=1)
     equal = 1.0 / STRETCH <= (np.ptp(x) or 1e-9) / (np.ptp(y) or 1e-9) <= STRETCH
     x_scale, x_unit = far(np.concatenate([x, y]) if equal else x)
@@ -166,7 +166,7 @@ def _line(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str, success: bool) 
         axes.plot(x, y, linewidth=0.8, alpha=0.8, **FAILED)
 
 
-def _framed(bundles: Mapping[str, Bundle]) -> list[Path]:
+def _frame(bundles: Mapping[str, Bundle]) -> list[Path]:
     """The paths that decide the scale: of successful flights, or all where none succeeded."""
     paths = [path for bundle in bundles.values() for path in bundle.paths]
     return [path for path in paths if path.success] or paths

@@ -10,7 +10,7 @@ from matplotlib.ticker import NullFormatter
 from ...runtime.flight.results import Result
 from ..common.page import exact
 from ..common.panels import HALF_WIDTH, Panel, panel
-from ..common.quantities import shown_factor, shown_unit
+from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, GREEN, INK, look
 from .declaration.figures import Band
 from .declaration.values import Signal
@@ -29,7 +29,7 @@ def inside(band: Band, result: Result) -> np.ndarray:
     return (values >= low) & (values <= high) & np.isfinite(values)
 
 
-def settled_row(condition: np.ndarray) -> int | None:
+def settling_row(condition: np.ndarray) -> int | None:
     """The first sample from which a condition holds to the last one; None if it does not hold at the last."""
     failing = np.flatnonzero(~condition)
     row = int(failing[-1]) + 1 if failing.size else 0
@@ -38,7 +38,7 @@ def settled_row(condition: np.ndarray) -> int | None:
 
 def settling_text(name: str, time: np.ndarray, condition: np.ndarray) -> Markup:
     """The settling time of a condition called ``name``: from then on it holds to the end."""
-    row = settled_row(condition)
+    row = settling_row(condition)
     if row is None:
         return Markup("not {} at the end").format(name)
     if row == 0:
@@ -50,8 +50,8 @@ def settling_text(name: str, time: np.ndarray, condition: np.ndarray) -> Markup:
 def band_section(band: Band, result: Result, name: str) -> Section:
     """The section of a band; ``name`` must differ between the figures of a page."""
     within, values, time = inside(band, result), band.plot_values(result), result.time
-    row = settled_row(np.logical_and.reduce(within))
-    factor, unit = shown_factor(band.signal.unit_name), shown_unit(band.signal.unit_name)
+    row = settling_row(np.logical_and.reduce(within))
+    factor, unit = display_factor(band.signal.unit_name), display_unit(band.signal.unit_name)
     low, high = (None if limit is None else factor * limit for limit in (band.low, band.high))
     zoom = None if low is None or high is None else _zoom_limits(values, low, high)
 
@@ -100,7 +100,7 @@ def _against(band: Band, result: Result, other: Signal, name: str, limits: tuple
     """The signal over another one, on a logarithmic scale if that spans decades."""
     across = other.plot_values(result)[0]
     decades = bool(np.all(across > 0.0)) and float(np.nanmax(across)) > DECADES * float(np.nanmin(across))
-    unit = shown_unit(other.unit_name)
+    unit = display_unit(other.unit_name)
 
     def draw(axes: Axes) -> None:
         for index, line in enumerate(band.plot_values(result)):
@@ -112,7 +112,7 @@ def _against(band: Band, result: Result, other: Signal, name: str, limits: tuple
             axes.xaxis.set_major_formatter("{x:g}")  # plain digits: the text of a figure is not set as mathematics
             axes.xaxis.set_minor_formatter(NullFormatter())
         axes.set_xlabel(f"{other.label}, {unit}" if unit else other.label)
-        axes.set_title(shown_unit(band.signal.unit_name), loc="left", pad=4)
+        axes.set_title(display_unit(band.signal.unit_name), loc="left", pad=4)
 
     label = f"Versus {other.label.rpartition('.')[2].replace('_', ' ')}"
     return panel(label, name, f"{band.title} versus {other.label}, with the tolerance band", draw, HEIGHT, HALF_WIDTH)
@@ -148,7 +148,7 @@ def _findings(band: Band, time: np.ndarray, within: np.ndarray) -> Markup:
 
 
 def _element_text(label: str, time: np.ndarray, condition: np.ndarray) -> Markup:
-    row = settled_row(condition)
+    row = settling_row(condition)
     if row is None:
         return Markup("{} not at the end").format(label)
     return Markup("{} throughout").format(label) if row == 0 else Markup("{} {}").format(label, seconds(time[row]))

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 
 from ...runtime.flight.results import Result
 from ..common.page import exact
-from ..common.quantities import shown_factor, shown_unit
+from ..common.quantities import display_factor, display_unit
 from ..common.style import FAINT, look
 from .declaration.figures import Curve
 from .section import (
@@ -33,12 +33,12 @@ def curve_section(curve: Curve, result: Result, name: str) -> Section:
     time = result.time[rows]
     values = [np.where(chosen, signal.plot_values(result)[0], np.nan)[rows] for signal in curve.signals]
     unit_name = curve.signals[0].unit_name
-    unit = shown_unit(unit_name)
+    unit = display_unit(unit_name)
 
     def draw(axes: Axes, which: range) -> None:
         for limit in (curve.low, curve.high):
             if limit is not None:
-                axes.axhline(shown_factor(unit_name) * limit, color=FAINT, linewidth=0.9, linestyle=(0, (5, 3)))
+                axes.axhline(display_factor(unit_name) * limit, color=FAINT, linewidth=0.9, linestyle=(0, (5, 3)))
         for index in which:
             style = look(index if curve.together else 0)
             axes.plot(

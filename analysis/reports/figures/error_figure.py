@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from ...common.percent import short_percent
 from ...runtime.flight.results import Result
 from ..common.panels import Panel
-from ..common.quantities import shown_unit
+from ..common.quantities import display_unit
 from ..common.style import BLUE, FAINT, ORANGE
 from .declaration.figures import Error
 from .section import (
@@ -57,7 +57,7 @@ def error_section(error: Error, result: Result, name: str) -> Section:
 def _panels(
     error: Error, label: str, time: np.ndarray, values: np.ndarray, sigma: np.ndarray, name: str
 ) -> list[Panel]:
-    unit = shown_unit(error.estimate.unit_name)
+    unit = display_unit(error.estimate.unit_name)
     description = f"{error.title}: {label or error.estimate.label} over time"
     head = f"{label}, " if label else ""
 

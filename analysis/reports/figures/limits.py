@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from ...runtime.flight.results import Flight
 from ..common.page import exact
-from ..common.quantities import NONE, shown_unit
+from ..common.quantities import NONE, display_unit
 from .declaration.figures import Figure, Limit, Limits
 from .declaration.values import Unavailable
 
@@ -92,7 +92,7 @@ def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Markup | str, 
         limit.name,
         NONE if verdict is Verdict.NOT_EVALUATED else exact(limit.value(result), unit),
         _limit(limit, unit),
-        shown_unit(unit),
+        display_unit(unit),
         Markup('<span class="verdict {}">{}</span>').format(CLASSES[verdict], LABELS[verdict]),
     )
 

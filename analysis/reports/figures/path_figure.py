@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ...runtime.flight.results import Result
 from ..common.panels import both_widths, far, is_slim
-from ..common.quantities import labelled, shown_unit
+from ..common.quantities import display_unit, label_with_unit
 from ..common.style import BLUE, INK, look, plain_ticks
 from .declaration.figures import Path, Point
 from .declaration.values import Arc, Signal
@@ -72,7 +72,7 @@ def _over_ground(path: Path) -> bool:
 
 
 def _axis(signal: Signal | Arc, scale: float) -> str:
-    return labelled(signal.label, "km" if scale != 1.0 else shown_unit(signal.unit_name))
+    return label_with_unit(signal.label, "km" if scale != 1.0 else display_unit(signal.unit_name))
 
 
 def _draw_point(axes: Axes, point: Point, position: tuple[np.ndarray, np.ndarray], index: int) -> None:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from ...runtime.flight.results import Flight, Result
 from ..common.page import exact
 from ..common.panels import Widths, both_widths, is_slim
-from ..common.quantities import labelled, number
+from ..common.quantities import label_with_unit, number
 from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 from ..common.tables import Table
 from .declaration.figures import Phase, Phases
@@ -186,7 +186,7 @@ def _table(phases: Phases, spans: Sequence[Span]) -> Table:
     heads = ["phase", "start, s", "duration, s"]
     unit = None if phases.spent is None else phases.spent.unit_name
     if phases.spent is not None:
-        heads.append(labelled(_quantity(phases), unit))
+        heads.append(label_with_unit(_quantity(phases), unit))
     rows = [*spans, _total(spans)]
     columns = [
         [span.name for span in rows],

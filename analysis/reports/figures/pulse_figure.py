@@ -12,7 +12,7 @@ from matplotlib.path import Path
 from ...runtime.flight.results import Result
 from ..common.page import exact
 from ..common.panels import Widths, both_widths, is_slim
-from ..common.quantities import labelled, number
+from ..common.quantities import label_with_unit, number
 from ..common.style import BLUE, FAINT, VERMILION, plain_ticks
 from .declaration.figures import Pulses
 from .section import Section, sentence
@@ -65,7 +65,7 @@ def _figure(pulses: Pulses, result: Result, lengths: np.ndarray, name: str) -> W
             axes.set_title(f"{label}, s", loc="left", pad=4)
         if pulses.total is not None:
             all_axes[-1].plot(result.time, pulses.total.plot_values(result)[0], color=BLUE)
-            all_axes[-1].set_title(labelled(pulses.total.label, pulses.total.unit_name), loc="left", pad=4)
+            all_axes[-1].set_title(label_with_unit(pulses.total.label, pulses.total.unit_name), loc="left", pad=4)
             plain_ticks(all_axes[-1], y=3)
         plain_ticks(all_axes[-1], x=5 if is_slim(figure) else 10)
         all_axes[-1].set_xlim(result.time[0], result.time[-1])

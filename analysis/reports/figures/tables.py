@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from markupsafe import Markup
 
 from ...runtime.flight.results import Result
-from ..common.quantities import shown_unit
+from ..common.quantities import display_unit
 from ..common.tables import Table
 from .declaration.figures import BoundValues, Budget, Item, Limits
 from .limits import Verdict, evaluate, limit_rows
@@ -36,7 +36,7 @@ def limit_section(limits: Limits, result: Result) -> Section:
     )
 
 
-def spent_by_phase(budget: Budget, result: Result) -> dict[str, float]:
+def consumption_by_phase(budget: Budget, result: Result) -> dict[str, float]:
     """The consumption of each phase that occurred, summed over its occurrences."""
     spent: dict[str, float] = {}
     for span in spans_of(budget.of, result):
@@ -56,7 +56,7 @@ def amount(item: Item, spent: Mapping[str, float], bound: BoundValues | None) ->
 
 def budget_section(budget: Budget, result: Result) -> Section:
     """The table of a budget."""
-    spent = spent_by_phase(budget, result)
+    spent = consumption_by_phase(budget, result)
     unit = budget.of.spent.unit_name if budget.of.spent is not None else None
     amounts = [amount(item, spent, budget.bound) for item in budget.items]
     known = [value for value in amounts if value is not None]
@@ -72,7 +72,7 @@ def budget_section(budget: Budget, result: Result) -> Section:
     return Section(
         title=budget.title,
         table=Table(
-            heads=("item", shown_unit(unit), "sum of"),
+            heads=("item", display_unit(unit), "sum of"),
             rows=list(zip(names, numbers, sources, strict=True)),
             numbers=(1,),
         ),

@@ -14,7 +14,7 @@ from ...campaigns.verdicts.quantiles import quantiles
 from ...runtime.flight.results import Result
 from ...runtime.system.names import elements
 from ..common.panels import Panel, panel, swatch
-from ..common.quantities import labelled, number, shown_factor
+from ..common.quantities import display_factor, label_with_unit, number
 from ..common.signals import SignalGroup, distinct, signal_groups, states_and_commands
 from ..common.style import FAINT, house_style, look, new_figure, plain_ticks
 
@@ -78,11 +78,11 @@ def time_histories(result: Result) -> Histories:
             name = f"history{position}-first"
             first.append(ComponentHistory(component, _panels(selected, result, name), _legend(selected), [], []))
         others = [group for group in members if group not in unfolded]
-        rest.append(_folded_history(component, others, originals, result, position))
+        rest.append(_fold_history(component, others, originals, result, position))
     return Histories(first, [history for history in rest if not history.is_empty], bool(named))
 
 
-def _folded_history(
+def _fold_history(
     component: str,
     groups: list[SignalGroup],
     originals: dict[SignalGroup, SignalGroup],
@@ -120,7 +120,11 @@ def _panels(groups: list[SignalGroup], result: Result, name: str) -> list[Panel]
 
     return [
         panel(
-            labelled(group.variable, group.unit), f"{name}-{index}", f"{group.label} over time", drawing(group), HEIGHT
+            label_with_unit(group.variable, group.unit),
+            f"{name}-{index}",
+            f"{group.label} over time",
+            drawing(group),
+            HEIGHT,
         )
         for index, group in enumerate(_sort_by_unit(groups))
     ]
@@ -134,7 +138,7 @@ def _legend(groups: list[SignalGroup]) -> list[tuple[Markup, str]]:
 
 def draw_history(axes: Axes, group: SignalGroup, result: Result) -> None:
     """One panel: a scalar or a vector over time; Integers and Booleans as steps."""
-    values = np.where(np.isfinite(group.values(result)), group.values(result), np.nan) * shown_factor(group.unit)
+    values = np.where(np.isfinite(group.values(result)), group.values(result), np.nan) * display_factor(group.unit)
     style = "default" if group.is_real else "steps-post"
     for index, row in enumerate(values):
         colour, dashes, _ = look(index)
@@ -179,7 +183,7 @@ def signal_plot(result: Result, names: Sequence[str]) -> Figure:
         for axes, name, columns in zip(panels, names, values, strict=True):
             parts = elements(name, result.signals)
             unit = result.units[parts[0]]
-            plotted = shown_factor(unit) * columns.reshape(result.time.size, -1)
+            plotted = display_factor(unit) * columns.reshape(result.time.size, -1)
             for index, part in enumerate(parts):
                 style = look(index)
                 is_real = result.types[part] == "Real"
@@ -192,7 +196,7 @@ def signal_plot(result: Result, names: Sequence[str]) -> Figure:
                     drawstyle="default" if is_real else "steps-post",
                 )
             plain_ticks(axes, x=8, y=5)
-            axes.set_title(labelled(name, unit), loc="left")
+            axes.set_title(label_with_unit(name, unit), loc="left")
             if len(parts) > 1:
                 axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(parts), borderaxespad=0.0)
         panels[-1].set_xlabel("time, s")

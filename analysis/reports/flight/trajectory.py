@@ -136,7 +136,7 @@ def _plot_of(
     else:
         scales, units = zip(*map(far, everything), strict=True)
     scaled = [np.array(scales)[:, None] * path for path in paths]
-    marks = _marked_rows(time)
+    marks = _mark_rows(time)
 
     def draw(axes: Axes) -> None:
         for index, (path, label) in enumerate(zip(scaled, labels, strict=True)):
@@ -160,7 +160,7 @@ def _is_legible_to_scale(width: float, height: float) -> bool:
     return height > 0.0 and 1.0 / MAXIMUM_RATIO <= width / height <= MAXIMUM_RATIO
 
 
-def _marked_rows(time: np.ndarray) -> np.ndarray:
+def _mark_rows(time: np.ndarray) -> np.ndarray:
     """Rows nearest to about eight round times, and the last row."""
     if time.size == 1 or time[-1] == time[0]:
         return np.array([0])

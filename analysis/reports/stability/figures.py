@@ -22,7 +22,7 @@ from .diagrams.frequency import draw_sensitivity, margin_words
 from .diagrams.limits import Limits, limits_of
 from .diagrams.nichols import draw_nichols
 from .diagrams.nyquist import INVERSE, draw_harmonic_balance, draw_nyquist
-from .diagrams.poles import crowded, draw_cloud, draw_poles, poles_of
+from .diagrams.poles import are_crowded, draw_cloud, draw_poles, poles_of
 from .diagrams.sets import draw_amplitudes, draw_describing, draw_histogram, draw_joint, draw_step, draw_sweep
 
 HEIGHT = 3.0  # in; two axes above each other and squares need more than the other pages' panels
@@ -30,7 +30,7 @@ SIGHT = 3.5  # in; of what is seen at first sight, two beside each other
 LOW = 2.4  # in; of histograms, sensitivities and joint margins
 
 
-def stacked(
+def stack(
     label: str,
     name: str,
     description: str,
@@ -51,7 +51,7 @@ def sight_panels(loop: LoopReport, name: str) -> list[Panel]:
     margins = margin_words(loop)
     bode, nichols = f"Bode diagram of {loop.name}: {margins}", f"Nichols diagram of {loop.name}: {margins}"
     return [
-        stacked("Bode", f"{name}-bode", bode, lambda g, p: draw_bode(loop, g, p), SIGHT, HALF_WIDTH),
+        stack("Bode", f"{name}-bode", bode, lambda g, p: draw_bode(loop, g, p), SIGHT, HALF_WIDTH),
         panel("Nichols", f"{name}-nichols", nichols, lambda axes: draw_nichols(loop, axes), SIGHT, HALF_WIDTH),
     ]
 
@@ -67,7 +67,7 @@ def loop_panels(loop: LoopReport, name: str) -> list[Panel]:
         outside = int(np.sum(np.abs(poles) >= 1.0))
         words = f"{poles.size} closed-loop poles of {loop.name}, {outside} on or outside the unit circle"
         panels.append(panel("Poles", f"{name}-poles", words, lambda axes: draw_poles(loop, axes, near=False), HEIGHT))
-        if crowded(poles):
+        if are_crowded(poles):
             words = f"Closed-loop poles of {loop.name} near z = 1"
             draw = lambda axes: draw_poles(loop, axes, near=True)  # noqa: E731
             panels.append(panel("Poles near z = 1", f"{name}-poles-near", words, draw, HEIGHT))
@@ -115,7 +115,7 @@ def dispersion_panels(loop: LoopReport, name: str) -> list[Panel]:
         panels.append(panel(label, f"{name}-trials-{quantity.replace(' ', '-')}", words, draw, LOW))
     if np.any(np.isfinite(dispersion.poles)):
         words = f"Closed-loop poles of {loop.name} in {dispersion.trials} trials"
-        near = ", near z = 1" if crowded(poles_of(loop)) else ""
+        near = ", near z = 1" if are_crowded(poles_of(loop)) else ""
         draw_poles_of_all = lambda axes: draw_cloud(loop, axes)  # noqa: E731
         panels.append(panel(f"Poles over trials{near}", f"{name}-cloud", words, draw_poles_of_all, LOW))
     return panels
@@ -133,7 +133,7 @@ def amplitude_panels(loop: LoopReport, name: str) -> list[Panel]:
     if len(loop.amplitudes) < 2:
         return []
     words = f"Gain and phase of {loop.name} over {len(loop.amplitudes)} amplitudes at the cut"
-    return [stacked("Gain and phase", f"{name}-amplitudes", words, lambda g, p: draw_amplitudes(loop, g, p))]
+    return [stack("Gain and phase", f"{name}-amplitudes", words, lambda g, p: draw_amplitudes(loop, g, p))]
 
 
 def nonlinear_panels(loop: LoopReport, name: str, index: int) -> list[Panel]:
@@ -177,4 +177,4 @@ def sweep_panel(sweep: SweepReport, report: StabilityReport, name: str) -> Panel
     if unstable := sum(item.unstable for item in sweep.margins):
         words += f", {unstable} of them unstable"
     label = f"{sweep.loop} over {sweep.parameter}"
-    return stacked(label, name, words, lambda g, p: draw_sweep(sweep, limits, g, p))
+    return stack(label, name, words, lambda g, p: draw_sweep(sweep, limits, g, p))

@@ -14,7 +14,7 @@ from ...stability.results.requirement import Verdict
 from ...stability.results.varied import SweepCrossing, SweepReport
 from ..common.page import write_page
 from ..common.panels import Panel
-from ..common.quantities import labelled
+from ..common.quantities import label_with_unit
 from .figures import joint_panel, loop_panels, part_panels, sight_panels, sweep_panel
 from .orders.section import order_section
 from .over_time import over_time
@@ -29,12 +29,12 @@ from .tables import (
     facts,
     hash_table,
     joint_table,
-    judged,
     limit_table,
     link,
     point_table,
     summary_table,
     trim_table,
+    verdict_rows,
     verdict_table,
 )
 from .words import UNSTABLE_WORD, gain_margin, left_out, numeral, phase_margin, size, verdict
@@ -79,7 +79,7 @@ def write_stability_page(report: StabilityReport, path: Path) -> None:
 
     How long the study took is not on the page, so that the same study gives the same page.
     """
-    rows = judged(report)
+    rows = verdict_rows(report)
     summary = summary_table(report)
     shared = share(report.loops, [_figures(loop, anchor(index)) for index, loop in enumerate(report.loops)])
     paper = paper_of(shared)
@@ -177,16 +177,16 @@ def _sweep(report: StabilityReport, sweep: SweepReport, name: str) -> Sweep:
         for value, margins in zip(sweep.values, sweep.margins, strict=True)
     ]
     crossings = [
-        (_crossed(crossing), "below" if crossing.below else "above", numeral(crossing.value, sweep.unit))
+        (_cross(crossing), "below" if crossing.below else "above", numeral(crossing.value, sweep.unit))
         for crossing in sweep.crossings
     ]
     return Sweep(
         sweep,
         sweep_panel(sweep, report, name),
         Table((sweep.parameter, "gain margin, dB", "phase margin, deg", "modulus margin"), "nnnn", rows),
-        Table(("what fails", "where", labelled(sweep.parameter, sweep.unit)), "ttn", crossings),
+        Table(("what fails", "where", label_with_unit(sweep.parameter, sweep.unit)), "ttn", crossings),
     )
 
 
-def _crossed(crossing: SweepCrossing) -> str:
+def _cross(crossing: SweepCrossing) -> str:
     return UNSTABLE_WORD if crossing.quantity is Quantity.STABILITY else f"{crossing.quantity} misses its limit"

@@ -14,12 +14,11 @@ from ...stability.results.nonlinear import Nonlinearity
 from ...stability.results.responses import Mode
 from ...stability.results.varied import LEVELS, Dispersion
 from ..common.panels import Panel
-from ..common.quantities import MINUS, NONE, shown_unit
+from ..common.quantities import MINUS, NONE, display_unit
 from .tables import Cell, Table
 from .words import (
     NO_CROSSING,
     UNSTABLE_WORD,
-    closed_loop,
     complex_number,
     gain_margin,
     in_decibels,
@@ -31,6 +30,7 @@ from .words import (
     samples,
     size,
     state,
+    text_of_closed_loop,
 )
 
 
@@ -63,7 +63,7 @@ def method(loop: LoopReport) -> Part:
         rows += [
             (
                 "B, frequency-response test",
-                f"amplitude of a line, {shown_unit(loop.unit) or '1'}",
+                f"amplitude of a line, {display_unit(loop.unit) or '1'}",
                 numeral(b.amplitude, loop.unit),
             ),
             ("", "lines", numeral(b.lines)),
@@ -109,7 +109,7 @@ def classical(loop: LoopReport) -> Part:
     rows.append((f"encirclements of {MINUS}1 (+ counter-clockwise)", encircled, "", ""))
     unstable = numeral(loop.unstable_open) if loop.unstable_open is not None else "not known"
     rows.append(("unstable poles of the open loop", unstable, "", ""))
-    rows.append(("closed loop", closed_loop(loop.stable), "", ""))
+    rows.append(("closed loop", text_of_closed_loop(loop.stable), "", ""))
     note = f"Nyquist's criterion: N encirclements of {MINUS}1 and P unstable poles of the open loop leave P {MINUS} N "
     note += (
         "unstable closed-loop poles, and stable is P = N. Integrators (z = 1) are passed on the outside: not among P."
@@ -182,7 +182,7 @@ def structure(loop: LoopReport) -> Part:
     return Part("structure", "Structure", Table(("part", "rank", "smallest retained singular value"), "tnn", rows))
 
 
-def dispersed(dispersion: Dispersion) -> Part:
+def dispersion_rows(dispersion: Dispersion) -> Part:
     """Least, 5 % and median margins over the campaign, and the command that studies the worst case again."""
     rows: list[tuple[Cell, ...]] = []
     for quantity in MARGINS:
@@ -208,7 +208,7 @@ def dispersed(dispersion: Dispersion) -> Part:
 
 def nonlinear(nonlinearity: Nonlinearity, index: int) -> Part:
     """Limit cycles that harmonic balance predicts, and what the simulation shows."""
-    unit = shown_unit(nonlinearity.unit)
+    unit = display_unit(nonlinearity.unit)
     rows: list[tuple[Cell, ...]] = []
     for cycle in nonlinearity.cycles:
         lasting = cycle.simulated_amplitude is not None
@@ -248,7 +248,7 @@ def amplitudes(loop: LoopReport) -> Part:
         )
         for point in loop.amplitudes
     ]
-    unit = shown_unit(loop.unit)
+    unit = display_unit(loop.unit)
     head = (f"amplitude, {unit}" if unit else "amplitude", "gain, dB", "phase, deg", "change, %")
     at = Markup("At {} rad/s; changes are relative to the smallest amplitude's.").format(
         numeral(loop.amplitude_frequency)
@@ -280,7 +280,7 @@ def parts(loop: LoopReport) -> list[Part]:
     if loop.modes:
         sections.append(modes(loop))
     if loop.dispersion is not None:
-        sections.append(dispersed(loop.dispersion))
+        sections.append(dispersion_rows(loop.dispersion))
     if loop.amplitudes:
         sections.append(amplitudes(loop))
     sections += [nonlinear(item, index) for index, item in enumerate(loop.nonlinearities)]

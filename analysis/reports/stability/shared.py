@@ -84,12 +84,12 @@ def share(loops: Sequence[LoopReport], figures: Sequence[Panels]) -> list[Shared
                     same.loops.append(index)
                     elsewhere[index].setdefault(same.loops[0], []).append(panel.label)
     return [
-        Shared({key: [_titled(one, loops) for one in pictures] for key, pictures in parts.items()}, away)
+        Shared({key: [_title(one, loops) for one in pictures] for key, pictures in parts.items()}, away)
         for parts, away in zip(kept, elsewhere, strict=True)
     ]
 
 
-def _titled(one: _Drawn, loops: Sequence[LoopReport]) -> Panel:
+def _title(one: _Drawn, loops: Sequence[LoopReport]) -> Panel:
     """A panel whose label names its loops where there are several."""
     if len(one.loops) == 1:
         return one.panel

@@ -13,12 +13,11 @@ from ...stability.loops.margin_values import UNSTABLE
 from ...stability.results.loop import LoopReport
 from ...stability.results.report import PointReport, StabilityReport
 from ...stability.results.requirement import Requirement, Scope, Verdict
-from ..common.quantities import number, shown_unit
+from ..common.quantities import display_unit, number
 from .orders.words import order_note
 from .words import (
     NO_CROSSING,
-    closed_loop,
-    found_value,
+    crossing_text,
     gain_margin,
     in_decibels,
     in_degrees,
@@ -29,6 +28,7 @@ from .words import (
     samples,
     size,
     state,
+    text_of_closed_loop,
     verdict,
 )
 
@@ -66,7 +66,7 @@ def link(report: StabilityReport, index: int) -> Markup:
 Row = tuple[Cell, str, Requirement]
 
 
-def judged(report: StabilityReport) -> list[Row]:
+def verdict_rows(report: StabilityReport) -> list[Row]:
     """Loop, operating point and requirement of everything that is judged."""
     places = {id(loop): index for index, loop in enumerate(report.loops)}
     return [
@@ -91,7 +91,7 @@ def verdict_table(rows: Sequence[Row]) -> Table:
                 point,
                 SCOPES[item.scope],
                 item.title,
-                found_value(item),
+                crossing_text(item),
                 limit(item),
                 verdict(item.verdict),
                 order_note(item),
@@ -124,7 +124,7 @@ def summary_table(report: StabilityReport) -> Table:
             state(loop.margins) or samples(loop.classical.delay_margin, loop.sample_period),
             state(loop.margins) or numeral(loop.robust.modulus_margin, digits=3),
             state(loop.margins) or numeral(loop.robust.disk_margin, digits=3),
-            closed_loop(loop.stable),
+            text_of_closed_loop(loop.stable),
             verdict(loop.verdict),
         )
         for index, loop in enumerate(report.loops)
@@ -159,20 +159,20 @@ def point_table(points: tuple[PointReport, ...]) -> Table:
     )  # fmt: skip
     rows: list[tuple[Cell, ...]] = []
     for point in points:
-        fastest = _changed(*point.trim[0]) if point.trim else Markup("none")
+        fastest = _change(*point.trim[0]) if point.trim else Markup("none")
         holds = numeral(point.holds, infinite="does not change")
         rows.append((point.name, point.phase, numeral(point.time, digits=6), fastest, per_cent(point.drift), holds))
     return Table(head, "slnlnn", rows, "operating points")
 
 
-def _changed(name: str, value: float, change: float, unit: str | None) -> Markup:
-    return Markup("{} by {} {}").format(name, numeral(change, unit), shown_unit(unit))
+def _change(name: str, value: float, change: float, unit: str | None) -> Markup:
+    return Markup("{} by {} {}").format(name, numeral(change, unit), display_unit(unit))
 
 
 def trim_table(points: tuple[PointReport, ...]) -> Table:
     """What changes most at each operating point while it is taken as frozen."""
     rows: list[tuple[Cell, ...]] = [
-        (point.name, name, numeral(value, unit, 6), numeral(change, unit), shown_unit(unit))
+        (point.name, name, numeral(value, unit, 6), numeral(change, unit), display_unit(unit))
         for point in points
         for name, value, change, unit in point.trim
     ]
@@ -226,7 +226,7 @@ def about(loop: LoopReport) -> list[tuple[str, str]]:
     return [
         ("loop broken at", loop.cut),
         ("return signal", "the same connector" if loop.returned == loop.cut else loop.returned),
-        ("unit", shown_unit(loop.unit) or "1"),
+        ("unit", display_unit(loop.unit) or "1"),
         ("sign", loop.sign),
         ("other loops closed", ", ".join(loop.closed) or "no other loop is declared"),
     ]

@@ -18,7 +18,7 @@ from ...stability.loops.margin_values import UNSTABLE, Margins
 from ...stability.results.loop import LoopReport
 from ...stability.results.requirement import Requirement, Verdict
 from ..common.page import exact
-from ..common.quantities import MINUS, NONE, number, shown_unit
+from ..common.quantities import MINUS, NONE, display_unit, number
 
 NO_CROSSING = "none (no crossing)"
 UNSTABLE_WORD = "unstable"
@@ -80,7 +80,7 @@ def left_out(part: str, reason: str, loop: LoopReport) -> Markup:
         return words
     return words + Markup(
         " The verdict does not rest on the count: the closed loop is {} by its poles, largest |z| {}."
-    ).format(closed_loop(loop.stable), numeral(loop.margins.largest, digits=6))
+    ).format(text_of_closed_loop(loop.stable), numeral(loop.margins.largest, digits=6))
 
 
 def mode_numbers(z: complex, s: complex, damping: float, frequency: float) -> tuple[Markup, Markup, Markup]:
@@ -101,10 +101,10 @@ def state(margins: Margins) -> Markup | None:
 
 def gain_margin(margins: Margins) -> Markup:
     """A gain margin in dB with its direction."""
-    return state(margins) or directed(margins.gain)
+    return state(margins) or direction_text(margins.gain)
 
 
-def directed(factor: float) -> Markup:
+def direction_text(factor: float) -> Markup:
     """A factor on the gain in dB with its direction; inf: there is none."""
     if not math.isfinite(factor):
         return Markup("<span>{}</span>").format(NO_CROSSING)
@@ -136,12 +136,12 @@ def verdict(word: Verdict) -> Markup:
     return Markup('<span class="verdict {}">{} {}</span>').format(word.replace(" ", "-"), SIGNS[word], word)
 
 
-def closed_loop(stable: bool | None) -> str:
+def text_of_closed_loop(stable: bool | None) -> str:
     """Whether the closed loop is stable, in a word or two."""
     return {True: "stable", False: "unstable", None: "not known"}[None if stable is None else bool(stable)]
 
 
-def found_value(requirement: Requirement) -> Markup:
+def crossing_text(requirement: Requirement) -> Markup:
     """The value of a requirement with its unit."""
     value = requirement.value
     return size(value) + (_unit(requirement.unit) if value is not None and math.isfinite(value) else Markup(""))
@@ -153,5 +153,5 @@ def limit(requirement: Requirement) -> Markup:
 
 
 def _unit(unit: str) -> Markup:
-    shown = unit if unit in ("dB", "deg") else shown_unit(unit)
+    shown = unit if unit in ("dB", "deg") else display_unit(unit)
     return Markup(" {}").format(shown) if shown else Markup("")

@@ -15,7 +15,7 @@ from ...campaigns.verdicts.quantiles import quantiles
 from ...studies.rare.outcome import RareResult
 from ...studies.rare.uncertainty import CONFIDENCE
 from ..common.panels import Panel, Widths, both_widths, is_slim, panel
-from ..common.quantities import labelled, log_tick, number, shown_factor
+from ..common.quantities import display_factor, label_with_unit, log_tick, number
 from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 
 GREY = "#9a9a9a"
@@ -66,7 +66,7 @@ def limit_state_figure(result: RareResult) -> Widths:
 
 def draw_limit_state(axes: Axes, result: RareResult) -> None:
     """Simulations by number, failures in colour, and the thresholds of levels."""
-    factor = shown_factor(result.margin_unit)
+    factor = display_factor(result.margin_unit)
     values = factor * result.flown.values
     numbers = np.arange(1, values.size + 1)
     finite = np.isfinite(values)
@@ -94,7 +94,7 @@ def draw_limit_state(axes: Axes, result: RareResult) -> None:
     axes.set_xlim(0.0, values.size + 1.0)
     axes.set_ylim(low, high)
     axes.set_xlabel("simulation")
-    axes.set_ylabel(labelled("limit state", result.margin_unit))
+    axes.set_ylabel(label_with_unit("limit state", result.margin_unit))
     plain_ticks(axes, x=6, y=5)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, markerscale=2.0, handletextpad=0.2)
 
@@ -119,7 +119,7 @@ def exceedance_panel(result: RareResult) -> Panel:
 def draw_exceedance(axes: Axes, result: RareResult) -> None:
     """The first level's empirical curve, the thresholds of levels, the failure with its interval."""
     spans = level_spans(result)
-    factor = shown_factor(result.margin_unit)
+    factor = display_factor(result.margin_unit)
     first = np.sort(factor * result.flown.values[: spans[0].last])
     share = 1.0 - np.arange(first.size) / first.size
     seen = np.isfinite(first)
@@ -141,7 +141,7 @@ def draw_exceedance(axes: Axes, result: RareResult) -> None:
     axes.set_ylim(0.5 * min([high, *reached, 1.0 / first.size] + ([low] if low > 0.0 else [])), 1.5)
     axes.set_xlim(*limits_of(factor * result.flown.values))
     plain_ticks(axes, x=5)
-    axes.set_xlabel(labelled("limit state", result.margin_unit))
+    axes.set_xlabel(label_with_unit("limit state", result.margin_unit))
     axes.set_title("probability of more", loc="left", fontsize=8.5)
     axes.legend(loc="lower left")
 
@@ -201,7 +201,7 @@ def design_point_panels(result: RareResult) -> list[Panel]:
 def draw_design_points(axes: Axes, result: RareResult, one: str, other: str) -> None:
     """One pair: level 1 in grey, failures in colour, design points with their numbers."""
     units = [result.units.get(name) for name in (one, other)]
-    factors = [shown_factor(unit) for unit in units]
+    factors = [display_factor(unit) for unit in units]
     x, y = (factor * result.flown.draws[name] for factor, name in zip(factors, (one, other), strict=True))
     count = level_spans(result)[0].last
     failed = result.flown.values >= 0.0
@@ -215,8 +215,8 @@ def draw_design_points(axes: Axes, result: RareResult, one: str, other: str) -> 
     for entry, point in zip(entries, at, strict=True):
         axes.annotate(str(entry["trial"]), point, xytext=(5, 4), textcoords="offset points", fontsize=8.5, color=INK)
     plain_ticks(axes, x=4, y=5)
-    axes.set_xlabel(labelled(one, units[0]))
-    axes.set_title(labelled(other, units[1]), loc="left", fontsize=8.5)
+    axes.set_xlabel(label_with_unit(one, units[0]))
+    axes.set_title(label_with_unit(other, units[1]), loc="left", fontsize=8.5)
     axes.legend(
         loc="upper center", bbox_to_anchor=(0.45, -0.22), ncols=3, handletextpad=0.0, columnspacing=0.6,
         borderaxespad=0.0, fontsize=8.0,

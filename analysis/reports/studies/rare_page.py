@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ...studies.rare.outcome import RareResult
 from ..common.page import write_page
-from ..common.quantities import labelled
+from ..common.quantities import label_with_unit
 from ..common.tables import Table, cell, fraction
 from .conditions import conditions_of
 from .rare_figures import (
@@ -67,7 +67,7 @@ def level_table(result: RareResult) -> Table:
             )
         )
     heads = (
-        "level", labelled("threshold", result.margin_unit), "samples", "simulations", "conditional probability",
+        "level", label_with_unit("threshold", result.margin_unit), "samples", "simulations", "conditional probability",
         "cumulative", "acceptance of draws", "acceptance of noise", "lowest noise source", "gamma", "c.o.v.",
     )  # fmt: skip
     return Table(heads, rows, range(len(heads)))
@@ -90,8 +90,8 @@ def design_table(result: RareResult) -> Table:
     heads = (
         "point",
         "distance, standard deviations",
-        labelled("limit state", result.margin_unit),
-        *(labelled(name, result.units.get(name)) for name in names),
+        label_with_unit("limit state", result.margin_unit),
+        *(label_with_unit(name, result.units.get(name)) for name in names),
         *(f"noise of {source}" for source in sources),
     )
     return Table(heads, rows, range(len(heads)))

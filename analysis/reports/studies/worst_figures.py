@@ -12,7 +12,7 @@ from ...campaigns.verdicts.quantiles import quantiles
 from ...studies.worst.margin import MOST
 from ...studies.worst.outcome import WorstResult
 from ..common.panels import HALF_WIDTH, Panel, Widths, both_widths, is_slim, panel
-from ..common.quantities import labelled, number, shown_factor
+from ..common.quantities import display_factor, label_with_unit, number
 from ..common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 
 GREY = "#9a9a9a"
@@ -72,8 +72,8 @@ def point_values(result: WorstResult) -> np.ndarray:
 def objective_of(result: WorstResult) -> Objective:
     """The objective of all points in the order in which they were flown, angles in degrees."""
     values = point_values(result)
-    shown = shown_values(result, values)
-    label = labelled(result.badness.text, result.unit)
+    shown = select_values(result, values)
+    label = label_with_unit(result.badness.text, result.unit)
     random = int(np.argmax(values[: result.random_trials]))
     failed = ~np.isfinite([result.badness.size(float(value)) for value in values])
     return Objective(label, shown, failed, is_rising(result), int(np.argmax(values)), random)
@@ -84,11 +84,11 @@ def is_rising(result: WorstResult) -> bool:
     return result.badness.size(-1.0) < 0.0
 
 
-def shown_values(result: WorstResult, values: np.ndarray) -> np.ndarray:
+def select_values(result: WorstResult, values: np.ndarray) -> np.ndarray:
     """What values of the objective stand for, in the unit that is shown; nan where there is no such number."""
     sizes = np.array([result.badness.size(float(value)) for value in values])
     known = np.isfinite(sizes) & (np.abs(sizes) < MOST)
-    return np.where(known, sizes * shown_factor(result.unit), np.nan)
+    return np.where(known, sizes * display_factor(result.unit), np.nan)
 
 
 def search_figure(result: WorstResult) -> Widths:
@@ -153,7 +153,7 @@ def draw_fresh(axes: Axes, result: WorstResult) -> None:
     """Fraction of fresh realisations up to a value, marks at their quantile, their worst, and the search's value."""
     assert result.fresh is not None
     assert result.over is not None
-    ranked = shown_values(result, np.sort(result.fresh.values))
+    ranked = select_values(result, np.sort(result.fresh.values))
     share = np.arange(1, ranked.size + 1) / ranked.size
     axes.step(ranked, share, where="post", color=GREY, linewidth=1.6, label=f"{ranked.size} fresh realisations")
     middle = () if result.fresh.quantile == 1.0 else ((result.fresh.at_quantile, BLUE, f"their {result.over.name}"),)
@@ -163,12 +163,12 @@ def draw_fresh(axes: Axes, result: WorstResult) -> None:
         (result.value, VERMILION, f"{result.over.name} in the search"),
     )
     for value, colour, label in marks:
-        (shown,) = shown_values(result, np.array([value]))
+        (shown,) = select_values(result, np.array([value]))
         if np.isfinite(shown):
             style = "-" if colour == VERMILION else (0, (4, 2))
             axes.axvline(shown, color=colour, linewidth=1.6, linestyle=style, label=f"{label}: {number(float(shown))}")
     axes.set_ylim(0.0, 1.03)
-    axes.set_xlabel(labelled(result.badness.text, result.unit))
+    axes.set_xlabel(label_with_unit(result.badness.text, result.unit))
     axes.set_ylabel("fraction of realisations")
     plain_ticks(axes, x=5, y=4)
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.02), ncols=1, borderaxespad=0.0)
@@ -205,7 +205,7 @@ class Lane(NamedTuple):
 
     @property
     def label(self) -> str:
-        return labelled(self.name, self.unit)
+        return label_with_unit(self.name, self.unit)
 
     def at(self, value: float) -> float:
         """A value as a fraction of the box."""
@@ -244,7 +244,7 @@ def draw_box(axes: Axes, lanes: list[Lane], slim: bool) -> None:
         offset = -0.3 if slim else -0.22
         for x, text, side in ((0.0, lane.low, "left"), (1.0, lane.high, "right")):
             axes.annotate(
-                number(text * shown_factor(lane.unit), 6), (x, index + offset), ha=side, va="bottom", fontsize=8.0,
+                number(text * display_factor(lane.unit), 6), (x, index + offset), ha=side, va="bottom", fontsize=8.0,
                 color=FAINT, annotation_clip=False,
             )  # fmt: skip
         if slim:

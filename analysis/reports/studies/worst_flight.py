@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...campaigns.draws.declared import drawn_names
+from ...campaigns.draws.declared import input_names
 from ...campaigns.draws.given import GivenDraws, part_streams, stream_component
 from ...campaigns.fly.workers.flyer import Flyer
 from ...campaigns.spec.campaign import Record
@@ -18,7 +18,7 @@ from ..figures.declaration.reading import read_figures
 def worst_flight(result: WorstResult, plan: BatchPlan) -> tuple[Result, list[Figure]]:
     """The flight of the worst case with the bits of the search; ``plan`` is that of the study. Raises InputError."""
     drawn = result.flown.draws
-    names = [*drawn_names(plan.campaign), *(name for name in drawn if stream_component(name) is not None)]
+    names = [*input_names(plan.campaign), *(name for name in drawn if stream_component(name) is not None)]
     given = GivenDraws(*part_streams({name: drawn[name][[result.row]] for name in names}))
     plain = replace(plan, campaign=replace(plan.campaign, record=Record(), group=None, scatters=()))
     flyer = Flyer(plain.of_samples(given))

@@ -12,7 +12,7 @@ from ...runtime.flight.results import Result
 from ...studies.worst.outcome import WorstResult
 from ..common.page import write_page
 from ..common.panels import Panel
-from ..common.quantities import labelled, shown_unit
+from ..common.quantities import display_unit, label_with_unit
 from ..common.tables import Table, cell, fraction
 from ..figures.declaration.figures import Figure
 from ..figures.figure_sections import figure_sections, joint_findings
@@ -81,7 +81,7 @@ def value_cell(value: float | str | None, unit: str | None) -> Markup:
 def with_unit(value: float | str | None, unit: str) -> Markup:
     """A value of the objective with its unit behind it, if it has one."""
     shown = value_cell(value, unit)
-    return Markup("{} {}").format(shown, shown_unit(unit)) if shown_unit(unit) and value is not None else shown
+    return Markup("{} {}").format(shown, display_unit(unit)) if display_unit(unit) and value is not None else shown
 
 
 class FreshCells(NamedTuple):
@@ -116,7 +116,7 @@ def phase_table(result: WorstResult) -> Table:
         end += phase.evaluations
         value = float(worst[end - 1])
         rows.append((cell(index + 1), phase.name, cell(phase.evaluations), cell(value if value == value else None, 6)))
-    head = labelled("worst so far", result.unit)
+    head = label_with_unit("worst so far", result.unit)
     return Table(("", "method", "points", head), rows, (0, 2, 3))
 
 
@@ -142,7 +142,7 @@ def metric_table(result: WorstResult) -> Table:
     worst, random = result.worst["metrics"], result.worst_random["metrics"]
     rows = [
         (
-            labelled(name, result.units.get(name)),
+            label_with_unit(name, result.units.get(name)),
             value_cell(worst[name], result.units.get(name)),
             value_cell(random[name], result.units.get(name)),
         )

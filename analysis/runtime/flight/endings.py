@@ -48,7 +48,7 @@ class Outcome(NamedTuple):
 
     @property
     def is_discarded_step(self) -> bool:
-        return self._failed_with(fmi2.fmi2Discard) and FUNCTION_NAMES[self.function] == "fmi2DoStep"
+        return self._failure(fmi2.fmi2Discard) and FUNCTION_NAMES[self.function] == "fmi2DoStep"
 
     @property
     def is_fatal(self) -> bool:
@@ -58,24 +58,24 @@ class Outcome(NamedTuple):
     @property
     def is_error(self) -> bool:
         """Whether the instance may only be reset or freed (FMI 2.0, fmi2Error)."""
-        return self._failed_with(fmi2.fmi2Error)
+        return self._failure(fmi2.fmi2Error)
 
     def is_unreadable(self, program: arrays.Program) -> bool:
         """Whether an FMU did not give a parameter back."""
-        if not (self.is_error or self._failed_with(fmi2.fmi2Discard)):
+        if not (self.is_error or self._failure(fmi2.fmi2Discard)):
             return False
         return int(program.instructions[self.instruction, codes.CODE]) in READ_BACKS
 
     def is_refused_again(self, program: arrays.Program) -> bool:
         """Whether an FMU refused to be given parameters in initialisation mode."""
-        if not (self.is_error or self._failed_with(fmi2.fmi2Discard)):
+        if not (self.is_error or self._failure(fmi2.fmi2Discard)):
             return False
         row = program.instructions[self.instruction]
         before = program.instructions[: self.instruction]
         enters = before[before[:, codes.COMPONENT] == row[codes.COMPONENT], codes.FUNCTION] == np.uint64(ENTER)
         return int(row[codes.CODE]) in SETTERS and bool(enters.any())
 
-    def _failed_with(self, status: int) -> bool:
+    def _failure(self, status: int) -> bool:
         return self.code == codes.FAILED and self.fmi_status == status
 
 
@@ -83,7 +83,7 @@ def outcome_of(buffers: arrays.Buffers) -> Outcome:
     return Outcome(*buffers.outcome.tolist())
 
 
-def asked_end(instance: Instance) -> float | None:
+def end_request(instance: Instance) -> float | None:
     """When (s) an FMU that discarded a step wants the simulation to end; None where it does not say that it does.
 
     Our own never does: a step that a block refuses is a failure, of which pythonfmu makes such a wish.
@@ -129,7 +129,7 @@ def in_words(
     return status, ""
 
 
-def initialised(outcome: Outcome, program: arrays.Program, count: int) -> list[bool]:
+def check_initialisation(outcome: Outcome, program: arrays.Program, count: int) -> list[bool]:
     """Which of ``count`` components a flight that began anew has brought through initialisation."""
     reached = [True] * count
     if outcome.is_well or outcome.instruction >= program.phases[0]:

@@ -15,7 +15,7 @@ from ..ssp.parameter_sets import ParameterValue
 from .results import TIMED_OUT, Flight, Result
 from .simulation import Simulation
 
-Found = TypeVar("Found")
+T = TypeVar("T")
 Flown = TypeVar("Flown", bound=Flight)
 PATIENCE = 1.5  # s that a flight has to reach its next communication point
 
@@ -50,7 +50,7 @@ def _within(simulation: Simulation, timeout: float | None, work: Callable[[], Fl
     if timeout is None:
         return work()
     simulation.unlock()
-    future = _started(work)
+    future = _start(work)
     try:
         return future.result(timeout=timeout)
     except TimeoutError:
@@ -76,16 +76,16 @@ def _point(simulation: Simulation) -> float:
     return simulation.prepared.start + int(simulation.buffers.outcome[4]) * simulation.prepared.step
 
 
-def wait(work: Callable[[], Found], interrupt: Callable[[], None]) -> Found:
+def wait(work: Callable[[], T], interrupt: Callable[[], None]) -> T:
     """What ``work`` gives, done in a thread; Ctrl-C calls ``interrupt`` and waits a while for the rest.
 
     Elsewhere than in the main thread, which alone hears of it, the work is done at once.
     """
     if threading.current_thread() is not threading.main_thread():
         return work()
-    future: Future[Found] = Future()
+    future: Future[T] = Future()
     try:  # Ctrl-C may come as soon as the thread runs, before its start returns
-        _start(work, future)
+        _start_into(work, future)
         return future.result()
     except KeyboardInterrupt:
         interrupt()
@@ -95,13 +95,13 @@ def wait(work: Callable[[], Found], interrupt: Callable[[], None]) -> Found:
             raise KeyboardInterrupt from None
 
 
-def _started(work: Callable[[], Found]) -> Future[Found]:
-    future: Future[Found] = Future()
-    _start(work, future)
+def _start(work: Callable[[], T]) -> Future[T]:
+    future: Future[T] = Future()
+    _start_into(work, future)
     return future
 
 
-def _start(work: Callable[[], Found], future: Future[Found]) -> None:
+def _start_into(work: Callable[[], T], future: Future[T]) -> None:
     """Do the work in a thread that does not keep the process from ending."""
 
     def run() -> None:

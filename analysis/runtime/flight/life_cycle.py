@@ -9,9 +9,9 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from .compiled import arrays, codes
-from .endings import Outcome, initialised
+from .endings import Outcome, check_initialisation
 from .instances.instance import Instance
-from .instances.reset_check import ResetVerdict, judge, known_verdict, reset_verdict
+from .instances.reset_check import ResetVerdict, judge, reset_verdict, verdict_in_cache
 from .instructions import InstructionList
 
 
@@ -42,7 +42,7 @@ class LifeCycle:
             self._running = self._instances.keys()
             return
         names = list(self._instances)
-        reached = initialised(outcome, program, len(names))
+        reached = check_initialisation(outcome, program, len(names))
         self._running = {name for name, running in zip(names, reached, strict=True) if running} - self._broken
         if outcome.is_error:
             self._broken.add(names[outcome.subject])
@@ -75,7 +75,7 @@ class LifeCycle:
         sound = instance.fmu.is_own or name not in self._broken | self._discarded
         if not instance.is_there or not self._terminate(name, instance) or not sound:
             return False
-        if known_verdict(instance.fmu) is None and instance.fmu.is_alone:
+        if verdict_in_cache(instance.fmu) is None and instance.fmu.is_alone:
             instance.free()  # the trial needs its place
         if not reset_verdict(instance.fmu).resets or not instance.is_there:
             return False

@@ -15,7 +15,7 @@ from ..system.fault import Fault
 from ..system.faults import check_fault
 from ..system.prepared import PreparedSystem, no_collection
 from .compiled import arrays, codes, loop
-from .endings import TERMINATED, Outcome, asked_end, in_words, outcome_of
+from .endings import TERMINATED, Outcome, end_request, in_words, outcome_of
 from .injections import NEVER, of_excitation, of_fault
 from .instances.instance import Instance, instantiate
 from .instances.log import Log
@@ -148,9 +148,9 @@ class Simulation:
 
         So that other threads run whatever a step does, and a clock measures flights alone.
         """
-        span, recording, excitation = self._asked(-1, 0, 1, False, NOTHING)
+        span, recording, excitation = self._request(-1, 0, 1, False, NOTHING)
         arguments = (self.program, self.buffers, self.layout.parameters.values, span, recording, excitation)
-        self._loop = loop.compiled_for(arguments, locked=False)
+        self._loop = loop.compile_for(arguments, locked=False)
 
     def run(self, values: Mapping[str, ParameterValue], *, every: int = 1) -> Flight:
         """The flight alone, for batches; see `fly`."""
@@ -199,7 +199,7 @@ class Simulation:
                 raise InputError("`step`", f"{prepared.step:g}", problem, remedy) from error
         for instance in self.instances.values():
             instance.said.clear()
-        count = self._call(self.program, *self._asked(first, last, every, reset, excitation))
+        count = self._call(self.program, *self._request(first, last, every, reset, excitation))
         outcome = outcome_of(self.buffers)
         if self._has_learned(outcome):
             self._replace_instances()
@@ -210,7 +210,7 @@ class Simulation:
         )
         if outcome.is_discarded_step:
             component, instance = list(self.instances.items())[outcome.subject]
-            end = asked_end(instance)
+            end = end_request(instance)
             if end is not None:
                 self._fly_last_row(outcome.subject, end, count)
                 count += 1
@@ -227,7 +227,7 @@ class Simulation:
             self._replace_instances(list(self.instances.values())[outcome.subject].fmu.digest)
         return flight
 
-    def _asked(
+    def _request(
         self, first: int, last: int, every: int, reset: bool, excitation: np.ndarray
     ) -> tuple[arrays.Span, arrays.Recording, np.ndarray]:
         """What the loop is to fly, to keep and to add."""
@@ -262,7 +262,7 @@ class Simulation:
         arguments = (program, self.buffers, self.layout.parameters.values, span, recording, excitation)
         with self._under_way:
             if self._loop is None:
-                self._loop = loop.compiled_for(arguments, locked=not self.prepared.is_native)
+                self._loop = loop.compile_for(arguments, locked=not self.prepared.is_native)
             return self._loop(*arguments)
 
     def _fly_last_row(self, component: int, end: float, row: int) -> None:

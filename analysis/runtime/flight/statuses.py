@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from ...common.percent import short_percent
-from ..system.names import parted
+from ..system.names import split_name
 from ..system.network import Network
 from .results import Flight
 
@@ -19,7 +19,7 @@ def status_lines(network: Network, flight: Flight) -> list[str]:
     """A line for every component that reported a status other than 0: the worst, for how long, and the last."""
     lines = []
     for name, values in flight.signals.items():
-        component, variable = parted(name, network.fmus)
+        component, variable = split_name(name, network.fmus)
         if variable != STATUS or not component or flight.types[name] != "Integer" or not values.any():
             continue
         worst, last = int(np.max(values)), int(values[-1])
@@ -38,7 +38,7 @@ def _percent(share: float) -> str:
 
 def status_meaning(network: Network, name: str, value: int) -> str:
     """What ``value`` of the connector ``component.status`` means, as its description lists it; else nothing."""
-    component, variable = parted(name, network.fmus)
+    component, variable = split_name(name, network.fmus)
     fmu = network.fmus.get(component)
     declared = fmu.variables.get(variable) if fmu is not None else None
     description = (declared.description or "") if declared is not None else ""

@@ -140,12 +140,12 @@ class SystemArchive:
 
     def parameter_set(self, name: str) -> tuple[bytes, str]:
         """A parameter set by name: the system's own, else a path."""
-        return self._named(name, (f"resources/{name}", name, f"resources/{name}.ssv"), "`parameters`", ".ssv")
+        return self._find_named(name, (f"resources/{name}", name, f"resources/{name}.ssv"), "`parameters`", ".ssv")
 
     def campaign(self, name: str) -> tuple[bytes, str]:
         """A campaign by name: the system's own, else a path."""
         places = (self.campaign_path(name), self.campaign_path(f"{name}.toml"))
-        return self._named(name, places, "`campaign`", ".toml")
+        return self._find_named(name, places, "`campaign`", ".toml")
 
     @staticmethod
     def campaign_path(name: str) -> str:
@@ -157,7 +157,7 @@ class SystemArchive:
         files = (PurePosixPath(name) for name in self.files)
         return [file.stem for file in files if file.suffix == ".toml" and str(file.parent) == CAMPAIGN_FOLDER]
 
-    def _named(self, name: str, places: tuple[str, ...], option: str, suffix: str) -> tuple[bytes, str]:
+    def _find_named(self, name: str, places: tuple[str, ...], option: str, suffix: str) -> tuple[bytes, str]:
         for place in places:
             if place in self.files:
                 content, label = self._content(place, option), f"{self.label}!{place}"

@@ -31,7 +31,7 @@ class Pace:
 
 def pace_of_experiment(experiment: etree._Element | None, file: str) -> Pace:
     """What the default experiment says; raises InputError."""
-    for kind, item in _annotated(experiment):
+    for kind, item in _read_annotation(experiment):
         if kind == OURS and tag(item) == "CommunicationStep":
             return Pace(_seconds(item, ("size",), file))
         if kind in OSP and tag(item) == "FixedStepAlgorithm":
@@ -41,7 +41,7 @@ def pace_of_experiment(experiment: etree._Element | None, file: str) -> Pace:
 
 def pace_of_system(system: etree._Element, file: str) -> Pace:
     """What a system says of itself, inner systems apart; raises InputError."""
-    for kind, item in _annotated(system):
+    for kind, item in _read_annotation(system):
         if kind == OMSIMULATOR or kind in OSP:
             if tag(item) == "FixedStepMaster":
                 return Pace(_seconds(item, ("stepSize",), file), "jacobi")
@@ -52,13 +52,13 @@ def pace_of_system(system: etree._Element, file: str) -> Pace:
 
 def step_of_component(component: etree._Element, file: str) -> float | None:
     """The step (s) that a component is to be made with, where it is not the system's; raises InputError."""
-    for kind, item in _annotated(component):
+    for kind, item in _read_annotation(component):
         if kind in OSP and tag(item) == "StepSizeHint":
             return _seconds(item, ("value",), file)
     return None
 
 
-def _annotated(element: etree._Element | None) -> Iterator[tuple[str, etree._Element]]:
+def _read_annotation(element: etree._Element | None) -> Iterator[tuple[str, etree._Element]]:
     """Everything in the annotations of an element, with the annotations' types."""
     if element is not None:
         for annotation in children(child(element, "ssd:Annotations"), "ssc:Annotation"):

@@ -145,9 +145,9 @@ class Reader:
         name, kind = item.get("name", ""), item.get("kind", "")
         if kind == "inout" and not signal:
             raise self.refuse(item, name, "inout connectors are not supported", "declare it input or output")
-        return self.typed(item, name, kind)
+        return self.read_type(item, name, kind)
 
-    def typed(self, item: etree._Element, name: str, kind: str) -> Connector:
+    def read_type(self, item: etree._Element, name: str, kind: str) -> Connector:
         type_name = unit = enumeration = None
         for inner in item:
             kind_of_value = tag(inner)
@@ -168,7 +168,7 @@ class Reader:
             root = inline
         self.units |= units_of_document(root, "ssb")
         return {
-            entry.get("name", ""): self.typed(entry, entry.get("name", ""), "inout")
+            entry.get("name", ""): self.read_type(entry, entry.get("name", ""), "inout")
             for entry in children(root, "ssb:DictionaryEntry")
         }
 

@@ -20,7 +20,7 @@ class Unit:
     factor: float = 1.0
     offset: float = 0.0
 
-    def told_from(self, other: Unit) -> str:
+    def differs_from(self, other: Unit) -> str:
         """The name, and what the unit is made of where the other has the same: ``N.m (kg m2 s-2)``."""
         if self.name != other.name:
             return self.name

@@ -14,7 +14,6 @@ from ..ssp.description import Binding, Component, System
 from ..ssp.parameter_sets import Assignment, ParameterValue, SetValue, parse_value
 from ..ssp.transformations import VALUE_TYPES, Transformation
 from .network import Link, Network, Node
-from .open_inputs import check_signals, settle_open_inputs
 from .options import SystemOptions
 
 SETTABLE = ("parameter", "input")
@@ -66,8 +65,6 @@ def collect_settings(
         _check_driven(network, assignment)
         _apply(network, settings, "", "", assignment, allow_unmatched)
     _pass_parameters(network, settings)
-    settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
-    check_signals(network, settings)
     return settings
 
 
@@ -198,7 +195,7 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     value, given = assignment.value, assignment.type_name
     if given == TEXT:
         given = type_name
-        value = _parsed(assignment, type_name, node)
+        value = _parse(assignment, type_name, node)
     if given == "Integer" and type_name == "Real" and not isinstance(value, bool):
         given, value = "Real", float(value)
     if given in ("String", "Integer") and type_name == "Enumeration":
@@ -241,7 +238,7 @@ def _fit(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     return value
 
 
-def _parsed(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
+def _parse(assignment: Assignment, type_name: str, node: Node) -> ParameterValue:
     """A single value, which is a bare number in the variable's unit."""
     if type_name in ("Real", "Integer", "Boolean") and RANGE in str(assignment.value):
         unit = f", in {node.unit.name}" if node.unit is not None else ""
@@ -287,7 +284,7 @@ def _pass_parameters(network: Network, settings: Settings) -> None:
             outermost = chain[given[-1]].source.name
             value = settings.nodes[outermost]
             for link in reversed(chain[: given[-1] + 1]):
-                value = _passed(network, link, value)
+                value = _pass_on(network, link, value)
             kind: Any = {"Real": float, "Boolean": bool, "String": str}.get(node.type_name or "", int)
             target = node.component or "", node.variable
             before = settings.variables.get(target)
@@ -297,7 +294,7 @@ def _pass_parameters(network: Network, settings: Settings) -> None:
             settings.origins[target] = f"{outermost} of {settings.node_origins[outermost]}"
 
 
-def _passed(network: Network, link: Link, value: float | str) -> float | str:
+def _pass_on(network: Network, link: Link, value: float | str) -> float | str:
     """A parameter's value behind a connection."""
     if isinstance(value, str):
         return value

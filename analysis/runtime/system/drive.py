@@ -31,7 +31,7 @@ class Drive:
         return {"input": {"file": self.series.file, "sha256": self.series.sha256, "signals": list(self.names)}}
 
 
-def driven_inputs(network: Network, series: InputSeries, alone: str | None) -> dict[str, str]:
+def find_driven(network: Network, series: InputSeries, alone: str | None) -> dict[str, str]:
     """The columns of a series by the inputs that they drive: connectors of the root, ``component.variable``.
 
     These are inputs that nothing is connected to; those of a component that flies ``alone`` go by their own names,
@@ -85,13 +85,13 @@ def _check_type(series: InputSeries, column: str, type_name: str) -> None:
 def drive_inputs(
     network: Network, series: InputSeries, driven: dict[str, str], start: float, step: float, steps: int
 ) -> Drive:
-    """The values of ``driven`` inputs, as `driven_inputs` gives them, at all communication points."""
+    """The values of ``driven`` inputs, as `find_driven` gives them, at all communication points."""
     points = start + np.arange(steps + 1) * step
     first = points[:1]
     table = np.empty((steps + 2, len(driven)))
     for place, (name, column) in enumerate(driven.items()):
         values = series.columns[column]
-        of_type = interpolated if _is_continuous(network, name) else held
+        of_type = interpolate if _is_continuous(network, name) else hold
         table[0, place] = of_type(first, series.time, values, after_event=False)[0]
         table[1:, place] = of_type(points, series.time, values, after_event=True)
     return Drive(series, tuple(driven), table)
@@ -108,7 +108,7 @@ def _is_continuous(network: Network, name: str) -> bool:
     return network.nodes[name].type_name in ("Real", None) and all(_is_continuous(network, name) for name in readers)
 
 
-def interpolated(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
+def interpolate(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
     """A continuous input at ``points`` (s), from ``values`` at ``time``, as FMPy's `Input.interpolate` has it.
 
     Linear in between, the first and the last value outside. Times given twice are an event: ``after_event`` says which
@@ -133,7 +133,7 @@ def interpolated(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, af
     return samples
 
 
-def held(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
+def hold(points: np.ndarray, time: np.ndarray, values: np.ndarray, *, after_event: bool) -> np.ndarray:
     """A discrete input at ``points`` (s), each value held from its time on, as FMPy's `Input.interpolate` has it.
 
     ``after_event``: whether a value counts at its own time already. At the first time of all the first value does.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...common.errors import InputError, suggestion
 from .fault import Fault, number_text
-from .names import parted
+from .names import split_name
 from .network import Network
 
 INTEGERS = (-(2**31), 2**31 - 1)  # FMI Integers have 32 bits
@@ -25,7 +25,7 @@ def connector_type(network: Network, name: str, where: tuple[str, str]) -> str:
                 known[full] = variable.type
     if name in known:
         return known[name]
-    component, own = parted(name, network.fmus)
+    component, own = split_name(name, network.fmus)
     variable = network.fmus[component].variables.get(own) if component else None
     if variable is not None and variable.causality == "input":
         raise InputError(*where, "an input that nothing is connected to", f"give it a value with `set` {name}=VALUE")

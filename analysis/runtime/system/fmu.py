@@ -66,7 +66,7 @@ class Fmu:
         declared = variable.declaredType
         return variable.unit or (declared.unit if declared is not None else None)
 
-    def declared_dependencies(self) -> dict[str, set[str] | None]:
+    def read_dependencies(self) -> dict[str, set[str] | None]:
         """Output -> inputs that it depends on directly, as ModelStructure declares it; None where it does not."""
         inputs = {name for name, variable in self.variables.items() if variable.causality == "input"}
         outputs: dict[str, set[str] | None] = {
@@ -110,14 +110,14 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
     folder = Path(tempfile.mkdtemp(prefix="perilune_"))
     fmu = Fmu(label, hashlib.sha256(data).hexdigest(), description, folder, flaws=list(flaws))
     # Others' may reach for any of their files: FMPy's remoting starts a server of binaries/win32 from binaries/win64.
-    archive.extractall(folder, _needed(archive.namelist()) if fmu.is_own else None)
+    archive.extractall(folder, _require(archive.namelist()) if fmu.is_own else None)
     fmu.variables = {variable.name: variable for variable in description.modelVariables}
     fmu.units = units_of_fmu(description)
     weakref.finalize(fmu, shutil.rmtree, folder, ignore_errors=True)
     return fmu
 
 
-def _needed(names: Sequence[str]) -> list[str]:
+def _require(names: Sequence[str]) -> list[str]:
     """Which files of an FMU built by Perilune a flight on this platform reads."""
     kept = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
     return [name for name in names if name.startswith(kept)]
@@ -130,13 +130,13 @@ def _read_description(xml: bytes) -> tuple[ModelDescription | None, tuple[str, .
     It is the most of loading an FMU, and nobody changes what it gives: a system that is prepared again shares it.
     """
     try:
-        return read_model_description(_zipped(xml), validate=True), ()
+        return read_model_description(_open_zip(xml), validate=True), ()
     except ValidationError as error:
         flaws = tuple(" ".join(problem.split()) for problem in error.problems)
     except Exception as error:  # fmpy raises bare Exception and lxml's errors
         flaws = (" ".join(str(error).split()),)
     try:
-        return read_model_description(_zipped(_with_fixed_parameters(xml)), validate=False), flaws
+        return read_model_description(_open_zip(_with_fixed_parameters(xml)), validate=False), flaws
     except Exception:
         return None, flaws
 
@@ -153,7 +153,7 @@ def _with_fixed_parameters(xml: bytes) -> bytes:
     return etree.tostring(root)
 
 
-def _zipped(xml: bytes) -> io.BytesIO:
+def _open_zip(xml: bytes) -> io.BytesIO:
     """A description as fmpy reads it: in an FMU."""
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as archive:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable
 
 
-def parted(name: str, components: Iterable[str]) -> tuple[str, str]:
+def split_name(name: str, components: Iterable[str]) -> tuple[str, str]:
     """Component and variable of a name; the component is empty for the system's own connectors."""
     owner = max((component for component in components if name.startswith(f"{component}.")), key=len, default="")
     return owner, name.removeprefix(f"{owner}.") if owner else name

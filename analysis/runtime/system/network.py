@@ -171,7 +171,7 @@ def _component_node(network: Network, component: str, connector: Connector) -> N
         raise InputError(
             network.file,
             connector.at(name),
-            f"unit is {own.told_from(declared)} in {fmu.label}, {declared.told_from(own)} here",
+            f"unit is {own.differs_from(declared)} in {fmu.label}, {declared.differs_from(own)} here",
             "correct the connector's unit or use another FMU",
         )
     items = {}

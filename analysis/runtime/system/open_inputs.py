@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from ...common.errors import InputError
+from .assignments import Settings
 from .network import Link, Network
-
-if TYPE_CHECKING:
-    from .assignments import Settings
 
 
 def settle_open_inputs(network: Network, settings: Settings, *, keep_starts: bool) -> None:

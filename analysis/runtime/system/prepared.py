@@ -19,10 +19,11 @@ from ..ssp.reading import read_description
 from .alone import describe_alone
 from .assignments import Settings, collect_settings, single_value
 from .checks import check_samples, check_shared, unfit
-from .drive import Drive, drive_inputs, driven_inputs
+from .drive import Drive, drive_inputs, find_driven
 from .fmu import Fmu, load_fmu
 from .in_flight.series import InputSeries
 from .network import Network, build_network
+from .open_inputs import check_signals, settle_open_inputs
 from .options import ALGORITHMS, OPEN_INPUTS, SystemOptions
 from .order.feedthrough import find_feedthrough
 from .order.schedule import Schedule, make_schedule
@@ -85,10 +86,10 @@ def prepare_system(
     """
     options = options or SystemOptions()
     with no_collection(), chdir(options.folder):
-        return _prepared(system, options, {} if loaded is None else loaded, series)
+        return _prepare(system, options, {} if loaded is None else loaded, series)
 
 
-def _prepared(
+def _prepare(
     system: str | Path | SystemArchive, options: SystemOptions, loaded: dict[str, Fmu], series: InputSeries | None
 ) -> PreparedSystem:
     for name, value, known in (
@@ -134,16 +135,16 @@ def _prepared(
             read, label = archive.fmu(source, f"{name} (line {component.line})", flavour)
             if not archive.is_own_file(source):
                 elsewhere[fmu_asked(source)] = read
-        return opened(read, label)
+        return open_fmu(read, label)
 
-    def opened(read: Callable[[], bytes], label: str) -> Fmu:
+    def open_fmu(read: Callable[[], bytes], label: str) -> Fmu:
         if label not in loaded:
             loaded[label] = load_fmu(read(), label, strict=options.strict)
         return loaded[label]
 
     remarks: list[str] = []
     if archive.is_fmu:
-        description, remarks = describe_alone(opened(archive.path.read_bytes, archive.label), options)
+        description, remarks = describe_alone(open_fmu(archive.path.read_bytes, archive.label), options)
     else:
         description = read_description(archive, options.variant)
     try:
@@ -159,9 +160,11 @@ def _prepared(
             raise InputError("`use`", slot, "no such component", suggestion(slot, network.fmus))
     _refuse_seconds(network)
     if series is not None:
-        network.driven = driven_inputs(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
+        network.driven = find_driven(network, series, next(iter(network.fmus)) if archive.is_fmu else None)
     defaults = [each for name, (_, retired) in replaced.items() for each in retired.assignments(name)]
     settings = collect_settings(network, archive, defaults + _assignments(archive, options, elsewhere), options)
+    settle_open_inputs(network, settings, keep_starts=options.open_inputs == "start" or archive.is_fmu)
+    check_signals(network, settings)
     check_shared(network, settings)
     for fmu in {id(fmu): fmu for fmu in network.fmus.values()}.values():
         network.notes.extend(f"{fmu.label}: modelDescription.xml: {flaw}" for flaw in fmu.flaws)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from ....fmus_src.export.available import fmu_file
-from ....fmus_src.export.sources import changed_source
+from ....fmus_src.export.sources import find_changed_source
 from ....fmus_src.paths import FLAVOURS
 from ..ssp.archive import open_system
 from ..ssp.description import Component, System
@@ -36,7 +36,7 @@ def report_fmus(system: str | Path, options: SystemOptions, compare: Mapping[str
     changed: dict[tuple[Path, Path], set[str]] = {}
     for name in dict.fromkeys(block for _, block in pairs):
         fmu = _file(name, options.flavour, archive.path)
-        files = None if fmu is None else changed_source(fmu)
+        files = None if fmu is None else find_changed_source(fmu)
         if files is not None:
             changed.setdefault(files, set()).add(Path(name).stem)
     return lines + [_line(file, source, sorted(names)) for (file, source), names in changed.items()]

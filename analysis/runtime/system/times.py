@@ -22,7 +22,7 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
     if options.step is None and description.varies is not None:
         line = f"step (line {description.varies})"
         raise InputError(network.file, line, "varies, which it does not here", "give one: `step`")
-    given = options.step if options.step is not None else _described(network)
+    given = options.step if options.step is not None else _read_step(network)
     step = given if given is not None else min(proposed, default=None)
     if step is None:
         raise InputError(network.file, "step", "neither the SSD nor an FMU proposes one", "give `step`")
@@ -77,7 +77,7 @@ def component_periods(network: Network, options: SystemOptions, step: float) -> 
     return periods
 
 
-def _described(network: Network) -> float | None:
+def _read_step(network: Network) -> float | None:
     """The step (s) that the description gives: the shortest where inner systems have steps of their own."""
     inner = [system.step for path, system in network.systems.items() if path and system.step is not None]
     return None if network.description.step is None else min([network.description.step, *inner])

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..loops.curves import quotient
-from ..loops.multisine import Multisine, line_spectrum, multisine, unexcited_share
+from ..loops.multisine import Multisine, fraction_unexcited, line_spectrum, multisine
 from ..loops.readings import Curve
 from ..request.channels import Channel
 from ..results.responses import Measured
@@ -83,7 +83,7 @@ class Injector:
         """The largest value of the multisine: the declared amplitude or a share of the signal's own size."""
         if self.channel.amplitude is not None:
             return self.channel.amplitude
-        size = float(np.max(abs(self.channel.injected(self._undisturbed()))))
+        size = float(np.max(abs(self.channel.injection_for(self._simulate_undisturbed()))))
         return DEFAULT_SHARE * (size or 1.0)
 
     def spectrum(self, peak: float) -> tuple[np.ndarray, float]:
@@ -106,7 +106,7 @@ class Injector:
         back = line_spectrum(v[-window:], self.samples, self.signal.lines)
         if not np.all(abs(inside) > 0.0):
             raise NotMeasurableError("nothing of what is added arrives behind the cut")
-        return -back / inside, unexcited_share(u[-window:], self.signal)
+        return -back / inside, fraction_unexcited(u[-window:], self.signal)
 
     def _points(self) -> int:
         """Communication points behind the operating point that a measurement takes."""
@@ -121,7 +121,7 @@ class Injector:
             raise NotMeasurableError(f"a measurement takes {points} communication points, more than {FLIGHT_POINTS}")
         return points
 
-    def _undisturbed(self) -> dict[str, np.ndarray]:
+    def _simulate_undisturbed(self) -> dict[str, np.ndarray]:
         """Signals from the operating point on without anything added."""
         points = self._points()
         if not self._base or len(next(iter(self._base.values()))) < points:
@@ -133,7 +133,7 @@ class Injector:
 
     def _answer(self, samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """What goes in and comes back at the channel's samples, the undisturbed flight subtracted."""
-        channel, base = self.channel, self._undisturbed()
+        channel, base = self.channel, self._simulate_undisturbed()
         added = np.repeat(samples, channel.period)
         mine = channel.excitation(base, added)
         excitation = np.zeros((added.size, len(self.bench.connectors)))
@@ -141,12 +141,12 @@ class Injector:
         signals = self._behind(self.bench.fly(-1, self.bench.origin + added.size, excitation))
         nothing = np.zeros_like(mine)
         rows = slice(0, None, channel.period)
-        u = channel.injected(signals) - channel.injected(base)
+        u = channel.injection_for(signals) - channel.injection_for(base)
         v = channel.back(signals, mine) - channel.back(base, nothing)
         return u[rows], v[rows]
 
 
-def measured(injector: Injector, peak: float) -> np.ndarray | None:
+def measure_response(injector: Injector, peak: float) -> np.ndarray | None:
     """L on the lines with this amplitude, None where it cannot be measured with it."""
     try:
         return injector.spectrum(peak)[0]

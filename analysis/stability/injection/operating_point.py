@@ -36,7 +36,7 @@ class OperatingPoint:
             last = int(point)
             largest = np.maximum(largest, abs(self.memory.read()))
             for channel in bench.channels:
-                size = float(np.max(abs(channel.injected(signals)), initial=0.0))
+                size = float(np.max(abs(channel.injection_for(signals)), initial=0.0))
                 self.sizes[channel.loop] = max(self.sizes.get(channel.loop, 0.0), size)
         self.snapshot = self.memory.take(last)
         self.sizes = {loop: size or 1.0 for loop, size in self.sizes.items()}

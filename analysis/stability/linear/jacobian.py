@@ -48,7 +48,7 @@ class Jacobian:
         inside, back = [], []
         for channel in bench.channels:
             rows = slice(0, bench.period, channel.period)
-            inside.append(channel.injected(signals)[rows])
+            inside.append(channel.injection_for(signals)[rows])
             back.append(channel.back(signals, added[:, bench.columns(channel)])[rows])
         return np.concatenate([self.memory.read() / self.scale, *inside, *back])
 
@@ -75,7 +75,7 @@ class Jacobian:
             ends.append(self._after(excitation))
         return (ends[0] - ends[1]) / (2.0 * size)
 
-    def screened(self, cell: int) -> np.ndarray:
+    def screen(self, cell: int) -> np.ndarray:
         """Derivative to a cell with one step, to see what it reaches; smaller where the flight would break."""
         for step in SCREEN[:-1]:
             try:

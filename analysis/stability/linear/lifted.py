@@ -77,9 +77,9 @@ class LiftedModel:
         rounding, or move by rounding, as the covariance of a filter does where its innovations vanish.
         """
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
-        moved = reached(self.a != 0.0, np.any(self.b[:, rows] != 0.0, axis=1))
+        moved = reachable(self.a != 0.0, np.any(self.b[:, rows] != 0.0, axis=1))
         heard = np.any(self.cu[rows] != 0.0, axis=0) | np.any(self.cv[rows] != 0.0, axis=0)
-        moves = reached(self.a.T != 0.0, heard)
+        moves = reachable(self.a.T != 0.0, heard)
         connected = self._part(np.flatnonzero(moved & moves))
         if not connected.a.size:
             return connected
@@ -143,7 +143,7 @@ class LiftedModel:
         """Closed-loop multipliers outside the unit circle."""
         return int(np.sum(abs(self.poles()) > 1.0 + UNIT_CIRCLE))
 
-    def opened(self, ports: tuple[Port, ...]) -> np.ndarray:
+    def open_loops(self, ports: tuple[Port, ...]) -> np.ndarray:
         """Multipliers with these ports' cuts open and the other loops closed, those at 0 left out."""
         rows = np.concatenate([np.arange(port.first, port.first + port.count) for port in ports])
         inside = np.linalg.solve(self.du[np.ix_(rows, rows)], self.cu[rows])
@@ -206,7 +206,7 @@ class LiftedModel:
         return worst
 
 
-def reached(arrows: np.ndarray, start: np.ndarray) -> np.ndarray:
+def reachable(arrows: np.ndarray, start: np.ndarray) -> np.ndarray:
     """Which cells are reached from the start over arrows [to, from]."""
     reached = start.copy()
     while True:

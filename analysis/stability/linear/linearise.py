@@ -11,7 +11,7 @@ import scipy.linalg
 
 from ..injection.operating_point import OperatingPoint
 from .jacobian import STEPS, Jacobian, plateau
-from .lifted import LiftedModel, StateVariable, reached
+from .lifted import LiftedModel, StateVariable, reachable
 from .whole import Block, circles, multipliers
 
 
@@ -50,7 +50,7 @@ def linearise(
     ]
     screened = None
     if cells is None:
-        screened = np.column_stack([jacobian.screened(cell) for cell in range(count)])
+        screened = np.column_stack([jacobian.screen(cell) for cell in range(count)])
         lasting = {int(cell) for block in circles(screened[:count]) for cell in block}
         cells = sorted(lasting.union(np.flatnonzero(_in_between(screened, driven)).tolist()))
     remembered = [plateau(partial(jacobian.cell_column, cell), steps) for cell in cells]
@@ -98,17 +98,17 @@ def _model(jacobian: Jacobian, cells: np.ndarray, matrix: np.ndarray, driven: np
 def _in_between(columns: np.ndarray, driven: list) -> np.ndarray:
     """Of every cell whether what is added moves it, and it moves what is read."""
     count = columns.shape[1]
-    moved = _moved(columns, driven)
+    moved = _perturb(columns, driven)
     return moved & _moves(columns, np.any(columns[count:] != 0.0, axis=0))
 
 
-def _moved(columns: np.ndarray, driven: list) -> np.ndarray:
+def _perturb(columns: np.ndarray, driven: list) -> np.ndarray:
     count = columns.shape[1]
-    return reached(columns[:count] != 0.0, np.any([column[:count] != 0.0 for column, _ in driven], axis=0))
+    return reachable(columns[:count] != 0.0, np.any([column[:count] != 0.0 for column, _ in driven], axis=0))
 
 
 def _moves(columns: np.ndarray, heard: np.ndarray) -> np.ndarray:
-    return reached((columns[: columns.shape[1]] != 0.0).T, heard)
+    return reachable((columns[: columns.shape[1]] != 0.0).T, heard)
 
 
 def _blocks(jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequence[np.ndarray]) -> tuple[Block, ...]:
@@ -117,7 +117,7 @@ def _blocks(jacobian: Jacobian, arrows: np.ndarray, driven: list, matrices: Sequ
     moved, moves = [], []
     for port in jacobian.ports:
         signals = np.arange(count + port.first, count + port.first + port.count)
-        moved.append(_moved(arrows, driven[port.rows]))
+        moved.append(_perturb(arrows, driven[port.rows]))
         moves.append(_moves(arrows, np.any(arrows[np.concatenate([signals, signals + inputs])] != 0.0, axis=0)))
     blocks = []
     for cells in circles(matrices[0][:count]):

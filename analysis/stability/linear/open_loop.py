@@ -29,7 +29,7 @@ def open_loop(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
 
     At the ports' own sample period where they do not change from sample to sample, else lifted over the hyperperiod.
     """
-    lifted = _opened(model, ports)
+    lifted = _open(model, ports)
     if lifted.samples > 1:
         single = _at_every_sample(lifted, model, ports)
         if single.error <= SAME:
@@ -37,7 +37,7 @@ def open_loop(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
     return lifted
 
 
-def _opened(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
+def _open(model: LiftedModel, ports: tuple[Port, ...]) -> StateSpace:
     """The lifted model with the cuts open, samples stacked oldest first, in the memory's units."""
     samples = ports[0].count
     rows = np.ravel([[port.first + sample for port in ports] for sample in range(samples)])

@@ -39,7 +39,7 @@ class Remembered:
         return np.array([self._known[angular] for angular in asked])
 
 
-def remembered(response: Response) -> Response:
+def cache_response(response: Response) -> Response:
     """The response with a memory, for several readers of the same curve; one that has a memory is left as it is."""
     return response if isinstance(response, Remembered) else Remembered(response)
 
@@ -51,7 +51,7 @@ def quotient(value: np.ndarray, reference: np.ndarray) -> np.ndarray:
     return np.where(silent, same, value / np.where(silent, 1.0, reference))
 
 
-def interpolated(frequency: np.ndarray, value: np.ndarray, sample_period: float) -> Response:
+def interpolate(frequency: np.ndarray, value: np.ndarray, sample_period: float) -> Response:
     """A response through measured lines: at ``frequency`` (rad/s, increasing, below pi/T) it has ``value``.
 
     Log gain is a cubic spline of log tan(w T/2), the logarithm of Tustin's frequency, in which a sampled loop has the
@@ -126,7 +126,7 @@ def dense(
         if len(frequency) + len(coarse) > most:
             raise ValueError(f"the frequency response is not resolved by {most} points up to {high:g} rad/s")
         frequency, value = _halve(response, frequency, value, coarse)
-    return _refined(response, frequency, value, most) if refine else Curve(frequency, value)
+    return _refine(response, frequency, value, most) if refine else Curve(frequency, value)
 
 
 def _finite(response: Response, frequency: np.ndarray) -> np.ndarray:
@@ -145,7 +145,7 @@ def _halve(
     return np.insert(frequency, intervals + 1, middle), np.insert(value, intervals + 1, middle_values)
 
 
-def _refined(response: Response, frequency: np.ndarray, value: np.ndarray, most: int) -> Curve:
+def _refine(response: Response, frequency: np.ndarray, value: np.ndarray, most: int) -> Curve:
     """Finer around every closest approach, which every crossing is, and so is a touch without a crossing."""
     for _ in range(_HALVINGS):
         gain = np.abs(np.log(np.maximum(np.abs(value), _SILENT)))

@@ -93,7 +93,7 @@ def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     return np.array([gain(a) for a in amplitude.tolist()], dtype=complex)
 
 
-def _carried_pulses(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
+def _staircase(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     """What is fired follows the integral of the demand in steps of a least pulse, a whole one behind at the most: a
     staircase of relays whose thresholds lie a least pulse apart, each with half of one as its hysteresis."""
     least = parameters["least_pulse"]
@@ -184,7 +184,7 @@ ELEMENTS: dict[str, Element] = {
         note="the nearest whole multiple of step",
     ),
     "carried pulses": Element(
-        gain=_carried_pulses,
+        gain=_staircase,
         required={"least_pulse": INTEGRAL},
         optional={},
         defaults={},

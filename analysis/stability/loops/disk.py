@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .curves import Response, base_grid, remembered
+from .curves import Response, base_grid, cache_response
 from .margins import disk_gain, disk_phase, highest
-from .structured import scaled_bound
+from .structured import upper_bound
 
 _STEP = 0.05  # largest change of log alpha between neighbouring frequencies
 _MOST = 3000
@@ -34,7 +34,7 @@ def disk_margins(value: np.ndarray) -> np.ndarray:
     Seiler, Packard and Gahinet, "An introduction to disk margins", IEEE Control Systems Magazine 40 (2020).
     """
     identity = np.eye(value.shape[-1])
-    bounds = scaled_bound(np.linalg.inv(identity + value) - 0.5 * identity)
+    bounds = upper_bound(np.linalg.inv(identity + value) - 0.5 * identity)
     with np.errstate(divide="ignore"):
         return 1.0 / bounds
 
@@ -45,7 +45,7 @@ def joint_disk_margin(response: Response, low: float, high: float, *, include: I
     It bounds what the loops stand only where the closed loop is stable. ``include`` holds the frequencies of lightly
     damped poles. Raises ValueError when the margin is not resolved over frequency.
     """
-    margins = remembered(lambda angular: disk_margins(response(angular)))
+    margins = cache_response(lambda angular: disk_margins(response(angular)))
     frequency = base_grid(low, high, include)
     alphas = margins(frequency)
     while (coarse := np.flatnonzero(np.abs(np.diff(np.log(alphas))) > _STEP)).size:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from .curves import Response, dense, remembered
+from .curves import Response, cache_response, dense
 
 _LARGEST_STEP = 0.5 * np.pi  # of the phase between neighbours: beyond it the turn could go either way
 _NOT_A_COUNT = 0.1  # largest distance of the number of turns from an integer
@@ -36,7 +36,7 @@ def encirclements(
     ``low`` is not low enough, or there are other poles on the unit circle.
     """
     undamped = np.sort(np.asarray([*undamped], dtype=float))
-    response = remembered(response)
+    response = cache_response(response)
 
     def difference(frequency: np.ndarray) -> np.ndarray:
         value = np.asarray(response(frequency), dtype=complex)
@@ -49,7 +49,7 @@ def encirclements(
     starts = np.concatenate([[low], corners * (1.0 + _BESIDE)])
     ends = np.concatenate([corners * (1.0 - _BESIDE), [high]])
     include = [*include]
-    turned = sum(_turned(difference, start, end, include) for start, end in zip(starts, ends, strict=True))
+    turned = sum(_turn(difference, start, end, include) for start, end in zip(starts, ends, strict=True))
     # Along half a circle outside of a pole, z - pole turns by +pi and 1/(z - pole) by -pi; the lower half of the
     # unit circle is the mirror image of the upper.
     count = (2.0 * turned - np.pi * (integrators + 2 * len(undamped))) / (2.0 * np.pi)
@@ -62,7 +62,7 @@ def encirclements(
     return round(count)
 
 
-def _turned(difference: Response, low: float, high: float, include: list[float]) -> float:
+def _turn(difference: Response, low: float, high: float, include: list[float]) -> float:
     """The angle (rad) by which 1 + L turns from ``low`` to ``high``."""
     curve = dense(difference, low, high, include=include, refine=False)
     steps = np.angle(curve.value[1:] / curve.value[:-1])

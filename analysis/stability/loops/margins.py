@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from .curves import Response, dense, remembered
+from .curves import Response, cache_response, dense
 from .encirclements import encirclements
 from .readings import Classical, Crossing, Robust
 
@@ -45,7 +45,7 @@ def classical(
     """
     include = [*include]
     undamped = [*undamped]
-    response = remembered(response)
+    response = cache_response(response)
     curve = dense(response, low, high, include=include)
     frequency = curve.frequency
 
@@ -86,7 +86,7 @@ def robust(response: Response, low: float, high: float, *, include: Iterable[flo
 
     They bound what the loop stands only where the closed loop is stable.
     """
-    response = remembered(response)
+    response = cache_response(response)
     frequency = dense(response, low, high, include=include).frequency
 
     def sensitivity(angular: np.ndarray) -> np.ndarray:
@@ -96,13 +96,13 @@ def robust(response: Response, low: float, high: float, *, include: Iterable[flo
         value = response(angular)
         return np.abs(value / (1.0 + value))
 
-    def balanced(angular: np.ndarray) -> np.ndarray:
+    def balance(angular: np.ndarray) -> np.ndarray:
         value = response(angular)
         return np.abs(0.5 * (1.0 - value) / (1.0 + value))  # S - 1/2
 
     with np.errstate(divide="ignore"):
         (s_peak, s_at), (t_peak, t_at), (b_peak, b_at) = (
-            highest(size, frequency) for size in (sensitivity, complementary, balanced)
+            highest(size, frequency) for size in (sensitivity, complementary, balance)
         )
     alpha = 1.0 / b_peak
     return Robust(

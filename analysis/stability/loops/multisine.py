@@ -104,7 +104,7 @@ def line_spectrum(record: np.ndarray, samples: int, lines: np.ndarray) -> np.nda
     return 2.0 / samples * np.fft.rfft(mean, axis=0)[np.asarray(lines)]
 
 
-def unexcited_share(record: np.ndarray, signal: Multisine) -> float:
+def fraction_unexcited(record: np.ndarray, signal: Multisine) -> float:
     """The largest response on a line not excited, relative to the larger one on the excited lines next to it.
 
     ``record`` (n,) is a response over whole periods in the steady state: 0 where it is linear and without noise.

@@ -22,7 +22,7 @@ _ROUNDING = 1e-15
 _SWEEPS = 4
 
 
-def scaled_bound(matrix: np.ndarray) -> np.ndarray:
+def upper_bound(matrix: np.ndarray) -> np.ndarray:
     """The least largest singular value of D M D^-1 for each M of ``matrix`` (n, m, m), within some billionths.
 
     Raises ValueError where it is not found.
@@ -100,7 +100,7 @@ def _balance(squares: np.ndarray) -> np.ndarray:
     return logarithm - logarithm[:, :1]
 
 
-def _scaled(matrix: np.ndarray, logarithm: np.ndarray) -> np.ndarray:
+def _scale(matrix: np.ndarray, logarithm: np.ndarray) -> np.ndarray:
     gains = np.exp(logarithm)
     return matrix * gains[:, :, None] / gains[:, None, :]
 
@@ -119,7 +119,7 @@ def _descend(
     while True:
         trial = start.copy()
         trial[:, 1:] += step * length[:, None]
-        norms = _norm(np.linalg.svd(_scaled(matrix, trial), compute_uv=False), half)
+        norms = _norm(np.linalg.svd(_scale(matrix, trial), compute_uv=False), half)
         uphill = norms > value + 0.1 * length * slope + 1e-15
         if not uphill.any():
             return trial
@@ -137,7 +137,7 @@ def _expansion(
     dB = E B - B E, dA = 2 B* E B - E A - A E. Second derivatives of traces by divided differences of q r^(q-1)
     (Lewis and Sendov, "Twice differentiable spectral functions", SIAM J. Matrix Anal. Appl. 23 (2001)).
     """
-    left, sizes, right = np.linalg.svd(_scaled(matrix, logarithm))
+    left, sizes, right = np.linalg.svd(_scale(matrix, logarithm))
     value = _norm(sizes, half)
     s = sizes / sizes[:, :1]
     squares = s * s

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..loops.curves import Response, dense, remembered
+from ..loops.curves import Response, cache_response, dense
 from ..loops.margin_values import Margins, Quantity
 from ..loops.margins import classical, robust
 from ..loops.readings import Classical, Curve, Robust
@@ -56,7 +56,7 @@ def assess(
     ``slower`` says how many unstable open-loop poles lie below a frequency: encirclements counted from there on take
     them as integrators, so it is begun below them where that can be resolved.
     """
-    response = remembered(response)
+    response = cache_response(response)
     notes: dict[str, str] = {}
     while True:
         lowest = low <= LOWEST * high

@@ -50,7 +50,7 @@ def element_report(
         raise StudyError(f"{channel.name}: element {element.name}: {error}") from error
     amplitude = np.geomspace(*amplitude_range(element.kind, parameters), POINTS)
     of_integral = ELEMENTS[element.kind].of_integral
-    flown = _flown(prepare(element.layer), channel, of_integral) if element.layer != Layer() else None
+    flown = _simulate(prepare(element.layer), channel, of_integral) if element.layer != Layer() else None
     if unit and of_integral:
         unit = f"{unit}.s"
     stable = [balance for balance in balances if balance.stable]
@@ -80,7 +80,7 @@ def _lowest(response: Response, low: float, high: float) -> float:
     return float(frequency[below[0]]) if below.size else low
 
 
-def _flown(prepared: PreparedSystem, channel: Channel, integrated: bool) -> tuple[float, float] | None:
+def _simulate(prepared: PreparedSystem, channel: Channel, integrated: bool) -> tuple[float, float] | None:
     """Amplitude and period (s) of what comes back to the cut in the last part of a whole flight, None if it rests.
 
     ``integrated``: of its integral over time, less the ramp that a constant disturbance leaves in it.

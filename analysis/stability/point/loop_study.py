@@ -9,10 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from ..injection.bench import Bench, StudyError
-from ..injection.injection import Injector, NotMeasurableError, measured
+from ..injection.injection import Injector, NotMeasurableError, measure_response
 from ..linear.modes import structure
 from ..linear.open_loop import open_loop
-from ..loops.curves import Response, interpolated, quotient
+from ..loops.curves import Response, interpolate, quotient
 from ..loops.decibels import decibels
 from ..request.channels import Channel
 from ..request.declaration import Limits
@@ -134,7 +134,7 @@ class LoopStudy:
                 f"its derivatives have no plateau ({names}), so margins are those of the frequency-response test"
             )
         curve = self.measured.curve
-        response = interpolated(curve.frequency, curve.value, self.seconds)
+        response = interpolate(curve.frequency, curve.value, self.seconds)
         return assess(response, curve.frequency[0], curve.frequency[-1], self.seconds, None), response
 
     def report(self, closed: Sequence[str]) -> LoopReport:
@@ -204,7 +204,7 @@ class LoopStudy:
         line = int(np.argmin(abs(np.log(self.injector.frequency / frequency))))
         by_amplitude = {1.0: self.measured.curve.value}
         for factor in FACTORS:
-            value = measured(self.injector, factor * peak)
+            value = measure_response(self.injector, factor * peak)
             if value is not None:
                 by_amplitude[factor] = value
         reference = by_amplitude[min(by_amplitude)][line]

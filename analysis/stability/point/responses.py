@@ -119,7 +119,7 @@ def loop_model(linearisation: Linearisation, port: Port) -> LoopModel:
         for block in outside
         if not any(_alike(mode, block) for mode in own)
     )
-    return LoopModel(model, port, own + unseen, model.opened((port,)), facts, outside)
+    return LoopModel(model, port, own + unseen, model.open_loops((port,)), facts, outside)
 
 
 def _blur(change: float) -> float:

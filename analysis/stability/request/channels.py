@@ -66,7 +66,7 @@ class Channel:
         across[:, self.axis] += added
         return np.column_stack([along, across * (length / size)[:, None]])
 
-    def injected(self, signals: Signals) -> np.ndarray:
+    def injection_for(self, signals: Signals) -> np.ndarray:
         """The signal behind the cut, with what was added."""
         if self.axis is None:
             return signals[self.connectors[0]]
@@ -78,7 +78,7 @@ class Channel:
         if self.returned is not None:
             return signals[self.returned]
         before = {name: signals[name] - excitation[:, place] for place, name in enumerate(self.connectors)}
-        return self.injected({**signals, **before})
+        return self.injection_for({**signals, **before})
 
 
 def channels_of(loop: Loop, network: Network, step: float) -> list[Channel]:

@@ -90,7 +90,7 @@ def read_request(
     """
     archive = open_system(system)
     times = tuple(sorted(set(map(float, at))))
-    declaration = _chosen(read_description(archive, options.variant), loops, times)
+    declaration = _select(read_description(archive, options.variant), loops, times)
     request = Request(archive.name, archive.label, str(system), options, declaration, at=times)
     if campaign is None:
         for name, value in (
@@ -112,10 +112,10 @@ def read_request(
     check_plan(plan)
     if trial is None:
         return replace(request, campaign=campaign, plan=plan, draws=draws)
-    return replace(request, options=_drawn(plan, options, trial))
+    return replace(request, options=_values_of_trial(plan, options, trial))
 
 
-def _chosen(description: Description, names: Sequence[str], at: Sequence[float]) -> Declaration:
+def _select(description: Description, names: Sequence[str], at: Sequence[float]) -> Declaration:
     """The declaration with just the loops that are asked for."""
     declared = read_declaration(description)
     by_name = {loop.name: loop for loop in declared.loops}
@@ -136,7 +136,7 @@ def _chosen(description: Description, names: Sequence[str], at: Sequence[float])
     if at:
         asked = {name for loop in wanted for name in loop.points}
         here = [point for point in declared.points if point.name in asked]
-        points, sweeps = (*_shifted(here, at), *cuts), ()
+        points, sweeps = (*_shift(here, at), *cuts), ()
         origins = {point.name: _with_settings_of(point, here) for point in here}
         wanted = [_at_times(loop, at, origins) if loop.name in by_name else loop for loop in wanted]
     used = {point for loop in wanted for point in loop.points}
@@ -149,7 +149,7 @@ def _chosen(description: Description, names: Sequence[str], at: Sequence[float])
     )
 
 
-def _shifted(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
+def _shift(points: Sequence[Point], at: Sequence[float]) -> list[Point]:
     """Points with the settings of declared ones at other times. Raises InputError where one lies behind their end."""
     shifted = []
     for point in points:
@@ -186,7 +186,7 @@ def _remedy(name: str, declared: Mapping[str, Loop]) -> str:
     return f"{suggestion(name, declared)}, or cut one with COMPONENT.CONNECTOR"
 
 
-def _drawn(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions:
+def _values_of_trial(plan: BatchPlan, options: SystemOptions, trial: int) -> SystemOptions:
     """Options with the draws of one trial as settings, over the campaign's own and below the user's."""
     if not 0 <= trial < plan.campaign.trials:
         problem = f"the campaign has trials 0 to {plan.campaign.trials - 1}"

@@ -18,7 +18,7 @@ class Subject:
     options: SystemOptions
     fmus: dict[str, Fmu] = field(default_factory=dict)
 
-    def changed(self, *, step: float | None = None, **layers: Layer) -> Subject:
+    def with_options(self, *, step: float | None = None, **layers: Layer) -> Subject:
         """With another communication step (s), and with what others ask, by the names of `LAYERS`."""
         options = self.options.among(**layers)
         return replace(self, options=options if step is None else replace(options, step=step))

@@ -79,7 +79,7 @@ def _complex(values: np.ndarray) -> list[list[float]]:
 def _loop(loop: LoopReport) -> dict[str, Any]:
     margins = loop.margins
 
-    def held(value: float) -> float | str | None:
+    def json_holds(value: float) -> float | str | None:
         return _size(UNSTABLE if margins.unstable else value)
 
     entry: dict[str, Any] = {
@@ -95,9 +95,9 @@ def _loop(loop: LoopReport) -> dict[str, Any]:
         "stable": loop.stable,
         "outside": list(loop.outside),
         **_margins(margins),
-        "delay_margin_s": held(loop.classical.delay_margin),
-        "disk_gain_db": held(decibels(loop.robust.disk_gain)),
-        "disk_phase_deg": held(degree_size(loop.robust.disk_phase)),
+        "delay_margin_s": json_holds(loop.classical.delay_margin),
+        "disk_gain_db": json_holds(decibels(loop.robust.disk_gain)),
+        "disk_phase_deg": json_holds(degree_size(loop.robust.disk_phase)),
         "sensitivity_peak": loop.robust.sensitivity_peak,
         "complementary_peak": loop.robust.complementary_peak,
         "gain_crossings": [
@@ -207,7 +207,7 @@ def _dispersion(item: Dispersion) -> dict[str, Any]:
 
 
 def _joint(joint: JointReport) -> dict[str, Any]:
-    def held(value: float) -> float | str | None:
+    def json_holds(value: float) -> float | str | None:
         return _size(value if joint.stable else UNSTABLE)
 
     return {
@@ -216,9 +216,9 @@ def _joint(joint: JointReport) -> dict[str, Any]:
         "channels": list(joint.channels),
         "stable": joint.stable,
         "verdict": joint.verdict,
-        "disk_margin": held(joint.disk_margin),
-        "disk_gain_db": held(decibels(joint.disk_gain)),
-        "disk_phase_deg": held(degree_size(joint.disk_phase)),
+        "disk_margin": json_holds(joint.disk_margin),
+        "disk_gain_db": json_holds(decibels(joint.disk_gain)),
+        "disk_phase_deg": json_holds(degree_size(joint.disk_phase)),
         "frequency_rad_s": joint.disk_frequency,
         "requirements": [_requirement(item) for item in joint.requirements],
     }

@@ -9,7 +9,7 @@ import numpy as np
 from ..loops.margin_values import Margins
 from ..loops.readings import Classical, Curve, Robust
 from .nonlinear import AmplitudePoint, Nonlinearity
-from .requirement import Requirement, Verdict, combined
+from .requirement import Requirement, Verdict, combine
 from .responses import Agreement, Linearised, Measured, Mode, Structure
 from .state_space import StateSpace
 from .varied import Dispersion, Sampled
@@ -70,7 +70,7 @@ class LoopReport:
 
     @property
     def verdict(self) -> Verdict:
-        verdict = combined(self.judged)
+        verdict = combine(self.judged)
         return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and self.doubted else verdict
 
 
@@ -96,4 +96,4 @@ class JointReport:
 
     @property
     def verdict(self) -> Verdict:
-        return combined(self.requirements)
+        return combine(self.requirements)

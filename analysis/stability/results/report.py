@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from .loop import JointReport, LoopReport
-from .requirement import Requirement, Verdict, combined
+from .requirement import Requirement, Verdict, combine
 from .varied import SweepReport
 
 
@@ -99,6 +99,6 @@ class StabilityReport:
     @property
     def verdict(self) -> Verdict:
         """What could not be studied, or what linearised and measured responses differ on, is not passed."""
-        verdict = combined([item.requirement for item in self.judged()])
+        verdict = combine([item.requirement for item in self.judged()])
         open_to_doubt = self.unstudied or any(loop.doubted for loop in self.loops)
         return Verdict.NOT_APPLICABLE if verdict is Verdict.PASS and open_to_doubt else verdict

@@ -68,7 +68,7 @@ class Requirement:
         return self.quantity if self.scope is Scope.NOMINAL else f"{self.scope} {self.quantity}"
 
 
-def combined(requirements: Iterable[Requirement]) -> Verdict:
+def combine(requirements: Iterable[Requirement]) -> Verdict:
     """Fail if one fails, withheld if one is, pass if one passes; what is not applicable decides nothing."""
     verdicts = [requirement.verdict for requirement in requirements]
     decisive = (Verdict.FAIL, Verdict.WITHHELD, Verdict.PASS)

@@ -20,7 +20,7 @@ from ..results.varied import Dispersion
 from .followed import ONE_STEP, margins_of, model_of, poles_of
 
 
-def dispersed(
+def disperse(
     subject: Subject,
     plan: BatchPlan,
     point: Point,
@@ -38,10 +38,10 @@ def dispersed(
     """
     tell(plan.campaign.trials, 0)
     (variant,) = plan.campaign.variants()
-    flown = subject.changed(campaign=plan.campaign.layer_of(variant))
+    flown = subject.with_options(campaign=plan.campaign.layer_of(variant))
     rows: dict[str, list[Margins]] = {}
     poles: dict[str, list[np.ndarray]] = {}
-    with PointStudy(flown, point, loops, varied(plan)) as study:
+    with PointStudy(flown, point, loops, vary(plan)) as study:
         for trial in range(plan.campaign.trials):
             for name, model in models_of_trial(study, plan, trial, cells).items():
                 rows.setdefault(name, []).append(margins_of(model))
@@ -68,7 +68,7 @@ def models_of_trial(study: PointStudy, plan: BatchPlan, trial: int, cells: Seque
     return {channel.name: model_of(linear, channel.name) for channel in study.channels}
 
 
-def varied(plan: BatchPlan) -> list[str]:
+def vary(plan: BatchPlan) -> list[str]:
     """The parameters that trials of a campaign set."""
     (variant,) = plan.campaign.variants()
     prepared = plan.prepare(variant)

@@ -15,7 +15,7 @@ from .followed import ONE_STEP, margins_of, model_of
 FACTORS = (0.5, 1.0, 2.0)  # of the communication step
 
 
-def sampled(
+def vary_step(
     subject: Subject,
     point: Point,
     loops: Sequence[Loop],
@@ -33,7 +33,7 @@ def sampled(
     by_name: dict[str, list[Sampled]] = {name: [] for name in names}
     for factor in FACTORS:
         try:
-            with PointStudy(subject.changed(step=factor * step), point, loops) as study:
+            with PointStudy(subject.with_options(step=factor * step), point, loops) as study:
                 study.linearise(cells, ONE_STEP)
                 if study.linear is None:
                     raise StudyError(study.why_not)

@@ -26,7 +26,7 @@ FAR = 1e3  # dB, deg: what an infinite margin counts as
 At = Callable[[float], Margins]
 
 
-def swept(
+def run_sweep(
     subject: Subject,
     point: Point,
     loop: Loop,
@@ -43,7 +43,7 @@ def swept(
 
     @cache
     def at(value: float) -> Margins:
-        with PointStudy(subject.changed(study=Layer(set={sweep.parameter: value})), point, [loop]) as study:
+        with PointStudy(subject.with_options(study=Layer(set={sweep.parameter: value})), point, [loop]) as study:
             study.linearise(cells, ONE_STEP)
             if study.linear is None:
                 raise StudyError(study.why_not)
@@ -92,7 +92,7 @@ def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -
         return crossings
     if at(low).unstable != at(high).unstable:
         below = at(low).unstable
-        left, right = _bisected(lambda value: at(value).unstable == below, low, high)
+        left, right = _bisect(lambda value: at(value).unstable == below, low, high)
         crossings.append(SweepCrossing(Quantity.STABILITY, 0.5 * (left + right), below))
         low, high = (right, high) if below else (low, left)
     for quantity, limit in wanted.items():
@@ -107,7 +107,7 @@ def _crossings(at: At, low: float, high: float, wanted: dict[Quantity, float]) -
     return crossings
 
 
-def _bisected(is_low: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
+def _bisect(is_low: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:
     """Neighbouring values between which a condition that holds at ``low`` and not at ``high`` changes."""
     while high - low > CROSSING * max(abs(low), abs(high)):
         middle = 0.5 * (low + high)

@@ -16,10 +16,10 @@ from ...campaigns.fly.workers.workers import FlyerPool, worker_count
 from ...campaigns.spec.campaign import Record
 from ...campaigns.spec.checks import check_draws, check_plan
 from ...campaigns.spec.plan import BatchPlan
-from ...campaigns.trials import Trials, joined
+from ...campaigns.trials import Trials, join_trials
 from ...common.errors import InputError
 from ...common.progress import progress_bar
-from .noise import given_draws, noise_of
+from .noise import make_samples, noise_of
 
 OWN = ("trials", "record", "group", "draws_sha256")  # facts of a batch that a study of samples has not
 
@@ -55,7 +55,7 @@ class SampleFlights:
 
         ``streams`` are those of all sources of the noise, by component. Raises InputError.
         """
-        plan = self.plan.of_samples(given_draws(columns, streams, self.noise))
+        plan = self.plan.of_samples(make_samples(columns, streams, self.noise))
         check_draws(plan, [self.prepared])
         trials = plan.campaign.trials
         size = max(1, min(50 if self.prepared.flies_in_threads else 10, trials // (4 * self._count)))
@@ -64,10 +64,10 @@ class SampleFlights:
         for place, flown in self._pool.work(_fly, [(self.variant, plan.of_part(piece)) for piece in pieces]):
             if flown is None:
                 raise KeyboardInterrupt
-            parts[place] = flown.counted_from(pieces[place].start)
+            parts[place] = flown.renumber(pieces[place].start)
             self._progress.update(len(pieces[place]))
         self.flown += trials
-        return joined(parts.values()), plan.draws.of_part(range(trials)).columns
+        return join_trials(parts.values()), plan.draws.of_part(range(trials)).columns
 
     def __enter__(self) -> SampleFlights:
         self._pool.__enter__()

@@ -56,7 +56,7 @@ def noise_of(prepared: PreparedSystem, trial: int | None, seed: int) -> Noise:
     return Noise(tuple(with_streams(prepared)), trial, seed)
 
 
-def given_draws(columns: Columns, streams: Streams, noise: Noise) -> GivenDraws:
+def make_samples(columns: Columns, streams: Streams, noise: Noise) -> GivenDraws:
     """Draws with the random streams of all sources, or those of the one trial where the noise is not random."""
     if noise.sources:
         return GivenDraws(columns, streams)

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from ...campaigns.draws.declared import drawn_names
+from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.shards.files import write_parquet
 from ...campaigns.spec.draw_space import DrawSpace
 from ...campaigns.spec.failure import Failure
-from ...campaigns.tables import aligned, assumption_lines
+from ...campaigns.tables import align_columns, assumption_lines
 from ...common.atomic import write_atomically
 from ...common.percent import short_percent
 from ..evaluation.commands import Commands
@@ -188,9 +188,9 @@ class RareResult:
         lines += [line for line in (noise_line(self.noise), self.bound_text()) if line]
         lines += assumption_lines(self.facts)
         unit = f" ({self.margin_unit})" if self.margin_unit else ""
-        lines += ["", f"levels, thresholds of the margin{unit}{under}", *aligned(level_rows(simulation))]
+        lines += ["", f"levels, thresholds of the margin{unit}{under}", *align_columns(level_rows(simulation))]
         if self.failures:
-            lines += ["", f"most probable failures{under}", *aligned(self._failure_rows(f"margin{unit}"))]
+            lines += ["", f"most probable failures{under}", *align_columns(self._failure_rows(f"margin{unit}"))]
             replay = self.replay(folder, 0)
             lines += [
                 "",
@@ -231,7 +231,7 @@ class RareResult:
     def write(self, folder: Path) -> None:
         """Write rare.json, flights.parquet and, where there are failures, failures.parquet for `--draws`."""
         if self.failures:
-            write_parquet(self.flown.given(drawn_names(self.space.campaign), self._places), folder / FAILURES)
+            write_parquet(self.flown.given(input_names(self.space.campaign), self._places), folder / FAILURES)
         write_parquet(self.flown.table("margin"), folder / "flights.parquet")
         text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
         write_atomically(folder / "rare.json", text.encode())

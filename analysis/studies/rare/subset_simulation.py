@@ -2,7 +2,7 @@
 
 The failure is the last of nested events, each of which a tenth of the points of the one before are in: its probability
 is the product of theirs. Points of an event are had by chains (`conditional_sampling`) from those of the one before.
-Where chains cannot renew the noise of a level, levels end, and what is left is bounded (`_bounded`).
+Where chains cannot renew the noise of a level, levels end, and what is left is bounded (`_bound`).
 """
 
 from __future__ import annotations
@@ -120,14 +120,14 @@ def subset_simulation(
     fresh = FreshStreams()
     evaluations = 0
 
-    def counted(points: Points) -> np.ndarray:
+    def count_calls(points: Points) -> np.ndarray:
         nonlocal evaluations
         evaluations += len(points)
         return margin(points)
 
     normals = random.standard_normal((samples, dimensions))
     points = Points(normals, np.repeat(fresh.take(samples)[:, np.newaxis], sources, axis=1))
-    population = _Population(points, counted(points), np.arange(samples)[:, np.newaxis], np.arange(samples))
+    population = _Population(points, count_calls(points), np.arange(samples)[:, np.newaxis], np.arange(samples))
     spread, reached = FIRST_SPREAD, 1.0
     levels: list[Level] = []
     while True:
@@ -141,7 +141,7 @@ def subset_simulation(
         seeds = random.permutation(np.flatnonzero(inside))
         length = samples // len(seeds)
         chains = grow_chains(
-            counted, population.points.rows(seeds), population.margins[seeds], threshold, length, spread, fresh,
+            count_calls, population.points.rows(seeds), population.margins[seeds], threshold, length, spread, fresh,
             (random, of_noise),
         )  # fmt: skip
         spread = chains.spread
@@ -157,7 +157,7 @@ def subset_simulation(
         level = _level(grown, None)
         if not level.trusted:
             levels.append(level)
-            return _bounded(population, before, samples, levels, evaluations)
+            return _bound(population, before, samples, levels, evaluations)
         population = grown
     failed = population.margins >= 0.0
     families = population.family[inside]
@@ -180,7 +180,7 @@ def subset_simulation(
     )
 
 
-def _bounded(
+def _bound(
     population: _Population, reached: float, samples: int, levels: list[Level], evaluations: int
 ) -> SubsetSimulation:
     """What the last trusted level says, whose chains are in an event of the probability ``reached``.

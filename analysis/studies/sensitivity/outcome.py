@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from ...campaigns.draws.declared import drawn_names
+from ...campaigns.draws.declared import input_names
 from ...campaigns.fly.shards.files import write_parquet
 from ...campaigns.spec.draw_space import DrawSpace
-from ...campaigns.tables import aligned, assumption_lines
+from ...campaigns.tables import align_columns, assumption_lines
 from ...common.atomic import write_atomically
 from ..evaluation.commands import Commands
 from ..evaluation.flown import Flown, strict
@@ -115,10 +115,10 @@ class SensitivityResult:
                 cells = [
                     cell
                     for order in ("total", "first")
-                    for cell in (_told(entry[order]), " to ".join(map(_told, entry[f"{order}_interval"])))
+                    for cell in (_text(entry[order]), " to ".join(map(_text, entry[f"{order}_interval"])))
                 ]
-                rows.append([f"  {with_unit(name, self.units)}", *cells, _told(entry["rank"])])
-            lines += ["", *([f"{number}{under}"] if under else []), *aligned(rows)]
+                rows.append([f"  {with_unit(name, self.units)}", *cells, _text(entry["rank"])])
+            lines += ["", *([f"{number}{under}"] if under else []), *align_columns(rows)]
         lines += ["", *(f"{name}: no indices, {why}" for name, why in self.untold.items())] if self.untold else []
         replay = self.replay(folder, 0)
         lines += [
@@ -129,12 +129,12 @@ class SensitivityResult:
 
     def write(self, folder: Path) -> None:
         """Write sensitivity.json, flights.parquet, and draws.parquet of all flights for `--draws`."""
-        drawn = drawn_names(self.space.campaign)
+        drawn = input_names(self.space.campaign)
         write_parquet(self.flown.given(drawn, np.arange(self.flights)), folder / DRAWS)
         write_parquet(self.flown.table("success"), folder / "flights.parquet")
         text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
         write_atomically(folder / "sensitivity.json", text.encode())
 
 
-def _told(value: float | None) -> str:
+def _text(value: float | None) -> str:
     return "-" if value is None else f"{round(value, 2) + 0.0:.2f}"

@@ -26,7 +26,7 @@ from ...stability.point.point_study import PointStudy
 from ...stability.variation.dispersion import models_of_trial
 from ...stability.variation.followed import margins_of
 from ..evaluation.flights import OWN
-from ..evaluation.noise import given_draws, noise_of
+from ..evaluation.noise import make_samples, noise_of
 from .margin import margin_columns
 from .request import MarginAsked
 
@@ -74,17 +74,18 @@ class MarginStudies:
 
         ``streams`` are those of all sources of the noise, by component. Raises InputError.
         """
-        plan = self._plan.of_samples(given_draws(columns, streams, self.noise))
+        plan = self._plan.of_samples(make_samples(columns, streams, self.noise))
         check_draws(plan, [self._study.prepared])
         rows: list[list[Margins] | None] = []
-        for margins in self._found([plan.of_part(range(trial, trial + 1)) for trial in range(plan.campaign.trials)]):
+        plans = [plan.of_part(range(trial, trial + 1)) for trial in range(plan.campaign.trials)]
+        for margins in self._read_result(plans):
             self.reasons.append(margins if isinstance(margins, str) else "")
             rows.append(None if isinstance(margins, str) else margins)
             self._progress.update()
         studied = Studied(margin_columns(self.channels, rows), np.array([row is not None for row in rows]))
         return studied, plan.draws.of_part(range(plan.campaign.trials)).columns
 
-    def _found(self, plans: Sequence[BatchPlan]) -> Iterable[list[Margins] | str]:
+    def _read_result(self, plans: Sequence[BatchPlan]) -> Iterable[list[Margins] | str]:
         if self._pool is None:
             return (_margins(self._study, self._cells, plan) for plan in plans)
         return self._pool.map(_in_process, plans)
@@ -104,7 +105,7 @@ def _nominal(asked: MarginAsked) -> tuple[PointStudy, list[int]]:
     where = (asked.request.label, f"loop {asked.loop.name} at {asked.point.name}")
     remedy = "what perilune stability cannot study has no worst"
     try:
-        study = asked.opened()
+        study = asked.open_request()
     except StudyError as error:
         raise InputError(*where, str(error), remedy) from error
     study.linearise()
@@ -130,7 +131,7 @@ def _begin(asked: MarginAsked, cells: Sequence[int]) -> None:
     global _held
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # a terminal sends it to all; the parent decides
     leave_when_done()
-    _held = asked.opened(), cells
+    _held = asked.open_request(), cells
 
 
 def _in_process(plan: BatchPlan) -> list[Margins] | str:

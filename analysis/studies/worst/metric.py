@@ -42,7 +42,7 @@ def badness_of(campaign: Campaign, text: str | None) -> Badness:
         failure = failure_of(campaign, None)
         return Badness(f"margin of {failure.text}", failure.margins, expression=failure.expression)
     expression = Expression(text, ("`metric`", text))
-    known = [metric.name for metric in campaign.metrics] + campaign.drawn_names()
+    known = [metric.name for metric in campaign.metrics] + campaign.input_names()
     for name in sorted(expression.names - set(known)):
         raise InputError("`metric`", name, "neither a metric nor a draw of the campaign", suggestion(name, known))
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...campaigns.fly.shards.files import write_parquet
 from ...campaigns.spec.draw_space import DrawSpace
-from ...campaigns.tables import aligned, assumption_lines
+from ...campaigns.tables import align_columns, assumption_lines
 from ...common.atomic import write_atomically
 from ..evaluation.flown import Flown
 from ..evaluation.noise import Noise, conditions, noise_line
@@ -68,17 +68,17 @@ class WorstResult:
     @property
     def worst(self) -> dict[str, Any]:
         """The worst flight: ``value`` (None where it failed), ``trial`` of worst.parquet, ``draws``, ``metrics``."""
-        return {"trial": 0, "value": self._told(self.value), **self.flown.fact(self.places[0], self.badness.fact)}
+        return {"trial": 0, "value": self._text(self.value), **self.flown.fact(self.places[0], self.badness.fact)}
 
     @property
     def worst_random(self) -> dict[str, Any]:
         """The worst of the random trials, and whether it is ``inside`` the box."""
         place = self.flown.points[self.random]
         inside = bool(np.all((place >= 0.0) & (place <= 1.0)))
-        value = self._told(float(self.flown.values[self.random]))
+        value = self._text(float(self.flown.values[self.random]))
         return {"trial": 1, "value": value, "inside": inside, **self.flown.fact(self.random, self.badness.fact)}
 
-    def _told(self, value: float) -> float | str | None:
+    def _text(self, value: float) -> float | str | None:
         """A value as JSON has it: null where it failed, of a margin a word where it is no number."""
         return self.badness.fact(self.badness.size(value))
 
@@ -120,7 +120,7 @@ class WorstResult:
             "unit": self.unit,
             "units": dict(self.units),
             **({} if self.over is None else {"objective": self.over.text, "realisations": self.over.count}),
-            **({} if self.fresh is None else {"fresh": self.fresh.document(self._told)}),
+            **({} if self.fresh is None else {"fresh": self.fresh.document(self._text)}),
             **({} if self.noise_matters is None else {"noise_matters": self.noise_matters}),
             "flights": self.flights,
             "random_trials": self.random_trials,
@@ -143,10 +143,10 @@ class WorstResult:
         for part in ("draws", "metrics"):
             names = self.space.names if part == "draws" else list(case[part])
             rows += [
-                [with_unit(name, self.units), _shown(case[part][name]), _shown(random[part][name])] for name in names
+                [with_unit(name, self.units), _format(case[part][name]), _format(random[part][name])] for name in names
             ]
         replay = self._replay(folder)
-        lines += ["", *([under.removeprefix(", ")] if under else []), *aligned(rows)]
+        lines += ["", *([under.removeprefix(", ")] if under else []), *align_columns(rows)]
         lines += [
             "",
             f"replay: {replay}" if replay else "replay: needs the folder of `output`",
@@ -161,8 +161,8 @@ class WorstResult:
         unit, under = f" {self.unit}" if self.unit else "", self.conditions
         of = "" if self.over is None else f" ({self.over.text})"
         return [
-            f"{self.badness.text}: worst {_shown(case['value'])}{unit}{of} in {self.flights} flights, {within}{under}",
-            f"worst of {self.random_trials} random trials: {_shown(random['value'])}{unit}{of}{outside}{under}",
+            f"{self.badness.text}: worst {_format(case['value'])}{unit}{of} in {self.flights} flights, {within}{under}",
+            f"worst of {self.random_trials} random trials: {_format(random['value'])}{unit}{of}{outside}{under}",
             *self._fresh_lines(unit),
         ]
 
@@ -170,7 +170,7 @@ class WorstResult:
         """What fresh noise does to the worst point, and how the noise was flown; none where it is not random."""
         if self.fresh is None or self.over is None:
             return []
-        worst, quantile = (_shown(self._told(value)) for value in (self.fresh.worst, self.fresh.at_quantile))
+        worst, quantile = (_format(self._text(value)) for value in (self.fresh.worst, self.fresh.at_quantile))
         at_quantile = "" if self.over.quantile == 1.0 else f", {self.over.name} {quantile}{unit}"
         lines = [
             f"the worst point under {self.fresh.values.size} fresh noise realisations: "
@@ -196,5 +196,5 @@ def _every(count: int) -> str:
     return "the same realisation" if count == 1 else f"the same {count} realisations"
 
 
-def _shown(value: float | str | None) -> str:
+def _format(value: float | str | None) -> str:
     return value if isinstance(value, str) else "failed" if value is None else f"{value:.6g}"

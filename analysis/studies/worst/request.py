@@ -14,7 +14,7 @@ from ...stability.point.point_study import PointStudy
 from ...stability.request.declaration import Loop, Point
 from ...stability.request.request import Request, read_request
 from ...stability.request.subject import Subject
-from ...stability.variation.dispersion import varied
+from ...stability.variation.dispersion import vary
 
 OF_A_LOOP = ("margin", "point", "at")
 OF_FLIGHTS = {  # and what to do where a margin is looked for
@@ -44,12 +44,12 @@ class MarginAsked:
         """The command that studies the loop at a row of a file of draws."""
         return replace(self.request, draws=draws).replay(self.loop.name, trial)
 
-    def opened(self) -> PointStudy:
+    def open_request(self) -> PointStudy:
         """The point with the campaign's layer and what it draws, to be closed. Raises InputError, StudyError."""
         (variant,) = self.plan.campaign.variants()
         layer = self.plan.campaign.layer_of(variant)
-        subject = Subject(self.request.system, self.request.options).changed(campaign=layer)
-        return PointStudy(subject, self.point, [self.loop], varied(self.plan))
+        subject = Subject(self.request.system, self.request.options).with_options(campaign=layer)
+        return PointStudy(subject, self.point, [self.loop], vary(self.plan))
 
 
 def check_options(loop: str | None, options: Mapping[str, Any]) -> None:

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ...campaigns.draws.declared import Columns, drawn_names
+from ...campaigns.draws.declared import Columns, input_names
 from ...campaigns.draws.given import Streams
 from ...campaigns.spec.draw_space import DrawSpace
 from ...campaigns.spec.plan import BatchPlan
@@ -77,7 +77,7 @@ def worst_case(
     box = _Box(plan, sigmas, flights, hold)
     badness = badness_of(plan.campaign, metric)
     with SampleFlights(plan, box.middle, noise_trial=noise_trial, workers=workers) as flights_of:
-        return box.searched(flights_of, badness, over)
+        return box.search(flights_of, badness, over)
 
 
 def worst_margin(
@@ -104,7 +104,7 @@ def worst_margin(
     box = _Box(asked.plan, sigmas, flights, hold)
     with MarginStudies(asked, box.middle, noise_trial=noise_trial, workers=workers) as studies:
         badness = badness_of_margin(asked.loop.name, asked.point.name, studies.channels, margin)
-        result = box.searched(studies, badness, over)
+        result = box.search(studies, badness, over)
         return replace(result, reason=studies.reasons[result.places[0]], again=asked.replay)
 
 
@@ -123,7 +123,7 @@ class _Box:
     def middle(self) -> Columns:
         return self._space.from_box(np.full((1, self._space.size), 0.5), self._sigmas)
 
-    def searched(self, flights_of: Flights, badness: Badness, over: Realisations) -> WorstResult:
+    def search(self, flights_of: Flights, badness: Badness, over: Realisations) -> WorstResult:
         """The worst of random trials and of a search from them. Raises InputError."""
         space, sigmas = self._space, self._sigmas
         points = _Points(flights_of, badness, over if flights_of.noise.sources else None)
@@ -146,7 +146,7 @@ class _Box:
             random,
         )
         worst, worst_random = points.row_of(place, value), points.row_of(places[int(np.argmax(values))], values.max())
-        fresh = points.fly_fresh(worst, drawn_names(space.campaign)) if points.over is not None else None
+        fresh = points.fly_fresh(worst, input_names(space.campaign)) if points.over is not None else None
         units = units_of(space, flights_of.prepared, flights_of.facts)
         return WorstResult(
             badness, sigmas, value, place, worst, worst_random, len(values), space, points.flown.whole(),

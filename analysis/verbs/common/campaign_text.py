@@ -13,13 +13,13 @@ import numpy as np
 from ...campaigns.fly.results import BatchResult
 from ...campaigns.fly.workers.flyer import TrialResult
 from ...campaigns.fly.workers.status_texts import worst_statuses
-from ...campaigns.replay_command import stored_replay
+from ...campaigns.replay_command import replay_of_folder
 from ...campaigns.rows import TrialColumns, TrialRows
 from ...campaigns.spec.campaign import Metric
 from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
 from ...campaigns.summary import requirement_values, summarise
-from ...campaigns.tables import aligned, unmet_lines
+from ...campaigns.tables import align_columns, unmet_lines
 from ...runtime.flight.results import TIMED_OUT
 from ...runtime.flight.statuses import with_meaning
 from .requirements import read_requirements, requirement_problems
@@ -27,7 +27,7 @@ from .requirements import read_requirements, requirement_problems
 
 def campaign_problems(result: BatchResult, requirements: Sequence[Expression]) -> list[str]:
     """A line for each variant with failed or late simulations, and for each requirement that is not met."""
-    lines = failure_lines(failed_flights([result.rows]), result.plan, result.folder)
+    lines = failure_lines(find_failed([result.rows]), result.plan, result.folder)
     limit = f"{result.plan.watch.timeout:g} s of `timeout`" if result.plan.watch.timeout is not None else ""
     for variant, count in timed_out(result).items():
         lines.append(f"{variant}: {count} simulations took longer than the {limit}; give a longer one")
@@ -45,7 +45,7 @@ class Failures(NamedTuple):
     message: str
 
 
-def failed_flights(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failures]:
+def find_failed(parts: Iterable[Mapping[str, TrialRows]]) -> dict[str, Failures]:
     """Of each variant that has any; ``parts`` are trials by variant, in order of trial."""
     failures: dict[str, Failures] = {}
     for rows in parts:
@@ -63,7 +63,7 @@ def failure_lines(failures: Mapping[str, Failures], plan: BatchPlan, folder: Pat
     """A line for each variant with failed simulations, with the command that replays its first failed trial."""
     variants, lines = plan.campaign.variants(), []
     for variant, (flights, trial, message) in failures.items():
-        replay = "" if folder is None else f"; see it: {stored_replay(folder, variants, variant, trial)}"
+        replay = "" if folder is None else f"; see it: {replay_of_folder(folder, variants, variant, trial)}"
         lines.append(f"{variant}: {flights} simulations failed; trial {trial}: {message}{replay}")
     return lines
 
@@ -76,7 +76,7 @@ def outcome_lines(variant: str, trial: int, outcome: TrialResult, metrics: Itera
         value = outcome.metrics[metric.name]
         text = "none" if math.isnan(value) else f"{value:.6g}"
         cells.append([f"  {metric.name}", text, "" if metric.unit == "1" else metric.unit])
-    lines = [line.rstrip() for line in aligned(cells)] if cells else []
+    lines = [line.rstrip() for line in align_columns(cells)] if cells else []
     return [f"{variant}: trial {trial}: {outcome.status}, {success}", *lines]
 
 

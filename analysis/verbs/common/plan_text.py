@@ -12,7 +12,7 @@ from ..options.option import options_of
 OF_VEHICLE = frozenset(options_of(VehicleOptions))
 
 
-def given_numbers(options: Mapping[str, Any], names: Collection[str]) -> dict[str, float]:
+def format_numbers(options: Mapping[str, Any], names: Collection[str]) -> dict[str, float]:
     """The numbers among the options that are given, by name."""
     return {name: options[name] for name in names if options[name] is not None}
 

@@ -40,7 +40,7 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
         settings,
         trials=options.get("trials"),
         seed=options["seed"],
-        compare=_compared(options["compare"]),
+        compare=_read_compare(options["compare"]),
         configuration=options["configuration"],
         faults=faults_of(options["faults"]),
         series=None if series is None else read_series(series),
@@ -51,7 +51,7 @@ def read_campaign(system: FilePath, campaign: FilePath, options: Mapping[str, An
     )
 
 
-def _compared(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[str, list[str]] | None:
+def _read_compare(compare: Mapping[str, FilePath | Sequence[FilePath]]) -> dict[str, list[str]] | None:
     """The FMUs of each slot that is compared, names or paths; one alone stands for a list of one."""
     if not compare:
         return None

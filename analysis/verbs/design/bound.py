@@ -17,7 +17,7 @@ from ...design.trajectories.vehicle import LANDING, LANDING_VEHICLE, Landing, Ve
 from ...reports.plan.pages import write_landing_page
 from ...runtime.system.options import SystemOptions, system_options
 from ...runtime.system.prepared import PreparedSystem, prepare_system
-from ..common.plan_text import OF_VEHICLE, burns_text, given_numbers, propellant_problems
+from ..common.plan_text import OF_VEHICLE, burns_text, format_numbers, propellant_problems
 from ..options.design import BOUND, BoundOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -81,7 +81,7 @@ def plan_landing_bound(
         raise InputError("design bound", "system options", "there is no system that they are for", "name a system")
     prepared = None if system is None else prepare_system(Path(system), chosen)
     inputs = None if prepared is None else _read_inputs(prepared)
-    of_vehicle, of_landing = given_numbers(options, OF_VEHICLE), given_numbers(options, OF_LANDING)
+    of_vehicle, of_landing = format_numbers(options, OF_VEHICLE), format_numbers(options, OF_LANDING)
     is_changed = bool(of_vehicle or of_landing or landing or vehicle)
     if options["store"]:
         _check_store(
@@ -103,7 +103,7 @@ def plan_landing_bound(
     if not options["store"] or prepared is None or inputs is None:
         return bound
     try:
-        return replace(bound, file=write_bound(bound.stored(inputs), prepared.archive.path))
+        return replace(bound, file=write_bound(bound.to_stored_bound(inputs), prepared.archive.path))
     except OSError as error:
         raise UnwrittenError(error, bound) from error
 

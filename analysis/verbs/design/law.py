@@ -14,7 +14,7 @@ from ...common.errors import InputError
 from ...design.laws import law as laws
 from ...design.laws.formula import formula, formula_text
 from ...design.laws.graph import law_figure, law_svg
-from ...design.laws.law import named_law
+from ...design.laws.law import find_law
 from ...design.laws.parameter_set import parameter_set
 from ...reports.common.notebook import Grid, notebook_view
 from ...reports.common.style import house_style
@@ -75,4 +75,4 @@ def law(name: FilePath, **options: Unpack[LawOptions]) -> Law:
     component = options["component"]
     if not component.isprintable() or "" in component.split("."):
         raise InputError("`component`", repr(component), "not a component's name", "name it as the system does")
-    return Law(**vars(laws.read_law(named_law(os.fspath(name)))), component=component)
+    return Law(**vars(laws.read_law(find_law(os.fspath(name)))), component=component)

@@ -9,7 +9,7 @@ from typing import Unpack
 from ...common.targets import check_folder
 from ...design.synthesis.outcome import SynthesisResult
 from ...design.synthesis.synthesis import run_synthesis
-from ...design.synthesis.synthesis_file import named_search, read_synthesis
+from ...design.synthesis.synthesis_file import find_search, read_synthesis
 from ..options.design import SEARCH, SearchOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -27,7 +27,7 @@ def synthesize(search: FilePath, **options: Unpack[SearchOptions]) -> SynthesisR
     folder = None if options["output"] is None else Path(options["output"])
     check_folder("`output`", folder, overwrite=options["resume"], otherwise="`resume` to continue")
     result = run_synthesis(
-        read_synthesis(named_search(os.fspath(search))),
+        read_synthesis(find_search(os.fspath(search))),
         seed=options["seed"],
         workers=options["workers"],
         output=folder,

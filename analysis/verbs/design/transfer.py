@@ -21,7 +21,7 @@ from ...design.trajectories.vehicle import (
     check_vehicle,
 )
 from ...reports.plan.pages import write_hover_page
-from ..common.plan_text import OF_VEHICLE, burns_text, given_numbers, propellant_problems
+from ..common.plan_text import OF_VEHICLE, burns_text, format_numbers, propellant_problems
 from ..options.design import TRANSFER, TransferOptions
 from ..options.option import FilePath
 from ..options.verb import verb
@@ -77,8 +77,8 @@ def plan_hover_transfer(
     if options["intervals"] is not None and not (options["optimum"] or options["bound"]):
         problem = "without effect unless `optimum` or `bound` is given"
         raise InputError("`intervals`", str(options["intervals"]), problem, "give one of them with it")
-    transfer = replace(transfer, **given_numbers(options, ("distance", "descent", "gravity")))
-    vehicle = check_vehicle(replace(vehicle, **given_numbers(options, OF_VEHICLE)))
+    transfer = replace(transfer, **format_numbers(options, ("distance", "descent", "gravity")))
+    vehicle = check_vehicle(replace(vehicle, **format_numbers(options, OF_VEHICLE)))
     margins = _margins(options, vehicle)
     check_hover(vehicle if margins is None else margins.of(vehicle), transfer)
     study = hover_study(
@@ -97,7 +97,7 @@ def plan_hover_transfer(
 def _margins(options: TransferOptions, vehicle: Vehicle) -> Margins | None:
     """The margins with the numbers that replace theirs; None where none are requested."""
     margins = options["margins"]
-    numbers = given_numbers(options, ("maximum_throttle", "minimum_throttle", "angular_acceleration"))
+    numbers = format_numbers(options, ("maximum_throttle", "minimum_throttle", "angular_acceleration"))
     if not numbers and not margins:
         return None
     if not isinstance(margins, Margins):

@@ -23,7 +23,7 @@ class CampaignOptions(SystemOptions, SimulationOptions, total=False):
     seed: Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
     compare: Annotated[
         Mapping[str, FilePath | Sequence[FilePath]],
-        Option("compare these FMUs in a slot on the same draws", NONE, metavar="SLOT=A,B,C", comma=True),
+        Option("compare these FMUs in a slot on the same samples", NONE, metavar="SLOT=A,B,C", comma=True),
     ]
     configuration: Annotated[
         str | None,
@@ -37,7 +37,7 @@ class TrialsOptions(TypedDict, total=False):
     trials: Annotated[int | None, Option("instead of the campaign's number of trials", metavar="N")]
     draws: Annotated[
         FilePath | None,
-        Option("given draws, one row a trial, instead of sampled ones", metavar="F.parquet", completer="parquet_files"),
+        Option("given samples, one row per trial, not random ones", metavar="F.parquet", completer="parquet_files"),
     ]
 
 
@@ -54,7 +54,7 @@ class ExecutionOptions(TypedDict, total=False):
 class BatchOptions(CampaignOptions, TrialsOptions, ExecutionOptions, RequireOptions, total=False):
     """Options of batch"""
 
-    output: Annotated[FilePath | None, Option("write trials, draws and summary to a folder", metavar="DIR")]
+    output: Annotated[FilePath | None, Option("write trials, samples and summary to a folder", metavar="DIR")]
     overwrite: Annotated[bool, Option("overwrite existing results in the folder of --output", False)]
     resume: Annotated[bool, Option("continue or extend the campaign in the folder of --output", False)]
     until_decided: Annotated[bool, Option("stop as soon as the campaign's requirements are met, or are not", False)]
@@ -92,7 +92,7 @@ class ReplayOptions(CampaignOptions, TrialsOptions, RequireOptions, total=False)
 BATCH = Verb(
     "batch",
     "Simulate",
-    "simulate a campaign: many trials, variants compared on the same draws",
+    "simulate a campaign: many trials, variants compared on the same samples",
     ("batch", "batch"),
     (SYSTEM, CAMPAIGN),
     BatchOptions,
@@ -100,7 +100,7 @@ BATCH = Verb(
     (
         (
             "perilune batch lunar_terminal_guidance --campaign paper --trials 50 --output results --report batch.html",
-            "three guidance laws on the same fifty draws",
+            "three guidance laws on the same fifty samples",
         ),
     ),
     OF_CAMPAIGN,
@@ -171,7 +171,7 @@ REPLAY = Verb(
             "a trial of a campaign that is not stored",
         ),
     ),
-    "as of run; or the trial is no success, or differs from the stored one",
+    "as for run; or the trial is no success, or differs from the stored one",
 )
 
 COMPARE = Verb(

@@ -76,7 +76,7 @@ class BenchmarkOptions(TypedDict, total=False):
 BENCHMARK = Verb(
     "benchmark",
     "Look",
-    "time a communication step against other importers",
+    "time a communication step, compared with FMPy",
     ("benchmark", "benchmark"),
     (),
     BenchmarkOptions,

@@ -78,10 +78,10 @@ def _default_text(declared: Declared) -> str:
     unit = f", {option.unit}" if option.unit and f", {option.unit}" not in option.text else ""
     if declared.kind in (Kind.LIST, Kind.PAIRS) and not option.comma:
         return f"{unit}; may be repeated"
-    if option.default in (None, False, ()) or declared.kind is Kind.FLAG:
+    if option.default in (None, False) or declared.kind in (Kind.FLAG, Kind.LIST, Kind.PAIRS):
         return unit
-    shown = f"{option.default:g}" if isinstance(option.default, float) else option.default
-    return f"{unit}; default: {shown}"
+    text = f"{option.default:g}" if isinstance(option.default, float) else option.default
+    return f"{unit}; default: {text}"
 
 
 def _complete(action: argparse.Action, completer: str) -> None:

@@ -27,7 +27,7 @@ class StabilityOptions(SystemOptions, TrialsOptions, total=False):
     at: Annotated[
         float | Sequence[float],
         Option(
-            "times of the operating points; default: those of the SSD, for a cut 0",
+            "times of the operating points, s; default: those of the SSD, for a cut 0",
             (),
             unit="s",
             metavar="T,...",
@@ -40,7 +40,7 @@ class StabilityOptions(SystemOptions, TrialsOptions, total=False):
     ]
     configuration: Annotated[str | None, Option("one of the campaign's configurations", metavar="NAME")]
     seed: Annotated[int | None, Option("instead of the campaign's root seed", metavar="S")]
-    trial: Annotated[int | None, Option("study the draws of one trial of the campaign instead", metavar="K")]
+    trial: Annotated[int | None, Option("study one trial of the campaign instead", metavar="K")]
     workers: Annotated[
         int | None, Option("operating points studied in parallel; default: one per processor", metavar="N")
     ]

@@ -32,7 +32,7 @@ class RareOptions(CampaignOptions, ConditionOptions, RequireOptions, total=False
 
     failure: Annotated[
         str | None,
-        Option("failure condition over metrics and draws; default: the trial is no success", metavar="EXPRESSION"),
+        Option("failure condition over metrics and inputs; default: the trial is no success", metavar="EXPRESSION"),
     ]
     samples: Annotated[int, Option("simulations per level", 4500, metavar="N", minimum=100)]
     least: Annotated[float, Option("smallest probability of interest", 1e-9, metavar="P", above=0.0)]
@@ -44,7 +44,7 @@ class WorstOptions(CampaignOptions, ConditionOptions, RequireOptions, total=Fals
     metric: Annotated[
         str | None,
         Option(
-            "objective over metrics and draws, the larger the worse; default: the margin to the success condition",
+            "objective over metrics and inputs, the larger the worse; default: the margin to the success condition",
             metavar="EXPRESSION",
         ),
     ]
@@ -56,7 +56,7 @@ class WorstOptions(CampaignOptions, ConditionOptions, RequireOptions, total=Fals
         Literal["disk", "modulus", "gain", "phase", "delay"] | None, Option("which margin; default: disk")
     ]
     point: Annotated[str | None, Option("operating point of the loop; default: its only one", metavar="NAME")]
-    at: Annotated[float | None, Option("time of the operating point of a cut; default: 0", unit="s", metavar="T")]
+    at: Annotated[float | None, Option("time of the operating point of a cut, s; default: 0", unit="s", metavar="T")]
     sigmas: Annotated[float, Option("search box of normal inputs, in standard deviations", 3.0, metavar="K", above=0.0)]
     flights: Annotated[int | None, Option("number of simulations; default: 2000, for a margin 500", metavar="N")]
     realisations: Annotated[

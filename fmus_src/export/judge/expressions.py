@@ -54,7 +54,7 @@ class ExpressionTypes(VectorTypes):
         self.function.types[node] = inferred
         return inferred
 
-    def fixed_size(self, node: ast.expr) -> int | None:
+    def static_size(self, node: ast.expr) -> int | None:
         """Value of an int literal, an int constant or a length, for the size of a list or a part of one."""
         if self.infer(node) is not INT:
             return None

@@ -57,7 +57,7 @@ class _Ranges:
             rounds += 1
             changed = False
             for node in parts:
-                for name, interval in self._assigned(node):
+                for name, interval in self._assign(node):
                     before = self.function.ranges.get(name, interval)
                     after = before.join(interval)
                     if after != before and rounds > ROUNDS_BEFORE_WIDENING:
@@ -66,7 +66,7 @@ class _Ranges:
                         self.function.ranges[name] = after
                         changed = True
 
-    def _assigned(self, node: ast.AST) -> list[tuple[str, Interval]]:
+    def _assign(self, node: ast.AST) -> list[tuple[str, Interval]]:
         """Ints that a statement assigns to variables, with their ranges."""
         if isinstance(node, ast.For) and isinstance(node.target, ast.Name) and isinstance(node.iter, ast.Call):
             return [(node.target.id, self.loop_range(node.iter))]
@@ -89,9 +89,9 @@ class _Ranges:
 
     def of(self, node: ast.expr) -> Interval:
         """The range of an int expression."""
-        return _clamp(self.unbounded(node))
+        return _clamp(self.without_bounds(node))
 
-    def unbounded(self, node: ast.expr) -> Interval:
+    def without_bounds(self, node: ast.expr) -> Interval:
         """The range before it is cut to 64 bits."""
         if isinstance(node, ast.Constant) and isinstance(node.value, int):
             return Interval(int(node.value), int(node.value))
@@ -137,7 +137,7 @@ class _Ranges:
             if isinstance(node, ast.Subscript) and node not in function.parts:
                 self._judge_index(node)
             computed = kind is INT and isinstance(node, ast.BinOp | ast.UnaryOp | ast.Call)
-            if computed and not self.unbounded(node).within(INT64):
+            if computed and not self.without_bounds(node).within(INT64):
                 function.unproven.add(node)
             if isinstance(node, ast.Compare):
                 self._judge_mixed(node, "compared")

@@ -111,11 +111,11 @@ def _comments(text: str) -> dict[int, str]:
 
 def _tree(path: Path) -> ast.Module:
     """A file's tree; one per content, since functions are told apart by their nodes."""
-    return _parsed(path.read_text(encoding="utf-8"))
+    return _parse(path.read_text(encoding="utf-8"))
 
 
 @cache
-def _parsed(text: str) -> ast.Module:
+def _parse(text: str) -> ast.Module:
     return ast.fix_missing_locations(_Normalise().visit(ast.parse(text)))
 
 

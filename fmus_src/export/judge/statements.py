@@ -148,7 +148,7 @@ class StatementTypes(CallTypes):
         if isinstance(value, ast.BinOp):
             assert isinstance(value.left, ast.List)
             items = value.left.elts
-            size = self.fixed_size(value.right)
+            size = self.static_size(value.right)
             if size is None or size < 1 or len(items) != 1:
                 self.report(node, "list size", name=target.id)
                 return

@@ -10,9 +10,9 @@ from .effects import find_effects
 from .flow import FlowCheck
 from .kernel import Kernel, Violation
 from .ranges import find_ranges
-from .typed import typed_kernel
+from .typed import typecheck
 
-__all__ = ["SubsetError", "Violation", "analysed_kernel", "check"]
+__all__ = ["SubsetError", "Violation", "analyse_kernel", "check"]
 
 
 class SubsetError(ValueError):
@@ -32,7 +32,7 @@ def check(block_class: type[Block]) -> list[Violation]:
     return sorted(_analyse(block_class).violations, key=lambda violation: (violation.file, violation.line))
 
 
-def analysed_kernel(block_class: type[Block]) -> Kernel:
+def analyse_kernel(block_class: type[Block]) -> Kernel:
     """The kernel of a block, ready for translation. Raises `SubsetError` where `check` finds something."""
     kernel = _analyse(block_class)
     if kernel.violations:
@@ -45,7 +45,7 @@ def _analyse(block_class: type[Block]) -> Kernel:
     if block_class.python_only:
         kernel.report_block("python only")
         return kernel
-    kernel = typed_kernel(block_class)
+    kernel = typecheck(block_class)
     for function in kernel.functions:
         FlowCheck(kernel, function).check()
     if not kernel.violations:  # later analyses build on types

@@ -15,7 +15,7 @@ ANNOTATIONS: dict[str, Scalar | Vector] = {"float": FLOAT, "int": INT, "bool": B
 ANNOTATIONS |= {kind.__name__: Vector(size) for size, kind in VECTORS.items()}
 
 
-def typed_kernel(block_class: type[Block]) -> Kernel:
+def typecheck(block_class: type[Block]) -> Kernel:
     """The functions that `initialize` and `step` of a block reach, with types; violations are collected."""
     kernel = Kernel(block_class)
     finder = _Finder(kernel)

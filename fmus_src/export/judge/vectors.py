@@ -27,7 +27,7 @@ class VectorTypes(ABC):
         """The type of an expression."""
 
     @abstractmethod
-    def fixed_size(self, node: ast.expr) -> int | None:
+    def static_size(self, node: ast.expr) -> int | None:
         """The value of a constant int."""
 
     def operate_on_vectors(
@@ -71,8 +71,8 @@ class VectorTypes(ABC):
         if not is_variable(node.value):
             self.report(node, "part of an expression", name=ast.unparse(node.value))
             return None
-        first = 0 if node.slice.lower is None else self.fixed_size(node.slice.lower)
-        end = container.size if node.slice.upper is None else self.fixed_size(node.slice.upper)
+        first = 0 if node.slice.lower is None else self.static_size(node.slice.lower)
+        end = container.size if node.slice.upper is None else self.static_size(node.slice.upper)
         good = first is not None and end is not None and node.slice.step is None
         if not good or not 0 <= first < end <= container.size:  # type: ignore[operator]
             self.report(node, "part", part=ast.unparse(node), size=container.size)
@@ -99,7 +99,7 @@ class VectorTypes(ABC):
             self.report(node, "keyword")
             return None
         if len(node.args) == 1 and isinstance(node.args[0], ast.Starred):
-            size = self._starred(node.args[0].value)
+            size = self._unpack_starred(node.args[0].value)
         else:
             size = len(node.args)
             kinds = [self.infer(argument) for argument in node.args]
@@ -118,7 +118,7 @@ class VectorTypes(ABC):
         self.function.calls[node] = MakeVector()
         return Vector(size)
 
-    def _starred(self, node: ast.expr) -> int | None:
+    def _unpack_starred(self, node: ast.expr) -> int | None:
         """Number of elements of ``*wrench[0:3]`` or ``*row``; kept as a part."""
         holder = node.value if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice) else node
         container = self.infer(holder)

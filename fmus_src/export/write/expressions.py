@@ -73,7 +73,7 @@ class ExpressionWriter:
     def call(self, name: str, *arguments: str) -> str:
         return f"{name}({', '.join(arguments)})"
 
-    def checked(self, node: ast.expr, name: str, *arguments: str) -> tuple[str, int]:
+    def write_checked(self, node: ast.expr, name: str, *arguments: str) -> tuple[str, int]:
         """A call of a function of kernel_math.h that can record a fault at the node's line."""
         return self.call(name, f"AT({node.lineno})", *arguments), ATOM
 
@@ -123,7 +123,7 @@ class ExpressionWriter:
         assert isinstance(container, List | Vector)
         text = self.write(node.slice)
         if node in self.function.unproven:
-            return self.checked(node, "py_index", text, str(container.size))[0]
+            return self.write_checked(node, "py_index", text, str(container.size))[0]
         return text
 
     def write_binop(self, node: ast.BinOp) -> tuple[str, int]:
@@ -142,7 +142,7 @@ class ExpressionWriter:
             return f"{left} {operator} {right}", precedence
         operands = self.write_as_float(node.left, CONDITIONAL), self.write_as_float(node.right, CONDITIONAL)
         if fails:
-            return self.checked(node, f"py_{name}", *operands)
+            return self.write_checked(node, f"py_{name}", *operands)
         return self.call(name, *operands), ATOM
 
     def _vector_operation(self, node: ast.BinOp) -> tuple[str, int]:
@@ -160,7 +160,7 @@ class ExpressionWriter:
         assert isinstance(kind, Vector)
         texts = [self.write_as_float(operand, CONDITIONAL) for operand in operands]
         if own_outcome(self.function, node):
-            return self.checked(node, f"py_{name}{kind.size}", *texts)
+            return self.write_checked(node, f"py_{name}{kind.size}", *texts)
         return self.call(f"{name}{kind.size}", *texts), ATOM
 
     def _int_operation(self, node: ast.BinOp) -> tuple[str, int]:
@@ -168,9 +168,9 @@ class ExpressionWriter:
         if isinstance(node.op, ast.FloorDiv | ast.Mod):
             name = "int_modulo" if isinstance(node.op, ast.Mod) else "int_floor_divide"
             operands = self.write(node.left), self.write(node.right)
-            return self.checked(node, f"py_{name}", *operands) if unproven else (self.call(name, *operands), ATOM)
+            return self.write_checked(node, f"py_{name}", *operands) if unproven else (self.call(name, *operands), ATOM)
         if unproven:
-            return self.checked(node, CHECKED_INT[type(node.op)], self.write(node.left), self.write(node.right))
+            return self.write_checked(node, CHECKED_INT[type(node.op)], self.write(node.left), self.write(node.right))
         operator, precedence = OPERATORS[type(node.op)]
         return f"{self.write(node.left, precedence)} {operator} {self.write(node.right, precedence + 1)}", precedence
 
@@ -180,7 +180,7 @@ class ExpressionWriter:
         if isinstance(node.op, ast.UAdd):
             return self.write(node.operand, UNARY), UNARY
         if node in self.function.unproven:
-            return self.checked(node, "py_negative", self.write(node.operand))
+            return self.write_checked(node, "py_negative", self.write(node.operand))
         kind = self.function.types[node]
         if isinstance(kind, Vector):
             return self.call(f"negative{kind.size}", self.write(node.operand)), ATOM
@@ -214,7 +214,7 @@ class ExpressionWriter:
                 return self._whole(node, call.name, "py_whole_int")
             arguments = [self.write_as_float(argument, CONDITIONAL) for argument in node.args]
             if call.function.faults:
-                return self.checked(node, f"py_{call.name}", *arguments)
+                return self.write_checked(node, f"py_{call.name}", *arguments)
             return self.call(call.name, *arguments), ATOM
         return self._builtin(node, call)
 
@@ -234,7 +234,7 @@ class ExpressionWriter:
             if kind is FLOAT:
                 return self.call("fabs", self.write(argument)), ATOM
             if node in self.function.unproven:
-                return self.checked(node, "py_int_abs", self.write(argument))
+                return self.write_checked(node, "py_int_abs", self.write(argument))
             return self.call("int_abs", self.write(argument)), ATOM
         if call.name == "int" and kind is FLOAT:
             return self._whole(node, "int", "py_whole_int")
@@ -250,4 +250,4 @@ class ExpressionWriter:
 
     def _whole(self, node: ast.Call, name: str, checked: str) -> tuple[str, int]:
         """math.floor, math.ceil or int of a float, as int or as float."""
-        return self.checked(node, checked, self.call(WHOLE[name], self.write(node.args[0])))
+        return self.write_checked(node, checked, self.call(WHOLE[name], self.write(node.args[0])))

@@ -36,14 +36,14 @@ def write_function(function: Function, names: Names, block_type: str) -> list[st
     writer.lines.open("{")
     if docstring:
         writer.last_line = node.body[0].end_lineno or node.lineno
-    for name in _unused(function):
+    for name in _find_unused(function):
         writer.lines.add(f"(void){name};")
     writer.block(body_of(node))
     writer.lines.close("}")
     return writer.lines.text
 
 
-def _unused(function: Function) -> list[str]:
+def _find_unused(function: Function) -> list[str]:
     """C names of the arguments that the function does not use."""
     read = {part.id for part in ast.walk(function.source.node) if isinstance(part, ast.Name)}
     unused = [identifier(name) for name in function.parameters if name not in read]

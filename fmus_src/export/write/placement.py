@@ -97,7 +97,7 @@ def _is_use(node: ast.AST, name: str, context: type[ast.expr_context]) -> bool:
     return isinstance(node, ast.Name) and node.id == name and isinstance(node.ctx, context)
 
 
-def assigned_names(statements: list[ast.stmt]) -> set[str]:
+def list_assigned(statements: list[ast.stmt]) -> set[str]:
     """Names that statements assign, loops inside them included."""
     parts = (part for statement in statements for part in ast.walk(statement))
     return {part.id for part in parts if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Store)}

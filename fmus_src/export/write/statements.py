@@ -7,7 +7,7 @@ import ast
 from ..judge.kernel import KernelCall, List, Several
 from ..judge.statements import is_list_binding, range_step
 from .names import identifier
-from .placement import assigned_names
+from .placement import list_assigned
 from .writer import ZERO, FunctionWriter
 
 FEW = 8  # elements that are written out where a loop would do
@@ -28,7 +28,7 @@ class StatementWriter(FunctionWriter):
             self.comments_before(statement)
             self.line = statement.lineno
             for name in self.placement.before.get(statement, []):
-                self.lines.add(f"{self.declared(name)};")
+                self.lines.add(f"{self.declare(name)};")
             getattr(self, f"write_{type(statement).__name__.lower()}")(statement)
             self.last_line = max(self.last_line, statement.end_lineno or 0)
         self.used = outer_names  # C forgets a block's variables at its end
@@ -70,7 +70,7 @@ class StatementWriter(FunctionWriter):
             return
         text = self.expressions.write(value)
         if isinstance(target, ast.Name):
-            left = self.declared(target.id) if self.placement.declares(node, target.id) else identifier(target.id)
+            left = self.declare(target.id) if self.placement.declares(node, target.id) else identifier(target.id)
             self.add(f"{left} = {text};")
             if self.can_fault(value):
                 self.check()
@@ -95,7 +95,7 @@ class StatementWriter(FunctionWriter):
             if isinstance(part, ast.Name) and part.id not in known:
                 continue  # _, which nothing reads
             if isinstance(part, ast.Name):
-                left = self.declared(part.id) if self.placement.declares(node, part.id) else identifier(part.id)
+                left = self.declare(part.id) if self.placement.declares(node, part.id) else identifier(part.id)
                 self.add(f"{left} = {text};")
             else:
                 self._store(part, text)
@@ -134,7 +134,7 @@ class StatementWriter(FunctionWriter):
             text = self.expressions.write(element)
             items.append(self.keep(element, text, "part") if self.can_fault(element) else text)
         if declares:
-            self.add(f"{self.declared(name)} = {{{', '.join(items)}}};")
+            self.add(f"{self.declare(name)} = {{{', '.join(items)}}};")
         else:
             for index, item in enumerate(items):
                 self.add(f"{identifier(name)}[{index}] = {item};")
@@ -145,10 +145,10 @@ class StatementWriter(FunctionWriter):
             text = self.keep(item, text, "fill")
         if declares and (kind.size <= FEW or text == ZERO[kind.element]):
             items = [text] * (kind.size if kind.size <= FEW else 1)  # C fills the rest with zeros
-            self.add(f"{self.declared(name)} = {{{', '.join(items)}}};")
+            self.add(f"{self.declare(name)} = {{{', '.join(items)}}};")
             return
         if declares:
-            self.add(f"{self.declared(name)};")
+            self.add(f"{self.declare(name)};")
         k = self.fresh("k")
         self.add(f"for (int {k} = 0; {k} < {kind.size}; {k}++) {identifier(name)}[{k}] = {text};")
 
@@ -214,7 +214,7 @@ class StatementWriter(FunctionWriter):
 
     def _bounds(self, node: ast.For, call: ast.Call) -> list[str]:
         """First and last bound; in variables of their own where evaluating them again could differ."""
-        changed = assigned_names([node])
+        changed = list_assigned([node])
         stop = call.args[:2][-1]
         texts = []
         for argument in call.args[:2]:

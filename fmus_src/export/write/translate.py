@@ -11,7 +11,7 @@ from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
 from ..judge.expressions import SCALARS, type_of_variable
 from ..judge.kernel import Function, Kernel, List, Several, Vector
 from ..judge.source import label
-from ..judge.subset import analysed_kernel
+from ..judge.subset import analyse_kernel
 from .functions import write_function
 from .layout import Lines
 from .names import C_TYPES, Names, block_type_name, c_type, comment, identifier, literal, member, names_of
@@ -38,7 +38,7 @@ def translate(block_class: type[Block], guid: str) -> str:
 
     Raises `SubsetError` where the block is outside the subset of Python.
     """
-    kernel = analysed_kernel(block_class)
+    kernel = analyse_kernel(block_class)
     names = names_of(kernel)
     type_name = block_type_name(block_class.__name__)
     parts = [

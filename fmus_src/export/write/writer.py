@@ -74,7 +74,7 @@ class FunctionWriter:
         parts = [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr)]
         return bool(own_outcome(self.function, node)) or any(self.can_fault(part) for part in parts)
 
-    def declared(self, name: str) -> str:
+    def declare(self, name: str) -> str:
         """A local variable with its type, as a declaration begins."""
         kind = self.function.locals[name]
         if isinstance(kind, List):

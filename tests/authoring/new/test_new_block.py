@@ -47,8 +47,8 @@ def steps_its_throttle(flight):
 
 def errs_as_declared(flight):
     for place, error in ((1, 50.0), (2, 0.0), (3, 0.0)):
-        found = flight[f"navigation.estimated_position[{place}]"] - flight[f"plant.position[{place}]"]
-        assert found == pytest.approx(error, abs=1e-6)
+        actual = flight[f"navigation.estimated_position[{place}]"] - flight[f"plant.position[{place}]"]
+        assert actual == pytest.approx(error, abs=1e-6)
     assert flight.final()["plant.position[1]"] == pytest.approx(-50.0, abs=2.0)
 
 

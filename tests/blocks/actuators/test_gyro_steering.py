@@ -15,7 +15,7 @@ from numpy.polynomial import Polynomial
 
 from perilune.fmus_src.actuators.gyro_steering_explicit import GyroSteeringExplicit
 from perilune.fmus_src.actuators.gyro_steering_robust import GyroSteeringRobust
-from perilune.fmus_src.mathlib.gyros import ISOTROPIC_ANGLES, ISOTROPIC_RHO, distributed_angles
+from perilune.fmus_src.mathlib.gyros import ISOTROPIC_ANGLES, ISOTROPIC_RHO, distribute_angles
 from perilune.fmus_src.mathlib.vectors import vector
 from perilune.fmus_src.runtime import Component
 from tests.support.lengths import either
@@ -99,7 +99,7 @@ def test_torque_is_exact_wherever_the_law_is_used(seed, size):
     random = np.random.default_rng(seed)
     drawn = random.normal(size=3)
     momentum_wanted = vector(*(size * drawn / np.linalg.norm(drawn)))
-    possible, angles = distributed_angles(momentum_wanted, ISOTROPIC_RHO, vector(*ISOTROPIC_ANGLES))
+    possible, angles = distribute_angles(momentum_wanted, ISOTROPIC_RHO, vector(*ISOTROPIC_ANGLES))
     assert possible
     wanted = 0.3 * random.normal(size=3)
     block = answer(GyroSteeringExplicit, angles, wanted)

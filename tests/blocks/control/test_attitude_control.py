@@ -60,18 +60,18 @@ def test_torque_is_that_of_the_paper(rotation, rate, planned_rate, acceleration,
 def test_lead_is_the_bilinear_one():
     errors = np.random.default_rng(2).normal(scale=1e-5, size=(40, 3))
     block = AttitudeControl(law=0)
-    found = []
+    actual = []
     for k, error in enumerate(errors):
         set_inputs(block, attitude_error=error)
         if k == 0:
             block.initialize()
         else:
             block.step(0.25 * (k - 1), 0.125)
-        found.append(list(block.torque_command))
+        actual.append(list(block.torque_command))
     gain, lead, lag, period = LEAD
     numerator, denominator, _ = signal.cont2discrete(([gain * lead, gain], [lag, 1.0]), period, method="bilinear")
     expected = -INERTIA * signal.lfilter(np.ravel(numerator), denominator, errors, axis=0)
-    assert found == pytest.approx(expected, rel=1e-9)
+    assert actual == pytest.approx(expected, rel=1e-9)
 
 
 def flown_turn(period):

@@ -99,10 +99,10 @@ def test_output_feedback_is_its_matrix_with_the_reference_taken_off():
     gains = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]
     block = regulator(OutputFeedback, dead_zone=0.0, gains=np.ravel(gains * 3).tolist())
     e, wx, wy, wz, rate, acceleration = 0.1, 0.2, -0.3, 0.01, 0.05, 0.02
-    found = answer(block, bank=e, w=(wx, wy, wz), reference_bank_rate=rate, reference_bank_acceleration=acceleration)
+    actual = answer(block, bank=e, w=(wx, wy, wz), reference_bank_rate=rate, reference_bank_acceleration=acceleration)
     expected = np.array(gains) @ [e, wx - rate * COS, wy + rate * SIN]
     expected = expected + (INERTIA @ [COS * acceleration, -SIN * acceleration, 0.0])[:2]
-    assert found == pytest.approx([*expected, -12.0])
+    assert actual == pytest.approx([*expected, -12.0])
 
 
 @pytest.mark.parametrize(

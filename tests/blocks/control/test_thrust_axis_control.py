@@ -76,9 +76,9 @@ def test_small_angles_close_as_the_linear_loop_does():
     plant = control.c2d(control.ss([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], np.eye(2), np.zeros((2, 1))), STEP, "zoh")
     closed = plant.A - plant.B @ np.array([[1.5 * 0.8, 1.5]])
     goal = 1e-4
-    found = flown(12.0, [math.sin(goal), 0.0, math.cos(goal)])
+    actual = flown(12.0, [math.sin(goal), 0.0, math.cos(goal)])
     state = np.array([goal, 0.0])  # error, and minus the rate
-    for row in found:
+    for row in actual:
         assert goal - row[0] == pytest.approx(state[0], abs=1e-11)
         assert -row[5] == pytest.approx(state[1], abs=1e-11)
         state = closed @ state
@@ -88,32 +88,32 @@ def test_small_angles_close_as_the_linear_loop_does():
 def test_large_turns_follow_the_braking_curve(degrees):
     """Between two bang-bang turns in closed form: full limit up and down, and up with it but down with a quarter."""
     angle = degrees * DEGREE
-    found = flown(90.0, [math.sin(angle), 0.0, math.cos(angle)])
-    left = angle - found[:, 0]
+    actual = flown(90.0, [math.sin(angle), 0.0, math.cos(angle)])
+    left = angle - actual[:, 0]
     up, down = DEGREE, 0.25 * DEGREE
     top = math.sqrt(2.0 * angle / (1.0 / up + 1.0 / down))
-    assert 0.95 * top < found[:, 5].max() < top
+    assert 0.95 * top < actual[:, 5].max() < top
     late = np.flatnonzero(np.abs(left) > 0.5 * DEGREE)[-1] * STEP
     assert 2.0 * math.sqrt(angle / up) < late < top / up + top / down
     assert left.min() > -0.1 * DEGREE  # hardly a swing to the other side
-    assert found[:, 7].max() <= DEGREE * (1.0 + 1e-12)
+    assert actual[:, 7].max() <= DEGREE * (1.0 + 1e-12)
     braking = (left < 0.6 * angle) & (left > 2.0 * DEGREE)
     # the rate follows the curve 1/rate_gain late
-    assert found[braking, 5] == pytest.approx(np.sqrt(2.0 * down * left[braking]) + down / 1.5, rel=0.06)
-    assert np.median(found[braking, 7]) == pytest.approx(down, rel=0.1)
+    assert actual[braking, 5] == pytest.approx(np.sqrt(2.0 * down * left[braking]) + down / 1.5, rel=0.06)
+    assert np.median(actual[braking, 7]) == pytest.approx(down, rel=0.1)
 
 
 def test_opposite_directions_turn_too():
-    found = flown(120.0, [0.0, 0.0, -1.0])
-    assert found[-1][0] == pytest.approx(math.pi, abs=1e-3)
+    actual = flown(120.0, [0.0, 0.0, -1.0])
+    assert actual[-1][0] == pytest.approx(math.pi, abs=1e-3)
 
 
 def test_a_command_that_turns_steadily_is_followed_without_error():
     """As the direction is not normalised its rate falls; it still is the goal's own derivative that is followed."""
     rate = 0.01
-    found = flown(40.0, [0.0, 0.0, 1.0], [rate, 0.0, 0.0])
-    goal = np.arctan(rate * STEP * np.arange(len(found)))
-    assert np.abs(found[200:, 0] - goal[200:]).max() < 0.05 * DEGREE
+    actual = flown(40.0, [0.0, 0.0, 1.0], [rate, 0.0, 0.0])
+    goal = np.arctan(rate * STEP * np.arange(len(actual)))
+    assert np.abs(actual[200:, 0] - goal[200:]).max() < 0.05 * DEGREE
 
 
 @given(vectors, st.floats(0.1, 50.0))

@@ -22,7 +22,7 @@ PLAN = np.array([1e-4, -2e-4, 3e-5])
 
 def fly(block, errors, rates, periods):
     """Forces at ticks; the block is stepped between them, too, with inputs that must not matter."""
-    found = []
+    actual = []
     for k, (error, rate, period) in enumerate(zip(errors, rates, periods, strict=True)):
         block.translation_count = k + 1
         block.translation_period = period
@@ -33,13 +33,13 @@ def fly(block, errors, rates, periods):
             block.initialize()
         else:
             block.step(0.0, 0.125)
-        found.append(list(block.force_command))
+        actual.append(list(block.force_command))
         assert block.command_count == k + 1
         block.position_error = [9.0] * 3
         block.planned_acceleration = [9.0] * 3
         block.step(0.0, 0.125)
-        assert list(block.force_command) == found[-1]
-    return np.array(found)
+        assert list(block.force_command) == actual[-1]
+    return np.array(actual)
 
 
 def lead_response(gain, lead, lag, period, errors, first_state=None):
@@ -49,8 +49,8 @@ def lead_response(gain, lead, lag, period, errors, first_state=None):
 
 @pytest.mark.parametrize("design", [SLOW, FAST], ids=["8 s", "4 s"])
 def test_lead_is_the_bilinear_one(design):
-    found = fly(TranslationControl(law=0), ERRORS, RATES, [design[3]] * 60)
-    assert found == pytest.approx(1000.0 * (PLAN - lead_response(*design, ERRORS)), rel=1e-9)
+    actual = fly(TranslationControl(law=0), ERRORS, RATES, [design[3]] * 60)
+    assert actual == pytest.approx(1000.0 * (PLAN - lead_response(*design, ERRORS)), rel=1e-9)
 
 
 def test_output_of_the_lead_does_not_jump_at_the_change_of_period():
@@ -66,10 +66,10 @@ def test_output_of_the_lead_does_not_jump_at_the_change_of_period():
 
 def test_position_and_velocity_by_the_design_of_the_period():
     block = TranslationControl(natural_frequency=[0.03, 0.05], damping=[0.9, 0.7], mass=900.0)
-    found = fly(block, ERRORS, RATES, [8.0] * 30 + [4.0] * 30)
+    actual = fly(block, ERRORS, RATES, [8.0] * 30 + [4.0] * 30)
     for k, (error, rate) in enumerate(zip(ERRORS, RATES, strict=True)):
         w, zeta = (0.03, 0.9) if k < 30 else (0.05, 0.7)
-        assert found[k] == pytest.approx(900.0 * (PLAN - w * w * error - 2.0 * zeta * w * rate), rel=1e-12)
+        assert actual[k] == pytest.approx(900.0 * (PLAN - w * w * error - 2.0 * zeta * w * rate), rel=1e-12)
 
 
 @pytest.mark.parametrize("law", [0, 1])

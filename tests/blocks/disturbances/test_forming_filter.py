@@ -159,8 +159,8 @@ def test_autocorrelation_across_unequal_steps_is_the_transition():
         block.step(0.5, h - 0.5)
         ends.append(block.disturbance)
     expected = expm(system(0.4, 1.5)[0] * h)[0, 0]
-    found = np.mean(np.multiply(starts, ends)) / (INTENSITY * 1.5 / 1.6)
-    assert abs(found - expected) < 4.0 * math.sqrt((1.0 + expected**2) / count)
+    actual = np.mean(np.multiply(starts, ends)) / (INTENSITY * 1.5 / 1.6)
+    assert abs(actual - expected) < 4.0 * math.sqrt((1.0 + expected**2) / count)
 
 
 def test_seeds_and_streams_differ_and_repeat():

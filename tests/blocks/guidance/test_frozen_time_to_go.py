@@ -45,12 +45,12 @@ def command(guidance, position, velocity, step=0.0):
 
 def gains(guidance, position, velocity, step=0.0):
     """Derivatives of the command to position and to velocity, (3, 3) each, by central differences."""
-    found = []
+    actual = []
     for change in np.eye(6):
         small = change * np.repeat([1e-2, 1e-4], 3)
         ends = [command(guidance, position + sign * small[:3], velocity + sign * small[3:], step) for sign in (1, -1)]
-        found.append((ends[0] - ends[1]) / (2.0 * small.sum()))
-    return np.array(found[:3]).T, np.array(found[3:]).T
+        actual.append((ends[0] - ends[1]) / (2.0 * small.sum()))
+    return np.array(actual[:3]).T, np.array(actual[3:]).T
 
 
 @pytest.mark.parametrize("guidance_class", EXACT)
@@ -120,13 +120,13 @@ def test_astar_gains(guidance_class):
     forward = np.sqrt((2.0 * np.linalg.norm(b) / TIME**2) ** 2 - a0[1] ** 2 - a0[2] ** 2)
     assert command(guidance, position, VELOCITY) == pytest.approx([forward, a0[1], a0[2]], rel=1e-12)
     rows = -np.eye(3)[1:]
-    for found, miss_rate, gain in [
+    for actual, miss_rate, gain in [
         (position_gain, -1.0, 6.0 / TIME**2),
         (velocity_gain, -TIME, 4.0 / TIME),
     ]:
-        assert found[1:] == pytest.approx(gain * rows, abs=1e-6 * gain)
+        assert actual[1:] == pytest.approx(gain * rows, abs=1e-6 * gain)
         first = (4.0 * miss_rate * b / TIME**4 - gain * (a0[1] * rows[0] + a0[2] * rows[1])) / forward
-        assert found[0] == pytest.approx(first, abs=1e-6 * gain)
+        assert actual[0] == pytest.approx(first, abs=1e-6 * gain)
 
 
 @pytest.mark.parametrize("guidance_class", ALL)

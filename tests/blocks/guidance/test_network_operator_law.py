@@ -162,14 +162,14 @@ def test_the_command_in_space_is_the_planar_one():
         path_angle, altitude = -generator.uniform(0.02, 3.12), generator.uniform(500.0, 3e4)
         speed, mass = generator.uniform(50.0, 1700.0), generator.uniform(300.0, 1000.0)
         velocity = speed * (math.cos(path_angle) * up - math.sin(path_angle) * forward)
-        found = guidance(landing_site((RADIUS + altitude) * up), velocity, mass)
+        actual = guidance(landing_site((RADIUS + altitude) * up), velocity, mass)
         flat = planar(path_angle, altitude)
         force = flat.thrust * (math.cos(flat.thrust_angle) * up - math.sin(flat.thrust_angle) * forward)
         # the law's gain on the altitude is up to 1e3/m near the final altitude, rounding 1e-9 m
-        assert mass * found.thrust_acceleration == pytest.approx(flat.thrust, rel=1e-9)
-        assert mass * found.thrust_acceleration * np.array(found.thrust_direction) == pytest.approx(force, abs=1e-4)
-        assert np.linalg.norm(found.thrust_direction) == pytest.approx(1.0, abs=1e-14)
-        assert (found.status, found.thrust_direction_rate, found.burn_duration) == (0, [0.0] * 3, 1e9)
+        assert mass * actual.thrust_acceleration == pytest.approx(flat.thrust, rel=1e-9)
+        assert mass * actual.thrust_acceleration * np.array(actual.thrust_direction) == pytest.approx(force, abs=1e-4)
+        assert np.linalg.norm(actual.thrust_direction) == pytest.approx(1.0, abs=1e-14)
+        assert (actual.status, actual.thrust_direction_rate, actual.burn_duration) == (0, [0.0] * 3, 1e9)
 
 
 def test_only_the_targets_altitude_is_used():

@@ -118,8 +118,8 @@ def test_outputs_are_derivatives_of_each_other(time):
     steps = [Rotation.from_quat(q, scalar_first=True) for q in (before[2], after[2])]
     assert here[3] == pytest.approx((steps[0].inv() * steps[1]).as_rotvec() / (2.0 * d), abs=1e-8)
     block.publish(time)
-    found = np.array(block.planned_angular_acceleration)
-    assert found == pytest.approx((after[3] - before[3]) / (2.0 * d), abs=1e-7)
+    actual = np.array(block.planned_angular_acceleration)
+    assert actual == pytest.approx((after[3] - before[3]) / (2.0 * d), abs=1e-7)
 
 
 def test_angular_acceleration_is_that_of_the_middle_of_the_attitude_period():

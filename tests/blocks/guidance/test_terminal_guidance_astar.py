@@ -115,8 +115,8 @@ def test_astar_converges_quadratically_to_its_root():
 
 
 def test_clamped_states_of_the_modified_method_exist_and_are_counted():
-    found = [commanded(AstarModifiedGuidance, *state) for state in states_of_the_box(600, 7)]
-    clamped = [guidance for guidance in found if guidance.status == CLAMPED]
+    actual = [commanded(AstarModifiedGuidance, *state) for state in states_of_the_box(600, 7)]
+    clamped = [guidance for guidance in actual if guidance.status == CLAMPED]
     assert clamped
     assert all(guidance.clamp_count in (1, 2) for guidance in clamped)
-    assert all(guidance.clamp_count == 0 for guidance in found if guidance.status == GOOD)
+    assert all(guidance.clamp_count == 0 for guidance in actual if guidance.status == GOOD)

@@ -118,9 +118,9 @@ def test_small_angles_follow_filterpy():
             q[:2, :2] += Q_continuous_white_noise(dim=2, dt=H, spectral_density=1e-14)
             axes[i].predict(F=np.array([[1.0, H, 0.5 * H * H], [0.0, 1.0, H], [0.0, 0.0, 1.0]]), Q=q)
             axes[i].update(angles[i], R=ARCSEC**2)
-        found = np.array([block.attitude_error, block.rate_error, block.disturbance])
+        actual = np.array([block.attitude_error, block.rate_error, block.disturbance])
         expected = np.array([[axis.x[k, 0] for axis in axes] for k in range(3)])
-        assert found == pytest.approx(expected, rel=1e-4, abs=1e-5 * ARCSEC)
+        assert actual == pytest.approx(expected, rel=1e-4, abs=1e-5 * ARCSEC)
         assert block.attitude_error_sigma == pytest.approx(np.sqrt(axes[0].P[0, 0]), rel=1e-9)
         assert block.rate_error_sigma == pytest.approx(np.sqrt(axes[0].P[1, 1]), rel=1e-9)
 
@@ -199,7 +199,7 @@ def test_mean_of_errors_against_the_plan(samples):
     """Sines of the angles from plan to sample, averaged; rate from two means."""
     random = np.random.default_rng(4)
     block = AttitudeFilter(method=0, mean_samples=samples)
-    found, errors = [], []
+    actual, errors = [], []
     for n in range(31):
         plan = Rotation.from_rotvec([0.0, -0.01 * n, 0.003 * n])
         angles = 1e-3 * random.normal(size=3)
@@ -212,12 +212,12 @@ def test_mean_of_errors_against_the_plan(samples):
         else:
             block.step(H * (n - 1), H)
         if n % samples == 0:
-            found.append((n, list(block.attitude_error), list(block.rate_error)))
+            actual.append((n, list(block.attitude_error), list(block.rate_error)))
         turned = plan.inv() * rotation_of(block.quaternion)
         assert turned.as_rotvec() == pytest.approx(block.attitude_error, abs=1e-8)
-    assert found[0][1] == pytest.approx(errors[0], abs=1e-15)
+    assert actual[0][1] == pytest.approx(errors[0], abs=1e-15)
     mean = np.array(errors[0])
-    for (before, *_), (n, attitude, rate) in itertools.pairwise(found):
+    for (before, *_), (n, attitude, rate) in itertools.pairwise(actual):
         last, mean = mean, np.mean(errors[before + 1 : n + 1], axis=0)
         assert attitude == pytest.approx(mean, abs=1e-15)
         assert rate == pytest.approx((mean - last) / (samples * H), abs=1e-13)

@@ -65,8 +65,10 @@ def test_autocorrelation_is_exponential(time):
     """Along flights of 2000 s, axis by axis; five deviations of an estimate from 4000/20 independent pieces."""
     rows = np.vstack([errors(0.5, 4000, seed=3, stream=k, correlation_time=time) for k in range(2)]).reshape(2, -1, 6)
     for lag in (1, 10, 40):
-        found = np.mean(rows[:, lag:] * rows[:, :-lag], axis=(0, 1))
-        assert found == pytest.approx(np.full(6, math.exp(-0.5 * lag / time)), abs=5.0 * math.sqrt(2.0 * time / 4000.0))
+        actual = np.mean(rows[:, lag:] * rows[:, :-lag], axis=(0, 1))
+        assert actual == pytest.approx(
+            np.full(6, math.exp(-0.5 * lag / time)), abs=5.0 * math.sqrt(2.0 * time / 4000.0)
+        )
 
 
 def test_axes_are_independent():

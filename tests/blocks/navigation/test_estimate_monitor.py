@@ -45,8 +45,8 @@ def test_normalised_square_is_that_of_numpy(seed):
     block = monitored(error, covariance)
     expected = error @ np.linalg.solve(covariance, error)
     assert block.normalised_error_square == pytest.approx(expected, rel=1e-9, abs=1e-12)
-    found = [*block.position_error_ratio, *block.velocity_error_ratio]
-    assert found == pytest.approx(error / np.sqrt(covariance.diagonal()), rel=1e-12, abs=1e-12)
+    actual = [*block.position_error_ratio, *block.velocity_error_ratio]
+    assert actual == pytest.approx(error / np.sqrt(covariance.diagonal()), rel=1e-12, abs=1e-12)
 
 
 def test_errors_of_the_covariance_are_chi_square():

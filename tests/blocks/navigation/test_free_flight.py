@@ -146,7 +146,7 @@ def squares(gradient, flights=100):
     """NEES of coasts of 3000 s, by the block's own covariance; the same coast without first errors is the truth."""
     settings = {"step": 10.0, "errors": (0.0, 0.0, 0.0), "free_flight": True, "gravity_gradient": gradient}
     truth = state_of(coast(KalmanNavigation, 3000.0, first_position_sigma=0.0, first_velocity_sigma=0.0, **settings))
-    found = []
+    actual = []
     for stream in range(flights):
         block = coast(
             KalmanNavigation, 3000.0, stream=stream, first_position_sigma=100.0, first_velocity_sigma=0.1, **settings
@@ -155,8 +155,8 @@ def squares(gradient, flights=100):
         covariance[np.triu_indices(6)] = block.estimate_covariance
         covariance = covariance + covariance.T - np.diag(covariance.diagonal())
         error = state_of(block) - truth
-        found.append(error @ np.linalg.solve(covariance, error))
-    return np.array(found)
+        actual.append(error @ np.linalg.solve(covariance, error))
+    return np.array(actual)
 
 
 def test_over_half_an_orbit_only_the_gradient_makes_the_covariance_right():

@@ -45,18 +45,18 @@ def ensemble_of(**settings):
     native = Native(KalmanNavigation)
     outputs = ["estimated_position", "estimated_velocity", "estimate_covariance"]
     outputs += [f"{name}_innovation_square" for name in SQUARES]
-    found = {name: [] for name in ("estimate", *SQUARES)}
+    actual = {name: [] for name in ("estimate", *SQUARES)}
     for seed in range(SEEDS):
         flown = native.fly(measurements(seed), EPOCHS.values(), outputs, seed=7, stream=seed, **settings)
         errors = np.hstack([flown["estimated_position"], flown["estimated_velocity"]]) - truth([*EPOCHS.values()])
         covariance = np.zeros((len(EPOCHS), 6, 6))
         covariance[:, UPPER[0], UPPER[1]] = covariance[:, UPPER[1], UPPER[0]] = flown["estimate_covariance"]
         solved = np.linalg.solve(covariance, errors[:, :, None])[:, :, 0]
-        found["estimate"].append((errors * solved).sum(axis=1))
+        actual["estimate"].append((errors * solved).sum(axis=1))
         for name in SQUARES:
-            found[name].append(flown[f"{name}_innovation_square"][:, 0])
+            actual[name].append(flown[f"{name}_innovation_square"][:, 0])
     native.instance.free()
-    return {name: dict(zip(EPOCHS, np.transpose(rows), strict=True)) for name, rows in found.items()}
+    return {name: dict(zip(EPOCHS, np.transpose(rows), strict=True)) for name, rows in actual.items()}
 
 
 @pytest.fixture(scope="module")
@@ -148,9 +148,9 @@ def test_covariance_is_that_of_least_squares_over_all_samples():
             information += to_position[k].T @ to_position[k] / (0.0015 * altitude(t) + 2.0) ** 2
     now = np.vstack([to_position[-1], to_velocity[-1], np.eye(15)[6:]])
     expected = now @ np.linalg.solve(information, now.T)
-    found = np.reshape(block.covariance, (15, 15))
+    actual = np.reshape(block.covariance, (15, 15))
     scale = np.sqrt(np.outer(expected.diagonal(), expected.diagonal()))
-    assert abs((found - expected) / scale).max() < 1e-5
+    assert abs((actual - expected) / scale).max() < 1e-5
 
 
 def test_covariance_settles_on_the_solution_of_the_riccati_equation():

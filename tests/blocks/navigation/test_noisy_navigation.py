@@ -130,8 +130,8 @@ def test_covariance_is_that_of_filterpy():
             if k % 5 == 0:
                 reference.update(np.zeros(3), R=25.0 * np.eye(3), H=np.eye(3, 6))
             reference.update(np.zeros(3), R=0.04 * np.eye(3), H=np.eye(3, 6, 3))
-        found = np.reshape(block.covariance, (6, 6))
-        assert found == pytest.approx(reference.P, rel=1e-10, abs=1e-12)
+        actual = np.reshape(block.covariance, (6, 6))
+        assert actual == pytest.approx(reference.P, rel=1e-10, abs=1e-12)
         assert block.position_estimate_sigma == pytest.approx(np.sqrt(np.diag(reference.P))[:3], rel=1e-10)
         assert block.velocity_estimate_sigma == pytest.approx(np.sqrt(np.diag(reference.P))[3:], rel=1e-10)
 
@@ -182,13 +182,13 @@ def test_fixes_come_at_their_periods(step, start, steps, position_fixes, velocit
 
 def test_fixes_fall_on_the_first_communication_point_at_or_after_their_time():
     block = navigation(position_period=0.35, velocity_period=1e3)
-    found = []
+    actual = []
     for k in range(40):
         before = block.position_fixes
         block.step(0.1 * k, 0.1)
         if block.position_fixes > before:
-            found.append(k + 1)
-    assert found == [-(-35 * n // 10) for n in range(1, 12)]
+            actual.append(k + 1)
+    assert actual == [-(-35 * n // 10) for n in range(1, 12)]
 
 
 def test_fix_errors_have_the_declared_size_and_mean():

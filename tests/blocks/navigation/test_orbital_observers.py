@@ -54,10 +54,10 @@ def test_poles_of_the_whole_state(name, period, yaw_pole, measured_pole):
         yaw, measured = math.exp(-yaw_pole * period), math.exp(-measured_pole * period)
     else:
         closed, yaw, measured = model() - gain @ C, -yaw_pole, -measured_pole
-    found = np.linalg.eigvals(closed)
-    order = np.argsort(np.abs(found - yaw))
-    assert abs(found[order[0]] - yaw) < 1e-9
-    assert np.abs(found[order[1:]] - measured).max() < 2e-3
+    actual = np.linalg.eigvals(closed)
+    order = np.argsort(np.abs(actual - yaw))
+    assert abs(actual[order[0]] - yaw) < 1e-9
+    assert np.abs(actual[order[1:]] - measured).max() < 2e-3
     shifted = closed - measured * np.eye(6)
     assert np.abs(shifted @ (closed - yaw * np.eye(6))).max() < 1e-9 * np.abs(closed).max() ** 2
 

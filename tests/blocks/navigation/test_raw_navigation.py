@@ -31,8 +31,8 @@ def test_the_latest_fix_is_put_in():
         if seen.new_position[k]:
             assert block.estimated_position == seen.position[k].tolist()
         elif seen.new_altitude[k]:
-            found = np.linalg.norm(np.array(block.estimated_position) - CENTRE) - MOON_RADIUS
-            assert found == pytest.approx(seen.altitude[k], abs=1e-8)
+            actual = np.linalg.norm(np.array(block.estimated_position) - CENTRE) - MOON_RADIUS
+            assert actual == pytest.approx(seen.altitude[k], abs=1e-8)
         if seen.new_velocity[k]:
             assert block.estimated_velocity == seen.velocity[k].tolist()
         assert not any([*block.position_estimate_sigma, *block.velocity_estimate_sigma, *block.estimate_covariance])
@@ -62,13 +62,13 @@ def test_errors_of_fixes_come_through_and_the_filter_has_less():
 
 def test_variants_face_the_same_first_error():
     start = {"position": position(0.0).tolist(), "velocity": velocity(0.0).tolist(), "seed": 11, "stream": 5}
-    found = []
+    actual = []
     for block_class in (RawNavigation, KalmanNavigation, KalmanNavigationFilterpy):
         block = block_class(**start)
         block.initialize()
-        found.append(state_of(block).tolist())
-    assert found[0] == found[1] == found[2]
-    assert np.linalg.norm(np.array(found[0])[:3] - position(0.0)) > 1.0
+        actual.append(state_of(block).tolist())
+    assert actual[0] == actual[1] == actual[2]
+    assert np.linalg.norm(np.array(actual[0])[:3] - position(0.0)) > 1.0
 
 
 def test_a_vehicle_at_the_centre_of_the_moon_does_not_fail():

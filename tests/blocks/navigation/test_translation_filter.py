@@ -159,7 +159,7 @@ def mean_flight(block, ticks, periods):
     offsets = [random.normal(size=3)]
     block.translation_count = 1
     start(block, RELATIVE - offsets[0])
-    found = [(0.0, list(block.position_error), list(block.velocity_error))]
+    actual = [(0.0, list(block.position_error), list(block.velocity_error))]
     count, second, due = 1, 0, 0
     for tick in range(ticks):
         due += periods[tick % len(periods)]
@@ -176,15 +176,15 @@ def mean_flight(block, ticks, periods):
                 block.step(second - 1 + part * H, H)
                 if part < 7 or second < due:
                     assert block.position_error == held  # until the next tick
-        found.append((float(due), list(block.position_error), list(block.velocity_error)))
-    return np.array(offsets), found
+        actual.append((float(due), list(block.position_error), list(block.velocity_error)))
+    return np.array(offsets), actual
 
 
 @pytest.mark.parametrize("periods", [(8,), (4,), (8, 4)], ids=str)
 def test_mean_is_that_of_the_samples_since_the_last_tick(periods):
-    offsets, found = mean_flight(TranslationFilter(method=0), 6, periods)
+    offsets, actual = mean_flight(TranslationFilter(method=0), 6, periods)
     means = [offsets[0]]
-    for (before, *_), (time, position, velocity) in itertools.pairwise(found):
+    for (before, *_), (time, position, velocity) in itertools.pairwise(actual):
         means.append(offsets[int(before) + 1 : int(time) + 1].mean(axis=0))
         assert position == pytest.approx(means[-1], abs=1e-12)
         assert velocity == pytest.approx((means[-1] - means[-2]) / (time - before), abs=1e-12)

@@ -86,11 +86,11 @@ def test_translation_and_axis_follow_dop853(uniform):
         plant.thrust, plant.angular_acceleration, plant.burn_duration = thrust, acceleration, 1e9
         fly(plant, 4.0, start=4.0 * k)
         y = integrated(y, 1.04 * thrust, acceleration, DEGREE, uniform, 0.1, 4.0)
-        found = state(plant)
-        assert np.abs(found[:3] - y[:3]).max() < 1e-5
-        assert np.abs(found[3:6] - y[3:6]).max() < 1e-6
-        assert found[6:8] == pytest.approx(y[6:8], rel=1e-9)
-        assert np.abs(found[8:] - y[8:]).max() < 1e-8  # where the limit is left, inside a step
+        actual = state(plant)
+        assert np.abs(actual[:3] - y[:3]).max() < 1e-5
+        assert np.abs(actual[3:6] - y[3:6]).max() < 1e-6
+        assert actual[6:8] == pytest.approx(y[6:8], rel=1e-9)
+        assert np.abs(actual[8:] - y[8:]).max() < 1e-8  # where the limit is left, inside a step
     assert np.dot(plant.attitude, plant.angular_rate) == pytest.approx(0.0, abs=1e-15)
     up = [0.0, 0.0, 1.0] if uniform else unit(np.add(plant.position, [0.0, 0.0, RADIUS]))
     assert math.cos(plant.tilt) == pytest.approx(np.dot(plant.attitude, up), abs=1e-12)

@@ -140,11 +140,11 @@ def test_it_flies_as_in_inertial_axes(torque):
     block = capsule(**HIGH, **TUMBLING)
     block.mean_torque = torque
     expected = independent(block, 10.0, torque=torque)
-    found = state_of(fly(block, 10.0))
-    assert found[[1, 2, 4, 5]] == pytest.approx(expected[[1, 2, 4, 5]], abs=1e-11)
-    assert found[0] == pytest.approx(expected[0], abs=1e-6)
-    assert found[3] == pytest.approx(expected[3], abs=1e-7)
-    assert found[6:] == pytest.approx(expected[6:], abs=1e-9)
+    actual = state_of(fly(block, 10.0))
+    assert actual[[1, 2, 4, 5]] == pytest.approx(expected[[1, 2, 4, 5]], abs=1e-11)
+    assert actual[0] == pytest.approx(expected[0], abs=1e-6)
+    assert actual[3] == pytest.approx(expected[3], abs=1e-7)
+    assert actual[6:] == pytest.approx(expected[6:], abs=1e-9)
 
 
 def test_it_converges_with_the_fourth_power_of_its_step():
@@ -159,7 +159,7 @@ def test_it_converges_with_the_fourth_power_of_its_step():
 
 def test_pulses_are_cut_where_they_end():
     """Whatever the communication step: 1e-10 over 2 s of pulses; and each jet has a level and a factor of its own."""
-    found = []
+    actual = []
     for parts in (1, 4):
         block = capsule(jet_torque=[100.0, 90.0, 80.0, 70.0, 60.0, 50.0])
         block.jet_factor = [1.0, 0.5, 1.0, 0.0, 1.0, 1.0]
@@ -167,8 +167,8 @@ def test_pulses_are_cut_where_they_end():
             block.pulse_lengths, block.pulse_count = [0.13, -0.07, 0.03 * (-1) ** k], k + 1
             for part in range(parts):
                 block.step(0.2 * (k + part / parts), 0.2 / parts)
-        found.append(state_of(block))
-    assert np.abs(found[0] - found[1])[1:].max() < 1e-10
+        actual.append(state_of(block))
+    assert np.abs(actual[0] - actual[1])[1:].max() < 1e-10
     assert [*block.jet_seconds] == pytest.approx([1.3, 0.7, 0.3])
     torque = [block.jet(k, length, 0.0) for k in range(3) for length in (0.1, -0.1, 0.0)]
     assert torque == [100.0, -45.0, 0.0, 80.0, 0.0, 0.0, 60.0, -50.0, 0.0]

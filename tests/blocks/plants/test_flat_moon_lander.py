@@ -63,10 +63,10 @@ def integrated(initial, thrust, direction, rate, since, start, end):
     return solve_ivp(slope, (start, end), initial, method="DOP853", rtol=1e-13, atol=1e-10).y[:, -1]
 
 
-def assert_states_agree(found, expected, tolerance=1e-12):
+def assert_states_agree(actual, expected, tolerance=1e-12):
     """Position relative to its length, velocity relative to its own."""
-    assert np.linalg.norm(found[:3] - expected[:3]) <= tolerance * np.linalg.norm(expected[:3])
-    assert np.linalg.norm(found[3:] - expected[3:]) <= tolerance * np.linalg.norm(expected[3:])
+    assert np.linalg.norm(actual[:3] - expected[:3]) <= tolerance * np.linalg.norm(expected[:3])
+    assert np.linalg.norm(actual[3:] - expected[3:]) <= tolerance * np.linalg.norm(expected[3:])
 
 
 def test_start_is_the_initial_state():

@@ -78,8 +78,8 @@ def independent(start, thrust, rates, seconds):
         q_rate = 0.5 * np.array([-q[1:] @ w, *(q[0] * w + np.cross(q[1:], w))])
         return np.concatenate([v, matrix @ force / MASS, q_rate, acceleration, rates])
 
-    found = solve_ivp(slope, (0.0, seconds), start, method="DOP853", rtol=1e-12, atol=1e-14)
-    return found.y[:, -1]
+    actual = solve_ivp(slope, (0.0, seconds), start, method="DOP853", rtol=1e-12, atol=1e-14)
+    return actual.y[:, -1]
 
 
 def random_start(seed):

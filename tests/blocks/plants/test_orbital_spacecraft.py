@@ -100,16 +100,16 @@ def test_jacobi_s_integral_is_kept_without_jets():
         gradient = 1.5 * ORBITAL_RATE**2 * up @ INERTIA @ up - 0.5 * ORBITAL_RATE**2 * normal @ INERTIA @ normal
         return 0.5 * relative @ INERTIA @ relative + gradient
 
-    found = [integral(row) for row in fly(plant(), [[0.0, 0.0, 0.0]] * 2500)]
-    assert np.ptp(found) < 1e-13 * 30000.0
+    actual = [integral(row) for row in fly(plant(), [[0.0, 0.0, 0.0]] * 2500)]
+    assert np.ptp(actual) < 1e-13 * 30000.0
 
 
 def test_left_alone_at_the_wanted_state_products_of_inertia_turn_it():
     block = plant(([0.0] * 3, [0.0, 0.0, -ORBITAL_RATE]))
     block.step(0.0, 0.01)
-    found = (np.array([*block.angular_velocity]) - [0.0, 0.0, -ORBITAL_RATE]) / 0.01
-    assert found == pytest.approx(acceleration(np.eye(3), np.array([0.0, 0.0, -ORBITAL_RATE]), 0.0), abs=1e-12)
-    assert found == pytest.approx([-1.49e-7, 3.4e-9, 1.8e-8], rel=0.03)
+    actual = (np.array([*block.angular_velocity]) - [0.0, 0.0, -ORBITAL_RATE]) / 0.01
+    assert actual == pytest.approx(acceleration(np.eye(3), np.array([0.0, 0.0, -ORBITAL_RATE]), 0.0), abs=1e-12)
+    assert actual == pytest.approx([-1.49e-7, 3.4e-9, 1.8e-8], rel=0.03)
 
 
 angle = st.floats(-0.5, 0.5)

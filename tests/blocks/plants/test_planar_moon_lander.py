@@ -57,9 +57,9 @@ def published(y0, duration, thrust, angle, curvature):
     return solve_ivp(slope, (0.0, duration), y0, method="DOP853", rtol=1e-13, atol=1e-12).y[:, -1]
 
 
-def assert_agree(found, expected, tolerance=1e-9):
+def assert_agree(actual, expected, tolerance=1e-9):
     scale = np.array([1.0, 1e-3, 1e4, 1e-3, 1.0])
-    assert np.all(np.abs(found - expected) <= tolerance * (np.abs(expected) + scale))
+    assert np.all(np.abs(actual - expected) <= tolerance * (np.abs(expected) + scale))
 
 
 @pytest.mark.parametrize("curvature", [False, True])

@@ -123,10 +123,10 @@ def manoeuvre_integrated(lag, response, limit):
     return rows
 
 
-def errors_of(found, expected):
+def errors_of(actual, expected):
     """Lengths of the differences of position, velocity, mass, attitude and sensed velocity."""
     parts = [slice(0, 3), slice(3, 6), slice(6, 7), slice(8, 11), slice(11, 14)]
-    return np.array([np.linalg.norm((found - expected)[part]) for part in parts])
+    return np.array([np.linalg.norm((actual - expected)[part]) for part in parts])
 
 
 def test_start_is_the_initial_state():
@@ -156,8 +156,8 @@ def test_declared_start_is_that_of_braking():
 def test_all_effects_together_follow_dop853(lag, response, limit, position, velocity):
     """A tenth of a millimetre after 18 s with a jump of 1 rad (2 rad/s where nothing limits it) and a cut-off."""
     bounds = [position, velocity, 1e-10, 2e-6, velocity]
-    found, expected = manoeuvre(0.1, lag, response, limit), manoeuvre_integrated(lag, response, limit)
-    for row, truth in zip(found, expected, strict=True):
+    actual, expected = manoeuvre(0.1, lag, response, limit), manoeuvre_integrated(lag, response, limit)
+    for row, truth in zip(actual, expected, strict=True):
         assert (errors_of(row, truth) < bounds).all()
         assert row[7] == pytest.approx(truth[7], abs=1e-6)  # thrust
 
@@ -179,10 +179,10 @@ def test_turning_direction_without_lags_follows_dop853():
     plant = command(lander(**IDEAL), 4500.0, rate=TURNING, since=-3.0)
     expected = integrated(everything(plant), 4500.0, DIRECTION, TURNING, -3.0, 0.0, 20.0, 0.0, 0.0, 0.0)
     fly(plant, 0.0, 20.0, 1.0)
-    found = everything(plant)
-    assert np.linalg.norm(found[:3] - expected[:3]) < 1e-11 * np.linalg.norm(expected[:3])
-    assert np.linalg.norm(found[3:6] - expected[3:6]) < 1e-11 * np.linalg.norm(expected[3:6])
-    assert found[6] == pytest.approx(expected[6], rel=1e-13)
+    actual = everything(plant)
+    assert np.linalg.norm(actual[:3] - expected[:3]) < 1e-11 * np.linalg.norm(expected[:3])
+    assert np.linalg.norm(actual[3:6] - expected[3:6]) < 1e-11 * np.linalg.norm(expected[3:6])
+    assert actual[6] == pytest.approx(expected[6], rel=1e-13)
     assert plant.attitude == pytest.approx(unit(np.add(DIRECTION, np.multiply(TURNING, 23.0))), abs=1e-15)
 
 
@@ -207,11 +207,11 @@ def test_free_flight_is_an_ellipse():
         expected, speed = kepler(300.0 * (k + 1))
         assert plant.position == pytest.approx(expected, abs=1e-3)
         assert plant.velocity == pytest.approx(speed, abs=1e-6)
-        found = np.array(plant.position) - CENTRE
-        assert plant.altitude == pytest.approx(np.linalg.norm(found) - RADIUS, abs=1e-8)
+        actual = np.array(plant.position) - CENTRE
+        assert plant.altitude == pytest.approx(np.linalg.norm(actual) - RADIUS, abs=1e-8)
         assert plant.speed == pytest.approx(np.linalg.norm(plant.velocity), rel=1e-15)
-        assert 0.5 * plant.speed**2 - MU / np.linalg.norm(found) == pytest.approx(energy, rel=1e-10)
-        assert np.cross(found, plant.velocity) == pytest.approx(momentum, abs=1e-10 * np.linalg.norm(momentum))
+        assert 0.5 * plant.speed**2 - MU / np.linalg.norm(actual) == pytest.approx(energy, rel=1e-10)
+        assert np.cross(actual, plant.velocity) == pytest.approx(momentum, abs=1e-10 * np.linalg.norm(momentum))
     assert plant.sensed_velocity == plant.specific_force == [0.0, 0.0, 0.0]
     assert plant.mass == 940.0
 

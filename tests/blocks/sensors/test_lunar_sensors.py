@@ -156,10 +156,10 @@ def test_errors_do_not_depend_on_the_path_before(block_class):
         for block in (low, other):
             block.step(0.1 * k, 0.1)
         if not 3 <= k < 8:
-            found = [
+            actual = [
                 (np.array(output(block)) - truth(block)) / sigma_of(block, block.position[2]) for block in (low, other)
             ]
-            assert found[0] == pytest.approx(found[1], abs=1e-6)
+            assert actual[0] == pytest.approx(actual[1], abs=1e-6)
     assert other.sample_count == low.sample_count - 5
 
 

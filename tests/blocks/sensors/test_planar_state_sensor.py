@@ -39,13 +39,13 @@ def test_errors_are_uniform():
 
 
 def test_errors_are_independent():
-    found = errors()
+    actual = errors()
     bound = 4.0 / math.sqrt(SAMPLES)
-    assert abs(np.corrcoef(found.T)[0, 1]) < bound
+    assert abs(np.corrcoef(actual.T)[0, 1]) < bound
     for lag in (1, 2, 7):
-        for column in found.T:
+        for column in actual.T:
             assert abs(np.corrcoef(column[:-lag], column[lag:])[0, 1]) < bound
-    assert abs(np.corrcoef(found[:, 0], errors(stream=1)[:, 0])[0, 1]) < bound
+    assert abs(np.corrcoef(actual[:, 0], errors(stream=1)[:, 0])[0, 1]) < bound
 
 
 def test_a_stream_repeats_itself():

@@ -13,11 +13,11 @@ COMMAND |= {"burn_duration": 1}
 
 def values(source):
     """A command of the source (0: nothing) by name, every value another one."""
-    found, count = {}, 10.0 * source
+    actual, count = {}, 10.0 * source
     for name, size in COMMAND.items():
-        found[name] = [count + k for k in range(size)] if size > 1 else count
+        actual[name] = [count + k for k in range(size)] if size > 1 else count
         count += size
-    return found
+    return actual
 
 
 @pytest.mark.parametrize("engine_on", [True, False])

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.campaigns.compare.paired import paired_rates, paired_values
+from perilune.analysis.campaigns.compare.paired import compare_rates, compare_values
 
 
 def outcomes(both, only_a, only_b, neither):
@@ -31,26 +31,26 @@ def coin(k, n):
 
 
 def test_the_published_example():
-    found = paired_rates(*outcomes(1, 1, 7, 12))
-    assert (found.both, found.only_a, found.only_b, found.neither) == (1, 1, 7, 12)
-    assert found.difference == pytest.approx(-6 / 21)
-    assert found.p_value == pytest.approx(0.0703125, rel=1e-12)
-    assert found.interval[0] < found.difference < found.interval[1] < 0.0
+    actual = compare_rates(*outcomes(1, 1, 7, 12))
+    assert (actual.both, actual.only_a, actual.only_b, actual.neither) == (1, 1, 7, 12)
+    assert actual.difference == pytest.approx(-6 / 21)
+    assert actual.p_value == pytest.approx(0.0703125, rel=1e-12)
+    assert actual.interval[0] < actual.difference < actual.interval[1] < 0.0
 
 
 @given(st.lists(st.tuples(st.booleans(), st.booleans()), min_size=1, max_size=60))
 def test_counts_and_test_against_counting(rows):
     a, b = (np.array(column) for column in zip(*rows, strict=True))
-    found = paired_rates(a, b)
-    assert found.both == sum(x and y for x, y in rows)
-    assert found.neither == sum(not x and not y for x, y in rows)
-    assert found.difference == pytest.approx(a.mean() - b.mean(), abs=1e-12)
-    discordant = found.only_a + found.only_b
-    assert found.both + found.neither + discordant == len(rows)
-    assert found.p_value == pytest.approx(coin(found.only_a, discordant) if discordant else 1.0, rel=1e-9)
-    assert -1.0 <= found.interval[0] <= found.difference <= found.interval[1] <= 1.0
-    swapped = paired_rates(b, a)
-    assert swapped.interval == pytest.approx((-found.interval[1], -found.interval[0]), abs=1e-12)
+    actual = compare_rates(a, b)
+    assert actual.both == sum(x and y for x, y in rows)
+    assert actual.neither == sum(not x and not y for x, y in rows)
+    assert actual.difference == pytest.approx(a.mean() - b.mean(), abs=1e-12)
+    discordant = actual.only_a + actual.only_b
+    assert actual.both + actual.neither + discordant == len(rows)
+    assert actual.p_value == pytest.approx(coin(actual.only_a, discordant) if discordant else 1.0, rel=1e-9)
+    assert -1.0 <= actual.interval[0] <= actual.difference <= actual.interval[1] <= 1.0
+    swapped = compare_rates(b, a)
+    assert swapped.interval == pytest.approx((-actual.interval[1], -actual.interval[0]), abs=1e-12)
 
 
 @pytest.mark.parametrize("rates", [(0.1, 0.1), (0.02, 0.08), (0.3, 0.05), (0.0, 0.05), (0.2, 0.4)])
@@ -65,7 +65,7 @@ def test_the_interval_of_rates_covers_nearly_as_often_as_it_says(rates, trials):
         ways = math.comb(trials, k) * math.comb(trials - k, m)
         probability = ways * p**k * q**m * (1.0 - p - q) ** (trials - k - m)
         if probability > 1e-9:
-            low, high = paired_rates(*outcomes(trials - k - m, k, m, 0)).interval
+            low, high = compare_rates(*outcomes(trials - k - m, k, m, 0)).interval
             covered += probability * (low <= p - q <= high)
     assert covered >= 0.935
 
@@ -76,15 +76,15 @@ NUMBERS = st.floats(-100.0, 100.0)
 @given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=1, max_size=40))
 def test_values_against_counting(rows):
     a, b = (np.array(column) for column in zip(*rows, strict=True))
-    found = paired_values(a, b)
+    actual = compare_values(a, b)
     difference = sorted(x - y for x, y in rows)
-    assert found.count == len(rows)
-    assert found.smaller == sum(value < 0.0 for value in difference)
-    assert found.equal == sum(value == 0.0 for value in difference)
-    assert found.larger == sum(value > 0.0 for value in difference)
-    assert found.median == difference[(len(rows) - 1) // 2]  # of an even number the lower one in the middle
-    n = found.smaller + found.larger
-    assert found.p_value == pytest.approx(coin(found.smaller, n) if n else 1.0, rel=1e-9)
+    assert actual.count == len(rows)
+    assert actual.smaller == sum(value < 0.0 for value in difference)
+    assert actual.equal == sum(value == 0.0 for value in difference)
+    assert actual.larger == sum(value > 0.0 for value in difference)
+    assert actual.median == difference[(len(rows) - 1) // 2]  # of an even number the lower one in the middle
+    n = actual.smaller + actual.larger
+    assert actual.p_value == pytest.approx(coin(actual.smaller, n) if n else 1.0, rel=1e-9)
 
 
 @pytest.mark.parametrize("trials", [1, 5, 6, 7, 20, 101, 400])
@@ -92,21 +92,21 @@ def test_the_interval_of_the_median_is_the_shortest_of_order_statistics_that_cov
     """Ends k-th from either end cover the median with 1 - 2 P(fewer than k of n tosses are heads)."""
     difference = np.random.default_rng(trials).normal(size=trials)
     ordered = np.sort(difference)
-    found = paired_values(difference, np.zeros(trials))
+    actual = compare_values(difference, np.zeros(trials))
     miss, k = 0.0, 0
     while 2.0 * (miss + math.comb(trials, k) / 2**trials) <= 0.05:
         miss += math.comb(trials, k) / 2**trials
         k += 1
     if k == 0:
-        assert found.interval is None
+        assert actual.interval is None
     else:
-        assert found.interval == (ordered[k - 1], ordered[trials - k])
+        assert actual.interval == (ordered[k - 1], ordered[trials - k])
 
 
 def test_only_trials_where_both_are_finite_count():
     a = np.array([1.0, np.nan, np.inf, 4.0, 2.0])
     b = np.array([2.0, 1.0, 1.0, 1.0, -np.inf])
-    found = paired_values(a, b)
-    assert (found.count, found.smaller, found.larger, found.median) == (2, 1, 1, -1.0)
-    nothing = paired_values(a[1:3], b[1:3])
+    actual = compare_values(a, b)
+    assert (actual.count, actual.smaller, actual.larger, actual.median) == (2, 1, 1, -1.0)
+    nothing = compare_values(a[1:3], b[1:3])
     assert (nothing.count, nothing.median, nothing.interval, nothing.p_value) == (0, None, None, None)

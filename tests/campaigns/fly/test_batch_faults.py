@@ -82,11 +82,11 @@ def ssp(tiny_folder, tmp_path_factory):
     wires += connection("ramp.flag", "whole.b") + connection("ramp.count", "whole.n")
     folder = tmp_path_factory.mktemp("faults")
     text = document(system(*parts, connections=wires), stop=STEP * (ROWS - 1), step=STEP)
-    found = {}
+    actual = {}
     for flavour in ("native", "python"):
         (folder / flavour).mkdir()
-        found[flavour] = pack(folder / flavour / "s.ssp", tiny_folder / flavour, text)
-    return found
+        actual[flavour] = pack(folder / flavour / "s.ssp", tiny_folder / flavour, text)
+    return actual
 
 
 def written(folder, text, name="c.toml"):
@@ -182,12 +182,12 @@ def test_a_replay_flies_them_again(result, ssp, campaign):
     plan = read_plan(ssp["native"], campaign, SystemOptions())
     flyer = Flyer(plan)
     for trial in (8, 1, 3):
-        flight, found = flyer.replay("default", trial)
+        flight, actual = flyer.replay("default", trial)
         traces = batch.trials["default"].traces[trial]
         assert {name: values.tobytes() for name, values in flight.signals.items()} == {
             name: values.tobytes() for name, values in traces.items() if name != "time"
         }
-        assert found.metrics["last"] == batch.table()["metric.last"][trial].as_py()
+        assert actual.metrics["last"] == batch.table()["metric.last"][trial].as_py()
         assert flight.provenance["faults"] == [str(fault) for fault in by_hand(drawn(batch.table(), trial))]
     assert flight.provenance["faults"] == []
 

@@ -60,7 +60,7 @@ def judged(request):
     head = 'system = "s"\ntrials = 40\nseed = 1\n'
     campaign = parse_campaign(Table(tomllib.loads(head + TEXT.format(traces=request.param)), "test.toml"))
     bias = np.random.default_rng(3).uniform(size=COUNT)
-    drawn = DrawnTrials(None, range(100, 100 + COUNT), DrawTable(COUNT, {"bias": bias}), [])
+    drawn = DrawnTrials(campaign, None, [], range(100, 100 + COUNT), DrawTable(COUNT, {"bias": bias}), [])
     names = VariantNames([], ["p.x", "p.y"], ["p.status"], {"p.gain": 2.5})
     return campaign, names, drawn, bias
 
@@ -73,25 +73,25 @@ def test_together_or_one_by_one_to_the_bit(judged):
         together.add(flight(number), 100 + number, drawn)
         alone.add(flight(number), 100 + number, drawn)
         singles.append(alone.trials())
-    found = together.trials()
-    assert found.trial.tolist() == list(range(100, 100 + COUNT))
-    assert list(found.metrics) == ["miss", "highest", "late", "gain"]
+    actual = together.trials()
+    assert actual.trial.tolist() == list(range(100, 100 + COUNT))
+    assert list(actual.metrics) == ["miss", "highest", "late", "gain"]
     for number, single in enumerate(singles):
         one = flight(number)
         values = {"time": one.time, **one.signals, "p.gain": 2.5, "bias": bias[number]}
         for metric in campaign.metrics:
             expected = evaluate_metric(metric, one.time, values) if one.complete else math.nan
-            for value in (found.metrics[metric.name][number], single.metrics[metric.name][0]):
+            for value in (actual.metrics[metric.name][number], single.metrics[metric.name][0]):
                 assert value == expected or math.isnan(expected)
-        miss = found.metrics["miss"][number]
-        assert found.success[number] == single.success[0] == (one.complete and miss < 1.5)
-        assert found.statuses[number] == one.status
+        miss = actual.metrics["miss"][number]
+        assert actual.success[number] == single.success[0] == (one.complete and miss < 1.5)
+        assert actual.statuses[number] == one.status
         last = one.signals["p.y"][-1] if one.time.size else math.nan
         np.testing.assert_array_equal(
-            [found.final["p.y"][number], found.end_time[number]], [last, one.time[-1] if one.time.size else math.nan]
+            [actual.final["p.y"][number], actual.end_time[number]], [last, one.time[-1] if one.time.size else math.nan]
         )
-        kept = campaign.record.traces == "all" or (campaign.record.traces == "failures" and not found.success[number])
-        assert (100 + number in found.traces) == kept
-        assert (100 + number in found.messages) == (not one.complete)
-    for trial, traces in found.traces.items():
+        kept = campaign.record.traces == "all" or (campaign.record.traces == "failures" and not actual.success[number])
+        assert (100 + number in actual.traces) == kept
+        assert (100 + number in actual.messages) == (not one.complete)
+    for trial, traces in actual.traces.items():
         assert traces["p.x"].tobytes() == flight(trial - 100).signals["p.x"].tobytes()

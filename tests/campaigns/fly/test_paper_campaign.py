@@ -69,4 +69,4 @@ def test_every_name_is_a_variable_of_its_block(name):
         for variable in blocks[block].variables.values():
             known |= {f"{component}.{element}" for element in variable.element_names()}
     used = {name for metric in campaign.metrics for name in metric.expression.names if "." in name}
-    assert used | set(campaign.record.final) | {n for n in campaign.drawn_names() if "." in n} <= known
+    assert used | set(campaign.record.final) | {n for n in campaign.input_names() if "." in n} <= known

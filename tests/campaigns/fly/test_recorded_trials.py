@@ -75,11 +75,11 @@ def test_the_key_is_refused(tmp_path, record, says):
 
 @pytest.mark.parametrize(("trials", "workers"), [(5, 1), (5, 3), (1, 2), (14, 1), (99, 2)])
 def test_the_first_trials_leave_the_traces_they_leave_without_it(everything, tmp_path, trials, workers):
-    found = traces(fly(tmp_path, f"{SAMPLED}trials = {trials}\n", workers=workers))
+    actual = traces(fly(tmp_path, f"{SAMPLED}trials = {trials}\n", workers=workers))
     expected = {key: table for key, table in traces(everything).items() if key[1] < trials}
     assert len(expected) == 2 * min(trials, 14)
-    assert found.keys() == expected.keys()
-    assert all(found[key].equals(table) for key, table in expected.items())
+    assert actual.keys() == expected.keys()
+    assert all(actual[key].equals(table) for key, table in expected.items())
 
 
 def test_trials_and_metrics_are_the_same_with_or_without_traces(everything, tmp_path):
@@ -94,9 +94,9 @@ def test_failures_beyond_the_first_trials_are_kept_in_full(tmp_path):
     table = pyarrow.parquet.read_table(folder / "trials").to_pylist()
     failed = {(row["variant"], row["trial"]) for row in table if not row["success"]}
     assert any(trial >= 3 for _, trial in failed)
-    found = traces(folder)
-    assert set(found) == failed | {(row["variant"], row["trial"]) for row in table if row["trial"] < 3}
-    for key, trace in found.items():
+    actual = traces(folder)
+    assert set(actual) == failed | {(row["variant"], row["trial"]) for row in table if row["trial"] < 3}
+    for key, trace in actual.items():
         assert ("guidance.status" in trace.column_names) == (key in failed)
 
 

@@ -11,7 +11,7 @@ import pytest
 import perilune
 from perilune.analysis.campaigns.fly.workers.flyer import Flyer
 from perilune.analysis.campaigns.spec.plan import read_plan
-from perilune.analysis.campaigns.trials import joined
+from perilune.analysis.campaigns.trials import join_trials
 from perilune.analysis.runtime.system.options import SystemOptions
 from tests.support.lengths import either
 
@@ -50,14 +50,14 @@ def test_any_order_of_tasks(reference):
     plan = read_plan(SYSTEM, "noisy", SystemOptions(flavour="native"), trials=TRIALS, compare=COMPARE)
     tasks = [(variant, range(trial, trial + 1)) for variant in COMPARE["guidance"] for trial in range(TRIALS)]
     random.Random(3).shuffle(tasks)
-    found = {variant: [] for variant in COMPARE["guidance"]}
+    actual = {variant: [] for variant in COMPARE["guidance"]}
     flyer = Flyer(plan)
     for variant, trials in tasks:
-        found[variant].append(flyer.fly(variant, trials))
+        actual[variant].append(flyer.fly(variant, trials))
     flyer.close()
     rows = reference.to_pylist()
-    for number, (variant, parts) in enumerate(found.items()):
-        column = joined(parts)
+    for number, (variant, parts) in enumerate(actual.items()):
+        column = join_trials(parts)
         expected = rows[number * TRIALS : (number + 1) * TRIALS]
         assert column.trial.tolist() == list(range(TRIALS))
         assert column.statuses == [row["status"] for row in expected], variant
@@ -80,10 +80,10 @@ def test_replay_is_the_trial_to_the_last_bit(reference):
     flyer = Flyer(plan)
     rows = {(row["variant"], row["trial"]): row for row in reference.to_pylist()}
     for variant, trial in (("analytic_guidance", 5), ("astar_modified_guidance", 0), ("analytic_guidance", 5)):
-        result, found = flyer.replay(variant, trial)
+        result, actual = flyer.replay(variant, trial)
         row = rows[variant, trial]
-        assert (found.status, found.success, found.end_time) == (row["status"], row["success"], row["end_time"])
-        assert {f"metric.{name}": value for name, value in found.metrics.items()} == {
+        assert (actual.status, actual.success, actual.end_time) == (row["status"], row["success"], row["end_time"])
+        assert {f"metric.{name}": value for name, value in actual.metrics.items()} == {
             name: value for name, value in row.items() if name.startswith("metric.")
         }
         assert result["plant.position[1]"][-1] == row["final.plant.position[1]"]
@@ -96,8 +96,8 @@ def test_every_trial_and_component_has_its_stream_the_same_for_every_variant():
     seen = set()
     for variant in plan.campaign.variants():
         prepared = plan.prepare(variant)
-        found = [plan.parameters(prepared, trial) for trial in range(50)]
-        streams = {(row["navigation.seed"], row["navigation.stream"]) for row in found}
+        actual = [plan.parameters(prepared, trial) for trial in range(50)]
+        streams = {(row["navigation.seed"], row["navigation.stream"]) for row in actual}
         assert len(streams) == 50
         seen.add(frozenset(streams))
     assert len(seen) == 1

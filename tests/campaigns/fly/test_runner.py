@@ -57,7 +57,7 @@ def test_tables_and_their_columns(result, folder):
     assert table.equals(result.table())
     read = read_campaign(PAPER)
     expected = ["variant", "trial", "status", "success", "message", "end_time"]
-    expected += [f"draw.{name}" for name in read.drawn_names()]
+    expected += [f"draw.{name}" for name in read.input_names()]
     expected += [f"final.{name}" for name in read.record.final]
     expected += [f"metric.{metric.name}" for metric in read.metrics]
     assert table.column_names == expected
@@ -69,8 +69,8 @@ def test_tables_and_their_columns(result, folder):
     about = json.loads(table.schema.metadata[b"perilune"])
     assert about == {"batch": batch_digest(result.provenance), "shard": 0, "trials": [0, 12]}
     draws = pyarrow.parquet.read_table(folder / "draws.parquet")
-    assert draws.column_names == ["trial", *read.drawn_names()]
-    for name in read.drawn_names():
+    assert draws.column_names == ["trial", *read.input_names()]
+    for name in read.input_names():
         assert table[f"draw.{name}"].to_pylist() == draws[name].to_pylist() * 3
 
 
@@ -80,18 +80,18 @@ def test_summary_counts_what_the_table_holds(result, folder):
         summary
     )
     table = pyarrow.parquet.read_table(folder / "trials").to_pylist()
-    for variant, found in summary["variants"].items():
+    for variant, actual in summary["variants"].items():
         rows = [row for row in table if row["variant"] == variant]
         good = [row for row in rows if row["success"]]
-        assert found["trials"] == 12
-        assert found["success_rate"] == len(good) / 12
-        low, high = found["success_interval"]
-        assert 0 <= low <= found["success_rate"] <= high <= 1
-        assert sum(found["statuses"].values()) == 12
+        assert actual["trials"] == 12
+        assert actual["success_rate"] == len(good) / 12
+        low, high = actual["success_interval"]
+        assert 0 <= low <= actual["success_rate"] <= high <= 1
+        assert sum(actual["statuses"].values()) == 12
         errors = [row["metric.position_error"] for row in good]
-        assert found["metrics"]["position_error"]["mean"] == pytest.approx(np.mean(errors), rel=1e-12)
-        assert found["metrics"]["position_error"]["std"] == pytest.approx(np.std(errors, ddof=1), rel=1e-12)
-        assert found["metrics"]["position_error"]["unit"] == "m"
+        assert actual["metrics"]["position_error"]["mean"] == pytest.approx(np.mean(errors), rel=1e-12)
+        assert actual["metrics"]["position_error"]["std"] == pytest.approx(np.std(errors, ddof=1), rel=1e-12)
+        assert actual["metrics"]["position_error"]["unit"] == "m"
 
 
 def test_a_trial_is_the_flight_of_its_draws(result):

@@ -62,9 +62,9 @@ def test_all_trials_come_as_they_were_written(original, written):
 
 def test_some_columns_and_some_rows(original, written):
     results = perilune.open_results(original)
-    found = results.arrow(["variant", "trial"], where=(field("metric.miss") > 3) & (field("variant") == "beta"))
+    actual = results.arrow(["variant", "trial"], where=(field("metric.miss") > 3) & (field("variant") == "beta"))
     miss = written.trials["beta"].metrics["miss"]
-    assert found.column("trial").to_pylist() == np.flatnonzero(miss > 3).tolist()
+    assert actual.column("trial").to_pylist() == np.flatnonzero(miss > 3).tolist()
     assert results.dataset.count_rows() == 3 * TRIALS
 
 
@@ -86,11 +86,11 @@ def test_batches_are_all_of_it_in_little_memory(tmp_path):
     write_large(tmp_path, 150_000)
     results = perilune.open_results(tmp_path)
     size = results.arrow().nbytes
-    before, most, found = pyarrow.total_allocated_bytes(), 0, []
+    before, most, actual = pyarrow.total_allocated_bytes(), 0, []
     for part in results.batches():
-        found += part.column("trial").to_pylist()
+        actual += part.column("trial").to_pylist()
         most = max(most, pyarrow.total_allocated_bytes() - before)
-    assert found == list(range(150_000))
+    assert actual == list(range(150_000))
     assert most < size / 2
 
 
@@ -110,8 +110,8 @@ def test_quantiles(original, written, share):
 def test_quantiles_are_those_of_the_summary(original):
     results = perilune.open_results(original)
     for variant, entry in json.loads((original / "summary.json").read_text())["variants"].items():
-        for metric, found in entry["metrics_all"].items():
-            assert results.quantile(metric, 0.99, variant) == found["p99"]
+        for metric, actual in entry["metrics_all"].items():
+            assert results.quantile(metric, 0.99, variant) == actual["p99"]
             assert results.quantile(metric, 0.99, variant, where=field("success")) == entry["metrics"][metric]["p99"]
 
 

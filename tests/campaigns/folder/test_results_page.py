@@ -48,9 +48,9 @@ def shown(place):
 def columns(place):
     """Every column of the first campaign, of both variants in order of trial."""
     tables = [pyarrow.parquet.read_table(path) for path in sorted((place / "results" / "trials").glob("*.parquet"))]
-    found = {name: np.concatenate([table[name].to_numpy() for table in tables]) for name in tables[0].column_names}
-    order = np.lexsort((found["trial"], found["variant"]))
-    return {name: values[order].reshape(2, -1) for name, values in found.items()}  # analytic, then astar
+    actual = {name: np.concatenate([table[name].to_numpy() for table in tables]) for name in tables[0].column_names}
+    order = np.lexsort((actual["trial"], actual["variant"]))
+    return {name: values[order].reshape(2, -1) for name, values in actual.items()}  # analytic, then astar
 
 
 def test_shares_of_success(shown, columns):
@@ -72,8 +72,8 @@ def test_quantiles_of_both_ways(shown, columns):
     for variant, value in zip(shown["results"].variants, expected, strict=True):
         assert shown["results"].quantile("position_error", 0.999, variant) == value
     good = columns["metric.position_error"][0][columns["success"][0].astype(bool)]
-    found = shown["results"].quantile("position_error", 0.95, "analytic_guidance", where=shown["field"]("success"))
-    assert found == np.quantile(good, 0.95, method="inverted_cdf")
+    actual = shown["results"].quantile("position_error", 0.95, "analytic_guidance", where=shown["field"]("success"))
+    assert actual == np.quantile(good, 0.95, method="inverted_cdf")
 
 
 def test_failures_by_group(shown, columns):

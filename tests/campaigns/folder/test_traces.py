@@ -21,8 +21,8 @@ def written():
     sample = sample_batch(traced=4)
     beta = sample.trials["beta"]
     traces = {
-        trial: {name: values[: LENGTHS[trial]].copy() for name, values in found.items()}
-        for trial, found in beta.traces.items()
+        trial: {name: values[: LENGTHS[trial]].copy() for name, values in actual.items()}
+        for trial, actual in beta.traces.items()
     }
     traces[2]["time"][-1] += 0.25
     return replace(sample, rows=sample.trials | {"beta": replace(beta, traces=traces)})
@@ -37,28 +37,28 @@ def folder(written, tmp_path_factory):
 
 
 def test_every_value_stands_at_its_trial_and_time(folder, written):
-    found = perilune.open_results(folder).traces("beta")
-    assert list(found.data_vars) == SIGNALS
-    assert found["trial"].values.tolist() == [0, 1, 2, 3]
+    actual = perilune.open_results(folder).traces("beta")
+    assert list(actual.data_vars) == SIGNALS
+    assert actual["trial"].values.tolist() == [0, 1, 2, 3]
     times = sorted({*np.arange(0.0, 21.0).tolist(), 4.25})
-    assert found["time"].values.tolist() == times
+    assert actual["time"].values.tolist() == times
     for name in SIGNALS:
         expected = np.full((4, len(times)), np.nan)
         for trial, trace in written.trials["beta"].traces.items():
             for time, value in zip(trace["time"], trace[name], strict=True):
                 expected[trial, times.index(time)] = value
-        np.testing.assert_array_equal(found[name].values, expected)
-    assert np.isnan(found["ship.mass"].sel(trial=1, time=13.0))
-    assert found["ship.mass"].sel(trial=1).count() == LENGTHS[1]
+        np.testing.assert_array_equal(actual[name].values, expected)
+    assert np.isnan(actual["ship.mass"].sel(trial=1, time=13.0))
+    assert actual["ship.mass"].sel(trial=1).count() == LENGTHS[1]
 
 
 def test_units_are_attributes(folder):
-    found = perilune.open_results(folder).traces("alpha", ["ship.mass", "ship.velocity[1]", "pilot.status"])
-    assert found["ship.mass"].attrs == {"units": "kg"}
-    assert found["ship.velocity[1]"].attrs == {"units": "m/s"}
-    assert found["pilot.status"].attrs == {}
-    assert found["time"].attrs == {"units": "s"}
-    assert found.attrs == {"system": "ship", "campaign": "test.toml", "variant": "alpha"}
+    actual = perilune.open_results(folder).traces("alpha", ["ship.mass", "ship.velocity[1]", "pilot.status"])
+    assert actual["ship.mass"].attrs == {"units": "kg"}
+    assert actual["ship.velocity[1]"].attrs == {"units": "m/s"}
+    assert actual["pilot.status"].attrs == {}
+    assert actual["time"].attrs == {"units": "s"}
+    assert actual.attrs == {"system": "ship", "campaign": "test.toml", "variant": "alpha"}
 
 
 def test_a_signal_that_no_trace_has(folder):

@@ -62,7 +62,7 @@ def test_each_of_six_jets_in_turn(plan):
         expected = [None] * 6
         expected[jet - 1] = Fault(f"plant.jet_factor[{jet}]", "override", 0.0, row["failure_time"])
         assert made.faults_of(trial) == expected
-    assert [fault.name for fault in made.declared_faults()] == [f"plant.jet_factor[{jet}]" for jet in range(1, 7)]
+    assert [fault.name for fault in made.list_faults()] == [f"plant.jet_factor[{jet}]" for jet in range(1, 7)]
     assert made.fault_texts()[2] == "jet_3: plant.jet_factor[3]=override:0@failure_time when jet == 3"
 
 
@@ -104,7 +104,9 @@ def test_the_users_come_after_the_campaigns(plan):
 def test_columns_of_the_table_of_trials(plan):
     end = 'end = "where(jet == 2, 100, repair_time)"'
     (drawn,) = (
-        plan(fault("override", '"failure_time"', f'value = "size"\n{end}\nwhen = "jet < 3"')).drawn(range(12)).faults
+        plan(fault("override", '"failure_time"', f'value = "size"\n{end}\nwhen = "jet < 3"'))
+        .values_of(range(12))
+        .faults
     )
     row = plan(DRAWS).draws.columns
     flies = row["jet"] < 3
@@ -115,7 +117,7 @@ def test_columns_of_the_table_of_trials(plan):
     np.testing.assert_array_equal(columns["fault.x.start"], np.where(flies, row["failure_time"], np.nan))
     expected = np.where(row["jet"] == 2, 100.0, row["failure_time"] + 20.0)
     np.testing.assert_array_equal(columns["fault.x.end"], np.where(flies, expected, np.nan))
-    (held,) = plan(fault("freeze", rest="")).drawn(range(12)).faults
+    (held,) = plan(fault("freeze", rest="")).values_of(range(12)).faults
     assert list(held.columns()) == ["fault.x", "fault.x.start", "fault.x.end"]
     assert held.columns()["fault.x.end"].tolist() == [math.inf] * 12
 
@@ -173,6 +175,6 @@ def test_a_wrong_file_is_refused_in_one_line(campaign, text, says):
 )  # fmt: skip
 def test_what_is_wrong_in_a_trial_is_refused_in_one_line(plan, text, says):
     with pytest.raises(InputError) as caught:
-        plan(text).drawn(range(12))
+        plan(text).values_of(range(12))
     assert str(caught.value).startswith(f"test.toml: {says}")
     assert "\n" not in str(caught.value)

@@ -70,7 +70,7 @@ def test_everything_is_read(parse):
     assert (read.system, read.description, read.trials, read.seed) == ("lander", "two lines", 4, 9)
     assert read.parameters == ("a.ssv", "b.ssv")
     assert read.settings == {"plant.gravity": 1.6, "plant.position[1]": 2, "plant.latch": True}
-    assert read.drawn_names() == ["x", "plant.mass", "u", "nav.bias[1]", "y", "plant.thrust"]
+    assert read.input_names() == ["x", "plant.mass", "u", "nav.bias[1]", "y", "plant.thrust"]
     assert read.draws[0].distribution.arguments == {"low": pytest.approx(-0.7853981633974483), "high": 1.0}
     miss, settled, gate = read.metrics
     assert (miss.name, miss.reduction, miss.unit, miss.band, miss.window) == ("miss", "final", "m", None, None)

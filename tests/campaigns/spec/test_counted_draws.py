@@ -45,10 +45,10 @@ def test_values_follow_their_distributions(drawn):
 @given(st.integers(0, 29000), st.integers(1, 3000))
 def test_a_trial_is_the_same_in_any_part(drawn, first, count):
     part = range(first, min(first + count, 30000))
-    found, one = drawn.of_part(part), drawn.of_part(range(part[-1], part[-1] + 1))
-    assert list(found.columns) == ["case", "a", "p.b", "u", "v", "c", "s", "p.t", "k"]
-    assert found.row(len(part) - 1) == one.row(0)
-    assert found.columns["case"].tolist() == [trial % 3 + 1 for trial in part]
+    actual, one = drawn.of_part(part), drawn.of_part(range(part[-1], part[-1] + 1))
+    assert list(actual.columns) == ["case", "a", "p.b", "u", "v", "c", "s", "p.t", "k"]
+    assert actual.row(len(part) - 1) == one.row(0)
+    assert actual.columns["case"].tolist() == [trial % 3 + 1 for trial in part]
 
 
 def test_a_value_is_the_one_of_its_key_and_counter(drawn):

@@ -52,8 +52,8 @@ def test_the_distributions_are_those_that_are_declared(space):
         "even": stats.uniform(0, 2),
     }.items():
         assert stats.kstest(columns[name], truth.cdf).pvalue > 0.01, name
-    found = np.cov([columns[name] for name in "xyz"])
-    np.testing.assert_allclose(found, COVARIANCE, atol=0.1)
+    actual = np.cov([columns[name] for name in "xyz"])
+    np.testing.assert_allclose(actual, COVARIANCE, atol=0.1)
     others = np.corrcoef([columns[name] for name in columns])[:2, 2:]
     assert np.abs(others).max() < 0.03
 

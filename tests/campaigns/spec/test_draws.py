@@ -176,10 +176,10 @@ def test_derived_values_must_be_finite(campaign):
 @given(st.integers(0, 2**40), st.integers(1, 30), st.integers(1, 20))
 def test_stream_numbers_never_meet(seed, trials, size):
     names = [f"c{index}" for index in range(size)]
-    found = [stream_numbers(seed, trial, names) for trial in range(trials)]
-    streams = [numbers.stream for trial in found for numbers in trial.values()]
+    actual = [stream_numbers(seed, trial, names) for trial in range(trials)]
+    streams = [numbers.stream for trial in actual for numbers in trial.values()]
     assert sorted(streams) == list(range(trials * size))
-    assert {numbers.seed for trial in found for numbers in trial.values()} == {seed % 2**31}
+    assert {numbers.seed for trial in actual for numbers in trial.values()} == {seed % 2**31}
 
 
 def test_stream_numbers_do_not_depend_on_order():

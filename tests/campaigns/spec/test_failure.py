@@ -41,8 +41,8 @@ VALUES = st.lists(st.sampled_from([-2.0, -1.0, 0.0, 0.5, 1.0, 3.0, 1e-300, -1e-3
 @pytest.mark.parametrize("text", WRITTEN)
 def test_the_margin_is_the_difference(text):
     values = dict(zip("abc", np.random.default_rng(1).normal(size=(3, 50)), strict=True))
-    found = Failure(Expression(text)).margins(values, np.ones(50, dtype=bool))
-    np.testing.assert_allclose(found, WRITTEN[text](**values), rtol=1e-14)
+    actual = Failure(Expression(text)).margins(values, np.ones(50, dtype=bool))
+    np.testing.assert_allclose(actual, WRITTEN[text](**values), rtol=1e-14)
 
 
 @given(st.sampled_from([*WRITTEN, "a >= b", "a <= b and not c", "not (a == b) or c >= a", "where(c > 0, a, b) > 1"]),
@@ -52,16 +52,16 @@ def test_a_margin_of_0_or_more_is_a_failure_and_no_other(text, a, b, c):
     values = {name: np.array(column[:count]) for name, column in zip("abc", (a, b, c), strict=True)}
     failure = Failure(Expression(text))
     expression = Expression(text)
-    found = failure.margins({name: values[name] for name in "abc"}, np.ones(count, dtype=bool))
+    actual = failure.margins({name: values[name] for name in "abc"}, np.ones(count, dtype=bool))
     expected = np.broadcast_to(expression.evaluate(values), (count,)) != 0.0
-    assert ((found >= 0.0) == expected).all(), text
+    assert ((actual >= 0.0) == expected).all(), text
 
 
 def test_what_is_not_finite_is_a_failure():
     a = np.array([np.nan, np.inf, -np.inf, 1.0, 1.0, 0.0])
     flown = np.array([True, True, True, True, False, True])
-    found = Failure(Expression("a > 2")).margins({"a": a}, flown)
-    assert found.tolist() == [np.inf, np.inf, np.inf, -1.0, np.inf, -2.0]
+    actual = Failure(Expression("a > 2")).margins({"a": a}, flown)
+    assert actual.tolist() == [np.inf, np.inf, np.inf, -1.0, np.inf, -2.0]
     assert Failure(Expression("1 / a - 1 / a > 2")).margins({"a": a[-1:]}, flown[-1:]).tolist() == [np.inf]
 
 

@@ -120,8 +120,8 @@ def test_settled_of_a_flight_that_does_not_begin_at_zero():
 def test_constants_are_conditions_and_values_too():
     times = np.arange(3.0)
     asked = Metric("m", Expression("time"), "first", condition=Expression("case == 2"))
-    found = [evaluate_metric(asked, times, {"time": times, "case": case}) for case in (1.0, 2.0)]
-    assert found == [pytest.approx(math.nan, nan_ok=True), 0.0]
+    actual = [evaluate_metric(asked, times, {"time": times, "case": case}) for case in (1.0, 2.0)]
+    assert actual == [pytest.approx(math.nan, nan_ok=True), 0.0]
 
 
 def test_the_conditions_names_are_needed_too():

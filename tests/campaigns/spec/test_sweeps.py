@@ -143,13 +143,13 @@ def test_the_sweep_is_in_the_manifest_and_in_the_results(folder, capsys):
     resume += ["--output", str(folder), "--resume"]
     assert main([*resume, "--set", SWEEP]) == 0
     capsys.readouterr()
-    for other, found in (
+    for other, actual in (
         (["--set", f"{MASS}=900:1000:100"], f"campaign.sweep.{MASS} was 900:1000:25, is 900:1000:100;"),
         ([], 'campaign.sweep was {"plant.initial_mass": "900:1000:25"}, is nothing;'),
     ):
         assert main([*resume, *other]) == 2
         line = capsys.readouterr().err
-        assert f"another campaign than the one asked for: {found}" in line
+        assert f"another campaign than the one asked for: {actual}" in line
         assert line.count("\n") == 1
 
 

@@ -17,10 +17,10 @@ from scipy.stats import beta, binom
 from perilune.analysis.campaigns.verdicts.acceptance import (
     FixedSize,
     Verdict,
+    acceptance_number,
     consumer_risk,
-    fixed_verdict,
+    decide_by_size,
     flights_needed,
-    permitted_failures,
     producer_risk,
 )
 
@@ -70,21 +70,21 @@ def test_verdicts_are_those_of_clopper_and_pearsons_bounds(flights, data, share,
     if min(abs(low - share), abs(high - share)) < 1e-9:
         return  # too near to be told by another formula
     expected = Verdict.MET if low > share else Verdict.NOT_MET if high < share else Verdict.UNDECIDED
-    assert fixed_verdict(flights, failures, share, confidence) is expected
+    assert decide_by_size(flights, failures, share, confidence) is expected
 
 
 @given(st.integers(1, 5000), SHARES, CONFIDENCES)
 def test_permitted_failures_are_the_most_that_meet_it(flights, share, confidence):
-    most = permitted_failures(flights, share, confidence)
-    assert most < 0 or fixed_verdict(flights, most, share, confidence) is Verdict.MET
-    assert fixed_verdict(flights, most + 1, share, confidence) is not Verdict.MET
+    most = acceptance_number(flights, share, confidence)
+    assert most < 0 or decide_by_size(flights, most, share, confidence) is Verdict.MET
+    assert decide_by_size(flights, most + 1, share, confidence) is not Verdict.MET
 
 
 @given(st.integers(0, 30), st.floats(0.5, 0.9999), CONFIDENCES)
 def test_flights_needed_are_the_fewest(failures, share, confidence):
     flights = flights_needed(failures, share, confidence)
-    assert permitted_failures(flights, share, confidence) >= failures
-    assert permitted_failures(flights - 1, share, confidence) < failures
+    assert acceptance_number(flights, share, confidence) >= failures
+    assert acceptance_number(flights - 1, share, confidence) < failures
 
 
 def test_what_is_missing():
@@ -93,8 +93,8 @@ def test_what_is_missing():
     assert (decision.verdict, decision.flights, decision.failures) == (Verdict.UNDECIDED, 2000, 1)
     assert decision.consumer_risk == pytest.approx(binom.cdf(1, 2000, 0.0013))
     assert rule.flights_to_meet(2000, 1) == {0: 991, 1: 2093, 2: 3138}
-    assert rule.permitted(1770) == (1770, -1)
-    assert rule.permitted(1771) == (1771, 0)
+    assert rule.count_permitted(1770) == (1770, -1)
+    assert rule.count_permitted(1771) == (1771, 0)
 
 
 def test_below_a_half_both_verdicts_were_possible():
@@ -102,7 +102,7 @@ def test_below_a_half_both_verdicts_were_possible():
     assert producer_risk(1, 0, 0.5) > 0.6
     assert consumer_risk(2, 1, 0.5) + producer_risk(2, 1, 0.5) == 1.5
     with pytest.raises(ValueError, match=r"0\.4 is not in 0\.5 to 1"):
-        fixed_verdict(2, 1, 0.5, 0.4)
+        decide_by_size(2, 1, 0.5, 0.4)
 
 
 @pytest.mark.parametrize("share", [0.9987, 0.99, 0.9])
@@ -112,6 +112,6 @@ def test_ten_thousand_campaigns_are_wrong_in_a_tenth_at_most(share, beside):
     rate = (1.0 - share) * beside
     flights = flights_needed(1, share, 0.9)
     failures = np.random.default_rng(17).binomial(flights, rate, 10_000)
-    verdicts = {count: fixed_verdict(flights, count, share, 0.9) for count in np.unique(failures)}
+    verdicts = {count: decide_by_size(flights, count, share, 0.9) for count in np.unique(failures)}
     wrong = Verdict.MET if rate > 1.0 - share else Verdict.NOT_MET
     assert sum(verdicts[count] is wrong for count in failures) <= 1090

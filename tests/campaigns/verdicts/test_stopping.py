@@ -31,7 +31,7 @@ def ever(rule, rate, most, verdict):
         step = flights - last
         flown += step * alive.sum()
         alive = np.convolve(alive, binom.pmf(np.arange(step + 1), step, rate))
-        low, high = rule.permitted_failures(flights), rule.refused_failures(flights)
+        low, high = rule.acceptance_number(flights), rule.rejection_number(flights)
         met, refused = alive[: low + 1].sum(), alive[high:].sum()
         crossed += met if verdict is Verdict.MET else refused
         alive[: low + 1] = 0.0
@@ -47,9 +47,9 @@ def alone(rule, rate, most, verdict):
         step = flights - last
         alive = np.convolve(alive, binom.pmf(np.arange(step + 1), step, rate))
         if verdict is Verdict.MET:
-            stops = slice(0, rule.permitted_failures(flights) + 1)
+            stops = slice(0, rule.acceptance_number(flights) + 1)
         else:
-            stops = slice(rule.refused_failures(flights), None)
+            stops = slice(rule.rejection_number(flights), None)
         crossed += alive[stops].sum()
         alive[stops] = 0.0
         last = flights
@@ -120,7 +120,7 @@ def test_the_recursion_in_rational_numbers():
         most = -1
         while sum(share for count, share in alive.items() if count <= most + 1) <= budget:
             most += 1
-        assert rule.permitted_failures(flights) == most
+        assert rule.acceptance_number(flights) == most
         kept = np.arange(flights) >= 1
         spent += sum(share for count, share in alive.items() if count <= most)
         alive = {count: share for count, share in alive.items() if count > most}
@@ -141,8 +141,8 @@ def test_ten_thousand_campaigns_are_wrong_in_a_tenth_at_most(share, confidence, 
     looks = rule.looks(20 * flights_needed(0, share, confidence))
     steps = np.diff([0, *looks])
     failures = np.random.default_rng(18).binomial(steps, (1.0 - share) * beside, (10_000, len(steps))).cumsum(axis=1)
-    low = np.array([rule.permitted_failures(flights) for flights in looks])
-    high = np.array([rule.refused_failures(flights) for flights in looks])
+    low = np.array([rule.acceptance_number(flights) for flights in looks])
+    high = np.array([rule.rejection_number(flights) for flights in looks])
     end = len(looks)
 
     def first(stops):
@@ -200,9 +200,9 @@ def test_no_look_has_both_verdicts(share, confidence):
     assert len(looks) == 48  # 32 at one distance, 16 at twice that
     assert all(flights % rule.look == 0 for flights in looks)
     for flights in looks:
-        assert rule.permitted_failures(flights) < rule.refused_failures(flights)
-        fixed = FixedSize(share, confidence).permitted(flights)[1]
-        assert rule.permitted_failures(flights) <= fixed
+        assert rule.acceptance_number(flights) < rule.rejection_number(flights)
+        fixed = FixedSize(share, confidence).count_permitted(flights)[1]
+        assert rule.acceptance_number(flights) <= fixed
 
 
 def test_consumer_risk_is_that_of_stopping_so_early():
@@ -218,9 +218,9 @@ def test_consumer_risk_is_that_of_stopping_so_early():
 
 
 def test_only_looks_are_looked_at():
-    assert RULE.permitted(2299) == (2200, -1)
-    assert RULE.permitted(4199) == (4000, 1)
-    assert RULE.permitted(99) == (0, -1)
+    assert RULE.count_permitted(2299) == (2200, -1)
+    assert RULE.count_permitted(4199) == (4000, 1)
+    assert RULE.count_permitted(99) == (0, -1)
     with pytest.raises(ValueError, match="no look after 2250 flights"):
         RULE.decide(2250, 0)
     with pytest.raises(ValueError, match=r"0\.3 is not in 0\.5 to 1"):

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import beta, quantile_test
 
-from perilune.analysis.campaigns.verdicts.acceptance import permitted_failures
+from perilune.analysis.campaigns.verdicts.acceptance import acceptance_number
 from perilune.analysis.campaigns.verdicts.stopping import StoppingRule
 from perilune.analysis.campaigns.verdicts.tolerance import tolerance_bound as of_blocks
 
@@ -25,7 +25,7 @@ def tolerance_bound(values, permitted, upper):
 @given(st.integers(1, 4000), st.floats(0.5, 0.9999), st.floats(0.5, 0.999))
 def test_the_order_statistic_has_the_confidence_and_the_next_has_not(flights, share, confidence):
     """The r-th smallest of n is distributed as beta(r, n + 1 - r) on the scale of shares (Wilks)."""
-    permitted = permitted_failures(flights, share, confidence)
+    permitted = acceptance_number(flights, share, confidence)
     if permitted >= 0:
         assert beta.sf(share, flights - permitted, permitted + 1) >= confidence - 1e-9
     if permitted + 1 < flights:
@@ -35,7 +35,7 @@ def test_the_order_statistic_has_the_confidence_and_the_next_has_not(flights, sh
 @pytest.mark.parametrize("upper", [True, False])
 def test_ten_thousand_campaigns_bound_the_quantile(upper):
     flights, share, confidence = 93, 0.95, 0.95
-    permitted = permitted_failures(flights, share, confidence)
+    permitted = acceptance_number(flights, share, confidence)
     assert permitted == 1
     values = np.random.default_rng(3).standard_normal((10_000, flights))
     bounds = np.array([tolerance_bound(row, permitted, upper) for row in values])
@@ -51,7 +51,7 @@ def test_bounds_hold_however_often_they_are_looked_at():
     values = np.random.default_rng(4).uniform(size=(4000, 400))
     missed = np.zeros(4000, dtype=bool)
     for flights in looks:
-        permitted = rule.permitted_failures(flights)
+        permitted = rule.acceptance_number(flights)
         if permitted >= 0:
             missed |= np.sort(values[:, :flights], axis=1)[:, -1 - permitted] < 0.9
     assert np.count_nonzero(missed) <= 400 + 57  # three deviations
@@ -60,14 +60,14 @@ def test_bounds_hold_however_often_they_are_looked_at():
 def test_agrees_with_scipys_quantile_test():
     values = np.random.default_rng(5).exponential(size=200)
     share, confidence = 0.95, 0.9
-    bound = tolerance_bound(values, permitted_failures(200, share, confidence), upper=True)
+    bound = tolerance_bound(values, acceptance_number(200, share, confidence), upper=True)
     interval = quantile_test(values, p=share, alternative="less").confidence_interval(confidence)
     assert bound == interval.high
 
 
 def test_too_few_flights_have_none():
-    assert tolerance_bound(np.ones(58), permitted_failures(58, 0.95, 0.95), upper=True) is None
-    assert tolerance_bound(np.ones(59), permitted_failures(59, 0.95, 0.95), upper=True) == 1.0
+    assert tolerance_bound(np.ones(58), acceptance_number(58, 0.95, 0.95), upper=True) is None
+    assert tolerance_bound(np.ones(59), acceptance_number(59, 0.95, 0.95), upper=True) == 1.0
 
 
 @pytest.mark.parametrize("odd", [math.nan, math.inf, -math.inf])

@@ -35,17 +35,17 @@ BIAS = "gain.u=bias:0.5@0.25..0.75"
 
 @pytest.fixture(scope="module")
 def folder(tiny_folder, tmp_path_factory):
-    found = tmp_path_factory.mktemp("option")
+    actual = tmp_path_factory.mktemp("option")
     parts = (
         component("ramp", "ramp", "output y Real m; output flag Boolean; output count Integer"),
         component("gain", "gain", "input u Real m; output y Real m"),
         component("whole", "whole", "input n Integer; input b Boolean; output m Integer; output c Boolean"),
     )
     wires = connection("ramp.y", "gain.u") + connection("ramp.flag", "whole.b") + connection("ramp.count", "whole.n")
-    pack(found / "s.ssp", tiny_folder / "native", document(system(*parts, connections=wires)))
-    (found / "bare.toml").write_text(CAMPAIGN)
-    (found / "held.toml").write_text(CAMPAIGN + HELD)
-    return found
+    pack(actual / "s.ssp", tiny_folder / "native", document(system(*parts, connections=wires)))
+    (actual / "bare.toml").write_text(CAMPAIGN)
+    (actual / "held.toml").write_text(CAMPAIGN + HELD)
+    return actual
 
 
 @pytest.fixture
@@ -139,15 +139,15 @@ def test_batch_and_its_replay(folder, batch, tmp_path, capsys):
         options = ["--campaign", str(folder / "held.toml"), "--fault", BIAS]
         replay = ["replay", command[1], str(row["trial"]), *options, "--output", str(file)]
         assert main([*replay, "--json", "-"]) == 0
-        found = json.loads(capsys.readouterr().out)
+        actual = json.loads(capsys.readouterr().out)
         held = [f"ramp.y=freeze@{row['draw.t0']!r}"] if row["fault.held"] else []
-        assert found["faults"] == [*held, BIAS]
-        assert found["metrics"]["last"] == row["metric.last"]
+        assert actual["faults"] == [*held, BIAS]
+        assert actual["metrics"]["last"] == row["metric.last"]
         table = pyarrow.parquet.read_table(file)
-        assert json.loads(table.schema.metadata[b"perilune"])["faults"] == found["faults"]
+        assert json.loads(table.schema.metadata[b"perilune"])["faults"] == actual["faults"]
         assert table["gain.y"][-1].as_py() == (row["metric.last"])
         assert main(replay) == 0
-        assert f"with faults: {'; '.join(found['faults'])}" in capsys.readouterr().out.splitlines()
+        assert f"with faults: {'; '.join(actual['faults'])}" in capsys.readouterr().out.splitlines()
 
 
 def test_comparisons_say_which_faults_flew(folder, batch, tmp_path, capsys):

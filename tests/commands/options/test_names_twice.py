@@ -44,23 +44,23 @@ def remarks(command: list[str], capsys) -> tuple[list[str], dict]:
 
 @pytest.mark.parametrize("name", ["paper", "paper.toml"])
 def test_a_campaign(name, here, capsys):
-    said, found = remarks([*BATCH, "--campaign", name], capsys)
-    assert found["seed"] == 20170700
+    said, actual = remarks([*BATCH, "--campaign", name], capsys)
+    assert actual["seed"] == 20170700
     (line,) = said
     assert line.startswith(f"`campaign` {name}: read from ssp_systems/{SYSTEM}!")
     assert line.endswith("paper.toml in the working folder, is not: write `campaign` ./paper.toml for that one")
-    said, found = remarks([*BATCH, "--campaign", "./paper.toml"], capsys)
-    assert (said, found["seed"]) == ([], 5)
+    said, actual = remarks([*BATCH, "--campaign", "./paper.toml"], capsys)
+    assert (said, actual["seed"]) == ([], 5)
 
 
 def test_a_parameter_set(here, capsys):
-    said, found = remarks(["run", SYSTEM, "--parameters", "noisy.ssv"], capsys)
+    said, actual = remarks(["run", SYSTEM, "--parameters", "noisy.ssv"], capsys)
     (line,) = said
     assert line.startswith(f"`parameters` noisy.ssv: read from ssp_systems/{SYSTEM}!resources/noisy.ssv; another file")
     assert line.endswith("write `parameters` ./noisy.ssv for that one")
     said, other = remarks(["run", SYSTEM, "--parameters", "./noisy.ssv"], capsys)
     assert said == []
-    assert other["final"] != found["final"]
+    assert other["final"] != actual["final"]
 
 
 def test_from_python(here):

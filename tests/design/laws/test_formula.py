@@ -15,13 +15,13 @@ from hypothesis import strategies as st
 
 from perilune.analysis.design.laws.expression_tree import evaluate_tree, expression_tree, nodes_of
 from perilune.analysis.design.laws.formula import formula, formula_text
-from perilune.analysis.design.laws.law import Law, named_law, read_law
+from perilune.analysis.design.laws.law import Law, find_law, read_law
 from perilune.fmus_src.mathlib import network_operator
 from tests.support.laws.networks import SOURCES, depends, matrices, random_matrix
 from tests.support.lengths import either
 
-PAPER = read_law(named_law("diveev_2013"))
-BASIC = read_law(named_law("diveev_2013_basic"))
+PAPER = read_law(find_law("diveev_2013"))
+BASIC = read_law(find_law("diveev_2013_basic"))
 LN_LARGEST = math.log(1e8)
 
 
@@ -141,8 +141,8 @@ def test_what_is_printed_is_what_is_evaluated():
         law = Law("random", random_matrix(random), tuple(random.uniform(0.1, 2.0, 3)), "true")
         theta, d = random.uniform(-3.0, 0.5), random.uniform(-1.0, 1.0)
         if all(1e-3 < abs(value) < 15.0 for value in node_values(law, theta, d)):
-            found = evaluate_tree(law, theta, d)
-            assert found == pytest.approx(read_back(law, theta, d), rel=1e-9), formula_text(law)
+            actual = evaluate_tree(law, theta, d)
+            assert actual == pytest.approx(read_back(law, theta, d), rel=1e-9), formula_text(law)
             compared |= set(np.ravel(law.matrix).tolist())
     assert compared == {0, *network_operator.UNARY_OPERATIONS}
 

@@ -14,7 +14,7 @@ from lxml import etree
 
 from perilune.analysis.design.laws.formula import formula
 from perilune.analysis.design.laws.graph import law_figure, law_svg
-from perilune.analysis.design.laws.law import Law, named_law, read_law
+from perilune.analysis.design.laws.law import Law, find_law, read_law
 from perilune.analysis.design.laws.layers import JOINT_GAP, NODE_GAP, Layout, longest_paths
 from perilune.analysis.reports.common.style import house_style
 from tests.support.laws.networks import matrices
@@ -75,7 +75,7 @@ def test_a_graph_that_can_be_drawn_without_crossings_is():
 
 @pytest.mark.parametrize("name", ["diveev_2013", "diveev_2013_basic"])
 def test_the_svg_is_the_same_every_time(name):
-    law = read_law(named_law(name))
+    law = read_law(find_law(name))
     drawing = law_svg(law)
     assert drawing == law_svg(law)
     root = etree.fromstring(drawing)
@@ -92,15 +92,15 @@ def texts(law):
 
 
 def test_everything_the_law_is_made_of_is_in_the_drawing():
-    found = [text for text, _ in texts(read_law(named_law("diveev_2013")))]
+    actual = [text for text, _ in texts(read_law(find_law("diveev_2013")))]
     for name in ("π + θ", "q1", "q2", "θ", "q3", "z7", "z14", "u1 = z15", "u2 = z16", "exp", "step", "1/z", "cos"):
-        assert name in found
-    assert found.count("exp") == 3
-    assert found.count("+") == 5  # z11, z13, z14 and the outputs gather by sum
+        assert name in actual
+    assert actual.count("exp") == 3
+    assert actual.count("+") == 5  # z11, z13, z14 and the outputs gather by sum
 
 
 def test_labels_do_not_lie_on_each_other():
-    boxes = [box for _, box in texts(read_law(named_law("diveev_2013")))]
+    boxes = [box for _, box in texts(read_law(find_law("diveev_2013")))]
     for first, second in itertools.combinations(boxes, 2):
         across = min(first.x1, second.x1) - max(first.x0, second.x0)
         down = min(first.y1, second.y1) - max(first.y0, second.y0)

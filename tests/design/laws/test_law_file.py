@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.design.laws.law import Law, named_law, read_law
+from perilune.analysis.design.laws.law import Law, find_law, read_law
 from tests.support.laws.networks import matrices
 
 PAPER = {
@@ -33,9 +33,9 @@ BASIC = {
     [("diveev_2013", PAPER, (1.50049, 13.5459, 12.96753)), ("diveev_2013_basic", BASIC, (1.0, 1.0, 1.0))],
 )
 def test_published_laws(name, entries, q):
-    law = read_law(named_law(name))
-    found = np.array(law.matrix)
-    assert {(int(i) + 1, int(j) + 1): found[i, j] for i, j in np.argwhere(found)} == entries
+    law = read_law(find_law(name))
+    actual = np.array(law.matrix)
+    assert {(int(i) + 1, int(j) + 1): actual[i, j] for i, j in np.argwhere(actual)} == entries
     assert law.q == q
     assert law.exp_saturation == "legacy"
     assert law.name == name
@@ -64,13 +64,13 @@ def test_there_and_back(tmp_path_factory, law):
 
 
 def document():
-    return json.loads(named_law("diveev_2013").read_text())
+    return json.loads(find_law("diveev_2013").read_text())
 
 
 def with_cell(row, column, value):
-    found = document()
-    found["matrix"][row - 1][column - 1] = value
-    return found
+    actual = document()
+    actual["matrix"][row - 1][column - 1] = value
+    return actual
 
 
 def without(key):
@@ -147,12 +147,12 @@ def test_what_is_no_json(tmp_path, text, words):
 
 
 def test_laws_are_found_by_name_then_by_path(tmp_path):
-    assert named_law("diveev_2013").name == "diveev_2013.json"
+    assert find_law("diveev_2013").name == "diveev_2013.json"
     mine = tmp_path / "mine.json"
     mine.write_text(json.dumps(document()))
-    assert named_law("mine.json", tmp_path) == mine
-    assert named_law(str(mine)) == mine
+    assert find_law("mine.json", tmp_path) == mine
+    assert find_law(str(mine)) == mine
     with pytest.raises(InputError, match="no such law or file; use one of diveev_2013, diveev_2013_basic"):
-        named_law("diveev")
+        find_law("diveev")
     with pytest.raises(InputError, match="give a readable file"):
         read_law(tmp_path)

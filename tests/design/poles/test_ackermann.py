@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.design.poles.ackermann import ackermann, ackermann_of, coefficients_of, last_rows
-from perilune.analysis.design.poles.polynomial import block_companion, polynomial_of_solvents, wanted_polynomial
+from perilune.analysis.design.poles.polynomial import block_companion, make_polynomial, polynomial_of_solvents
 from perilune.analysis.design.poles.refusal import PlacementError, Reason
 from perilune.analysis.design.poles.spectrum import Spectrum
 from tests.support.lengths import either
@@ -30,10 +30,10 @@ def determinant(coefficients: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize(("states", "inputs"), CLASS)
 def test_places_every_draw(states: int, inputs: int) -> None:
     for a, b, _, poles in random_systems(COUNT, states, inputs):
-        found = ackermann(a, b, Spectrum.of(poles, states))
-        assert_placed(a - b @ found.gain, poles)
-        assert found.condition_u == pytest.approx(
-            np.linalg.cond(control.ctrb(a, b)[:, :states]), rel=1e-6 * max(1.0, 1e-9 * found.condition_u)
+        actual = ackermann(a, b, Spectrum.of(poles, states))
+        assert_placed(a - b @ actual.gain, poles)
+        assert actual.condition_u == pytest.approx(
+            np.linalg.cond(control.ctrb(a, b)[:, :states]), rel=1e-6 * max(1.0, 1e-9 * actual.condition_u)
         )
 
 
@@ -42,10 +42,10 @@ def test_the_characteristic_polynomial_is_that_of_phi(states: int, inputs: int) 
     random = np.random.default_rng(states)
     for a, b, _, _ in random_systems(COUNT, states, inputs, seed=1):
         coefficients = random.normal(size=(states // inputs, inputs, inputs))
-        found = ackermann_of(a, b, coefficients)
+        actual = ackermann_of(a, b, coefficients)
         wanted = determinant(coefficients)
-        error = np.max(np.abs(np.poly(a - b @ found.gain) - wanted)) / np.max(np.abs(wanted))
-        assert error < 1e-11 * found.condition_u
+        error = np.max(np.abs(np.poly(a - b @ actual.gain) - wanted)) / np.max(np.abs(wanted))
+        assert error < 1e-11 * actual.condition_u
         assert pole_error(block_companion(coefficients), np.roots(wanted)) < 1e-6
 
 
@@ -76,7 +76,7 @@ def test_solvents_give_the_union_of_their_spectra(blocks: int, inputs: int) -> N
 def test_diagonal_solvents_are_the_choice_for_real_poles() -> None:
     spectrum = Spectrum.of([-1.0, -2.0, -3.0, -4.0], 4)
     np.testing.assert_allclose(
-        wanted_polynomial(spectrum, [2, 2]), polynomial_of_solvents([np.diag([-2.0, -1.0]), np.diag([-4.0, -3.0])])
+        make_polynomial(spectrum, [2, 2]), polynomial_of_solvents([np.diag([-2.0, -1.0]), np.diag([-4.0, -3.0])])
     )
 
 
@@ -85,7 +85,7 @@ def test_pairs_that_lie_across(degrees: tuple[int, ...]) -> None:
     """As many pairs as there can be, through the controllable canonical form with these indices."""
     size = sum(degrees)
     poles = np.array([complex(-1.0 - i, s * (0.5 + i)) for i in range(size // 2) for s in (1, -1)])
-    coefficients = wanted_polynomial(Spectrum.of(poles, size), degrees)
+    coefficients = make_polynomial(Spectrum.of(poles, size), degrees)
     loop, start = np.eye(size, k=1), np.cumsum([0, *degrees])
     for i in range(len(degrees)):
         row = start[i + 1] - 1
@@ -98,9 +98,9 @@ def test_pairs_that_lie_across(degrees: tuple[int, ...]) -> None:
 
 def test_one_input_agrees_with_python_control() -> None:
     for a, b, _, poles in random_systems(either(50, 6), 4, 1, seed=3):
-        found = ackermann(a, b, Spectrum.of(poles, 4))
+        actual = ackermann(a, b, Spectrum.of(poles, 4))
         expected = control.acker(a, b, poles).reshape(1, 4)
-        np.testing.assert_allclose(found.gain, expected, rtol=1e-12 * found.condition_u)
+        np.testing.assert_allclose(actual.gain, expected, rtol=1e-12 * actual.condition_u)
 
 
 def test_what_it_refuses() -> None:

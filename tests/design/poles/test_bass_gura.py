@@ -18,9 +18,9 @@ from tests.support.modal.draws import EPS, assert_placed, random_systems
 def test_places_every_draw_with_ackermanns_gain(states: int, inputs: int) -> None:
     for a, b, _, poles in random_systems(either(50, 6), states, inputs, seed=4):
         spectrum = Spectrum.of(poles, states)
-        found, other = bass_gura(a, b, spectrum), ackermann(a, b, spectrum)
-        assert_placed(a - b @ found.gain, poles)
-        assert np.linalg.norm(found.gain - other.gain) <= 100.0 * EPS * other.condition_u * np.linalg.norm(other.gain)
+        actual, other = bass_gura(a, b, spectrum), ackermann(a, b, spectrum)
+        assert_placed(a - b @ actual.gain, poles)
+        assert np.linalg.norm(actual.gain - other.gain) <= 100.0 * EPS * other.condition_u * np.linalg.norm(other.gain)
 
 
 def test_one_input_is_the_formula_of_the_textbook() -> None:
@@ -30,8 +30,8 @@ def test_one_input_is_the_formula_of_the_textbook() -> None:
         toeplitz = np.eye(4) + sum(own[i] * np.eye(4, k=i + 1) for i in range(3))
         controllability = np.hstack([np.linalg.matrix_power(a, i) @ b for i in range(4)])
         expected = (wanted - own) @ np.linalg.inv(controllability @ toeplitz)
-        found = bass_gura(a, b, Spectrum.of(poles, 4))
-        np.testing.assert_allclose(found.gain[0], expected, rtol=1e-12 * found.condition_u)
+        actual = bass_gura(a, b, Spectrum.of(poles, 4))
+        np.testing.assert_allclose(actual.gain[0], expected, rtol=1e-12 * actual.condition_u)
 
 
 @pytest.mark.parametrize("plant", [(np.eye(5), np.eye(5)[:, :2]), (np.eye(4), np.eye(4)[:, :2])])

@@ -44,9 +44,9 @@ def test_every_member_of_the_family_is_a_closed_loop(case: tuple[int, int, int],
     assert np.linalg.norm((a + b @ gain) @ vectors - vectors @ family.matrix, 2) < 1e-11 * size
     # of the real matrix and of the unit eigenvectors
     assert np.linalg.cond(vectors) == pytest.approx(kappa_of(a + b @ gain), rel=1e-6)
-    joint, found = family.as_complex(vectors)
+    joint, actual = family.as_complex(vectors)
     np.testing.assert_allclose(np.linalg.norm(joint, axis=0), 1.0, rtol=1e-12)
-    assert sorted(found, key=lambda pole: (pole.real, pole.imag)) == pytest.approx(
+    assert sorted(actual, key=lambda pole: (pole.real, pole.imag)) == pytest.approx(
         sorted(poles, key=lambda pole: (pole.real, pole.imag))
     )
 
@@ -64,18 +64,18 @@ def test_gradients(order: float) -> None:
 
 def test_as_many_inputs_as_states_give_orthogonal_eigenvectors() -> None:
     for a, b, _, poles in random_systems(either(20, 3), 4, 4, seed=13):
-        found = least_condition(a, b, Spectrum.of(poles, 4), STARTS, 0)
-        assert found.kappa == pytest.approx(1.0, abs=1e-5)
-        assert_placed(a - b @ found.gain, poles)
+        actual = least_condition(a, b, Spectrum.of(poles, 4), STARTS, 0)
+        assert actual.kappa == pytest.approx(1.0, abs=1e-5)
+        assert_placed(a - b @ actual.gain, poles)
 
 
 def test_the_least_gain_that_shifts_a_spectrum() -> None:
     """B = I: |K| is at least |tr K|/n, which K = shift I reaches."""
     for a, _, _, _ in random_systems(either(20, 2), 4, 4, seed=14):
         poles = np.linalg.eigvals(a) - 3.0
-        found = least_norm(a, np.eye(4), Spectrum.of(poles, 4), STARTS, 0)
-        assert 3.0 * (1.0 - 1e-12) <= found.norm < 3.0 * 1.02
-        assert_placed(a - found.gain, poles)
+        actual = least_norm(a, np.eye(4), Spectrum.of(poles, 4), STARTS, 0)
+        assert 3.0 * (1.0 - 1e-12) <= actual.norm < 3.0 * 1.02
+        assert_placed(a - actual.gain, poles)
 
 
 @pytest.mark.parametrize(
@@ -84,9 +84,9 @@ def test_the_least_gain_that_shifts_a_spectrum() -> None:
 def test_least_condition_is_below_place_poles(states: int, inputs: int, count: int) -> None:
     ratios = []
     for a, b, _, poles in random_systems(count, states, inputs, most_pairs=0, seed=15):
-        found = least_condition(a, b, Spectrum.of(poles, states), STARTS, 0)
-        assert_placed(a - b @ found.gain, poles)
-        ratios.append(found.kappa / kappa_of(a - b @ yang_and_tits(a, b, poles.real)))
+        actual = least_condition(a, b, Spectrum.of(poles, states), STARTS, 0)
+        assert_placed(a - b @ actual.gain, poles)
+        ratios.append(actual.kappa / kappa_of(a - b @ yang_and_tits(a, b, poles.real)))
     assert max(ratios) < 1.001
     if LONG:  # single systems say nothing about a median
         assert np.median(ratios) <= 0.8
@@ -97,10 +97,10 @@ def test_least_gain_is_below_the_others(states: int, inputs: int, count: int) ->
     norms = []
     for a, b, _, poles in random_systems(either(20, count), states, inputs, most_pairs=0, seed=16):
         spectrum = Spectrum.of(poles, states)
-        found, diagonal = least_norm(a, b, spectrum, STARTS, 0), multilevel(a, b, spectrum)
-        assert_placed(a - b @ found.gain, poles)
-        norms.append((found.norm, diagonal.norm, np.linalg.norm(yang_and_tits(a, b, poles.real), 2)))
-        assert found.norm <= min(norms[-1][1:])
+        actual, diagonal = least_norm(a, b, spectrum, STARTS, 0), multilevel(a, b, spectrum)
+        assert_placed(a - b @ actual.gain, poles)
+        norms.append((actual.norm, diagonal.norm, np.linalg.norm(yang_and_tits(a, b, poles.real), 2)))
+        assert actual.norm <= min(norms[-1][1:])
     if LONG:
         least, diagonal, yang = np.median(norms, axis=0)
         assert least < 0.5 * diagonal
@@ -119,16 +119,16 @@ def test_one_input_leaves_no_choice(search) -> None:
     for a, b, _, poles in random_systems(either(20, 4), 4, 1, seed=18):
         spectrum = Spectrum.of(poles, 4)
         other = indices(a, b, spectrum)
-        found = search(a, b, spectrum, 1, 0)
-        assert_placed(a - b @ found.gain, poles)
-        np.testing.assert_allclose(found.gain, other.gain, atol=1e-11 * other.condition_u * other.norm)
+        actual = search(a, b, spectrum, 1, 0)
+        assert_placed(a - b @ actual.gain, poles)
+        np.testing.assert_allclose(actual.gain, other.gain, atol=1e-11 * other.condition_u * other.norm)
 
 
 def test_repeated_poles() -> None:
     a, b, _, _ = next(random_systems(1, 4, 2, seed=19))
     poles = [-1.0, -1.0, -2.0, -3.0]
-    found = least_condition(a, b, Spectrum.of(poles, 4), STARTS, 0)
-    loop = a - b @ found.gain
+    actual = least_condition(a, b, Spectrum.of(poles, 4), STARTS, 0)
+    loop = a - b @ actual.gain
     assert np.linalg.matrix_rank(loop + np.eye(4), 1e-9) == 2  # a full set of eigenvectors
     with pytest.raises(PlacementError, match="wanted 3 times and B has rank 2") as refused:
         least_condition(a, b, Spectrum.of([-1.0, -1.0, -1.0, -3.0], 4), STARTS, 0)

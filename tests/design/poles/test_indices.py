@@ -52,25 +52,27 @@ def test_indices_and_poles_of_pairs_with_known_indices(lengths: list[int], seed:
     size = sum(lengths)
     if size <= 8:
         poles = random_spectrum(random, size, int(random.integers(size // 2 + 1)))
-        found = indices(a, b, Spectrum.of(poles, size))
-        assert_placed(a - b @ found.gain, poles)
+        actual = indices(a, b, Spectrum.of(poles, size))
+        assert_placed(a - b @ actual.gain, poles)
         unused = [i for i, length in enumerate(lengths) if not length]
-        assert not np.any(found.gain[unused])
+        assert not np.any(actual.gain[unused])
 
 
 def test_an_input_that_another_stands_for_gets_no_gain() -> None:
     a, b, _, poles = next(random_systems(1, 5, 2))
     joint = np.column_stack([b[:, 0], 2.0 * b[:, 0], b[:, 1]])
     assert controllability_indices(a, joint) == (3, 0, 2)
-    found = indices(a, joint, Spectrum.of(poles, 5))
-    assert not np.any(found.gain[1])
-    assert_placed(a - joint @ found.gain, poles)
+    actual = indices(a, joint, Spectrum.of(poles, 5))
+    assert not np.any(actual.gain[1])
+    assert_placed(a - joint @ actual.gain, poles)
 
 
 def test_one_input_agrees_with_python_control() -> None:
     for a, b, _, poles in random_systems(either(50, 6), 5, 1, seed=7):
-        found = indices(a, b, Spectrum.of(poles, 5))
-        np.testing.assert_allclose(found.gain[0], np.ravel(control.acker(a, b, poles)), rtol=1e-12 * found.condition_u)
+        actual = indices(a, b, Spectrum.of(poles, 5))
+        np.testing.assert_allclose(
+            actual.gain[0], np.ravel(control.acker(a, b, poles)), rtol=1e-12 * actual.condition_u
+        )
 
 
 @given(st.integers(1, 3), st.integers(0, 2**32 - 1))

@@ -23,9 +23,9 @@ PAIRS = [(4, 1, 0), (4, 2, 2), (6, 2, 3), (6, 3, 2), (8, 2, 4), (8, 4, 4), (5, 2
 @pytest.mark.parametrize(("states", "inputs", "most"), PAIRS)
 def test_places_every_draw(states: int, inputs: int, most: int) -> None:
     for a, b, _, poles in random_systems(COUNT, states, inputs, most_pairs=most, seed=8):
-        found = multilevel(a, b, Spectrum.of(poles, states))
-        assert_placed(a - b @ found.gain, poles)
-        assert sum(len(values) for values in found.levels) == states
+        actual = multilevel(a, b, Spectrum.of(poles, states))
+        assert_placed(a - b @ actual.gain, poles)
+        assert sum(len(values) for values in actual.levels) == states
 
 
 @pytest.mark.parametrize(("states", "inputs", "most"), PAIRS)
@@ -33,7 +33,7 @@ def test_the_identity_of_level_0(states: int, inputs: int, most: int) -> None:
     """B^- (A + B K) = Phi_0 B^-, however badly conditioned the closed loop."""
     for a, b, _, poles in random_systems(COUNT, states, inputs, most_pairs=most, seed=9):
         levels = decompose(a, b)
-        parts = Spectrum.of(poles, states).ranked([level.rank for level in levels])
+        parts = Spectrum.of(poles, states).rank([level.rank for level in levels])
         gain, inverse = assemble(levels, [part.matrix for part in parts])
         closed_loop = a + b @ gain
         left = inverse @ closed_loop - parts[0].matrix @ inverse
@@ -51,8 +51,8 @@ def annihilated(closed_loop: np.ndarray, poles: dict[float, int]) -> float:
 @pytest.mark.parametrize(("states", "inputs"), [(4, 2), (6, 2), (6, 3), (5, 2), (7, 3), (8, 3), (3, 1)])
 def test_one_pole_of_full_multiplicity(states: int, inputs: int) -> None:
     for a, b, _, _ in random_systems(COUNT, states, inputs, seed=10):
-        found = multilevel(a, b, Spectrum.of([-1.5] * states, states))
-        assert annihilated(a - b @ found.gain, {-1.5: len(found.levels)}) < 1e-13
+        actual = multilevel(a, b, Spectrum.of([-1.5] * states, states))
+        assert annihilated(a - b @ actual.gain, {-1.5: len(actual.levels)}) < 1e-13
         with pytest.raises(ValueError, match="repeated"):
             place_poles(a, b, [-1.5] * states)
 
@@ -61,11 +61,11 @@ def test_one_pole_of_full_multiplicity(states: int, inputs: int) -> None:
 def test_several_repeated_poles(states: int, inputs: int) -> None:
     for a, b, _, _ in random_systems(COUNT, states, inputs, seed=11):
         poles = np.repeat([-1.0, -2.0], states // 2)
-        found = multilevel(a, b, Spectrum.of(poles, states))
-        ranks = [len(values) for values in found.levels]
+        actual = multilevel(a, b, Spectrum.of(poles, states))
+        ranks = [len(values) for values in actual.levels]
         on_levels = np.split(np.sort(poles), np.cumsum(ranks)[:-1])  # the fastest first
         index = {pole: sum(pole in level for level in on_levels) for pole in (-1.0, -2.0)}
-        assert annihilated(a - b @ found.gain, index) < 1e-13
+        assert annihilated(a - b @ actual.gain, index) < 1e-13
 
 
 def test_levels_drive_each_other_one_way() -> None:
@@ -74,9 +74,9 @@ def test_levels_drive_each_other_one_way() -> None:
     b = np.vstack([np.zeros((4, 2)), np.eye(2)])
     levels = decompose(a, b)
     assert [level.rank for level in levels] == [2, 2, 2]
-    found = place_on_levels(levels, [-3.0 * np.eye(2), -2.0 * np.eye(2), -np.eye(2)], np.repeat([-1.0, -2.0, -3.0], 2))
+    actual = place_on_levels(levels, [-3.0 * np.eye(2), -2.0 * np.eye(2), -np.eye(2)], np.repeat([-1.0, -2.0, -3.0], 2))
     # (s + 1)(s + 2)(s + 3) = s^3 + 6 s^2 + 11 s + 6 for each axis
-    np.testing.assert_allclose(found.gain, np.hstack([6.0 * np.eye(2), 11.0 * np.eye(2), 6.0 * np.eye(2)]), atol=1e-12)
+    np.testing.assert_allclose(actual.gain, np.hstack([6.0 * np.eye(2), 11.0 * np.eye(2), 6.0 * np.eye(2)]), atol=1e-12)
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(-6, 6))
@@ -106,8 +106,8 @@ def test_refuses_what_is_not_controllable() -> None:
 def test_what_counts_as_new_is_a_parameter() -> None:
     a, b = np.array([[0.0, 1e-6], [0.0, 0.0]]), np.array([[0.0], [1.0]])
     spectrum = Spectrum.of([-1.0, -2.0], 2)
-    found = multilevel(a + np.diag([1.0, 0.0]), b, spectrum)
-    assert found.levels[1] == pytest.approx([1e-6])
+    actual = multilevel(a + np.diag([1.0, 0.0]), b, spectrum)
+    assert actual.levels[1] == pytest.approx([1e-6])
     with pytest.raises(PlacementError) as refused:
         multilevel(a + np.diag([1.0, 0.0]), b, spectrum, 1e-5)
     assert refused.value.number == pytest.approx(1e-6)

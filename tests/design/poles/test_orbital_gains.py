@@ -59,32 +59,32 @@ def test_the_plant_is_that_of_diagonal_inertia_in_scalars() -> None:
 def test_modal_regulator_with_levels_angles_and_rates() -> None:
     """u = J ((N A11 - S0 N - A21) a + (N + S0 - A22) (w - wp)), N = S1 - A11."""
     angles, rates = -np.diag([0.10, 0.08, 0.10]), -np.diag([0.15, 0.12, 0.15])
-    found = modal.place_levels(A, B, [rates, angles], bases=[I6[:, 3:], I6[:, :3]])
+    actual = modal.place_levels(A, B, [rates, angles], bases=[I6[:, 3:], I6[:, :3]])
     gains = [
         (-97.4628, 3.2273, 1.5004, -1625, 38.25, 24.56),
         (-4.3507, -288.0050, 2.9993, 29.25, -6000, 50.22),
         (1.5442, 1.8923, -435.0853, 25.44, 39.78, -7250),
     ]
-    np.testing.assert_allclose(-found.gain[:, :3], np.array(gains)[:, :3], atol=5.01e-5)
-    np.testing.assert_allclose(-found.gain[:, 3:], np.array(gains)[:, 3:], atol=5.01e-3)
+    np.testing.assert_allclose(-actual.gain[:, :3], np.array(gains)[:, :3], atol=5.01e-5)
+    np.testing.assert_allclose(-actual.gain[:, 3:], np.array(gains)[:, 3:], atol=5.01e-3)
     n = angles - A[:3, :3]
     closed = INERTIA @ np.hstack([n @ A[:3, :3] - rates @ n - A[3:, :3], n + rates - A[3:, 3:]])
-    np.testing.assert_allclose(-found.gain, closed, rtol=1e-10, atol=1e-9)
-    assert pole_error(A - B @ found.gain, [-0.10, -0.08, -0.10, -0.15, -0.12, -0.15]) < 1e-8
+    np.testing.assert_allclose(-actual.gain, closed, rtol=1e-10, atol=1e-9)
+    assert pole_error(A - B @ actual.gain, [-0.10, -0.08, -0.10, -0.15, -0.12, -0.15]) < 1e-8
 
 
 @pytest.mark.parametrize(("slow", "fast"), [(0.1, 1.0), (0.04, 0.3)])
 def test_observer_1_continuous_of_full_order(slow: float, fast: float) -> None:
     """L = (A + mu I)(C' + ey l), l = (-lambda/w0, 0, 0, 0, 0): levels of 5 and 1."""
-    found = modal.observer(A, C, [-slow, *[-fast] * 5])
-    assert found.method == "multilevel"
+    actual = modal.observer(A, C, [-slow, *[-fast] * 5])
+    assert actual.method == "multilevel"
     row = np.array([-slow / ORBIT, 0.0, 0.0, 0.0, 0.0])
     expected = (A + fast * I6) @ (C.T + np.outer(I6[YAW], row))
-    np.testing.assert_allclose(found.gain, expected, rtol=1e-9, atol=1e-12)
-    assert found.gain[YAW, 0] == pytest.approx(ORBIT - fast * slow / ORBIT, rel=1e-12)
+    np.testing.assert_allclose(actual.gain, expected, rtol=1e-9, atol=1e-12)
+    assert actual.gain[YAW, 0] == pytest.approx(ORBIT - fast * slow / ORBIT, rel=1e-12)
     # the same from multiples of I on the dual's levels
     dual = modal.place_levels(A.T, C.T, [-fast * np.eye(5), [[-slow]]])
-    np.testing.assert_allclose(dual.gain.T, found.gain, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(dual.gain.T, actual.gain, rtol=1e-9, atol=1e-12)
 
 
 def test_the_yaw_row_of_observer_1() -> None:
@@ -93,10 +93,10 @@ def test_the_yaw_row_of_observer_1() -> None:
 
 def test_observer_3_continuous_of_reduced_order() -> None:
     """Lr = -lambda/w0 on roll; the error decays with lambda."""
-    found = modal.reduced_observer(A, C, [-0.1], b=B)
+    actual = modal.reduced_observer(A, C, [-0.1], b=B)
     # W is the yaw axis up to its sign, which changes that of Lr
-    np.testing.assert_allclose(found.of_zeta[YAW] @ found.gain, [-0.1 / ORBIT, 0, 0, 0, 0], rtol=1e-12, atol=1e-12)
-    np.testing.assert_allclose(found.closed_loop, [[-0.1]], rtol=1e-12)
+    np.testing.assert_allclose(actual.of_zeta[YAW] @ actual.gain, [-0.1 / ORBIT, 0, 0, 0, 0], rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(actual.closed_loop, [[-0.1]], rtol=1e-12)
 
 
 def test_observer_4_discrete_of_full_order() -> None:

@@ -24,10 +24,10 @@ METHODS = ("ackermann", "bass_gura", "indices", "multilevel")
 @pytest.mark.parametrize("method", METHODS)
 def test_the_sign_is_that_of_scipy_and_python_control(method: str) -> None:
     for a, b, _, poles in random_systems(either(20, 4), 4, 1, most_pairs=0, seed=21):
-        found = modal.place(a, b, poles, method=method)
-        assert (found.method, found.gain.shape) == (method, (1, 4))
+        actual = modal.place(a, b, poles, method=method)
+        assert (actual.method, actual.gain.shape) == (method, (1, 4))
         for other in (place_poles(a, b, poles.real).gain_matrix, control.place(a, b, poles.real)):
-            np.testing.assert_allclose(found.gain, other, rtol=1e-6)
+            np.testing.assert_allclose(actual.gain, other, rtol=1e-6)
 
 
 def test_the_method_that_applies() -> None:
@@ -43,17 +43,17 @@ def test_the_method_that_applies() -> None:
 @settings(max_examples=either(300, 40))
 def test_any_sizes(states: int, inputs: int, seed: int) -> None:
     a, b, _, poles = next(random_systems(1, states, inputs, seed=seed))
-    found = modal.place(a, b, poles)
-    assert_placed(a - b @ found.gain, poles)
-    assert found.error == pytest.approx(pole_error(found.closed_loop, poles))
-    assert found.norm == pytest.approx(np.linalg.svd(found.gain, compute_uv=False)[0])
+    actual = modal.place(a, b, poles)
+    assert_placed(a - b @ actual.gain, poles)
+    assert actual.error == pytest.approx(pole_error(actual.closed_loop, poles))
+    assert actual.norm == pytest.approx(np.linalg.svd(actual.gain, compute_uv=False)[0])
 
 
 def test_sampled_plants_and_deadbeat() -> None:
     a, b, _, _ = next(random_systems(1, 4, 2))
     sampled = expm(0.1 * a)
-    found = modal.place(sampled, b, [0.0] * 4)
-    assert np.linalg.norm(np.linalg.matrix_power(sampled - b @ found.gain, len(found.levels)), 2) < 1e-10
+    actual = modal.place(sampled, b, [0.0] * 4)
+    assert np.linalg.norm(np.linalg.matrix_power(sampled - b @ actual.gain, len(actual.levels)), 2) < 1e-10
 
 
 def test_levels_in_the_coordinates_that_are_given() -> None:
@@ -63,27 +63,27 @@ def test_levels_in_the_coordinates_that_are_given() -> None:
     a = np.block([[0.1 * random.normal(size=(3, 3)), np.eye(3)], [random.normal(size=(3, 6))]])
     b = np.vstack([np.zeros((3, 3)), inertia])
     one, two = -np.diag([0.1, 0.2, 0.3]), np.array([[-1.0, 0.5, 0.0], [-0.5, -1.0, 0.0], [0.0, 0.0, -2.0]])
-    found = modal.place_levels(a, b, [two, one], bases=[np.eye(6)[:, 3:], np.eye(6)[:, :3]])
+    actual = modal.place_levels(a, b, [two, one], bases=[np.eye(6)[:, 3:], np.eye(6)[:, :3]])
     to_z = np.block([[np.eye(3), np.zeros((3, 3))], [a[:3, :3] - one, np.eye(3)]])
     expected = np.block([[one, np.eye(3)], [np.zeros((3, 3)), two]])
-    np.testing.assert_allclose(to_z @ (a - b @ found.gain) @ np.linalg.inv(to_z), expected, atol=1e-13)
-    assert pole_error(found.closed_loop, found.wanted) < 1e-12
+    np.testing.assert_allclose(to_z @ (a - b @ actual.gain) @ np.linalg.inv(to_z), expected, atol=1e-13)
+    assert pole_error(actual.closed_loop, actual.wanted) < 1e-12
 
 
 def test_levels_without_bases_have_the_spectra() -> None:
     a, b, _, _ = next(random_systems(1, 5, 2))
     wanted = [np.array([[-1.0, 2.0], [-2.0, -1.0]]), np.diag([-3.0, -4.0]), [[-5.0]]]
-    found = modal.place_levels(a, b, wanted)
-    assert_placed(a - b @ found.gain, np.array([-1 + 2j, -1 - 2j, -3, -4, -5]))
+    actual = modal.place_levels(a, b, wanted)
+    assert_placed(a - b @ actual.gain, np.array([-1 + 2j, -1 - 2j, -3, -4, -5]))
 
 
 def test_the_set_of_all_gains() -> None:
     a, b, _, poles = next(random_systems(1, 6, 2))
-    found = modal.place(a, b, poles)
-    coefficients = modal.polynomial_of_gain(a, b, found.gain)
+    actual = modal.place(a, b, poles)
+    coefficients = modal.polynomial_of_gain(a, b, actual.gain)
     assert coefficients.shape == (3, 2, 2)
     again = modal.place_polynomial(a, b, coefficients)
-    np.testing.assert_allclose(again.gain, found.gain, atol=1e-10 * found.norm)
+    np.testing.assert_allclose(again.gain, actual.gain, atol=1e-10 * actual.norm)
 
 
 SYSTEM = ([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
@@ -164,8 +164,8 @@ def test_refusals_say_a_number_and_survive_pickling() -> None:
 
 
 def test_the_result_in_a_line() -> None:
-    found = modal.place(*SYSTEM)
-    assert found.text().startswith("multilevel: |K| 3.606, kappa")
-    assert found.text().endswith("levels 1 | 1")
+    actual = modal.place(*SYSTEM)
+    assert actual.text().startswith("multilevel: |K| 3.606, kappa")
+    assert actual.text().endswith("levels 1 | 1")
     assert "cond(U) 1" in modal.place(*SYSTEM, method="ackermann").text()
     assert perilune.modal is modal

@@ -37,13 +37,13 @@ def test_resuming_after_every_generation_changes_nothing(tmp_path):
 
 
 def test_infinite_objectives_survive():
-    found = search(1)
-    found.advance()
-    first = found.state.population[0]
+    actual = search(1)
+    actual.advance()
+    first = actual.state.population[0]
     key, evaluation = first.key, first.evaluation._replace(objectives=(float("inf"), 1.0))
-    found.state.known[key] = evaluation
-    found.state.population[0] = first._replace(evaluation=evaluation)
-    text = json.dumps(state_document(found.state), allow_nan=False)
+    actual.state.known[key] = evaluation
+    actual.state.population[0] = first._replace(evaluation=evaluation)
+    text = json.dumps(state_document(actual.state), allow_nan=False)
     assert state_of(json.loads(text)).population[0].evaluation == evaluation
 
 
@@ -59,10 +59,10 @@ def test_a_search_that_began_otherwise_is_refused(tmp_path, facts, element):
 
 
 def test_damaged_checkpoints_are_refused(tmp_path):
-    found = search(1)
-    found.advance()
+    actual = search(1)
+    actual.advance()
     path = tmp_path / "checkpoint.json"
-    write_checkpoint(path, found.state, FACTS)
+    write_checkpoint(path, actual.state, FACTS)
     whole = json.loads(path.read_text())
     broken = [b"", b"{", b"[]", b"\xff", json.dumps({**whole, "version": 2}).encode()]
     for key in whole["state"]:

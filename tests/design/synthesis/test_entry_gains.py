@@ -76,13 +76,13 @@ def test_scheduled_poles_follow_the_pressure(gains):
 def test_the_robust_gain_is_in_the_set_of_every_pressure():
     """Generalised Ackermann: N_1 without the pressure, which N_0 alone holds."""
     robust = np.array([[-325.472, -1276.363, -299.691], [-97.484, -244.495, -468.357]])
-    found = []
+    actual = []
     for pressure in (200.0, 1147.0, 8000.0):
         a, b, c = plant(pressure)
-        found.append(modal.polynomial_of_gain(a, b, -robust @ c))
-    for coefficients in found:
+        actual.append(modal.polynomial_of_gain(a, b, -robust @ c))
+    for coefficients in actual:
         assert coefficients[1] == pytest.approx(np.array([[0.9194, 0.2692], [0.1855, 0.3806]]), abs=6e-5)
-    assert np.abs(found[0][0] - found[1][0]).max() > 0.1
+    assert np.abs(actual[0][0] - actual[1][0]).max() > 0.1
 
 
 def test_the_whole_model_needs_a_gain_that_nobody_would_fly():

@@ -38,8 +38,8 @@ def plan():
 def test_every_task_once_by_its_place(plan, workers, native):
     with FlyerPool(plan, workers, native) as pool:
         for _ in range(2):  # the pool can be used again
-            found = dict(pool.work(doubled, [(number,) for number in range(20)]))
-            assert found == {number: (2 * number, 5) for number in range(20)}
+            actual = dict(pool.work(doubled, [(number,) for number in range(20)]))
+            assert actual == {number: (2 * number, 5) for number in range(20)}
         assert list(pool.work(doubled, [])) == []
 
 

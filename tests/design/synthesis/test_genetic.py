@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from perilune.analysis.design.laws.expression_tree import evaluate_tree
-from perilune.analysis.design.laws.law import Law, named_law, read_law
+from perilune.analysis.design.laws.law import Law, find_law, read_law
 from perilune.analysis.design.synthesis.candidate import Phenotype
 from perilune.analysis.design.synthesis.genetic import Search, SearchState
 from perilune.analysis.design.synthesis.search_settings import SearchSettings
@@ -19,7 +19,7 @@ from tests.design.synthesis.test_pareto import dominates
 from tests.support.laws.regression import POINTS, TOLERANCE, FormulaEvaluator, near
 from tests.support.lengths import either
 
-BASIC = read_law(named_law("diveev_2013_basic"))
+BASIC = read_law(find_law("diveev_2013_basic"))
 SMALL = SearchSettings(population=32, generations=12, crossovers=20, elites=4, renewal=5, stop=False)
 
 
@@ -30,25 +30,25 @@ def search(seed, settings=SMALL, evaluator=None):
 
 
 def finished(*arguments, **keywords):
-    found = search(*arguments, **keywords)
-    while not found.is_over:
-        found.advance()
-    return found
+    actual = search(*arguments, **keywords)
+    while not actual.is_over:
+        actual.advance()
+    return actual
 
 
 @pytest.mark.parametrize("seed", range(either(3, 1)))
 def test_it_finds_a_formula(seed):
     """Within some thousand evaluations, where one of 420 variations and three parameters have to be found."""
-    found = finished(seed, SearchSettings(population=64, generations=60, crossovers=48))
-    assert found.state.succeeded
-    chosen = found.chosen()
+    actual = finished(seed, SearchSettings(population=64, generations=60, crossovers=48))
+    assert actual.state.succeeded
+    chosen = actual.chosen()
     assert chosen.evaluation.successes == chosen.evaluation.flown == FormulaEvaluator.trials
-    law = found.law(chosen)
+    law = actual.law(chosen)
     for point in POINTS:
         u1, u2 = evaluate_tree(Law("", law.matrix, law.q, "true"), *point)
         assert (u1, u2) == pytest.approx(near(*point), abs=TOLERANCE)
-    assert found.state.evaluations == len(found.state.known) == found.evaluator.laws
-    assert found.state.flights == found.evaluator.points
+    assert actual.state.evaluations == len(actual.state.known) == actual.evaluator.laws
+    assert actual.state.flights == actual.evaluator.points
 
 
 first = cache(finished)  # by seed; what comes of a search is looked at, not changed
@@ -79,47 +79,47 @@ def test_the_front_is_the_pareto_set_of_all_that_was_let_past_the_bar():
 
 
 def test_a_population_only_gets_better_between_renewals():
-    found = search(3)
-    found.advance()
-    before, replaced = {member.evaluation.objectives for member in found.state.population}, 0
-    while found.state.generation < SMALL.renewal - 1:
-        found.advance()
-        after = {member.evaluation.objectives for member in found.state.population}
+    actual = search(3)
+    actual.advance()
+    before, replaced = {member.evaluation.objectives for member in actual.state.population}, 0
+    while actual.state.generation < SMALL.renewal - 1:
+        actual.advance()
+        after = {member.evaluation.objectives for member in actual.state.population}
         lost = before - after
         replaced += len(lost)
         assert all(any(dominates(other, point) for other in after) for point in lost)
-        assert len(found.state.population) == SMALL.population
+        assert len(actual.state.population) == SMALL.population
         before = after
     assert replaced > 0
 
 
 def test_the_first_candidate_is_the_basic_solution():
-    found = search(0)
-    found.advance()
-    first = found.state.population[0]
-    assert found.law(first) == Phenotype(BASIC.matrix, BASIC.q)
-    assert len(found.state.population) == SMALL.population
-    assert found.state.generation == 0
+    actual = search(0)
+    actual.advance()
+    first = actual.state.population[0]
+    assert actual.law(first) == Phenotype(BASIC.matrix, BASIC.q)
+    assert len(actual.state.population) == SMALL.population
+    assert actual.state.generation == 0
 
 
 def test_a_renewal_takes_the_chosen_law_as_basis_and_keeps_the_elites():
-    found = search(5)
-    while found.state.generation < SMALL.renewal - 1:
-        found.advance()
+    actual = search(5)
+    while actual.state.generation < SMALL.renewal - 1:
+        actual.advance()
     calls = []
-    renew = found._renew
+    renew = actual._renew
 
     def watched():
-        calls.append((found.law(found.chosen()), list(found.state.population)))
+        calls.append((actual.law(actual.chosen()), list(actual.state.population)))
         renew()
 
-    found._renew = watched
-    found.advance()
+    actual._renew = watched
+    actual.advance()
     ((chosen, before),) = calls
-    state = found.state
+    state = actual.state
     assert len(state.bases) == 2
     fresh = [member for member in state.population if member.genes.basis == 1]
-    assert found.law(fresh[0]) == chosen
+    assert actual.law(fresh[0]) == chosen
     kept = [member for member in state.population if member in before]
     assert len(kept) >= SMALL.elites
     assert len(fresh) == SMALL.population - SMALL.elites
@@ -153,11 +153,11 @@ def test_laws_that_differ_in_nothing_that_counts_share_a_key():
 
 def test_stop_ends_the_search_at_the_first_law_without_failures():
     settings = replace(SMALL, stop=True)
-    found = search(0, settings, FormulaEvaluator(lambda theta, d: (1e9, 1e9)))
+    actual = search(0, settings, FormulaEvaluator(lambda theta, d: (1e9, 1e9)))
     easy = search(0, settings, FormulaEvaluator(lambda theta, d: evaluate_tree(BASIC, theta, d)))
-    found.advance()
+    actual.advance()
     easy.advance()
-    assert not found.is_over
+    assert not actual.is_over
     assert easy.is_over
     assert easy.state.succeeded
     assert easy.law(easy.chosen()).matrix == BASIC.matrix
@@ -166,11 +166,11 @@ def test_stop_ends_the_search_at_the_first_law_without_failures():
 def test_objectives_out_of_reach_are_infinite_and_lose():
     class Failing(FormulaEvaluator):
         def _evaluate(self, task, bar):
-            found = super()._evaluate(task, None)
-            return found if task.law.q == BASIC.q else found._replace(objectives=(np.inf, np.inf))
+            actual = super()._evaluate(task, None)
+            return actual if task.law.q == BASIC.q else actual._replace(objectives=(np.inf, np.inf))
 
-    found = search(1, replace(SMALL, generations=2), Failing(near))
-    while not found.is_over:
-        found.advance()
-    assert found.chosen().evaluation.objectives < (1e9, 1e9)
-    assert all(member.evaluation.objectives < (1e9, 1e9) for member in found.state.front)
+    actual = search(1, replace(SMALL, generations=2), Failing(near))
+    while not actual.is_over:
+        actual.advance()
+    assert actual.chosen().evaluation.objectives < (1e9, 1e9)
+    assert all(member.evaluation.objectives < (1e9, 1e9) for member in actual.state.front)

@@ -52,8 +52,8 @@ def test_codes_are_all_the_numbers_of_their_width(coding, data):
 def test_a_value_is_coded_to_the_nearest_step(coding, data):
     most = 2**coding.integer - 2.0**-coding.fraction
     values = data.draw(st.lists(st.floats(0.0, most), min_size=coding.count, max_size=coding.count))
-    for value, found in zip(values, coding.decode(coding.encode(values)), strict=True):
-        assert abs(Fraction(value) - Fraction(found)) <= Fraction(1, 2 ** (coding.fraction + 1))
+    for value, actual in zip(values, coding.decode(coding.encode(values)), strict=True):
+        assert abs(Fraction(value) - Fraction(actual)) <= Fraction(1, 2 ** (coding.fraction + 1))
 
 
 def test_the_first_parameter_has_the_highest_bits():

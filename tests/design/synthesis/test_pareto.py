@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.design.synthesis.pareto import ParetoOrder, dominated, dominators, ranks
+from perilune.analysis.design.synthesis.pareto import ParetoOrder, dominators, is_dominated, ranks
 
 VALUES = st.sampled_from([0.0, 1.0, 2.0, 3.0, 5.0, math.inf])  # few, so that many are equal
 POINTS = st.integers(1, 3).flatmap(
@@ -33,7 +33,7 @@ def test_ranks_are_numbers_of_dominators(points):
 @given(POINTS)
 def test_who_is_dominated(points):
     for point in points:
-        assert dominated(points, point).tolist() == [dominates(point, other) for other in points]
+        assert is_dominated(points, point).tolist() == [dominates(point, other) for other in points]
 
 
 def test_a_set_worked_by_hand():

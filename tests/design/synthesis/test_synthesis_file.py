@@ -12,7 +12,7 @@ import pytest
 
 from perilune.analysis.campaigns.spec.file import read_campaign
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.design.laws.law import named_law, read_law
+from perilune.analysis.design.laws.law import find_law, read_law
 from perilune.analysis.design.synthesis.search_settings import SearchSettings
 from perilune.analysis.design.synthesis.synthesis_file import LIMITS, read_synthesis
 from perilune.fmus_src.paths import LAWS
@@ -28,15 +28,15 @@ def read(tmp_path, text):
 
 
 def test_a_file_as_it_should_be(tmp_path):
-    found = read(tmp_path, TEXT)
-    assert found.campaign.trials == 4
-    assert found.component == "guidance"
-    assert found.fmu is None
-    assert found.basic == read_law(named_law("diveev_2013_basic"))
-    assert (found.step, found.stop_time) == (0.5, 320.0)
-    assert (found.settings.population, found.settings.mutation) == (8, 0.7)
-    assert list(found.objectives) == ["altitude", "speed"]
-    plan = found.plan(5)
+    actual = read(tmp_path, TEXT)
+    assert actual.campaign.trials == 4
+    assert actual.component == "guidance"
+    assert actual.fmu is None
+    assert actual.basic == read_law(find_law("diveev_2013_basic"))
+    assert (actual.step, actual.stop_time) == (0.5, 320.0)
+    assert (actual.settings.population, actual.settings.mutation) == (8, 0.7)
+    assert list(actual.objectives) == ["altitude", "speed"]
+    plan = actual.plan(5)
     assert plan.campaign.seed == 5
     assert plan.options.step == 0.5
     assert len(plan.overlaid) == 256 + 3 + 1
@@ -63,22 +63,22 @@ def test_every_key_is_documented_with_its_default_and_range():
 
 def test_the_example_in_the_docs_is_a_synthesis(tmp_path):
     (example,) = re.findall(r"```toml\n(.*?)```", DOCS, re.DOTALL)
-    found = read(tmp_path, example)
-    assert found.settings == SearchSettings()
+    actual = read(tmp_path, example)
+    assert actual.settings == SearchSettings()
 
 
 @pytest.mark.parametrize("path", sorted(LAWS.glob("searches/*.toml")), ids=lambda path: path.stem)
 def test_the_searches_of_this_repository(path):
-    found = read_synthesis(path)
-    assert path.stem.startswith(found.campaign.system)
-    assert found.settings == SearchSettings()
-    assert list(found.objectives) == ["altitude", "speed"]
+    actual = read_synthesis(path)
+    assert path.stem.startswith(actual.campaign.system)
+    assert actual.settings == SearchSettings()
+    assert list(actual.objectives) == ["altitude", "speed"]
 
 
 def test_a_law_beside_the_file(tmp_path):
-    (tmp_path / "mine.json").write_text(named_law("diveev_2013").read_text())
-    found = read(tmp_path, TEXT.replace("diveev_2013_basic", "mine.json"))
-    assert found.basic == read_law(named_law("diveev_2013"))
+    (tmp_path / "mine.json").write_text(find_law("diveev_2013").read_text())
+    actual = read(tmp_path, TEXT.replace("diveev_2013_basic", "mine.json"))
+    assert actual.basic == read_law(find_law("diveev_2013"))
 
 
 def changed(old, new):
@@ -134,7 +134,7 @@ def test_mistakes_are_named(tmp_path, text, words):
 
 
 def test_a_basic_solution_that_cannot_be_varied(tmp_path):
-    document = named_law("diveev_2013_basic").read_text()
+    document = find_law("diveev_2013_basic").read_text()
     row = " [ 0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  0,  1,  0]"
     (tmp_path / "mine.json").write_text(document.replace(row, row.replace("1", "0")))
     with pytest.raises(InputError, match=r"mine.json: matrix: nothing leads to node 15; give it an edge"):

@@ -39,8 +39,8 @@ def content(folder):
 
 @pytest.mark.parametrize("workers", [2, 3])
 def test_any_number_of_workers_finds_the_same(whole, tmp_path, workers):
-    found = run_synthesis(synthesis(tmp_path), workers=workers, output=tmp_path / "out")
-    assert found.search.state.population == whole[0].search.state.population
+    actual = run_synthesis(synthesis(tmp_path), workers=workers, output=tmp_path / "out")
+    assert actual.search.state.population == whole[0].search.state.population
     expected = content(whole[1])
     result = content(tmp_path / "out")
     assert json.loads(result.pop("pareto.json")) == json.loads(expected.pop("pareto.json")) | {

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from perilune.analysis.design.laws.law import named_law, read_law
+from perilune.analysis.design.laws.law import find_law, read_law
 from perilune.analysis.design.synthesis.variations import (
     ADD_EDGE,
     CHANGE_BINARY,
@@ -20,14 +20,14 @@ from perilune.analysis.design.synthesis.variations import (
     NOTHING,
     REMOVE_EDGE,
     Variation,
-    pruned,
+    apply_variations,
+    prune,
     random_variation,
-    varied,
 )
 from perilune.fmus_src.mathlib import network_operator
 from tests.support.laws.networks import SIZE, SOURCES, depends, matrices
 
-BASIC = read_law(named_law("diveev_2013_basic")).matrix
+BASIC = read_law(find_law("diveev_2013_basic")).matrix
 SEEDS = st.integers(0, 2**32)
 
 
@@ -40,12 +40,12 @@ def drawn(seed, count, matrix=BASIC):
 @settings(deadline=None)
 @given(matrices(), SEEDS, st.integers(0, 60))
 def test_variations_keep_what_a_network_operator_is(matrix, seed, count):
-    found = np.array(varied(matrix, drawn(seed, count, matrix)))
-    assert not np.tril(found, -1).any()
-    edges = found[np.triu_indices(SIZE, 1)]
+    actual = np.array(apply_variations(matrix, drawn(seed, count, matrix)))
+    assert not np.tril(actual, -1).any()
+    edges = actual[np.triu_indices(SIZE, 1)]
     assert set(edges.tolist()) <= {0, *network_operator.UNARY_OPERATIONS}
-    assert set(np.diagonal(found).tolist()) <= set(network_operator.BINARY_OPERATIONS)
-    before, after = depends(matrix), depends(found)
+    assert set(np.diagonal(actual).tolist()) <= set(network_operator.BINARY_OPERATIONS)
+    before, after = depends(matrix), depends(actual)
     for node in range(SOURCES, SIZE):
         leads_on = after[node].any()
         if leads_on or before[:SOURCES, node].any():
@@ -56,19 +56,19 @@ def test_variations_keep_what_a_network_operator_is(matrix, seed, count):
 
 @given(SEEDS)
 def test_no_edge_leads_to_a_source(seed):
-    found = np.array(varied(BASIC, drawn(seed, 100)))
-    assert not found[:, :SOURCES].any()
+    actual = np.array(apply_variations(BASIC, drawn(seed, 100)))
+    assert not actual[:, :SOURCES].any()
 
 
 def test_each_kind_does_what_it_says():
-    changed = np.array(varied(BASIC, [Variation(CHANGE_UNARY, 2, 7, 12)]))
+    changed = np.array(apply_variations(BASIC, [Variation(CHANGE_UNARY, 2, 7, 12)]))
     assert changed[2, 7] == 12
-    changed = np.array(varied(BASIC, [Variation(CHANGE_BINARY, 10, 10, 0)]))
+    changed = np.array(apply_variations(BASIC, [Variation(CHANGE_BINARY, 10, 10, 0)]))
     assert changed[10, 10] == 0
-    changed = np.array(varied(BASIC, [Variation(ADD_EDGE, 0, 15, 6)]))
+    changed = np.array(apply_variations(BASIC, [Variation(ADD_EDGE, 0, 15, 6)]))
     assert changed[0, 15] == 6
     # z8 gathers z3 and z4; z3 leads to z8 and z11
-    changed = np.array(varied(BASIC, [Variation(REMOVE_EDGE, 2, 7, 1)]))
+    changed = np.array(apply_variations(BASIC, [Variation(REMOVE_EDGE, 2, 7, 1)]))
     assert changed[2, 7] == 0
     for variation in (
         Variation(CHANGE_UNARY, 0, 15, 6),  # no edge there
@@ -78,7 +78,7 @@ def test_each_kind_does_what_it_says():
         Variation(REMOVE_EDGE, 12, 15, 1),  # the only edge into z16
         NO_VARIATION,
     ):
-        assert varied(BASIC, [variation]) == BASIC
+        assert apply_variations(BASIC, [variation]) == BASIC
 
 
 def test_an_edge_from_a_node_that_gathers_nothing_is_not_added():
@@ -86,32 +86,32 @@ def test_an_edge_from_a_node_that_gathers_nothing_is_not_added():
     empty[6][9] = 0
     empty[9][14] = 0  # z10 gathers nothing, leads nowhere
     matrix = tuple(map(tuple, empty))
-    assert varied(matrix, [Variation(ADD_EDGE, 9, 14, 1)]) == matrix
-    fed = varied(matrix, [Variation(ADD_EDGE, 6, 9, 1), Variation(ADD_EDGE, 9, 14, 1)])
+    assert apply_variations(matrix, [Variation(ADD_EDGE, 9, 14, 1)]) == matrix
+    fed = apply_variations(matrix, [Variation(ADD_EDGE, 6, 9, 1), Variation(ADD_EDGE, 9, 14, 1)])
     assert fed == BASIC
 
 
 def test_random_variations_are_of_all_kinds_and_places():
-    found = drawn(1, 20_000)
-    kinds = [variation.kind for variation in found]
+    actual = drawn(1, 20_000)
+    kinds = [variation.kind for variation in actual]
     assert NOTHING not in kinds
     for kind in (CHANGE_UNARY, CHANGE_BINARY, ADD_EDGE, REMOVE_EDGE):
         assert kinds.count(kind) == pytest.approx(5000, abs=5 * math.sqrt(20_000 * 3 / 16))
     there = {(int(row), int(column)) for row, column in np.argwhere(np.triu(BASIC, 1))}
     free = {(row, column) for column in range(SOURCES, SIZE) for row in range(column)} - there
-    places = {kind: {(v.row, v.column) for v in found if v.kind == kind} for kind in set(kinds)}
+    places = {kind: {(v.row, v.column) for v in actual if v.kind == kind} for kind in set(kinds)}
     assert places[CHANGE_UNARY] == places[REMOVE_EDGE] == there
     assert places[ADD_EDGE] == free
     assert places[CHANGE_BINARY] == {(node, node) for node in range(SOURCES, SIZE)}
-    operations = {variation.operation for variation in found if variation.kind == ADD_EDGE}
+    operations = {variation.operation for variation in actual if variation.kind == ADD_EDGE}
     assert operations == {*range(1, 20), 23}
-    assert {variation.operation for variation in found if variation.kind == CHANGE_BINARY} == {0, 1}
+    assert {variation.operation for variation in actual if variation.kind == CHANGE_BINARY} == {0, 1}
 
 
 def test_a_matrix_without_room_for_a_kind_can_still_be_varied():
     full = tuple(tuple(int(column > max(row, SOURCES - 1)) for column in range(SIZE)) for row in range(SIZE))
     for variation in drawn(2, 200, full):
-        varied(full, [variation])
+        apply_variations(full, [variation])
 
 
 def kernel_outputs(matrix, sources, exp_saturation=1e8):
@@ -127,14 +127,14 @@ def kernel_outputs(matrix, sources, exp_saturation=1e8):
 @settings(deadline=None)
 @given(matrices(), SEEDS, st.tuples(*[st.floats(-20.0, 20.0)] * SOURCES))
 def test_what_leads_nowhere_is_pruned_and_nothing_else(matrix, seed, sources):
-    matrix = varied(matrix, drawn(seed, 8))
-    found = pruned(matrix)
-    assert kernel_outputs(found, sources) == kernel_outputs(matrix, sources)
-    assert pruned(found) == found
-    reach = depends(found)
+    matrix = apply_variations(matrix, drawn(seed, 8))
+    actual = prune(matrix)
+    assert kernel_outputs(actual, sources) == kernel_outputs(matrix, sources)
+    assert prune(actual) == actual
+    reach = depends(actual)
     for row in range(SIZE - 2):
-        assert not np.array(found)[row].any() or reach[row, SIZE - 2 :].any()
-    kept = np.array(found) == np.array(matrix)
+        assert not np.array(actual)[row].any() or reach[row, SIZE - 2 :].any()
+    kept = np.array(actual) == np.array(matrix)
     leads = depends(matrix)[:, SIZE - 2 :].any(axis=1)
     leads[SIZE - 2 :] = True
     assert kept[np.ix_(leads, leads)].all()

@@ -65,7 +65,7 @@ def test_landing(landing):
     assert landing.propellant_fraction * LANDER.mass == pytest.approx(400.82, abs=0.01)
     assert landing.time[-1] == pytest.approx(292.65, abs=0.1)
     assert landing.looseness <= TIGHT
-    burns = landing.planned(landing_problem(LANDER, LANDING)).burns()
+    burns = landing.make_path(landing_problem(LANDER, LANDING)).burns()
     assert np.array(burns) == pytest.approx(np.array([[0.0, 65.8], [112.2, 292.65]]), abs=0.4)
 
 
@@ -96,11 +96,11 @@ CASES = {
 @pytest.mark.parametrize("case", either([*CASES], ["another vehicle", "approach"]))
 def test_a_direct_method_finds_the_same(case):
     problem, mass = CASES[case]
-    found = bound(problem)
+    actual = bound(problem)
     fraction, duration = direct_propellant(problem, INTERVALS)
-    assert found.looseness <= TIGHT
-    assert fraction * mass == pytest.approx(found.propellant_fraction * mass, abs=0.01)
-    assert duration == pytest.approx(found.time[-1], rel=either(1e-3, 5e-3))
+    assert actual.looseness <= TIGHT
+    assert fraction * mass == pytest.approx(actual.propellant_fraction * mass, abs=0.01)
+    assert duration == pytest.approx(actual.time[-1], rel=either(1e-3, 5e-3))
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_thrust_follows_a_primer_vector_that_is_linear_in_time(transfer):
     assert sizes[-1] < 2e-3 * sizes[-2]
     (ay, by, ax, bx) = rows[-1]
     primer = np.hypot(ax + bx * middle, ay + by * middle)
-    throttle = transfer.planned(transfer_problem(HOVER, TRANSFER)).throttle
+    throttle = transfer.make_path(transfer_problem(HOVER, TRANSFER)).throttle
     size = primer / (1.0 - np.interp(middle, transfer.time / transfer.time[-1], -np.expm1(transfer.log_mass)))
     assert size[throttle > 0.99].min() > 0.99 * size[throttle < 0.07].max()  # full where the primer is large
 
@@ -158,9 +158,9 @@ def test_straight_down_it_falls_and_then_burns():
         return 0.5 * 1.622 * time**2 - c / rate * (burnt + (1.0 - burnt) * math.log1p(-burnt)) - 2300.0
 
     burnt = brentq(short, 1e-3, 0.2)
-    found = bound(down)
-    assert found.propellant_fraction == pytest.approx(burnt, rel=either(3e-5, 2e-4))
-    assert found.time[-1] == pytest.approx(-c * math.log1p(-burnt) / 1.622, abs=0.1)
+    actual = bound(down)
+    assert actual.propellant_fraction == pytest.approx(burnt, rel=either(3e-5, 2e-4))
+    assert actual.time[-1] == pytest.approx(-c * math.log1p(-burnt) / 1.622, abs=0.1)
 
 
 def test_mass_and_thrust_scale_together():

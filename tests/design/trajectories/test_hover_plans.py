@@ -43,11 +43,11 @@ def best():
     ],
 )
 def test_programmes(vehicle, duration, times, k, fraction):
-    found = find_programme(vehicle, TRANSFER, duration)
-    assert found.times == pytest.approx(times, abs=0.02)
-    assert found.threshold == pytest.approx(k, abs=1e-3)
-    assert found.propellant_fraction == pytest.approx(fraction, abs=5e-6)
-    assert found.kind == "with first burn"
+    actual = find_programme(vehicle, TRANSFER, duration)
+    assert actual.times == pytest.approx(times, abs=0.02)
+    assert actual.threshold == pytest.approx(k, abs=1e-3)
+    assert actual.propellant_fraction == pytest.approx(fraction, abs=5e-6)
+    assert actual.kind == "with first burn"
 
 
 def test_angles(best):
@@ -84,9 +84,9 @@ FIGURE_7 = {0: 0.037878, 200: 0.037927, 500: 0.038544, 600: 0.03946, 800: 0.0414
 
 def test_figure_7():
     for distance, fraction in FIGURE_7.items():
-        found = find_programme(VEHICLE, replace(TRANSFER, distance=float(distance)))
-        assert found.propellant_fraction == pytest.approx(fraction, abs=6e-6)
-        assert found.kind == (
+        actual = find_programme(VEHICLE, replace(TRANSFER, distance=float(distance)))
+        assert actual.propellant_fraction == pytest.approx(fraction, abs=6e-6)
+        assert actual.kind == (
             "vertical" if not distance else "without first burn" if distance < 540 else "with first burn"
         )
 
@@ -133,29 +133,29 @@ def test_a_path_is_its_motion(best):
     [(40, 0.04883, 6e-6), (80, 0.048763, 3e-6), *either([(160, 0.048760, 3e-6), (320, 0.048756, 3e-6)], [])],
 )
 def test_true_optimum(best, intervals, fraction, within):
-    found = find_true_optimum(best, intervals, ENGINE)
-    assert found.propellant_fraction == pytest.approx(fraction, abs=within)
-    assert found.duration == pytest.approx(75.80, abs=8.0 / intervals)
-    assert found.position[-1] == pytest.approx([1600.0, -2300.0], abs=1e-4)
-    first, second = found.burns()[:2]
+    actual = find_true_optimum(best, intervals, ENGINE)
+    assert actual.propellant_fraction == pytest.approx(fraction, abs=within)
+    assert actual.duration == pytest.approx(75.80, abs=8.0 / intervals)
+    assert actual.position[-1] == pytest.approx([1600.0, -2300.0], abs=1e-4)
+    first, second = actual.burns()[:2]
     assert first == pytest.approx((10.2, 13.1), abs=0.4)
     assert second == pytest.approx((63.5, 74.6), abs=0.4)
 
 
 def test_true_optimum_with_margins():
     planned = MARGINS.of(VEHICLE)
-    found = find_true_optimum(find_programme(planned, TRANSFER), either(320, 80), ENGINE)
-    assert found.propellant_fraction == pytest.approx(0.051234, abs=either(1e-5, 3e-5))
-    assert found.duration == pytest.approx(80.31, abs=0.3)
-    assert found.throttle.max() <= 0.9 + 1e-7
-    assert found.throttle.min() >= 0.1 - 1e-7
+    actual = find_true_optimum(find_programme(planned, TRANSFER), either(320, 80), ENGINE)
+    assert actual.propellant_fraction == pytest.approx(0.051234, abs=either(1e-5, 3e-5))
+    assert actual.duration == pytest.approx(80.31, abs=0.3)
+    assert actual.throttle.max() <= 0.9 + 1e-7
+    assert actual.throttle.min() >= 0.1 - 1e-7
 
 
 def test_true_optimum_of_a_programme_straight_down():
     """Nothing to turn for: it is the vertical programme."""
     down = find_programme(VEHICLE, replace(TRANSFER, distance=0.0))
-    found = find_true_optimum(down, 60, ENGINE)
-    assert found.propellant_fraction == pytest.approx(STRAIGHT_DOWN, abs=2e-5)
+    actual = find_true_optimum(down, 60, ENGINE)
+    assert actual.propellant_fraction == pytest.approx(STRAIGHT_DOWN, abs=2e-5)
 
 
 @pytest.mark.parametrize("distance", either([300.0, 1000.0, 2500.0], [1000.0]))

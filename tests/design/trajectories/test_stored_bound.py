@@ -56,8 +56,8 @@ def test_inputs_are_the_systems_values(tmp_path):
 
 def test_pieces(tmp_path):
     place = declared_system(tmp_path, PIECES)
-    found = read_inputs(prepared(place))
-    assert {name: value for name, value in found.items() if "." in name} == {
+    actual = read_inputs(prepared(place))
+    assert {name: value for name, value in actual.items() if "." in name} == {
         "braking.altitude": 2400.0,
         "transfer.mass": 526.37,
         "transfer.minimum_thrust": 510.0,
@@ -65,8 +65,8 @@ def test_pieces(tmp_path):
         "transfer.end_altitude": 100.0,
         "transfer.aside": (-1676.17262, 0.0),
     }
-    pieces = pieces_of(found, "here")
-    vehicle, landing = landing_of(found, "here")
+    pieces = pieces_of(actual, "here")
+    vehicle, landing = landing_of(actual, "here")
     assert pieces["braking"] == (landing_problem(vehicle, replace(landing, target_altitude=2400.0)), 940.0)
     problem, mass = pieces["transfer"]
     assert mass == 526.37

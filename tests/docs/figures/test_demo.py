@@ -37,11 +37,11 @@ def test_reports_beside_it_stand_alone(demo):
 
 
 def test_the_published_values_are_those_of_the_table():
-    found = {
+    actual = {
         name: (round(100.0 * row.success_rate, 9), row.position_error, row.velocity_error)
         for name, row in PUBLISHED.items()
     }
-    assert found == {name: (row.success, row.miss, row.velocity) for name, row in TABLE.items()}
+    assert actual == {name: (row.success, row.miss, row.velocity) for name, row in TABLE.items()}
 
 
 def test_ours_stand_beside_the_published_values(demo):

@@ -26,10 +26,10 @@ def test_courses_are_those_of_campaigns_flown(compared, place, rate):
     decided = met | refused
     end = np.where(decided.any(axis=1), decided.argmax(axis=1), len(steps) - 1)
     every = np.arange(many)
-    found = course(rule, rate)
-    assert met[every, end].mean() == pytest.approx(found.met, abs=2.0 / np.sqrt(many))  # four deviations of a half
-    assert refused[every, end].mean() == pytest.approx(found.refused, abs=2.0 / np.sqrt(many))
-    assert np.array(rule.looks)[end].mean() == pytest.approx(found.flights, rel=6.0 / np.sqrt(many))
+    actual = course(rule, rate)
+    assert met[every, end].mean() == pytest.approx(actual.met, abs=2.0 / np.sqrt(many))  # four deviations of a half
+    assert refused[every, end].mean() == pytest.approx(actual.refused, abs=2.0 / np.sqrt(many))
+    assert np.array(rule.looks)[end].mean() == pytest.approx(actual.flights, rel=6.0 / np.sqrt(many))
 
 
 def test_the_page_has_what_is_printed(capsys):

@@ -34,9 +34,9 @@ def sections(page):
 
 def test_every_option_of_every_verb_is_there(pages):
     """Those that `perilune VERB --help` prints, and no others."""
-    found = sections(pages["reference/verbs.md"])
-    assert list(found) == list(VERBS)
-    for verb, text in found.items():
+    actual = sections(pages["reference/verbs.md"])
+    assert list(actual) == list(VERBS)
+    for verb, text in actual.items():
         printed = set(re.findall(r"^  (--[a-z][\w-]*)", verb_parser(verb).format_help(), re.MULTILINE))
         assert set(re.findall(r"^\| `(--[a-z][\w-]*)", text, re.MULTILINE)) == printed - {"--help", "--help-all"}
 

@@ -87,6 +87,6 @@ def test_search_without_a_server(site, tmp_path):
     page.write_text(text.replace("</body>", SEARCH), encoding="utf-8")
     dom = start(browser, page, tmp_path, "--virtual-time-budget=15000", "--dump-dom")
     page.unlink()
-    found = re.search(r"<title>FOUND (.*?)</title>", dom, re.DOTALL)
-    assert found, dom[:500]
-    assert "gyro_steering_robust" in found[1]
+    actual = re.search(r"<title>FOUND (.*?)</title>", dom, re.DOTALL)
+    assert actual, dom[:500]
+    assert "gyro_steering_robust" in actual[1]

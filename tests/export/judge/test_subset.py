@@ -12,7 +12,7 @@ import pytest
 
 from perilune.fmus_src.block import Block, Output
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export.judge.subset import SubsetError, analysed_kernel, check
+from perilune.fmus_src.export.judge.subset import SubsetError, analyse_kernel, check
 from perilune.fmus_src.export.judge.subset_table import REFUSED_FUNCTIONS, REFUSED_SYNTAX, RULES, Rule
 from tests.support.kernels import bad_kernels
 
@@ -82,14 +82,14 @@ def refusal(folder: Path, rule: Rule, step: str, functions: str = "") -> None:
     """Assert that a kernel is refused by a rule, at the marked line, with the rule's remedy."""
     block, file = block_of(folder, step, functions)
     line = next(n for n, text in enumerate(file.read_text().splitlines(), 1) if "# here" in text)
-    found = [violation for violation in check(block) if violation.line == line]
-    assert found, [str(violation) for violation in check(block)]
+    actual = [violation for violation in check(block) if violation.line == line]
+    assert actual, [str(violation) for violation in check(block)]
     fixed = re.split(r"\{\w*\}", f"{rule.what}{{}}{rule.remedy}")
     assert any(
         violation.file == file and all(part in f"{violation.what}; {violation.remedy}" for part in fixed)
-        for violation in found
-    ), found
-    assert all(str(violation).startswith(f"{file}:{line}: ") for violation in found)
+        for violation in actual
+    ), actual
+    assert all(str(violation).startswith(f"{file}:{line}: ") for violation in actual)
 
 
 @pytest.mark.parametrize("block", list(catalogue().values()), ids=lambda block: block.fmu_name)
@@ -175,7 +175,7 @@ def test_python_only_block_is_refused() -> None:
     assert violation.file == Path(__file__)
     assert violation.remedy == RULES["python only"].remedy
     with pytest.raises(SubsetError, match=r"test_subset\.py:\d+: PythonOnly says python_only"):
-        analysed_kernel(PythonOnly)
+        analyse_kernel(PythonOnly)
 
 
 def test_changes_through_calls_are_seen(tmp_path: Path) -> None:

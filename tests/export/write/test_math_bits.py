@@ -31,18 +31,18 @@ Result = tuple[object, str]  # value, and the error's name where there is one
 
 def floats(random: Random, count: int) -> list[float]:
     """Edge values, every bit pattern, and the ranges that functions are defined on."""
-    found = list(FLOATS)
+    actual = list(FLOATS)
     for _ in range(count):
         kind = random.randrange(4)
         if kind == 0:
-            found.append(struct.unpack("<d", random.randbytes(8))[0])
+            actual.append(struct.unpack("<d", random.randbytes(8))[0])
         elif kind == 1:
-            found.append(random.uniform(-1.0, 1.0))
+            actual.append(random.uniform(-1.0, 1.0))
         elif kind == 2:
-            found.append(random.gauss(0.0, 10.0))
+            actual.append(random.gauss(0.0, 10.0))
         else:
-            found.append(random.choice((-1, 1)) * 10.0 ** random.uniform(-12.0, 12.0))
-    return found
+            actual.append(random.choice((-1, 1)) * 10.0 ** random.uniform(-12.0, 12.0))
+    return actual
 
 
 def ints(random: Random, count: int) -> list[int]:
@@ -136,10 +136,10 @@ def c_results(name: str, portable: bool, columns: list[list]) -> list[Result]:
     results = (C_BUFFERS[returned] * count)()
     whats = (ctypes.c_char_p * count)()
     getattr(harness(portable), f"run_{name}")(*inputs, ctypes.c_size_t(count), results, whats)
-    found: list[Result] = []
+    actual: list[Result] = []
     for value, what in zip(results, whats, strict=True):
-        found.append((None, what.decode().split(":")[0]) if what else (bits(value), ""))
-    return found
+        actual.append((None, what.decode().split(":")[0]) if what else (bits(value), ""))
+    return actual
 
 
 @pytest.mark.parametrize("portable", [False, True], ids=["system", "zig"])
@@ -156,9 +156,9 @@ def test_c_has_cpythons_bits_and_errors(name: str, portable: bool) -> None:
         native = c_results(name, portable, drawn)
     except CompilerMissing:
         pytest.skip("ziglang is not installed")
-    for arguments, found in zip(zip(*drawn, strict=True), native, strict=True):
+    for arguments, actual in zip(zip(*drawn, strict=True), native, strict=True):
         expected = python_result(function, *arguments)
-        assert found == expected, f"{name}{arguments}: Python {expected}, C {found}"
+        assert actual == expected, f"{name}{arguments}: Python {expected}, C {actual}"
 
 
 def test_errors_name_the_place() -> None:

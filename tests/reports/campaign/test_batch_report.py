@@ -42,8 +42,8 @@ def test_every_number_of_the_summary_is_there(result, page):
         for number in (variant.success_rate, *variant.success_interval, *variant.statuses.values()):
             assert repr(number) in values
         for table in (variant.metrics, variant.metrics_all):
-            for found in table.values():
-                assert {repr(found.count), *(repr(found.value(column)) for column in STATISTICS)} <= values
+            for actual in table.values():
+                assert {repr(actual.count), *(repr(actual.value(column)) for column in STATISTICS)} <= values
 
 
 def test_every_name_is_there(result, page):

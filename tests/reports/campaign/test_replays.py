@@ -36,20 +36,20 @@ def test_the_first_failures_and_where_a_metric_is_largest():
     result = batch_result({"one": ONE, "two": TWO}, DRAWS + METRICS)
     ended = ["stop_time (ship.status 2)"]
     assert told(failures_to_replay(result)) == [("one", 1, ended), ("one", 3, ended), ("one", 4, ended)]
-    found = extremes_to_replay(result)
-    assert told(found) == [
+    actual = extremes_to_replay(result)
+    assert told(actual) == [
         ("one", 1, ['miss: <data value="3.0">3</data> m']),
         ("two", 5, ['miss: <data value="0.2">0.2</data> m']),
     ]
-    assert found[1].command == (
+    assert actual[1].command == (
         "perilune replay ship 5 --campaign test.toml --trials 6 --seed 7 --compare guidance=two"
     )
 
 
 def test_a_trial_in_which_two_metrics_are_largest_stands_once():
     rows = [(True, 1.0, 0.1), (True, 2.0, 0.2)]
-    (found,) = extremes_to_replay(batch_result({"default": rows}, DRAWS + METRICS))
-    assert [reason.partition(":")[0] for reason in found.reasons] == ["miss", "tilt"]
+    (actual,) = extremes_to_replay(batch_result({"default": rows}, DRAWS + METRICS))
+    assert [reason.partition(":")[0] for reason in actual.reasons] == ["miss", "tilt"]
 
 
 def test_what_never_settles_is_largest():

@@ -40,31 +40,31 @@ ASKED = PLANE.format("m", "m", 'circle = 10\ntitle = "Contact points"')
 
 def marks(figure):
     """How often each marker stands in the figure, by its colour; legends have one of each."""
-    found = {}
+    actual = {}
     for use in etree.fromstring(figure).xpath("//*[local-name()='use'][contains(@style, 'fill') or @style]"):
         colour = re.search(r"#(9a9a9a|d55e00)", use.get("style"))
         if colour:
-            found[colour[0]] = found.get(colour[0], 0) + 1
-    return found
+            actual[colour[0]] = actual.get(colour[0], 0) + 1
+    return actual
 
 
 def test_every_finite_trial_has_its_mark():
-    (found,) = scatter_figures(batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED))
-    assert found.title == "Contact points"
-    near, far = (marks(panel.figure) for panel in found.panels)
+    (actual,) = scatter_figures(batch_result({"near": NEAR, "far": FAR}, DRAWS + ASKED))
+    assert actual.title == "Contact points"
+    near, far = (marks(panel.figure) for panel in actual.panels)
     assert near == {"#9a9a9a": 2 + 1, "#d55e00": 1 + 1}  # a legend in each panel
     assert far == {"#9a9a9a": 4 + 1, "#d55e00": 1}
-    words = [str(note) for note in found.notes]
+    words = [str(note) for note in actual.notes]
     assert words[0] == 'Dashed: <data value="10.0">10</data> m around the origin.'
     assert words[1:] == ["near: 1 of 4 trials have no finite value and are not plotted."]
 
 
 def test_the_circle_is_round_and_to_scale():
-    (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + ASKED))
-    root = etree.fromstring(found.panels[0].figure)
+    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + ASKED))
+    root = etree.fromstring(actual.panels[0].figure)
     round_ones = [path.get("d") for path in root.xpath("//*[local-name()='path']") if path.get("d").count("C") == 8]
     points = [np.array(re.findall(r"-?\d+(?:\.\d+)?", path), dtype=float).reshape(-1, 2) for path in round_ones]
-    width, height = max((np.ptp(found, axis=0) for found in points), key=max)  # the others are marks
+    width, height = max((np.ptp(actual, axis=0) for actual in points), key=max)  # the others are marks
     np.testing.assert_allclose(width, height, rtol=1e-3)
     places = {}  # of the ticks of the abscissa, in points
     for group in root.xpath("//*[local-name()='g'][contains(@id, 'xtick')]"):
@@ -77,15 +77,15 @@ def test_the_circle_is_round_and_to_scale():
 
 def test_angles_are_in_degrees():
     asked = PLANE.format("rad", "rad", f"circle = {math.pi / 6}")
-    (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + asked))
-    assert found.title == "north vs. east"
-    assert ">30</data> deg around the origin." in found.notes[0]
-    assert "east, deg" in found.panels[0].figure
+    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + asked))
+    assert actual.title == "north vs. east"
+    assert ">30</data> deg around the origin." in actual.notes[0]
+    assert "east, deg" in actual.panels[0].figure
 
 
 def test_units_that_differ_and_nothing_finite(tmp_path):
-    (found,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + PLANE.format("m", "kg", "")))
-    assert "north, kg" in found.panels[0].figure
+    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + PLANE.format("m", "kg", "")))
+    assert "north, kg" in actual.panels[0].figure
     nothing = batch_result({"lost": [(False, math.nan, math.inf)] * 3}, DRAWS + ASKED)
     write_batch_report(nothing, tmp_path / "page.html", "Lost")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")

@@ -47,9 +47,9 @@ def test_it_is_what_savefig_writes(draw, text_as_paths, layout):
         for figure in (ours, theirs):
             figure.set_layout_engine(layout)
             draw(figure)
-        found = svg_bytes(ours, "it", text_as_paths=text_as_paths)
-        assert found == saved(theirs, text_as_paths)
-        assert found.startswith(b"<?xml")
+        actual = svg_bytes(ours, "it", text_as_paths=text_as_paths)
+        assert actual == saved(theirs, text_as_paths)
+        assert actual.startswith(b"<?xml")
 
 
 def test_the_figure_is_as_it_was():

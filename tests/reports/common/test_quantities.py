@@ -4,7 +4,14 @@ import math
 
 import pytest
 
-from perilune.analysis.reports.common.quantities import in_shown_unit, labelled, log_tick, number, shown_unit, tick
+from perilune.analysis.reports.common.quantities import (
+    display_unit,
+    in_shown_unit,
+    label_with_unit,
+    log_tick,
+    number,
+    tick,
+)
 
 
 @pytest.mark.parametrize(
@@ -15,7 +22,7 @@ from perilune.analysis.reports.common.quantities import in_shown_unit, labelled,
     ],
 )  # fmt: skip
 def test_units(unit, shown):
-    assert shown_unit(unit) == shown
+    assert display_unit(unit) == shown
 
 
 @pytest.mark.parametrize(
@@ -34,8 +41,8 @@ def test_angles_are_shown_in_degrees_and_nothing_else_changes():
     assert in_shown_unit(math.pi, "rad") == 180.0
     assert in_shown_unit(math.pi, "m") == math.pi
     assert in_shown_unit(None, "rad") is None
-    assert labelled("tilt", "rad/s") == "tilt, deg/s"
-    assert labelled("count", None) == "count"
+    assert label_with_unit("tilt", "rad/s") == "tilt, deg/s"
+    assert label_with_unit("count", None) == "count"
 
 
 def test_ticks():

@@ -28,8 +28,8 @@ def test_a_flight_to_the_origin(start, azimuth, radius, altitude):
     """Along goes from where it began to 0, beyond half the circumference too; range is its size."""
     along = np.linspace(start, 0.0, 500)
     position = placed(along, np.zeros(500), altitude, azimuth, radius)
-    found, across = track_angles(position, radius)
-    np.testing.assert_allclose(found, along, atol=1e-7)
+    actual, across = track_angles(position, radius)
+    np.testing.assert_allclose(actual, along, atol=1e-7)
     np.testing.assert_allclose(across, 0.0, atol=1e-7)
     np.testing.assert_allclose(ground_range(position, radius), -radius * along, atol=1e-6 * radius)
     np.testing.assert_allclose(altitude_over(position, radius), altitude, atol=1e-8 * radius)
@@ -42,18 +42,18 @@ def test_range_is_the_distance_nearby_and_has_no_jump():
     near = np.abs(along) < 1.4
     up = position + np.array([0.0, 0.0, MOON])[:, None]
     shortest = MOON * np.arccos(np.clip(up[2] / np.linalg.norm(up, axis=0), -1.0, 1.0))
-    found = ground_range(position, MOON)
-    np.testing.assert_allclose(found[near], shortest[near], atol=0.1)
-    assert np.max(np.abs(np.diff(found))) < 3.0 * MOON * 0.001
-    assert found.max() > math.pi * MOON
+    actual = ground_range(position, MOON)
+    np.testing.assert_allclose(actual[near], shortest[near], atol=0.1)
+    assert np.max(np.abs(np.diff(actual))) < 3.0 * MOON * 0.001
+    assert actual.max() > math.pi * MOON
 
 
 def test_rows_that_are_not_finite_are_left_out():
     position = placed(np.linspace(-1.0, 0.0, 50), np.zeros(50), 1e3)
     position[:, 20] = np.nan
-    found, _ = track_angles(position, MOON)
-    assert np.isnan(found[20])
-    np.testing.assert_allclose(np.delete(found, 20), np.delete(np.linspace(-1.0, 0.0, 50), 20), atol=1e-9)
+    actual, _ = track_angles(position, MOON)
+    assert np.isnan(actual[20])
+    np.testing.assert_allclose(np.delete(actual, 20), np.delete(np.linspace(-1.0, 0.0, 50), 20), atol=1e-9)
 
 
 @given(st.floats(0.01, 6.0), st.floats(1e5, 1e7))

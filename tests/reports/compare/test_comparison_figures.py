@@ -23,10 +23,10 @@ from perilune.analysis.reports.compare.recorded import (
     Flight,
     Quantity,
     doubling,
-    kept_names,
+    names_of_record,
     quantities,
     read_flights,
-    sampled_trials,
+    trials_with_traces,
     vectors,
 )
 from perilune.analysis.reports.compare.trajectories import bundle_of
@@ -47,16 +47,16 @@ def comparison(batch):
 
 @pytest.fixture(scope="module")
 def flights(batch, comparison):
-    trials = sampled_trials(comparison.contenders.values())
+    trials = trials_with_traces(comparison.contenders.values())
     return {
-        label: read_flights(contender, trials[label], kept_names(batch))
+        label: read_flights(contender, trials[label], names_of_record(batch))
         for label, contender in comparison.contenders.items()
     }
 
 
 def test_quantities_are_told_by_name_and_unit(batch):
-    found = [(quantity.label, quantity.unit, quantity.kind, quantity.held) for quantity in quantities(batch)]
-    assert found == [
+    actual = [(quantity.label, quantity.unit, quantity.kind, quantity.held) for quantity in quantities(batch)]
+    assert actual == [
         ("ship.position[3]", "m", "motion", False),
         ("ship.velocity, magnitude", "m/s", "motion", False),
         ("ship.mass", "kg", "motion", False),
@@ -79,7 +79,7 @@ def test_altitude_takes_the_place_of_height(tmp_path):
     batch = read_batch(tmp_path / "out")
     assert "ship.position[3]" not in [quantity.label for quantity in quantities(batch)]
     contender = compare([tmp_path / "out"]).contenders["alpha"]
-    bundle = bundle_of(contender, read_flights(contender, [0], kept_names(batch)))
+    bundle = bundle_of(contender, read_flights(contender, [0], names_of_record(batch)))
     assert bundle.height == "ship.altitude"
     assert bundle.paths[0].height[0] == pytest.approx(505.0)
     # without a final altitude a path ends with its last sample, and none is lost
@@ -87,7 +87,7 @@ def test_altitude_takes_the_place_of_height(tmp_path):
         trials.end_time[:] += 0.3
     result.write(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["alpha"]
-    flights = read_flights(contender, range(12), kept_names(batch))
+    flights = read_flights(contender, range(12), names_of_record(batch))
     paths = bundle_of(contender, flights).paths
     assert [path.plan.shape[1] for path in paths] == [flight.time.size for flight in flights]
 
@@ -114,7 +114,7 @@ def test_downrange_over_a_round_body_is_along_its_ground(tmp_path):
     result.write(tmp_path / "out")
     batch = read_batch(tmp_path / "out")
     contender = compare([tmp_path / "out"]).contenders["alpha"]
-    bundle = bundle_of(contender, read_flights(contender, [0, 1], kept_names(batch)))
+    bundle = bundle_of(contender, read_flights(contender, [0, 1], names_of_record(batch)))
     assert bundle.radius == pytest.approx(radius, rel=1e-9)
     assert bundle.over_ground
     path = bundle.paths[1]
@@ -129,8 +129,8 @@ def test_values_of_quantities(batch, flights):
     speed = np.sqrt(sum(signals[name] ** 2 for name in VELOCITY))
     np.testing.assert_allclose(by_label["ship.velocity, magnitude"].values(signals), speed, rtol=1e-15)
     elevation = np.arcsin(signals[DIRECTION[2]] / np.sqrt(sum(signals[name] ** 2 for name in DIRECTION)))
-    found = by_label["pilot.thrust_direction above the horizontal"].values(signals)
-    np.testing.assert_allclose(found, elevation, rtol=1e-12)
+    actual = by_label["pilot.thrust_direction above the horizontal"].values(signals)
+    np.testing.assert_allclose(actual, elevation, rtol=1e-12)
 
 
 def test_vectors_have_elements_1_to_3_and_nothing_else():
@@ -140,12 +140,12 @@ def test_vectors_have_elements_1_to_3_and_nothing_else():
 
 def test_bands_are_percentiles_over_the_successful_flights(batch, flights):
     quantity = next(quantity for quantity in quantities(batch) if quantity.label == "ship.mass")
-    for label, found in flights.items():
-        good = np.stack([flight.signals["ship.mass"] for flight in found if flight.success])
-        bands = bands_of(quantity, found)
+    for label, actual in flights.items():
+        good = np.stack([flight.signals["ship.mass"] for flight in actual if flight.success])
+        bands = bands_of(quantity, actual)
         assert bands.flights == len(good)
         assert len(good) < 12 or label == "alpha"
-        assert bands.time.tolist() == found[0].time.tolist()
+        assert bands.time.tolist() == actual[0].time.tolist()
         assert np.array_equal(bands.percentiles, np.percentile(good, LEVELS, axis=0, method="inverted_cdf"))
 
 
@@ -211,13 +211,15 @@ def test_long_traces_are_thinned_and_keep_their_ends(tmp_path):
 
 
 def test_the_same_trials_are_shown_of_every_variant(batch, comparison):
-    assert sampled_trials(comparison.contenders.values()) == {label: list(range(12)) for label in comparison.contenders}
+    assert trials_with_traces(comparison.contenders.values()) == {
+        label: list(range(12)) for label in comparison.contenders
+    }
     lacking = replace(batch, traced=batch.traced | {"beta": [0, 1, 2, 5, 7]})
     contenders = [Contender(name, lacking, name, 0, k) for k, name in enumerate(("alpha", "beta"))]
-    assert sampled_trials(contenders) == {label: [0, 1, 2, 5, 7] for label in ("alpha", "beta")}
+    assert trials_with_traces(contenders) == {label: [0, 1, 2, 5, 7] for label in ("alpha", "beta")}
     apart = replace(batch, traced=batch.traced | {"alpha": [1, 3], "beta": [2, 4]})
     contenders = [Contender(name, apart, name, 0, k) for k, name in enumerate(("alpha", "beta"))]
-    assert sampled_trials(contenders) == {"alpha": [1, 3], "beta": [2, 4]}
+    assert trials_with_traces(contenders) == {"alpha": [1, 3], "beta": [2, 4]}
 
 
 def test_paths_run_along_the_line_to_the_target(comparison, flights):

@@ -52,8 +52,8 @@ def trials(folder):
 
 def section(text, heading):
     """The section below a heading of the second level, as a tree."""
-    (found,) = (part for part in parse(text).xpath("//section") if part.xpath("h2")[0].text == heading)
-    return found
+    (actual,) = (part for part in parse(text).xpath("//section") if part.xpath("h2")[0].text == heading)
+    return actual
 
 
 def numbers(element):
@@ -62,8 +62,8 @@ def numbers(element):
 
 def table_rows(element, columns):
     """Exact numbers of the rows of a section's tables that have so many."""
-    found = [numbers(row) for row in element.xpath(".//tbody/tr")]
-    return [row for row in found if len(row) == columns]
+    actual = [numbers(row) for row in element.xpath(".//tbody/tr")]
+    return [row for row in actual if len(row) == columns]
 
 
 def statistics_of(values):
@@ -96,7 +96,7 @@ def test_rates_and_their_intervals(page, trials):
 
 def test_metrics_of_the_successful_and_of_all_trials(page, trials):
     expected = []
-    for chosen in (lambda found: found["success"], lambda found: np.full(40, True)):
+    for chosen in (lambda actual: actual["success"], lambda actual: np.full(40, True)):
         for metric in ("miss", "propellant", "tilt", "x_error_over_sigma"):
             for variant in VARIANTS:
                 values = trials[variant][f"metric.{metric}"][chosen(trials[variant])]
@@ -130,9 +130,9 @@ def test_pairs_of_rates(page, trials):
                     rows.append([x.mean() - y.mean(), p, table[0][0], table[0][1], table[1][0], table[1][1]])
     tree = section(page, "Paired comparison")
     first, others = tree.xpath(".//table")[:2]  # against the reference, and what is folded away
-    found = [numbers(row) for table in (first, others) for row in table.xpath(".//tr") if numbers(row)]
-    np.testing.assert_allclose([[row[0], *row[3:]] for row in found], rows, rtol=1e-9, atol=1e-12)
-    assert all(row[1] < row[0] < row[2] for row in found)
+    actual = [numbers(row) for table in (first, others) for row in table.xpath(".//tr") if numbers(row)]
+    np.testing.assert_allclose([[row[0], *row[3:]] for row in actual], rows, rtol=1e-9, atol=1e-12)
+    assert all(row[1] < row[0] < row[2] for row in actual)
 
 
 def test_pairs_of_metrics(page, trials):
@@ -149,26 +149,26 @@ def test_pairs_of_metrics(page, trials):
             p = scipy.stats.binomtest(smaller, int(both.sum())).pvalue
             counts = [smaller, 0, int(np.sum(x > y)), int(both.sum())]
             expected.append([np.quantile(x - y, 0.5, method="inverted_cdf"), interval.low, interval.high, p, *counts])
-    found = [numbers(row) for row in table.xpath(".//tr") if len(numbers(row)) == 8]
-    np.testing.assert_allclose(found, expected, rtol=1e-9)
+    actual = [numbers(row) for row in table.xpath(".//tr") if len(numbers(row)) == 8]
+    np.testing.assert_allclose(actual, expected, rtol=1e-9)
 
 
 def test_intervals_without_zero_are_bold_and_others_are_not(page):
-    found = []
+    actual = []
     for cell in section(page, "Paired comparison").xpath(".//td[contains(@class, 'n')]"):
         ends = numbers(cell)
         if len(ends) == 2:
-            found.append(ends[0] > 0.0 or ends[1] < 0.0)
-            assert ("sure" in cell.get("class")) == found[-1]
-    assert set(found) == {True, False}
+            actual.append(ends[0] > 0.0 or ends[1] < 0.0)
+            assert ("sure" in cell.get("class")) == actual[-1]
+    assert set(actual) == {True, False}
 
 
 def test_dispersions_at_the_end(page, trials):
     expected = []
     for names, target in ((POSITION, TARGET), (VELOCITY, np.zeros(3))):
         for variant in VARIANTS:
-            found = trials[variant]
-            errors = np.stack([found[f"final.{name}"] for name in names], axis=1)[found["success"]] - target
+            actual = trials[variant]
+            errors = np.stack([actual[f"final.{name}"] for name in names], axis=1)[actual["success"]] - target
             miss = np.linalg.norm(errors[:, :2], axis=1)
             # semi-axes of the 1-sigma ellipse are singular values of the centred points over sqrt(n - 1)
             centred = errors[:, :2] - errors[:, :2].mean(axis=0)
@@ -185,8 +185,8 @@ def test_errors_over_sigma(page, trials):
         values = trials[variant]["metric.x_error_over_sigma"]
         shares = [np.mean(np.abs(values) <= limit) for limit in (1, 2, 3)]
         expected.append([values.mean(), values.std(ddof=1), *shares, 40])
-    found = table_rows(section(page, "Normalised estimation errors"), 6)
-    np.testing.assert_allclose(found, expected, rtol=1e-9)
+    actual = table_rows(section(page, "Normalised estimation errors"), 6)
+    np.testing.assert_allclose(actual, expected, rtol=1e-9)
     assert "normal: 68.3" in text_of(page)
 
 
@@ -247,9 +247,9 @@ def test_groups(tmp_path):
     for name in ("success", "metric.pinpoint"):
         for variant in VARIANTS:
             for case in (1.0, 2.0):
-                found = [row[name] for row in rows if (row["variant"], row["draw.case"]) == (variant, case)]
-                interval = scipy.stats.binomtest(int(sum(found)), 20).proportion_ci(method="exact")
-                rates.append([sum(found) / 20, interval.low, interval.high, sum(found), 20])
+                actual = [row[name] for row in rows if (row["variant"], row["draw.case"]) == (variant, case)]
+                interval = scipy.stats.binomtest(int(sum(actual)), 20).proportion_ci(method="exact")
+                rates.append([sum(actual) / 20, interval.low, interval.high, sum(actual), 20])
     for good_only in (True, False):
         for metric in ("miss", "propellant", "tilt", "x_error_over_sigma"):
             for variant in VARIANTS:
@@ -260,10 +260,10 @@ def test_groups(tmp_path):
     tree = section(page, "By case")
     np.testing.assert_allclose(table_rows(tree, 5), rates, rtol=1e-9)
     np.testing.assert_allclose(table_rows(tree, 10), metrics, rtol=1e-12)
-    found = compare([tmp_path / "out"])
-    assert found.document()["group"] == "case"
-    assert found.summary["beta"].groups["2"].rates["success"].trials == 20
-    assert [line.split()[:3] for line in found.text().splitlines()[1:4]] == [
+    actual = compare([tmp_path / "out"])
+    assert actual.document()["group"] == "case"
+    assert actual.summary["beta"].groups["2"].rates["success"].trials == 20
+    assert [line.split()[:3] for line in actual.text().splitlines()[1:4]] == [
         ["alpha", "all", "40"], ["alpha", "1", "20"], ["alpha", "2", "20"],
     ]  # fmt: skip
 
@@ -274,9 +274,9 @@ def test_a_batch_that_says_how_to_group_is_enough(tmp_path):
     for name, head in (("plain", plain), ("grouped", CASES), ("other", CASES.replace('by = "case"', 'by = "sort"'))):
         head += '[derive]\nsort = "3 - case"\n'
         write_sample(tmp_path / name, text=CAMPAIGN.replace("[draw.offset]", f"{head}[draw.offset]"), traced=0)
-    found = compare([tmp_path / "plain", tmp_path / "grouped"])
-    assert (found.group, found.notes) == ("case", ())
-    assert list(found.summary["plain: beta"].groups) == ["1", "2"]
+    actual = compare([tmp_path / "plain", tmp_path / "grouped"])
+    assert (actual.group, actual.notes) == ("case", ())
+    assert list(actual.summary["plain: beta"].groups) == ["1", "2"]
     notes = compare([tmp_path / "grouped", tmp_path / "other"]).notes
     assert notes == ("grouped and other group trials by different values: case and sort",)
     assert not compare([tmp_path / "plain"]).summary["beta"].groups

@@ -222,9 +222,9 @@ def test_signals_are_those_that_a_flight_records(tiny, tmp_path):
     prepared = prepare_system(pack(tmp_path / "s.ssp", tiny, ssd))
     with Simulation(prepared) as simulation:
         result = simulation.fly()
-    found = layout_of(prepared.network, prepared.settings)
-    assert found.types == result.types
-    assert found.units == result.units
+    actual = layout_of(prepared.network, prepared.settings)
+    assert actual.types == result.types
+    assert actual.units == result.units
 
 
 def swapped(tmp_path, tiny, inside, use):

@@ -14,7 +14,7 @@ from perilune.analysis.reports.figures.declaration.reading import read_figures
 from perilune.analysis.reports.figures.figure_sections import figure_sections
 from perilune.analysis.reports.figures.limits import is_met
 from perilune.analysis.reports.figures.phase_figure import spans_of, statuses_of
-from perilune.analysis.reports.figures.tables import amount, spent_by_phase
+from perilune.analysis.reports.figures.tables import amount, consumption_by_phase
 from perilune.analysis.runtime.system.prepared import prepare_system
 
 pytestmark = pytest.mark.usefixtures("fmus")
@@ -32,8 +32,8 @@ def result(fmus):
 
 
 def one(figures, kind):
-    (found,) = (figure for figure in figures if isinstance(figure, kind))
-    return found
+    (actual,) = (figure for figure in figures if isinstance(figure, kind))
+    return actual
 
 
 def test_phases_are_those_that_the_sequencer_tells(figures, result):
@@ -55,7 +55,7 @@ def test_phases_are_those_that_the_sequencer_tells(figures, result):
 def test_the_budget_is_what_was_flown_over_its_bound(figures, result):
     """The pieces' bounds cancel, so that the items together are what all phases from the braking on used up."""
     budget = one(figures, Budget)
-    spent = spent_by_phase(budget, result)
+    spent = consumption_by_phase(budget, result)
     amounts = [amount(item, spent, budget.bound) for item in budget.items]
     mass = result["plant.mass"]
     assert sum(amounts) == pytest.approx(mass[0] - mass[-1], abs=1e-9)

@@ -73,13 +73,13 @@ def texts(figure):
 
 def bars(figure):
     """Foot and head (x, y in points) of all bars by the colour of their sign, a lane after the other."""
-    found = {}
+    actual = {}
     for path in etree.fromstring(figure).xpath("//*[local-name()='path'][contains(@style, 'stroke-width: 1.1')]"):
         colour = re.search(r"stroke: (#\w+)", path.get("style"))[1]
         numbers = [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", path.get("d"))]
         assert re.sub(r"[^A-Z]", "", path.get("d")) == "ML" * (len(numbers) // 4)
-        found.setdefault(colour, []).append(np.array(numbers).reshape(-1, 2, 2))
-    return found
+        actual.setdefault(colour, []).append(np.array(numbers).reshape(-1, 2, 2))
+    return actual
 
 
 def count_of(figure):
@@ -109,13 +109,13 @@ def test_they_are_on_the_page_above_the_time_histories(tmp_path):
 
 
 def test_a_band_says_from_when_on():
-    found = one(ANGLES, flown(angles=angles()))
-    assert findings(found) == ["Settling time 97.5 s: roll 40.5 s, yaw 97.5 s."]
-    assert notes(found) == ["Green: \N{MINUS SIGN}0.5 to 0.5 deg for ship.angles; dotted line: settling time."]
-    assert captions(found) == ["Time history", "Zoom on tolerance band"]
-    assert [label for _, label in found.legend] == ["roll", "yaw"]
-    assert {"20", "deg"} <= texts(found.panels[0].figure)
-    close = texts(found.panels[1].figure)
+    actual = one(ANGLES, flown(angles=angles()))
+    assert findings(actual) == ["Settling time 97.5 s: roll 40.5 s, yaw 97.5 s."]
+    assert notes(actual) == ["Green: \N{MINUS SIGN}0.5 to 0.5 deg for ship.angles; dotted line: settling time."]
+    assert captions(actual) == ["Time history", "Zoom on tolerance band"]
+    assert [label for _, label in actual.legend] == ["roll", "yaw"]
+    assert {"20", "deg"} <= texts(actual.panels[0].figure)
+    close = texts(actual.panels[1].figure)
     assert {"1", "\N{MINUS SIGN}1", "deg"} <= close
     assert "20" not in close
 
@@ -138,30 +138,30 @@ def test_what_is_subtracted_and_a_single_limit():
     rate = np.where(TIME < 20.0, -0.052, -0.05)
     signal = Signal("ship.rate", ("ship.rate",), RADIAN, 1.0, (0.05,))
     band = replace(ANGLES, signal=signal, low=-0.001, high=None, about=(-0.05,), labels=("",), name="within the band")
-    found = one(band, flown(rate=rate))
-    assert findings(found) == ["Settling time 20 s (within the band)."]
-    (note,) = notes(found)
+    actual = one(band, flown(rate=rate))
+    assert findings(actual) == ["Settling time 20 s (within the band)."]
+    (note,) = notes(actual)
     assert note.startswith(
         "Green: at least \N{MINUS SIGN}0.0573 deg for ship.rate minus (\N{MINUS SIGN}2.865) deg; dotted"
     )
-    assert values_in(*found.notes) == {"-0.001", "-0.05"}
+    assert values_in(*actual.notes) == {"-0.001", "-0.05"}
 
 
 def test_bands_of_one_name_are_told_together():
     first = replace(ANGLES, signal=scalar("ship.angles[1]", DEG, 1.0 / DEGREE), labels=("",))
     second = replace(first, signal=scalar("ship.angles[2]", DEG, 1.0 / DEGREE))
     result = flown(angles=angles())
-    words = [plain(found) for found in joint_findings([first, second, replace(first, name="calm"), PULSES], result)]
+    words = [plain(actual) for actual in joint_findings([first, second, replace(first, name="calm"), PULSES], result)]
     assert words == ["Both bands: settling time 97.5 s."]
-    words = [plain(found) for found in joint_findings([first, first, first], result)]
+    words = [plain(actual) for actual in joint_findings([first, first, first], result)]
     assert words == ["All 3 bands: settling time 40.5 s."]
 
 
 def test_a_bar_for_each_pulse():
     """81 ticks: x fires up in 8 and down in 8 of them, y in the first 4; the last row's tick never acts."""
-    found = one(PULSES, flown(**pulses()))
-    assert findings(found) == ["Total 20 pulses, 2.4 s (x 16 pulses, 1.6 s; y 4 pulses, 0.8 s)."]
-    drawn = bars(found.plot.wide)
+    actual = one(PULSES, flown(**pulses()))
+    assert findings(actual) == ["Total 20 pulses, 2.4 s (x 16 pulses, 1.6 s; y 4 pulses, 0.8 s)."]
+    drawn = bars(actual.plot.wide)
     (x_up, y_up), (x_down,) = drawn["#0072b2"], drawn["#d55e00"]
     assert [len(part) for part in (x_up, x_down, y_up)] == [8, 8, 4]
     heights = {name: part[:, 0, 1] - part[:, 1, 1] for name, part in (("+", x_up), ("-", x_down), ("y", y_up))}
@@ -171,8 +171,8 @@ def test_a_bar_for_each_pulse():
     np.testing.assert_allclose(heights["-"], -0.15 * scale, atol=0.02)
     np.testing.assert_allclose(heights["y"], 0.2 * scale, atol=0.02)
     np.testing.assert_allclose(np.diff(y_up[:, 0, 0]), np.diff(x_up[:, 0, 0])[0] / 10.0, atol=0.02)  # 2.5 s and 25 s
-    assert {"x, s", "y, s", "ship.spent, s"} <= texts(found.plot.wide)
-    assert "thin line: ship.rest" in notes(found)[0]
+    assert {"x, s", "y, s", "ship.spent, s"} <= texts(actual.plot.wide)
+    assert "thin line: ship.rest" in notes(actual)[0]
 
 
 def test_without_a_count_every_row_has_new_pulses():
@@ -180,9 +180,9 @@ def test_without_a_count_every_row_has_new_pulses():
     lengths[[20, 21]] = 0.3
     signal = scalar("ship.lengths", SECOND)
     alone = replace(PULSES, lengths=signal, count=None, remainder=None, total=None, labels=("",))
-    found = one(alone, flown(lengths=lengths))
-    assert findings(found) == ["3 pulses, 0.7 s."]
-    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(found.plot.wide).items()} == {
+    actual = one(alone, flown(lengths=lengths))
+    assert findings(actual) == ["3 pulses, 0.7 s."]
+    assert {colour: [len(lane) for lane in lanes] for colour, lanes in bars(actual.plot.wide).items()} == {
         "#0072b2": [2],
         "#d55e00": [1],
     }
@@ -197,30 +197,30 @@ def test_many_pulses_stay_small():
     signal = vector("ship.lengths", 3, SECOND)
     signals = dict(zip(signal.names, lengths, strict=True))
     result = replace(run_result(), time=0.2 * np.arange(rows), signals=signals)
-    found = one(Pulses("Jets", (), signal, None, None, None, ("x", "y", "z")), result)
-    assert count_of(found.plot.wide) == 3 * (rows - 1)
-    assert len(found.plot.wide) < 40 * 3 * rows  # a bar is two points of some ten letters each
+    actual = one(Pulses("Jets", (), signal, None, None, None, ("x", "y", "z")), result)
+    assert count_of(actual.plot.wide) == 3 * (rows - 1)
+    assert len(actual.plot.wide) < 40 * 3 * rows  # a bar is two points of some ten letters each
 
 
 def test_an_error_within_its_sigma():
     """Of four rows one is within sigma and three within three of it; 301 rows from 50 s on begin with the first."""
-    found = one(ERROR, flown(**errors()))
+    actual = one(ERROR, flown(**errors()))
     inside = sum(1 for row in range(100, ROWS) if row % 4 == 0) / 301
     within = sum(1 for row in range(100, ROWS) if row % 4 != 3) / 301
-    assert {repr(inside), repr(within)} <= values_in(*found.findings)
-    assert findings(found) == [
+    assert {repr(inside), repr(within)} <= values_in(*actual.findings)
+    assert findings(actual) == [
         "From 50 s, 25.2 % of the samples within 1 sigma (normal distribution: "
         f"{100.0 * math.erf(math.sqrt(0.5)):.3g} %), 75.1 % within 3 sigma."
     ]
-    assert notes(found) == ["Line: ship.estimate minus ship.truth; shaded: ±1 and ±3 ship.sigma where it is not 0."]
-    assert captions(found) == ["Time history", "Scaled to the last quarter"]  # 11.5 deg first, then 0.35 deg
+    assert notes(actual) == ["Line: ship.estimate minus ship.truth; shaded: ±1 and ±3 ship.sigma where it is not 0."]
+    assert captions(actual) == ["Time history", "Scaled to the last quarter"]  # 11.5 deg first, then 0.35 deg
 
 
 def test_an_error_without_sigma():
     signals = errors()
-    found = one(ERROR, flown(**(signals | {"sigma": 0.0 * TIME})))
-    assert findings(found) == []
-    assert notes(found) == ["Line: ship.estimate minus ship.truth; ship.sigma is 0 throughout, no standard deviation."]
+    actual = one(ERROR, flown(**(signals | {"sigma": 0.0 * TIME})))
+    assert findings(actual) == []
+    assert notes(actual) == ["Line: ship.estimate minus ship.truth; ship.sigma is 0 throughout, no standard deviation."]
     bare = one(replace(ERROR, sigma=None, notes=("Left out: sigma.",)), flown(**signals))
     assert notes(bare) == ["Line: ship.estimate minus ship.truth.", "Left out: sigma."]
     assert findings(one(replace(ERROR, after=1000.0), flown(**signals))) == []
@@ -229,15 +229,15 @@ def test_an_error_without_sigma():
 def test_errors_of_a_vector():
     result = flown(**{name: [values] * 2 for name, values in errors().items()})
     parts = {name: vector(f"ship.{name}", 2, RADIAN) for name in ("estimate", "truth", "sigma")}
-    found = one(replace(ERROR, **parts, labels=("[1]", "[2]")), result)
-    assert [words[:12] for words in findings(found)] == ["[1]: from 50", "[2]: from 50"]
-    assert captions(found)[2:] == ["[2], time history", "[2], scaled to the last quarter"]
+    actual = one(replace(ERROR, **parts, labels=("[1]", "[2]")), result)
+    assert [words[:12] for words in findings(actual)] == ["[1]: from 50", "[2]: from 50"]
+    assert captions(actual)[2:] == ["[2], time history", "[2], scaled to the last quarter"]
 
 
 @pytest.mark.parametrize("rows", [1, 2])
 def test_short_runs(rows):
     values = {"angles": angles(), **pulses(), **errors()}
-    result = flown(**{name: np.atleast_2d(found)[:, :rows] for name, found in values.items()})
+    result = flown(**{name: np.atleast_2d(actual)[:, :rows] for name, actual in values.items()})
     result["ship.estimate"][-1] = np.inf
     result["ship.lengths[1]"][-1] = np.nan
     assert len(figure_sections([ANGLES, PULSES, ERROR], result)) == 3

@@ -73,9 +73,9 @@ def test_all_of_them_are_on_a_page(tmp_path):
 
 
 def test_phases_as_they_were_flown():
-    found = spans_of(PHASES, mission())
-    assert [(span.name, span.begin, span.end) for span in found] == [row[:3] for row in SPANS]
-    assert [span.spent for span in found] == pytest.approx([row[3] for row in SPANS], abs=1e-12)
+    actual = spans_of(PHASES, mission())
+    assert [(span.name, span.begin, span.end) for span in actual] == [row[:3] for row in SPANS]
+    assert [span.spent for span in actual] == pytest.approx([row[3] for row in SPANS], abs=1e-12)
 
 
 def test_a_part_that_never_ends_one_that_is_over_at_once_and_a_value_without_name():
@@ -89,8 +89,8 @@ def test_a_part_that_never_ends_one_that_is_over_at_once_and_a_value_without_nam
 
 def test_a_phase_that_comes_again():
     phase = np.where((TIME >= 50.0) & (TIME < 60.0), 5, 1)
-    found = [(span.name, span.begin, span.end) for span in spans_of(PHASES, mission(phase=phase))]
-    assert found == [("burn", 0.0, 50.0), ("descent", 50.0, 60.0), ("burn", 60.0, 200.0)]
+    actual = [(span.name, span.begin, span.end) for span in spans_of(PHASES, mission(phase=phase))]
+    assert actual == [("burn", 0.0, 50.0), ("descent", 50.0, 60.0), ("burn", 60.0, 200.0)]
 
 
 def test_statuses_where_they_rise():
@@ -110,20 +110,20 @@ def test_statuses_with_times_of_their_own():
 
 
 def test_the_table_of_phases():
-    found = cells(one(PHASES, mission()))
+    actual = cells(one(PHASES, mission()))
     expected = [[name, f"{begin:g}", f"{end - begin:g}", f"{spent:.3f}"] for name, begin, end, spent in SPANS]
-    assert found == [*expected, ["total", "0", "200", "24.000"]]
+    assert actual == [*expected, ["total", "0", "200", "24.000"]]
     assert one(replace(PHASES, spent=None), mission()).table.heads == ("phase", "start, s", "duration, s")
 
 
 def bars(figure):
     """Left and right end (points) of all bars, by the height of their middle."""
-    found = {}
+    actual = {}
     for path in etree.fromstring(figure).xpath("//*[local-name()='path'][contains(@style, 'fill: #0072b2')]"):
         points = np.array(re.findall(r"-?\d+(?:\.\d+)?", path.get("d")), dtype=float).reshape(-1, 2)
         ends = (float(points[:, 0].min()), float(points[:, 0].max()))
-        found.setdefault(round(float(points[:, 1].mean()), 1), []).append(ends)
-    return [found[height] for height in sorted(found)]
+        actual.setdefault(round(float(points[:, 1].mean()), 1), []).append(ends)
+    return [actual[height] for height in sorted(actual)]
 
 
 def test_the_long_phase_is_cut_and_the_others_are_to_scale():

@@ -53,7 +53,7 @@ def read(folder, loaded, inside):
 
 def test_phases_and_limits(folder, loaded):
     limits = '<Limits title="End"><Limit signal="plant.angles[2]" least="-1" most="2" unit="deg" name="yaw"/></Limits>'
-    phases, found = read(folder, loaded, f"{PHASES}\n{limits}")
+    phases, actual = read(folder, loaded, f"{PHASES}\n{limits}")
     assert isinstance(phases, Phases)
     assert [(phase.value, phase.name) for phase in phases.phases] == [(1, "first"), (1, "then this"), (3, "last")]
     assert [phase.until and phase.until.label for phase in phases.phases] == ["observer.yaw_sigma", None, None]
@@ -63,8 +63,8 @@ def test_phases_and_limits(folder, loaded):
         None,
         {2: "it is late"},
     )
-    assert isinstance(found, Limits)
-    (limit,) = found.limits
+    assert isinstance(actual, Limits)
+    (limit,) = actual.limits
     assert (limit.name, limit.least, limit.most, limit.signal.unit_name) == ("yaw", -1.0, 2.0, "deg")
     assert limit.signal.factor == pytest.approx(180.0 / math.pi, rel=1e-15)
 
@@ -78,9 +78,9 @@ def test_limits_of_vectors(folder, loaded):
         '<Limit signal="plant.angles" measure="length" most="9" about="0.1 0 -0.2"/>'
         '<Limit signal="plant.angles[2]" most="9" less="plant.initial_angles[2]" unit="deg"/></Limits>'
     )
-    (found,) = read(folder, loaded, inside)
+    (actual,) = read(folder, loaded, inside)
     start = {f"plant.angles[{place}]": np.array([angle]) for place, angle in ((1, 0.4), (2, -0.5), (3, 0.6))}
-    length, initial, itself, shifted, one = (limit.value(start) for limit in found.limits)
+    length, initial, itself, shifted, one = (limit.value(start) for limit in actual.limits)
     assert length == pytest.approx(math.degrees(math.hypot(0.4, 0.5, 0.6)), rel=1e-14)
     assert initial == pytest.approx(abs(-math.degrees(0.5) - 17.0), rel=1e-14)
     assert itself == 0.0
@@ -332,8 +332,8 @@ def test_what_an_fmu_that_is_put_in_lacks_is_said(tiny_folder, tmp_path):
 
 def test_limits_that_an_event_has_to_happen_for(folder, loaded):
     inside = '<Limits when="{}"><Limit signal="plant.angles[2]" most="2" unit="deg"/></Limits>'
-    (found,) = read(folder, loaded, inside.format("pulses.pulse_count"))
-    assert found.when.names == ("pulses.pulse_count",)
+    (actual,) = read(folder, loaded, inside.format("pulses.pulse_count"))
+    assert actual.when.names == ("pulses.pulse_count",)
     refused(folder, loaded, "", inside.format("pulses.pulse_cout"), "Limits", "when pulses.pulse_cout: no such signal")
     refused(folder, loaded, "", inside.format("plant.angles"), "Limits", "when plant.angles is a vector")
 

@@ -58,21 +58,21 @@ def page(studies, loop, tmp_path_factory):
 def test_identical_axes_are_one_figure(page):
     assert_self_contained(page)
     first, second, third = parse(page).xpath("//article[contains(@class, 'loop')]")
-    captions = [" ".join(found.text_content().split()) for found in first.xpath(".//figcaption")]
+    captions = [" ".join(actual.text_content().split()) for actual in first.xpath(".//figcaption")]
     assert captions[:3] == ["Bode: force[x], [y]", "Nichols: force[x], [y]", "Nyquist: force[x], [y]"]
     assert second.xpath(".//figure") == []
-    notes = [found.text_content() for found in second.xpath(".//p") if ": see force[x]" in found.text_content()]
+    notes = [actual.text_content() for actual in second.xpath(".//p") if ": see force[x]" in actual.text_content()]
     for note, labels in zip(notes, ("Bode, Nichols: ", "Nyquist, "), strict=True):
         assert note.startswith(labels)
         assert "force[x]" in note
         assert "0.5 pt" in note
-    assert [found.text_content() for found in third.xpath(".//figcaption")][:3] == ["Bode", "Nichols", "Nyquist"]
+    assert [actual.text_content() for actual in third.xpath(".//figcaption")][:3] == ["Bode", "Nichols", "Nyquist"]
 
 
 def test_the_tables_of_each_are_there(page):
     text = text_of(page)
     assert text.count("Classical") == text.count("Modes") == len(AXES)
-    tables = [len(found.xpath(".//table")) for found in parse(page).xpath("//article[contains(@class, 'loop')]")]
+    tables = [len(actual.xpath(".//table")) for actual in parse(page).xpath("//article[contains(@class, 'loop')]")]
     assert len(set(tables)) == 1
 
 
@@ -83,7 +83,7 @@ def test_names_of_loops_are_said_briefly(loop):
 
 
 def test_numbers_of_places_are_read_as_they_stand():
-    found = picture_of('<path id="a-b" d="M 1.5 -2 L 3e-1 4"/><text x="5" style="font: 8px">6</text>')
-    np.testing.assert_array_equal(found.places, [1.5, -2.0, 0.3, 4.0, 5.0])
-    assert ">6<" in found.strokes
-    assert "8px" in found.strokes
+    actual = picture_of('<path id="a-b" d="M 1.5 -2 L 3e-1 4"/><text x="5" style="font: 8px">6</text>')
+    np.testing.assert_array_equal(actual.places, [1.5, -2.0, 0.3, 4.0, 5.0])
+    assert ">6<" in actual.strokes
+    assert "8px" in actual.strokes

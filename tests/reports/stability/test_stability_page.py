@@ -22,7 +22,7 @@ from perilune.analysis.reports.stability.diagrams.frequency import beside, draw_
 from perilune.analysis.reports.stability.diagrams.limits import limits_of
 from perilune.analysis.reports.stability.diagrams.nichols import draw_nichols
 from perilune.analysis.reports.stability.diagrams.nyquist import draw_harmonic_balance, draw_nyquist
-from perilune.analysis.reports.stability.diagrams.poles import thinned
+from perilune.analysis.reports.stability.diagrams.poles import thin
 from perilune.analysis.reports.stability.diagrams.sets import draw_histogram, draw_joint, draw_sweep
 from perilune.analysis.reports.stability.page import write_stability_page
 from perilune.analysis.reports.stability.parts import modes
@@ -61,8 +61,8 @@ def page(stability_page):
 
 def section(page, heading):
     """The section with a heading of the second level."""
-    (found,) = (part for part in parse(page).xpath("//section") if part.xpath("h2")[0].text == heading)
-    return found
+    (actual,) = (part for part in parse(page).xpath("//section") if part.xpath("h2")[0].text == heading)
+    return actual
 
 
 def rows_in(place):
@@ -148,13 +148,13 @@ def test_what_is_not_applicable_is_said_with_its_reason(report, page, studies, t
 
 
 def test_worst_case_can_be_flown_again(report, page, capsys):
-    found = report.loops[0].dispersion
-    assert found.replay in text_of(page)
-    assert f"trial {found.worst}, the worst" in text_of(page)
-    assert main([*shlex.split(found.replay)[1:], "--json", "-"]) == 1
+    actual = report.loops[0].dispersion
+    assert actual.replay in text_of(page)
+    assert f"trial {actual.worst}, the worst" in text_of(page)
+    assert main([*shlex.split(actual.replay)[1:], "--json", "-"]) == 1
     (line,) = capsys.readouterr().err.splitlines()
     assert "the closed loop is unstable" in line
-    assert found.margins[found.worst].unstable
+    assert actual.margins[actual.worst].unstable
 
 
 def test_unstable_trials_are_worse_than_any_number(studies, page):
@@ -170,10 +170,10 @@ def test_unstable_trials_are_worse_than_any_number(studies, page):
         assert (least, low, worst) == ("unstable",) * 3
         assert float(median) == pytest.approx(sizes[TRIALS // 2 - 1], rel=1e-3)
     assert f"3 of {TRIALS} trials are unstable" in text_of(page)
-    found = {item.quantity: item for item in spread.requirements}
-    assert found[Quantity.STABILITY].value == pytest.approx(1.0 - 3 / TRIALS)
-    assert spread.replay in found[Quantity.STABILITY].note
-    assert [found[key].value for key in (Quantity.GAIN, Quantity.PHASE)] == [UNSTABLE] * 2
+    actual = {item.quantity: item for item in spread.requirements}
+    assert actual[Quantity.STABILITY].value == pytest.approx(1.0 - 3 / TRIALS)
+    assert spread.replay in actual[Quantity.STABILITY].note
+    assert [actual[key].value for key in (Quantity.GAIN, Quantity.PHASE)] == [UNSTABLE] * 2
     assert {item.passed for item in spread.requirements} == {False}
 
 
@@ -355,18 +355,18 @@ def test_bode_and_nichols_of_each_loop_are_seen_at_first_sight(report, page):
     """Above what is folded away; a figure that is another loop's, too, stands with that one, under both names."""
     cards = parse(page).xpath("//article")
     captions = [card.xpath("./div[contains(@class, 'halves')]/figure/figcaption") for card in cards]
-    for loop, found in zip(report.loops, captions, strict=True):
-        kinds = [caption.text_content().partition(":")[0].strip() for caption in found]
+    for loop, actual in zip(report.loops, captions, strict=True):
+        kinds = [caption.text_content().partition(":")[0].strip() for caption in actual]
         assert kinds == ["Bode", "Nichols"], loop.name
     assert not parse(page).xpath("//article//details[@open]")
 
 
 def test_many_modes_fold_away(report):
-    found = tuple(Mode(complex(0.5 + k / 100), complex(-0.1), 1.0, 0.1, "loop", 1.0, 1.0) for k in range(40))
-    table = modes(replace(report.loops[0], modes=found)).table
+    actual = tuple(Mode(complex(0.5 + k / 100), complex(-0.1), 1.0, 0.1, "loop", 1.0, 1.0) for k in range(40))
+    table = modes(replace(report.loops[0], modes=actual)).table
     assert len(table.rows) == 40
     assert table.is_long
-    assert not modes(replace(report.loops[0], modes=found[:30])).table.is_long
+    assert not modes(replace(report.loops[0], modes=actual[:30])).table.is_long
 
 
 def axes_pair():
@@ -465,7 +465,7 @@ def test_harmonic_balance_meets_where_the_gain_margin_is(studies):
 def test_clouds_are_thinned_without_losing_their_outline():
     generator = np.random.default_rng(1)
     poles = generator.normal(size=200_000) * 0.2 + 1j * generator.normal(size=200_000) * 0.2
-    kept = thinned(poles, 1.12)
+    kept = thin(poles, 1.12)
     assert kept.size < 5000
     assert set(kept) <= set(poles)
     assert np.max(kept.real) == pytest.approx(np.max(poles.real), abs=0.05)

@@ -41,11 +41,11 @@ def test_the_page_of_a_study(name, linear, tmp_path, capsys):
     text = page.read_text(encoding="utf-8")
     assert_self_contained(text)
     assert str(page) in capsys.readouterr().out
-    found = json.loads(document.read_text())
+    actual = json.loads(document.read_text())
     numbers = {
-        "rare": lambda: [found["probability"], *found["interval"]],
-        "worst": lambda: [found["worst"]["value"], found["worst_random"]["value"]],
-        "sensitivity": lambda: [entry["total"] for entry in found["sensitivity"]["total"].values()],
+        "rare": lambda: [actual["probability"], *actual["interval"]],
+        "worst": lambda: [actual["worst"]["value"], actual["worst_random"]["value"]],
+        "sensitivity": lambda: [entry["total"] for entry in actual["sensitivity"]["total"].values()],
     }[name]()
     assert set(map(repr, numbers)) <= set(data_values(text))
     assert str(tmp_path / "out") in text  # of the command that flies it again

@@ -98,11 +98,11 @@ def noisy(result, matters):
 def test_a_point_has_the_median_of_its_realisations(worst_result, matters, tmp_path):
     result = noisy(worst_result, matters)
     flown = result.flown.values
-    found = point_values(result)
-    np.testing.assert_array_equal(found[:10], np.median(flown[:30].reshape(10, 3), axis=1))
+    actual = point_values(result)
+    np.testing.assert_array_equal(actual[:10], np.median(flown[:30].reshape(10, 3), axis=1))
     rest = flown[30:-9]
-    np.testing.assert_array_equal(found[10:], np.median(rest.reshape(-1, 3), axis=1) if matters else rest)
-    assert objective_of(result).random == int(np.argmax(found[:10]))
+    np.testing.assert_array_equal(actual[10:], np.median(rest.reshape(-1, 3), axis=1) if matters else rest)
+    assert objective_of(result).random == int(np.argmax(actual[:10]))
     axes = Figure().subplots()
     draw_fresh(axes, result)
     assert axes.lines[0].get_ydata()[-1] == 1.0

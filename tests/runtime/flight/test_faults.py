@@ -43,29 +43,29 @@ KINDS = [("override", 9.0, [9.0, 9.0]), ("bias", 0.5, [2.0, 2.5]), ("freeze", 0.
 
 @pytest.mark.parametrize(("kind", "value", "inside"), KINDS)
 def test_on_an_output_every_reader_sees_it(flown, kind, value, inside):
-    found = flown(Fault("ramp.y", kind, value, 0.25, 0.75))
+    actual = flown(Fault("ramp.y", kind, value, 0.25, 0.75))
     seen = [1.0, *inside, 2.5, 3.0]
-    assert found["ramp.y"] == found["gain.u"] == found["twin.u"] == found["delay.u"] == seen
-    assert found["gain.y"] == [3 * y for y in seen]
-    assert found["delay.y"] == [5.0, *seen[:-1]]
+    assert actual["ramp.y"] == actual["gain.u"] == actual["twin.u"] == actual["delay.u"] == seen
+    assert actual["gain.y"] == [3 * y for y in seen]
+    assert actual["delay.y"] == [5.0, *seen[:-1]]
 
 
 @pytest.mark.parametrize(("kind", "value", "inside"), KINDS)
 def test_on_an_input_only_that_component_sees_it(flown, kind, value, inside):
-    found = flown(Fault("gain.u", kind, value, 0.25, 0.75))
+    actual = flown(Fault("gain.u", kind, value, 0.25, 0.75))
     seen = [1.0, *inside, 2.5, 3.0]
-    assert found["gain.u"] == seen
-    assert found["gain.y"] == [3 * y for y in seen]
-    assert found["ramp.y"] == found["twin.u"] == found["delay.u"] == TRUE
+    assert actual["gain.u"] == seen
+    assert actual["gain.y"] == [3 * y for y in seen]
+    assert actual["ramp.y"] == actual["twin.u"] == actual["delay.u"] == TRUE
 
 
 @pytest.mark.parametrize(("kind", "value", "inside"), KINDS)
 def test_on_the_input_of_a_source(flown, kind, value, inside):
-    found = flown(Fault("delay.u", kind, value, 0.25, 0.75))
+    actual = flown(Fault("delay.u", kind, value, 0.25, 0.75))
     seen = [1.0, *inside, 2.5, 3.0]
-    assert found["delay.u"] == seen
-    assert found["delay.y"] == [5.0, *seen[:-1]]
-    assert found["gain.u"] == TRUE
+    assert actual["delay.u"] == seen
+    assert actual["delay.y"] == [5.0, *seen[:-1]]
+    assert actual["gain.u"] == TRUE
 
 
 def test_from_the_start_and_without_end(flown):
@@ -75,21 +75,21 @@ def test_from_the_start_and_without_end(flown):
 
 
 def test_on_whole_numbers(flown):
-    found = flown(Fault("ramp.count", "bias", 100.0, 0.5), Fault("whole.b", "override", 1.0, 0.25, 0.5))
-    assert found["whole.m"] == [0, 1, 102, 103, 104]
-    assert found["whole.c"] == [0, 1, 0, 0, 0]
-    assert found["ramp.flag"] == [0] * 5
+    actual = flown(Fault("ramp.count", "bias", 100.0, 0.5), Fault("whole.b", "override", 1.0, 0.25, 0.5))
+    assert actual["whole.m"] == [0, 1, 102, 103, 104]
+    assert actual["whole.c"] == [0, 1, 0, 0, 0]
+    assert actual["ramp.flag"] == [0] * 5
 
 
 def test_two_faults_on_one_connector_apply_in_turn(flown):
-    found = flown(Fault("ramp.y", "bias", 1.0, 0.25), Fault("ramp.y", "freeze", start=0.5))
-    assert found["gain.u"] == [1.0, 2.5, 3.0, 3.0, 3.0]
+    actual = flown(Fault("ramp.y", "bias", 1.0, 0.25), Fault("ramp.y", "freeze", start=0.5))
+    assert actual["gain.u"] == [1.0, 2.5, 3.0, 3.0, 3.0]
 
 
 def test_under_jacobi(flown):
-    found = flown(Fault("ramp.y", "override", 9.0, 0.25, 0.75), algorithm="jacobi")
-    assert found["gain.u"] == [1.0, 9.0, 9.0, 2.5, 3.0]
-    assert found["gain.y"] == [3.0, 3.0, 27.0, 27.0, 7.5]
+    actual = flown(Fault("ramp.y", "override", 9.0, 0.25, 0.75), algorithm="jacobi")
+    assert actual["gain.u"] == [1.0, 9.0, 9.0, 2.5, 3.0]
+    assert actual["gain.y"] == [3.0, 3.0, 27.0, 27.0, 7.5]
 
 
 def rounded_times(step):
@@ -104,8 +104,8 @@ def rounded_times(step):
 def test_windows_are_kept_whatever_the_rounding_of_time(flown, step):
     for first in rounded_times(step):
         start, stop = (float(f"{n * step:.6g}") for n in (first, first + 2))
-        found = flown(Fault("ramp.y", "override", -1.0, start, stop), step=step, stop_time=60 * step)
-        assert [n for n, y in enumerate(found["gain.u"]) if y == -1.0] == [first, first + 1]
+        actual = flown(Fault("ramp.y", "override", -1.0, start, stop), step=step, stop_time=60 * step)
+        assert [n for n, y in enumerate(actual["gain.u"]) if y == -1.0] == [first, first + 1]
 
 
 def test_a_fault_ends_with_the_flight_it_was_made_for(flown):

@@ -109,6 +109,6 @@ def test_an_integer_beyond_32_bits_fails_as_by_fmis_call(monkeypatch, tiny_folde
         assert f"count = {2**31} exceeds an FMI Integer's 32 bits" in by_memory.message
         monkeypatch.setattr(Instance, "place", lambda *_, **__: 0)
         with Simulation(ready) as plain:
-            found = plain.fly({})
-            assert found.message == by_memory.message
-            assert_same(by_memory, found)
+            actual = plain.fly({})
+            assert actual.message == by_memory.message
+            assert_same(by_memory, actual)

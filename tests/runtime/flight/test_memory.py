@@ -32,8 +32,8 @@ def prepared(folder, fmus):
 
 @pytest.fixture(params=["native", "python"])
 def simulation(request, exact_folder, tmp_path):
-    with Simulation(prepared(tmp_path, exact_folder / request.param)) as found:
-        yield found
+    with Simulation(prepared(tmp_path, exact_folder / request.param)) as actual:
+        yield actual
 
 
 def fly(simulation, first, last):
@@ -57,14 +57,14 @@ def assert_same(one, other):
 
 def whole_numbers(simulation):
     """Everything that is no Real: count, even."""
-    found = []
+    actual = []
     for instance in simulation.instances.values():
         for variable in instance.fmu.variables.values():
             if variable.type == "Integer":
-                found += instance.slave.getInteger([variable.valueReference])
+                actual += instance.slave.getInteger([variable.valueReference])
             if variable.type == "Boolean":
-                found += instance.slave.getBoolean([variable.valueReference])
-    return found
+                actual += instance.slave.getBoolean([variable.valueReference])
+    return actual
 
 
 def test_put_back_it_flies_on_as_it_did(simulation):
@@ -133,7 +133,7 @@ def test_a_changed_cell_acts_as_the_equations_say(simulation):
 
 
 def test_both_flavours_remember_the_same(exact_folder, tmp_path):
-    found = []
+    actual = []
     for flavour in ("native", "python"):
         (tmp_path / flavour).mkdir()
         with Simulation(prepared(tmp_path / flavour, exact_folder / flavour)) as simulation:
@@ -143,8 +143,8 @@ def test_both_flavours_remember_the_same(exact_folder, tmp_path):
             place = [name for name, _ in cells].index("noise.mean[1]")
             memory.put_back(snapshot, memory.cells[place], -0.1)
             signals = fly(simulation, SAVED, LAST)
-            found.append((cells, at_saved.tobytes(), signals, memory.read().tobytes()))
-    native, python = found
+            actual.append((cells, at_saved.tobytes(), signals, memory.read().tobytes()))
+    native, python = actual
     assert native[0] == python[0]
     assert native[1] == python[1]
     assert_same(native[2], python[2])

@@ -42,15 +42,15 @@ def test_parquet_comes_back_with_units_and_provenance(flight, tmp_path):
     assert {name: str(table.schema.field(name).type) for name in TYPES} == TYPES
     units = {field.name: (field.metadata or {}).get(b"unit", b"").decode() for field in table.schema}
     assert (units["time"], units["ramp.y"], units["ramp.count"]) == ("s", "m", "")
-    found = json.loads(table.schema.metadata[b"perilune"])
-    assert found["status"] == "stop_time"
-    assert found["rows"] == 5
-    assert found["end_time"] == 1.0
-    assert found["step"] == 0.25
-    assert found["parameters"]["ramp.start"] == 1 / 3
-    assert found["parameters"]["source.first_count"] == 2
-    assert found["perilune"] == version("perilune")
-    assert set(found["fmus"]) == {"ramp", "gain", "source"}
+    actual = json.loads(table.schema.metadata[b"perilune"])
+    assert actual["status"] == "stop_time"
+    assert actual["rows"] == 5
+    assert actual["end_time"] == 1.0
+    assert actual["step"] == 0.25
+    assert actual["parameters"]["ramp.start"] == 1 / 3
+    assert actual["parameters"]["source.first_count"] == 2
+    assert actual["perilune"] == version("perilune")
+    assert set(actual["fmus"]) == {"ramp", "gain", "source"}
 
 
 def test_hashes_are_those_of_the_files(flight, tiny_folder):
@@ -105,9 +105,9 @@ def test_a_flight_without_rows_can_be_written(tiny_folder, tmp_path):
     assert result.final() == {}
     for name in ("a.csv", "a.parquet"):
         result.write(tmp_path / name)
-    found = json.loads(pyarrow.parquet.read_schema(tmp_path / "a.parquet").metadata[b"perilune"])
-    assert (found["status"], found["rows"], found["end_time"]) == ("failed", 0, None)
-    assert "division" in found["message"]
+    actual = json.loads(pyarrow.parquet.read_schema(tmp_path / "a.parquet").metadata[b"perilune"])
+    assert (actual["status"], actual["rows"], actual["end_time"]) == ("failed", 0, None)
+    assert "division" in actual["message"]
 
 
 def test_a_vector_by_its_own_name_and_a_wrong_one():

@@ -31,8 +31,8 @@ VARIANTS = {
 
 
 def start(position, velocity):
-    found = {f"plant.initial_position[{i + 1}]": position[i] for i in range(3)}
-    return found | {f"plant.initial_velocity[{i + 1}]": velocity[i] for i in range(3)}
+    actual = {f"plant.initial_position[{i + 1}]": position[i] for i in range(3)}
+    return actual | {f"plant.initial_velocity[{i + 1}]": velocity[i] for i in range(3)}
 
 
 def vector(result, name):
@@ -76,13 +76,13 @@ def test_first_command_of_the_printed_state(guidance):
         vector(result, "guidance.thrust_direction_rate")[0],
     )
     pitch = np.arcsin(direction[2])
-    found = (
+    actual = (
         result["guidance.time_to_go"][0],
         result["guidance.thrust_acceleration"][0],
         pitch,
         rate[2] / np.cos(pitch),
     )
-    for value, text in zip(found, PRINTED[guidance], strict=True):
+    for value, text in zip(actual, PRINTED[guidance], strict=True):
         if text is not None:
             mantissa, _, exponent = text.partition("e")
             half_digit = 0.5 * 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
@@ -137,17 +137,17 @@ def test_reset_flies_the_bits_of_a_fresh_instance(flavour):
             fresh.append({name: column.copy() for name, column in simulation.fly(case).signals.items()})
     with Simulation(prepare_system(SYSTEM, options), varied=varied) as simulation:
         for case, expected in zip(cases, fresh, strict=True):
-            found = simulation.fly(case)
-            assert all(np.array_equal(found[name], column) for name, column in expected.items())
+            actual = simulation.fly(case)
+            assert all(np.array_equal(actual[name], column) for name, column in expected.items())
     assert not np.array_equal(fresh[0]["guidance.position[1]"], fresh[1]["guidance.position[1]"])
 
 
 @pytest.mark.usefixtures("fmus")
 def test_flavours_fly_the_same_bits():
-    found = [perilune.simulate(SYSTEM, parameters=["noisy.ssv"], flavour=name) for name in ("python", "native")]
-    assert found[0].signals.keys() == found[1].signals.keys()
-    for name, column in found[0].signals.items():
-        assert np.array_equal(column, found[1][name]), name
+    actual = [perilune.simulate(SYSTEM, parameters=["noisy.ssv"], flavour=name) for name in ("python", "native")]
+    assert actual[0].signals.keys() == actual[1].signals.keys()
+    for name, column in actual[0].signals.items():
+        assert np.array_equal(column, actual[1][name]), name
 
 
 @pytest.mark.parametrize("kind", [1, 4])

@@ -60,7 +60,7 @@ def libcosim(folder, outputs, steps):
     execution = CosimExecution.from_osp_config_file(str(folder / "OspSystemStructure.xml"))
     observer = CosimObserver.create_last_value()
     assert execution.add_observer(observer)
-    found = []
+    actual = []
     for _ in range(steps):
         assert execution.step(1)
         row = []
@@ -69,8 +69,8 @@ def libcosim(folder, outputs, steps):
             index = execution.slave_index_from_instance_name(owner)
             references = {item.name.decode(): item.reference for item in execution.slave_variables(index)}
             row += observer.last_real_values(index, [references[variable]])
-        found.append(row)
-    return np.array(found)
+        actual.append(row)
+    return np.array(actual)
 
 
 CHAIN = structure(
@@ -115,15 +115,15 @@ def test_a_step_that_is_no_multiple(folder, capsys):
 
 def test_the_file_itself_may_be_named(folder):
     place = folder(CHAIN)
-    found = [fly(path, stop_time=1.5)["after.y"] for path in (place, place / "OspSystemStructure.xml")]
-    np.testing.assert_array_equal(*found)
+    actual = [fly(path, stop_time=1.5)["after.y"] for path in (place, place / "OspSystemStructure.xml")]
+    np.testing.assert_array_equal(*actual)
 
 
 def test_simulators_in_a_process_of_their_own(folder):
-    found = []
+    actual = []
     for source in ("delay.fmu", "proxyfmu://localhost?file=delay.fmu"):
-        found.append(fly(folder(CHAIN.replace('"delay.fmu"', f'"{source}"')), stop_time=1.5)["after.y"])
-    np.testing.assert_array_equal(*found)
+        actual.append(fly(folder(CHAIN.replace('"delay.fmu"', f'"{source}"')), stop_time=1.5)["after.y"])
+    np.testing.assert_array_equal(*actual)
     text = CHAIN.replace('"ramp.fmu"', '"proxyfmu://lab:9090?file=ramp.fmu"')
     with pytest.raises(InputError, match=r"source proxyfmu://lab:9090\?file=ramp\.fmu of ramp is on another machine"):
         fly(folder(text))

@@ -11,7 +11,7 @@ from fmpy.simulation import Input
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from perilune.analysis.runtime.system.drive import held, interpolated
+from perilune.analysis.runtime.system.drive import hold, interpolate
 
 TIMES = st.lists(st.sampled_from([0.0, 0.1, 0.2, 0.3, 0.30000000000000004, 0.5, 0.7, 1.0, 3.0]), min_size=1, max_size=9)
 POINTS = st.lists(
@@ -28,9 +28,9 @@ def test_as_fmpy_has_it(times, points, after_event, seed):
     time = np.sort(np.array(times))
     values = np.random.default_rng(seed).normal(size=time.size)
     table = values[np.newaxis]
-    for discrete, ours in ((False, interpolated), (True, held)):
-        found = ours(np.array(points), time, values, after_event=after_event)
-        for point, value in zip(points, found, strict=True):
+    for discrete, ours in ((False, interpolate), (True, hold)):
+        actual = ours(np.array(points), time, values, after_event=after_event)
+        for point, value in zip(points, actual, strict=True):
             theirs, _ = Input.interpolate(point, time, table, discrete=discrete, after_event=after_event)
             assert value == np.ravel(theirs)[0], (discrete, point)
 
@@ -38,12 +38,12 @@ def test_as_fmpy_has_it(times, points, after_event, seed):
 def test_in_closed_form():
     time, values = np.array([1.0, 3.0, 3.0, 5.0]), np.array([10.0, 20.0, 40.0, 0.0])
     points = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
-    assert interpolated(points, time, values, after_event=True).tolist() == [10, 10, 15, 40, 20, 0, 0]
-    assert interpolated(points, time, values, after_event=False).tolist() == [10, 10, 15, 20, 20, 0, 0]
-    assert held(points, time, values, after_event=True).tolist() == [10, 10, 10, 40, 40, 0, 0]
-    assert held(points, time, values, after_event=False).tolist() == [10, 10, 10, 10, 40, 40, 0]
+    assert interpolate(points, time, values, after_event=True).tolist() == [10, 10, 15, 40, 20, 0, 0]
+    assert interpolate(points, time, values, after_event=False).tolist() == [10, 10, 15, 20, 20, 0, 0]
+    assert hold(points, time, values, after_event=True).tolist() == [10, 10, 10, 40, 40, 0, 0]
+    assert hold(points, time, values, after_event=False).tolist() == [10, 10, 10, 10, 40, 40, 0]
 
 
-@pytest.mark.parametrize("ours", [interpolated, held])
+@pytest.mark.parametrize("ours", [interpolate, hold])
 def test_one_sample_is_held(ours):
     assert ours(np.array([-1.0, 0.5, 2.0]), np.array([0.5]), np.array([7.0]), after_event=True).tolist() == [7.0] * 3

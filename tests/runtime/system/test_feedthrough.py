@@ -26,9 +26,9 @@ WIRES = connection("ramp.y", "gain.u") + connection("gain.y", "delay.u")
 
 
 def without_dependencies(text):
-    found = re.sub(r'(<Unknown index="\d+") dependencies="[^"]*"( dependenciesKind="[^"]*")?', r"\1", text)
-    assert found != text
-    return found
+    actual = re.sub(r'(<Unknown index="\d+") dependencies="[^"]*"( dependenciesKind="[^"]*")?', r"\1", text)
+    assert actual != text
+    return actual
 
 
 def without_outputs(text):

@@ -53,7 +53,7 @@ def test_connections_have_no_direction(tiny, tmp_path, plain):
 
 def test_a_backward_connection_transforms_what_flows(tiny, tmp_path):
     inner = '<ssc:LinearTransformation factor="2" offset="1"/>'
-    found = [
+    actual = [
         fly(
             pack(
                 tmp_path / f"{start}.ssp", tiny, document(system(RAMP, GAIN, connections=connection(start, end, inner)))
@@ -61,8 +61,8 @@ def test_a_backward_connection_transforms_what_flows(tiny, tmp_path):
         )
         for start, end in (("ramp.y", "gain.u"), ("gain.u", "ramp.y"))
     ]
-    np.testing.assert_array_equal(found[0]["gain.u"], found[1]["gain.u"])
-    assert found[1]["gain.u"][0] == 2.0 * 1.0 + 1.0
+    np.testing.assert_array_equal(actual[0]["gain.u"], actual[1]["gain.u"])
+    assert actual[1]["gain.u"][0] == 2.0 * 1.0 + 1.0
 
 
 def test_two_of_a_kind_are_refused_either_way(tiny, tmp_path):

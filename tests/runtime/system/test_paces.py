@@ -51,9 +51,9 @@ def osp(step, kind="com.opensimulationplatform"):
 def test_step_and_algorithm_are_those_of_the_annotation(tiny, tmp_path, text):
     path = pack(tmp_path / "s.ssp", tiny, text)
     plain = pack(tmp_path / "plain.ssp", tiny, document(system(RAMP, GAIN, connections=WIRED)))
-    found = fly(path)
-    assert (found.provenance["step"], found.provenance["algorithm"]) == (0.125, "jacobi")
-    np.testing.assert_array_equal(found["gain.y"], fly(plain, step=0.125, algorithm="jacobi")["gain.y"])
+    actual = fly(path)
+    assert (actual.provenance["step"], actual.provenance["algorithm"]) == (0.125, "jacobi")
+    np.testing.assert_array_equal(actual["gain.y"], fly(plain, step=0.125, algorithm="jacobi")["gain.y"])
     asked = fly(path, step=0.25, algorithm="sequential")
     np.testing.assert_array_equal(asked["gain.y"], fly(plain)["gain.y"])
 

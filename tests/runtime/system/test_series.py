@@ -17,19 +17,19 @@ def test_a_file_as_fmpy_reads_it(tmp_path):
     path = tmp_path / "inputs.csv"
     rows = [(0.1 * n, np.sin(n), 1e-300 * n, n) for n in range(50)]
     fmpy.write_csv(path, np.array(rows, dtype=[("time", float), ("a.b[1]", float), ("c", float), ("n", int)]))
-    found, theirs = read_series(path), fmpy.read_csv(path)
-    assert np.array_equal(found.time, theirs["time"])
-    assert list(found.columns) == ["a.b[1]", "c", "n"]
-    for name, values in found.columns.items():
+    actual, theirs = read_series(path), fmpy.read_csv(path)
+    assert np.array_equal(actual.time, theirs["time"])
+    assert list(actual.columns) == ["a.b[1]", "c", "n"]
+    for name, values in actual.columns.items():
         assert np.array_equal(values, theirs[name])
 
 
 def test_what_spreadsheets_write(tmp_path):
     path = tmp_path / "inputs.csv"
     path.write_bytes(b'\xef\xbb\xbftime, "a[1,2]", flag\r\n0, 1e3, TRUE\r\n\r\n1, -2, false\r\n')
-    found = read_series(path)
-    assert found.time.tolist() == [0.0, 1.0]
-    assert {name: values.tolist() for name, values in found.columns.items()} == {"a[1,2]": [1e3, -2], "flag": [1, 0]}
+    actual = read_series(path)
+    assert actual.time.tolist() == [0.0, 1.0]
+    assert {name: values.tolist() for name, values in actual.columns.items()} == {"a[1,2]": [1e3, -2], "flag": [1, 0]}
 
 
 @pytest.mark.parametrize(

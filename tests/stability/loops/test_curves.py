@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from perilune.analysis.stability.loops.curves import dense, interpolated, remembered
+from perilune.analysis.stability.loops.curves import cache_response, dense, interpolate
 from perilune.analysis.stability.loops.margins import classical
 from tests.support.loops.sampled_loops import HeldDoubleIntegrator, response_of
 
@@ -17,12 +17,12 @@ def test_margins_of_a_measured_double_integrator() -> None:
     numbers = np.unique(2 * np.round((np.geomspace(1.0, 2001.0, 34) - 1.0) / 2.0).astype(int) + 1)
     frequency = 2.0 * np.pi * numbers / (4096 * LOOP.period)
     exact = response_of(LOOP.system)
-    response = interpolated(frequency, exact(frequency), LOOP.period)
-    found = classical(response, frequency[0], frequency[-1], LOOP.period, None)
-    assert found.gain_margin is not None
-    assert found.phase_margin is not None
-    assert 20 * np.log10(found.gain_margin.value / LOOP.gain_margin) == pytest.approx(0.0, abs=1e-3)
-    assert np.degrees(found.phase_margin.value - LOOP.phase_margin) == pytest.approx(0.0, abs=1e-2)
+    response = interpolate(frequency, exact(frequency), LOOP.period)
+    actual = classical(response, frequency[0], frequency[-1], LOOP.period, None)
+    assert actual.gain_margin is not None
+    assert actual.phase_margin is not None
+    assert 20 * np.log10(actual.gain_margin.value / LOOP.gain_margin) == pytest.approx(0.0, abs=1e-3)
+    assert np.degrees(actual.phase_margin.value - LOOP.phase_margin) == pytest.approx(0.0, abs=1e-2)
     between = np.geomspace(frequency[4], frequency[-1], 1000)
     ratio = response(between) / exact(between)
     assert np.max(np.abs(20 * np.log10(np.abs(ratio)))) < 0.02
@@ -32,19 +32,19 @@ def test_margins_of_a_measured_double_integrator() -> None:
 def test_interpolation_passes_through_the_lines_and_stays_within_them() -> None:
     frequency = np.array([0.1, 0.2, 0.5, 1.0, 2.0])
     value = np.exp(-1j * 1.1 * frequency) / (1j * frequency)
-    response = interpolated(frequency, value, 1.0)
+    response = interpolate(frequency, value, 1.0)
     np.testing.assert_allclose(response(frequency), value, rtol=1e-12)
     for outside in (0.09, 2.01):
         with pytest.raises(ValueError, match="outside of the measured lines"):
             response(np.array([outside]))
     with pytest.raises(ValueError, match="increase"):
-        interpolated(frequency[::-1], value, 1.0)
+        interpolate(frequency[::-1], value, 1.0)
     with pytest.raises(ValueError, match="Nyquist"):
-        interpolated(frequency, value, 2.0)
+        interpolate(frequency, value, 2.0)
     with pytest.raises(ValueError, match="at least 4"):
-        interpolated(frequency[:3], value[:3], 1.0)
+        interpolate(frequency[:3], value[:3], 1.0)
     with pytest.raises(ValueError, match="finite gain"):
-        interpolated(frequency, np.where(frequency == 0.5, 0.0, value), 1.0)
+        interpolate(frequency, np.where(frequency == 0.5, 0.0, value), 1.0)
 
 
 def resonance(damping: float, delay: float = 3.0):
@@ -79,9 +79,9 @@ def test_a_touch_of_the_unit_circle_is_not_missed() -> None:
     def response(frequency: np.ndarray) -> np.ndarray:
         return (1.0 + 1e-6) / peak / (1.0 - frequency**2 + 2j * damping * frequency)
 
-    found = classical(response, 1e-2, 10.0, 1e-3, None)
-    assert len(found.phase) == 2
-    for crossing in found.phase:
+    actual = classical(response, 1e-2, 10.0, 1e-3, None)
+    assert len(actual.phase) == 2
+    for crossing in actual.phase:
         assert crossing.frequency == pytest.approx(np.sqrt(1.0 - 2.0 * damping**2), rel=1e-3)
 
 
@@ -92,8 +92,8 @@ def test_a_remembered_response_is_asked_for_each_frequency_once() -> None:
         asked.extend(frequency)
         return frequency[:, None, None] * np.array([[1.0, 2.0j], [3.0, 4.0]])
 
-    response = remembered(loops)
-    assert remembered(response) is response
+    response = cache_response(loops)
+    assert cache_response(response) is response
     first = np.array([3.0, 1.0, 3.0])
     np.testing.assert_array_equal(response(first), loops(first))
     del asked[:]

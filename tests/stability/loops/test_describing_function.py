@@ -64,8 +64,8 @@ def test_relay(level, dead_zone, share, ratio):
     hysteresis = share * dead_zone
     on, off = dead_zone + hysteresis, dead_zone - hysteresis
     expected = fourier(relay_law(level, dead_zone, hysteresis), ratio * on, (on, -on, off, -off))
-    found = gain("relay", ratio * on, level=level, dead_zone=dead_zone, hysteresis=hysteresis)
-    assert found == pytest.approx(expected, rel=1e-7, abs=1e-9 * level / on)
+    actual = gain("relay", ratio * on, level=level, dead_zone=dead_zone, hysteresis=hysteresis)
+    assert actual == pytest.approx(expected, rel=1e-7, abs=1e-9 * level / on)
 
 
 @given(sizes, sizes, st.floats(1.001, 30.0))
@@ -141,8 +141,8 @@ def test_pulse_width(level, slope, share, ratio):
         return 0.0 if abs(x) < dead_zone else min(max(slope * x, -level), level)
 
     expected = fourier(mean, ratio * full, (full, -full, dead_zone, -dead_zone))
-    found = gain("pulse width", ratio * full, level=level, dead_zone=dead_zone, gain=slope)
-    assert found == pytest.approx(expected, rel=1e-6, abs=1e-8 * slope)
+    actual = gain("pulse width", ratio * full, level=level, dead_zone=dead_zone, gain=slope)
+    assert actual == pytest.approx(expected, rel=1e-6, abs=1e-8 * slope)
 
 
 def test_pulses_of_a_slow_sine_have_this_fundamental():
@@ -155,8 +155,8 @@ def test_pulses_of_a_slow_sine_have_this_fundamental():
     half = duty * np.pi / periods
     # the integral of exp(j(pi/2 - theta)) over each pulse, exactly
     fundamental = np.sum(np.sign(command) * level * 2.0 * np.sin(half) * (np.sin(centre) + 1j * np.cos(centre)))
-    found = gain("pulse width", amplitude, level=level, dead_zone=shortest * level)
-    assert found == pytest.approx(fundamental / (np.pi * amplitude), rel=5e-3)
+    actual = gain("pulse width", amplitude, level=level, dead_zone=shortest * level)
+    assert actual == pytest.approx(fundamental / (np.pi * amplitude), rel=5e-3)
 
 
 def test_pulse_width_with_all_of_it_dead_is_a_relay():

@@ -28,17 +28,17 @@ def coupled() -> control.StateSpace:
 @pytest.mark.parametrize("system", [coupled(), SPINNING])
 def test_two_coupled_loops_equal_python_control(system: control.StateSpace) -> None:
     high = np.pi / system.dt
-    found = joint_disk_margin(response_of(system), 1e-3 * high, high)
+    actual = joint_disk_margin(response_of(system), 1e-3 * high, high)
     # python-control takes S from the closed loop's state space, we from the response of the open one
-    alphas, gains, phases = control.disk_margins(system, found.frequencies, returnall=True)
-    np.testing.assert_allclose(found.alphas, alphas, rtol=1e-9)
-    worst = int(np.argmin(found.alphas))
-    assert found.alpha == found.alphas[worst]
-    assert found.frequency == found.frequencies[worst]
-    assert 20 * np.log10(found.gain) == pytest.approx(gains[worst], rel=1e-9)
-    assert np.degrees(found.phase) == pytest.approx(phases[worst], rel=1e-9)
-    fine = np.linspace(max(0.98 * found.frequency, 1e-3 * high), min(1.02 * found.frequency, high), 201)
-    assert np.min(control.disk_margins(system, fine, returnall=True)[0]) >= found.alpha * (1.0 - 1e-9)
+    alphas, gains, phases = control.disk_margins(system, actual.frequencies, returnall=True)
+    np.testing.assert_allclose(actual.alphas, alphas, rtol=1e-9)
+    worst = int(np.argmin(actual.alphas))
+    assert actual.alpha == actual.alphas[worst]
+    assert actual.frequency == actual.frequencies[worst]
+    assert 20 * np.log10(actual.gain) == pytest.approx(gains[worst], rel=1e-9)
+    assert np.degrees(actual.phase) == pytest.approx(phases[worst], rel=1e-9)
+    fine = np.linspace(max(0.98 * actual.frequency, 1e-3 * high), min(1.02 * actual.frequency, high), 201)
+    assert np.min(control.disk_margins(system, fine, returnall=True)[0]) >= actual.alpha * (1.0 - 1e-9)
 
 
 def three_coupled() -> control.StateSpace:
@@ -48,13 +48,13 @@ def three_coupled() -> control.StateSpace:
 
 def test_three_coupled_loops_equal_python_control() -> None:
     system = three_coupled()
-    found = joint_disk_margin(response_of(system), 1e-2, np.pi)
+    actual = joint_disk_margin(response_of(system), 1e-2, np.pi)
     assert outside(system) == 0
     # the precision is that of the reference, SLICOT's AB13MD
-    alphas = control.disk_margins(system, found.frequencies[::5], returnall=True)[0]
-    np.testing.assert_allclose(found.alphas[::5], alphas, rtol=1e-7)
-    fine = np.linspace(0.98 * found.frequency, 1.02 * found.frequency, 21)
-    assert np.min(control.disk_margins(system, fine, returnall=True)[0]) >= found.alpha * (1.0 - 1e-7)
+    alphas = control.disk_margins(system, actual.frequencies[::5], returnall=True)[0]
+    np.testing.assert_allclose(actual.alphas[::5], alphas, rtol=1e-7)
+    fine = np.linspace(0.98 * actual.frequency, 1.02 * actual.frequency, 21)
+    assert np.min(control.disk_margins(system, fine, returnall=True)[0]) >= actual.alpha * (1.0 - 1e-7)
 
 
 @given(random_loops())
@@ -62,10 +62,10 @@ def test_three_coupled_loops_equal_python_control() -> None:
 def test_one_loop_equals_the_closed_form(system: control.StateSpace) -> None:
     assume(nearest_to_circle(system) > 1e-2)
     low, high, single = 1e-3 / system.dt, np.pi / system.dt, response_of(system)
-    found = joint_disk_margin(lambda frequency: single(frequency)[:, None, None], low, high)
+    actual = joint_disk_margin(lambda frequency: single(frequency)[:, None, None], low, high)
     expected = robust(single, low, high)
-    assert found.alpha == pytest.approx(expected.disk_margin, rel=1e-8)
-    assert found.gain == pytest.approx(expected.disk_gain, rel=1e-7)
+    assert actual.alpha == pytest.approx(expected.disk_margin, rel=1e-8)
+    assert actual.gain == pytest.approx(expected.disk_gain, rel=1e-7)
 
 
 @given(st.integers(0, 2**32 - 1))
@@ -80,22 +80,22 @@ def test_loops_without_coupling_have_the_least_of_their_margins(seed: int) -> No
 def test_no_gain_or_phase_within_the_disk_makes_the_loops_unstable_and_one_on_it_does() -> None:
     system = coupled()
     response = response_of(system)
-    found = joint_disk_margin(response, 1e-3, np.pi)
+    actual = joint_disk_margin(response, 1e-3, np.pi)
     assert outside(system) == 0
     random = np.random.default_rng(1)
     for _ in range(300):
-        turned = 0.5 * found.alpha * 0.999 * np.exp(1j * random.uniform(-np.pi, np.pi, 2))
+        turned = 0.5 * actual.alpha * 0.999 * np.exp(1j * random.uniform(-np.pi, np.pi, 2))
         factors = (1.0 + turned) / (1.0 - turned)
         perturbed = system.A - system.B @ np.linalg.solve(
             np.eye(2) + np.diag(factors) @ system.D, np.diag(factors) @ system.C
         )
         assert np.all(np.abs(np.linalg.eigvals(perturbed)) < 1.0)
     # on the disk's rim, at its frequency, some pair of factors leaves I + diag(f) L singular
-    value = response(np.array([found.frequency]))[0]
+    value = response(np.array([actual.frequency]))[0]
     angles = np.linspace(-np.pi, np.pi, 721)
-    rim = 0.5 * found.alpha * np.exp(1j * angles)
+    rim = 0.5 * actual.alpha * np.exp(1j * angles)
     rim = (1.0 + rim) / (1.0 - rim)
     # det = 1 + f1 L11 + f2 L22 + f1 f2 det L = 0 solved for f2, whose place relative to the rim changes with f1
     determinant = np.linalg.det(value)
     second = -(1.0 + rim * value[0, 0]) / (value[1, 1] + rim * determinant)
-    assert np.min(np.abs(2.0 * (second - 1.0) / (second + 1.0))) == pytest.approx(found.alpha, rel=1e-4)
+    assert np.min(np.abs(2.0 * (second - 1.0) / (second + 1.0))) == pytest.approx(actual.alpha, rel=1e-4)

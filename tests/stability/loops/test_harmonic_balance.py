@@ -31,10 +31,10 @@ def stable_one(balances):
 
 
 def test_ideal_relay():
-    found = only(predict(third_order(1.0), 1e-3, 1e2, "relay", {"level": 3.0}))
-    assert found.frequency == pytest.approx(1.0, rel=1e-9)
-    assert found.amplitude == pytest.approx(2.0 * 3.0 / math.pi, rel=1e-9)
-    assert found.stable
+    actual = only(predict(third_order(1.0), 1e-3, 1e2, "relay", {"level": 3.0}))
+    assert actual.frequency == pytest.approx(1.0, rel=1e-9)
+    assert actual.amplitude == pytest.approx(2.0 * 3.0 / math.pi, rel=1e-9)
+    assert actual.stable
 
 
 @pytest.mark.parametrize("excess", [1e-6, 1e-3, 0.1, 10.0, 1e4])
@@ -61,7 +61,7 @@ def test_none_below_the_peak():
 
 
 def test_saturation_against_python_control():
-    found = only(predict(third_order(6.0), 1e-3, 1e2, "saturation", {"limit": 1.0}))
+    actual = only(predict(third_order(6.0), 1e-3, 1e2, "saturation", {"limit": 1.0}))
     theirs = control.describing_function_response(
         control.tf([6.0], [1.0, 2.0, 1.0, 0.0]),
         control.saturation_nonlinearity(1.0),
@@ -70,21 +70,21 @@ def test_saturation_against_python_control():
         warn_nyquist=False,
     )
     ((amplitude, frequency),) = theirs.intersections
-    assert found == pytest.approx((amplitude, frequency, True), rel=1e-4)
+    assert actual == pytest.approx((amplitude, frequency, True), rel=1e-4)
 
 
 def test_dead_zone_grows_beyond_its_cycle():
-    found = only(predict(third_order(4.0), 1e-3, 1e2, "dead zone", {"dead_zone": 1.0}))
-    assert describing_function("dead zone", found.amplitude, {"dead_zone": 1.0}) == pytest.approx(0.5)
-    assert not found.stable
+    actual = only(predict(third_order(4.0), 1e-3, 1e2, "dead zone", {"dead_zone": 1.0}))
+    assert describing_function("dead zone", actual.amplitude, {"dead_zone": 1.0}) == pytest.approx(0.5)
+    assert not actual.stable
 
 
 def test_conditionally_stable_loop():
     """(s + 1)^2/s^3 is stable for gains above 1/2 only: saturation makes a cycle beyond which it diverges."""
-    found = only(predict(lambda w: (1j * w + 1) ** 2 / (1j * w) ** 3, 1e-3, 1e2, "saturation", {"limit": 1.0}))
-    assert found.frequency == pytest.approx(1.0)
-    assert describing_function("saturation", found.amplitude, {"limit": 1.0}) == pytest.approx(0.5)
-    assert not found.stable
+    actual = only(predict(lambda w: (1j * w + 1) ** 2 / (1j * w) ** 3, 1e-3, 1e2, "saturation", {"limit": 1.0}))
+    assert actual.frequency == pytest.approx(1.0)
+    assert describing_function("saturation", actual.amplitude, {"limit": 1.0}) == pytest.approx(0.5)
+    assert not actual.stable
 
 
 def test_quantiser_against_a_dense_grid():
@@ -93,25 +93,25 @@ def test_quantiser_against_a_dense_grid():
     for size in (0.97, 0.83):
         above = gains > 1.0 / size
         expected = amplitude[np.flatnonzero(above[1:] != above[:-1])]
-        found = predict(third_order(2.0 * size), 1e-3, 1e2, "quantiser", {"step": 1.0})
-        found = [balance for balance in found if balance.amplitude < 19.9]
+        actual = predict(third_order(2.0 * size), 1e-3, 1e2, "quantiser", {"step": 1.0})
+        actual = [balance for balance in actual if balance.amplitude < 19.9]
         expected = expected[expected < 19.9]
-        assert [balance.amplitude for balance in found] == pytest.approx(expected, abs=7e-4)
+        assert [balance.amplitude for balance in actual] == pytest.approx(expected, abs=7e-4)
         # N crosses upwards and downwards in turn
-        assert [balance.stable for balance in found] == [i % 2 == 1 for i in range(len(found))]
-        assert len(found) > 1
+        assert [balance.stable for balance in actual] == [i % 2 == 1 for i in range(len(actual))]
+        assert len(actual) > 1
 
 
 @pytest.mark.parametrize("hysteresis", [0.01, 0.1, 1.0])
 def test_relay_with_hysteresis(hysteresis):
     """-1/N has the constant imaginary part -pi h/(4 M): with 1/(s (s + 1)) a cubic for the frequency."""
-    found = only(
+    actual = only(
         predict(lambda w: 1.0 / (1j * w * (1j * w + 1.0)), 1e-3, 1e2, "relay", {"level": 1.0, "hysteresis": hysteresis})
     )
     roots = np.roots([math.pi * hysteresis / 4.0, 0.0, math.pi * hysteresis / 4.0, -1.0])
     frequency = float(roots[abs(roots.imag) < 1e-9].real[0])
     size = 1.0 / (frequency * math.sqrt(1.0 + frequency**2))
-    assert found == pytest.approx((4.0 / math.pi * size, frequency, True), rel=1e-6)
+    assert actual == pytest.approx((4.0 / math.pi * size, frequency, True), rel=1e-6)
     theirs = control.describing_function_response(
         control.tf([1.0], [1.0, 1.0, 0.0]),
         control.relay_hysteresis_nonlinearity(1.0, hysteresis),
@@ -119,7 +119,7 @@ def test_relay_with_hysteresis(hysteresis):
         np.geomspace(0.01, 30.0, 800),
         warn_nyquist=False,
     )
-    assert found[:2] == pytest.approx(theirs.intersections[0], rel=1e-3)
+    assert actual[:2] == pytest.approx(theirs.intersections[0], rel=1e-3)
 
 
 def test_three_level_relay_with_hysteresis():
@@ -130,10 +130,10 @@ def test_three_level_relay_with_hysteresis():
     frequency = np.tan(0.5 * (np.angle(values) + 0.5 * math.pi))
     above = frequency * (1.0 + frequency**2) / gain < abs(values)
     expected = np.flatnonzero(above[1:] != above[:-1])
-    found = predict(third_order(gain), 1e-3, 1e2, "relay", parameters)
-    assert [balance.amplitude for balance in found] == pytest.approx(amplitude[expected], rel=1e-4)
-    assert [balance.frequency for balance in found] == pytest.approx(frequency[expected], rel=1e-3)
-    assert [balance.stable for balance in found] == [False, True]
+    actual = predict(third_order(gain), 1e-3, 1e2, "relay", parameters)
+    assert [balance.amplitude for balance in actual] == pytest.approx(amplitude[expected], rel=1e-4)
+    assert [balance.frequency for balance in actual] == pytest.approx(frequency[expected], rel=1e-3)
+    assert [balance.stable for balance in actual] == [False, True]
 
 
 def test_only_the_slowest_cycle_of_a_delay_is_stable():
@@ -142,10 +142,10 @@ def test_only_the_slowest_cycle_of_a_delay_is_stable():
     def response(w):
         return np.exp(-1j * w) / (1j * w + 1.0)
 
-    found = predict(response, 1e-2, 30.0, "relay", {"level": 1.0})
-    assert len(found) > 3
-    assert found[-1].stable  # the largest is the slowest
-    assert not any(balance.stable for balance in found[:-1])
+    actual = predict(response, 1e-2, 30.0, "relay", {"level": 1.0})
+    assert len(actual) > 3
+    assert actual[-1].stable  # the largest is the slowest
+    assert not any(balance.stable for balance in actual[:-1])
 
 
 @pytest.mark.parametrize(
@@ -249,9 +249,9 @@ class Jet:
         period = 2.0 * math.pi / cycle.frequency
         scale = cycle.amplitude / self.gain
         commands = self.fly(position * scale, velocity * scale, round(cycles * period / self.period))
-        found = find_oscillation(np.arange(len(commands)) * self.period, commands)
-        assert found is not None
-        return cycle.amplitude / found.amplitude - 1.0, period / found.period - 1.0
+        actual = find_oscillation(np.arange(len(commands)) * self.period, commands)
+        assert actual is not None
+        return cycle.amplitude / actual.amplitude - 1.0, period / actual.period - 1.0
 
 
 # Positions and velocities; a sampled loop has several cycles near the predicted one, and the start chooses.
@@ -340,10 +340,10 @@ def test_the_unstable_cycle_divides_the_starts():
         return math.copysign(1.0, x) if abs(x) > 0.2 else 0.0
 
     assert find_oscillation(*simulate(1.0, relay, 0.9 * small.amplitude)) is None
-    found = find_oscillation(*simulate(1.0, relay, 5.0 * small.amplitude))
-    assert found is not None
-    assert found.amplitude == pytest.approx(large.amplitude, rel=0.05)
-    assert found.period == pytest.approx(2.0 * math.pi / large.frequency, rel=0.05)
+    actual = find_oscillation(*simulate(1.0, relay, 5.0 * small.amplitude))
+    assert actual is not None
+    assert actual.amplitude == pytest.approx(large.amplitude, rel=0.05)
+    assert actual.period == pytest.approx(2.0 * math.pi / large.frequency, rel=0.05)
 
 
 def test_pulse_width_flown_pulse_by_pulse():
@@ -366,7 +366,7 @@ def test_pulse_width_flown_pulse_by_pulse():
         held["tick"] += 1
         return held["level"] if on else 0.0
 
-    found = find_oscillation(*simulate(gain, modulator, 2.0, period / parts, 150.0))
-    assert found is not None
-    assert found.amplitude == pytest.approx(cycle.amplitude, rel=0.05)
-    assert found.period == pytest.approx(2.0 * math.pi / cycle.frequency, rel=0.05)
+    actual = find_oscillation(*simulate(gain, modulator, 2.0, period / parts, 150.0))
+    assert actual is not None
+    assert actual.amplitude == pytest.approx(cycle.amplitude, rel=0.05)
+    assert actual.period == pytest.approx(2.0 * math.pi / cycle.frequency, rel=0.05)

@@ -48,40 +48,40 @@ def margins(system: control.StateSpace, low: float = 1e-4, **options):
 )
 def test_held_double_integrator_with_delay_in_closed_form(loop: HeldDoubleIntegrator) -> None:
     system = loop.system
-    found = classical(response_of(system), 1e-3 / loop.period, np.pi / loop.period, loop.period, 0)
+    actual = classical(response_of(system), 1e-3 / loop.period, np.pi / loop.period, loop.period, 0)
     assert outside(system) == 0
-    assert found.encirclements == 0
-    gain, phase = found.gain_margin, found.phase_margin
+    assert actual.encirclements == 0
+    gain, phase = actual.gain_margin, actual.phase_margin
     assert gain is not None
     assert phase is not None
     assert db(gain.value) == pytest.approx(db(loop.gain_margin), abs=1e-6)
     assert gain.frequency * loop.period == pytest.approx(loop.phase_crossover, rel=1e-8)
-    assert len(found.phase) == 1
+    assert len(actual.phase) == 1
     assert np.degrees(phase.value) == pytest.approx(np.degrees(loop.phase_margin), abs=1e-6)
     assert phase.frequency * loop.period == pytest.approx(loop.gain_crossover, rel=1e-8)
-    assert found.delay_margin == pytest.approx(loop.phase_margin / loop.gain_crossover * loop.period, rel=1e-8)
+    assert actual.delay_margin == pytest.approx(loop.phase_margin / loop.gain_crossover * loop.period, rel=1e-8)
 
 
 def test_several_crossovers_of_a_lightly_damped_resonance() -> None:
-    found = margins(RESONANT)
+    actual = margins(RESONANT)
     assert outside(RESONANT) == 0
-    assert found.encirclements == 0
-    assert len(found.phase) == 3
+    assert actual.encirclements == 0
+    assert len(actual.phase) == 3
     frequency = np.linspace(1e-3, np.pi, 100_001)
     value = response_of(RESONANT)(frequency)
     crossed = np.flatnonzero(np.diff(np.abs(value) > 1.0))
-    np.testing.assert_allclose([crossing.frequency for crossing in found.phase], frequency[crossed], atol=4e-5)
+    np.testing.assert_allclose([crossing.frequency for crossing in actual.phase], frequency[crossed], atol=4e-5)
     lags = np.angle(-value[crossed])
-    np.testing.assert_allclose([crossing.value for crossing in found.phase], lags, atol=5e-3)
+    np.testing.assert_allclose([crossing.value for crossing in actual.phase], lags, atol=5e-3)
     # the delay margin is at the resonance, where the phase margin is largest: a lead counts as 2 pi less it
-    assert found.delay_frequency == found.phase[2].frequency
-    assert found.delay_margin == pytest.approx(np.min(lags % (2 * np.pi) / frequency[crossed]), rel=1e-4)
+    assert actual.delay_frequency == actual.phase[2].frequency
+    assert actual.delay_margin == pytest.approx(np.min(lags % (2 * np.pi) / frequency[crossed]), rel=1e-4)
 
 
 def test_conditionally_stable_loop_has_margins_up_and_down() -> None:
-    found = margins(CONDITIONAL, 1e-3)
+    actual = margins(CONDITIONAL, 1e-3)
     assert outside(CONDITIONAL) == 0
-    down, up = (crossing.value for crossing in found.gain)
+    down, up = (crossing.value for crossing in actual.gain)
     assert down < 1.0 < up
     for margin in (down, up):
         assert nearest_to_circle(CONDITIONAL, margin) < 1e-9
@@ -91,11 +91,11 @@ def test_conditionally_stable_loop_has_margins_up_and_down() -> None:
 
 
 def test_unstable_plant_has_a_margin_down_at_frequency_zero() -> None:
-    found = margins(UNSTABLE)
+    actual = margins(UNSTABLE)
     assert outside(UNSTABLE, 0.0) == 1
     assert outside(UNSTABLE) == 0
-    assert found.encirclements == 1
-    first, *_ = found.gain
+    assert actual.encirclements == 1
+    first, *_ = actual.gain
     assert first.frequency == 0.0
     at_one = UNSTABLE.C @ np.linalg.solve(np.eye(UNSTABLE.nstates) - UNSTABLE.A, UNSTABLE.B)
     assert db(first.value) == pytest.approx(db(-1.0 / at_one[0, 0]), abs=1e-6)
@@ -116,17 +116,17 @@ def test_gain_margin_at_the_nyquist_frequency() -> None:
 @pytest.mark.parametrize("system", [RESONANT, CONDITIONAL, UNSTABLE])
 def test_equals_python_control_between_the_ends(system: control.StateSpace) -> None:
     response, high = response_of(system), np.pi / system.dt
-    found = margins(system, 1e-3)
+    actual = margins(system, 1e-3)
     curve = dense(response, 1e-3, high)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # about the FRD's own conversion to the complex plane
         data = control.FRD(curve.value, curve.frequency, smooth=True)
         gain, phase, distance, at_gain, at_phase, _ = control.stability_margins(data, returnall=True)
-    inner = [crossing for crossing in found.gain if 0.0 < crossing.frequency < high]
+    inner = [crossing for crossing in actual.gain if 0.0 < crossing.frequency < high]
     np.testing.assert_allclose([db(crossing.value) for crossing in inner], db(gain), atol=1e-6)
     np.testing.assert_allclose([crossing.frequency for crossing in inner], at_gain, rtol=1e-5)
-    np.testing.assert_allclose([np.degrees(crossing.value) for crossing in found.phase], phase, atol=1e-6)
-    np.testing.assert_allclose([crossing.frequency for crossing in found.phase], at_phase, rtol=1e-5)
+    np.testing.assert_allclose([np.degrees(crossing.value) for crossing in actual.phase], phase, atol=1e-6)
+    np.testing.assert_allclose([crossing.frequency for crossing in actual.phase], at_phase, rtol=1e-5)
     assert robust(response, 1e-3, high).modulus_margin <= np.min(distance) * (1.0 + 1e-6)
 
 
@@ -134,8 +134,8 @@ def test_equals_python_control_between_the_ends(system: control.StateSpace) -> N
 @settings(max_examples=either(60, 20))
 def test_poles_cross_the_circle_at_the_gain_margins_and_nowhere_else(system: control.StateSpace) -> None:
     """The number of unstable closed-loop poles over the gain is constant between margins and changes at each."""
-    found = classical(response_of(system), 1e-5 / system.dt, np.pi / system.dt, system.dt, None)
-    factors = np.array(sorted(crossing.value for crossing in found.gain if 1e-3 < crossing.value < 1e3))
+    actual = classical(response_of(system), 1e-5 / system.dt, np.pi / system.dt, system.dt, None)
+    factors = np.array(sorted(crossing.value for crossing in actual.gain if 1e-3 < crossing.value < 1e3))
     assume(np.all(np.diff(np.log(factors)) > 1e-2))
     assume(system.D[0, 0] == 0.0)  # else a pole can go through infinity
     for factor in factors:
@@ -163,15 +163,15 @@ def test_scaling_the_loop_divides_the_gain_margins(system: control.StateSpace, s
 @settings(max_examples=either(60, 20))
 def test_the_delay_margin_makes_the_loop_marginal(system: control.StateSpace) -> None:
     response = response_of(system)
-    found = classical(response, 1e-5 / system.dt, np.pi / system.dt, system.dt, None)
-    assume(np.isfinite(found.delay_margin))
-    for crossing in found.phase:
+    actual = classical(response, 1e-5 / system.dt, np.pi / system.dt, system.dt, None)
+    assume(np.isfinite(actual.delay_margin))
+    for crossing in actual.phase:
         assert abs(1.0 + response(np.array([crossing.frequency]))[0] * np.exp(-1j * crossing.value)) < 1e-8
         assert -np.pi < crossing.value <= np.pi
-    frequency = found.delay_frequency
-    late = response(np.array([frequency]))[0] * np.exp(-1j * frequency * found.delay_margin)
+    frequency = actual.delay_frequency
+    late = response(np.array([frequency]))[0] * np.exp(-1j * frequency * actual.delay_margin)
     assert abs(1.0 + late) < 1e-8
-    assert min(crossing.value % (2 * np.pi) / crossing.frequency for crossing in found.phase) == found.delay_margin
+    assert min(crossing.value % (2 * np.pi) / crossing.frequency for crossing in actual.phase) == actual.delay_margin
 
 
 @given(random_loops())
@@ -179,19 +179,19 @@ def test_the_delay_margin_makes_the_loop_marginal(system: control.StateSpace) ->
 def test_robust_margins_bound_every_point(system: control.StateSpace) -> None:
     response, high = response_of(system), np.pi / system.dt
     assume(nearest_to_circle(system) > 1e-3)
-    found = robust(response, 1e-4 / system.dt, high)
+    actual = robust(response, 1e-4 / system.dt, high)
     value = response(np.linspace(1e-4 / system.dt, high, 20001))
     sensitivity, complementary = np.abs(1.0 / (1.0 + value)), np.abs(value / (1.0 + value))
     alpha = 1.0 / np.abs(1.0 / (1.0 + value) - 0.5)
     for peak, grid in (
-        (found.sensitivity_peak, np.max(sensitivity)),
-        (found.complementary_peak, np.max(complementary)),
-        (1.0 / found.disk_margin, 1.0 / np.min(alpha)),
+        (actual.sensitivity_peak, np.max(sensitivity)),
+        (actual.complementary_peak, np.max(complementary)),
+        (1.0 / actual.disk_margin, 1.0 / np.min(alpha)),
     ):
         assert grid * (1.0 - 1e-9) <= peak <= grid * 1.01
-    assert found.modulus_margin * found.sensitivity_peak == pytest.approx(1.0)
-    at = response(np.array([found.disk_frequency]))[0]
-    assert abs(1.0 / (1.0 + at) - 0.5) * found.disk_margin == pytest.approx(1.0)
+    assert actual.modulus_margin * actual.sensitivity_peak == pytest.approx(1.0)
+    at = response(np.array([actual.disk_frequency]))[0]
+    assert abs(1.0 / (1.0 + at) - 0.5) * actual.disk_margin == pytest.approx(1.0)
 
 
 def test_peaks_of_a_second_order_loop_in_closed_form() -> None:
@@ -201,9 +201,9 @@ def test_peaks_of_a_second_order_loop_in_closed_form() -> None:
     def response(frequency: np.ndarray) -> np.ndarray:
         return natural**2 / (1j * frequency * (1j * frequency + 2.0 * damping * natural))
 
-    found = robust(response, 1e-3, 1e3)
-    assert found.complementary_peak == pytest.approx(1.0 / (2.0 * damping * np.sqrt(1.0 - damping**2)), rel=1e-9)
-    assert found.complementary_frequency == pytest.approx(natural * np.sqrt(1.0 - 2.0 * damping**2), rel=1e-6)
+    actual = robust(response, 1e-3, 1e3)
+    assert actual.complementary_peak == pytest.approx(1.0 / (2.0 * damping * np.sqrt(1.0 - damping**2)), rel=1e-9)
+    assert actual.complementary_frequency == pytest.approx(natural * np.sqrt(1.0 - 2.0 * damping**2), rel=1e-6)
     crossover = np.sqrt(np.sqrt(4.0 * damping**4 + 1.0) - 2.0 * damping**2)
     phase = classical(response, 1e-3, 1e3, 1e-4, 0).phase_margin
     assert phase is not None

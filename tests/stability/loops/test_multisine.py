@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.signal import lfilter
 
-from perilune.analysis.stability.loops.multisine import line_spectrum, multisine, unexcited_share
+from perilune.analysis.stability.loops.multisine import fraction_unexcited, line_spectrum, multisine
 
 
 @given(
@@ -21,17 +21,17 @@ from perilune.analysis.stability.loops.multisine import line_spectrum, multisine
 def test_only_odd_lines_and_each_of_the_amplitude(
     half: int, seed: int, amplitude: float, per_decade: float | None
 ) -> None:
-    found = multisine(2 * half, amplitude, half - 1, seed, per_decade=per_decade)
-    spectrum = 2.0 / (2 * half) * np.fft.rfft(found.signal)
-    np.testing.assert_allclose(np.abs(spectrum[found.lines]), amplitude, rtol=1e-9)
-    np.testing.assert_allclose(np.angle(spectrum[found.lines] * np.exp(-1j * found.phases)), 0.0, atol=1e-9)
-    others = np.setdiff1d(np.arange(half + 1), found.lines)
-    assert np.max(np.abs(spectrum[others])) < 1e-12 * amplitude * len(found.lines)
-    assert np.all(found.lines % 2 == 1)
-    assert found.lines[0] == 1
-    np.testing.assert_array_equal(np.sort([*found.lines, *found.unexcited]), np.arange(1, half))
-    assert np.any(found.unexcited % 2 == 1)
-    assert np.mean(found.signal**2) == pytest.approx(0.5 * amplitude**2 * len(found.lines))
+    actual = multisine(2 * half, amplitude, half - 1, seed, per_decade=per_decade)
+    spectrum = 2.0 / (2 * half) * np.fft.rfft(actual.signal)
+    np.testing.assert_allclose(np.abs(spectrum[actual.lines]), amplitude, rtol=1e-9)
+    np.testing.assert_allclose(np.angle(spectrum[actual.lines] * np.exp(-1j * actual.phases)), 0.0, atol=1e-9)
+    others = np.setdiff1d(np.arange(half + 1), actual.lines)
+    assert np.max(np.abs(spectrum[others])) < 1e-12 * amplitude * len(actual.lines)
+    assert np.all(actual.lines % 2 == 1)
+    assert actual.lines[0] == 1
+    np.testing.assert_array_equal(np.sort([*actual.lines, *actual.unexcited]), np.arange(1, half))
+    assert np.any(actual.unexcited % 2 == 1)
+    assert np.mean(actual.signal**2) == pytest.approx(0.5 * amplitude**2 * len(actual.lines))
 
 
 def test_linear_spacing_leaves_out_one_odd_line_in_four_and_logarithmic_covers_decades() -> None:
@@ -63,7 +63,7 @@ def test_frequency_response_of_a_filter_in_the_steady_state() -> None:
     exact = np.polyval(numerator, z) * z / np.polyval(denominator, z)
     measured = line_spectrum(last, 512, signal.lines) / line_spectrum(signal.signal, 512, signal.lines)
     np.testing.assert_allclose(measured, exact, rtol=1e-12)
-    assert unexcited_share(last, signal) < 1e-12
+    assert fraction_unexcited(last, signal) < 1e-12
     both = line_spectrum(np.column_stack([last, 2.0 * last]), 512, signal.lines)
     np.testing.assert_allclose(both[:, 1], 2.0 * both[:, 0])
 
@@ -76,8 +76,8 @@ def test_nonlinearity_shows_on_lines_of_its_parity(power: int, parity: int) -> N
     shown = signal.unexcited % 2 == parity
     assert np.min(stray[shown]) > 1e-4
     assert np.max(stray[~shown]) < 1e-12
-    assert unexcited_share(record, signal) == pytest.approx(np.max(stray), rel=0.3)
-    assert unexcited_share(signal.signal, signal) < 1e-12
+    assert fraction_unexcited(record, signal) == pytest.approx(np.max(stray), rel=0.3)
+    assert fraction_unexcited(signal.signal, signal) < 1e-12
 
 
 def test_refusals() -> None:
@@ -88,4 +88,4 @@ def test_refusals() -> None:
     with pytest.raises(ValueError, match="whole number of periods"):
         line_spectrum(np.zeros(65), 64, np.array([1]))
     with pytest.raises(ValueError, match="no response at all"):
-        unexcited_share(np.zeros(64), multisine(64, 1.0, 16, 0))
+        fraction_unexcited(np.zeros(64), multisine(64, 1.0, 16, 0))

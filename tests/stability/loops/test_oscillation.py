@@ -20,30 +20,30 @@ TIME = np.arange(4000) * 0.05  # 200 s
 
 @given(st.floats(1e-3, 1e3), st.floats(1.0, 12.0), st.floats(-5.0, 5.0), st.floats(0.0, 6.28))
 def test_sine(amplitude, period, mean, phase):
-    found = find_oscillation(TIME, amplitude * (mean + np.sin(2 * np.pi * TIME / period + phase)))
-    assert found is not None
-    assert found.amplitude == pytest.approx(amplitude, rel=1e-3)
-    assert found.period == pytest.approx(period, rel=1e-3)
-    assert found.mean == pytest.approx(amplitude * mean, abs=1e-2 * amplitude)
-    assert found.half_peak_to_peak == pytest.approx(amplitude, rel=2e-2)
-    assert found.cycles >= 6
+    actual = find_oscillation(TIME, amplitude * (mean + np.sin(2 * np.pi * TIME / period + phase)))
+    assert actual is not None
+    assert actual.amplitude == pytest.approx(amplitude, rel=1e-3)
+    assert actual.period == pytest.approx(period, rel=1e-3)
+    assert actual.mean == pytest.approx(amplitude * mean, abs=1e-2 * amplitude)
+    assert actual.half_peak_to_peak == pytest.approx(amplitude, rel=2e-2)
+    assert actual.cycles >= 6
 
 
 def test_square_wave_has_the_fundamental_of_one():
-    found = find_oscillation(TIME, 2.0 * np.sign(np.sin(2 * np.pi * (TIME + 0.01) / 10.0)))
-    assert found is not None
-    assert found.amplitude == pytest.approx(2.0 * 4.0 / math.pi, rel=1e-3)
-    assert found.half_peak_to_peak == pytest.approx(2.0)
-    assert found.period == pytest.approx(10.0, rel=1e-3)
+    actual = find_oscillation(TIME, 2.0 * np.sign(np.sin(2 * np.pi * (TIME + 0.01) / 10.0)))
+    assert actual is not None
+    assert actual.amplitude == pytest.approx(2.0 * 4.0 / math.pi, rel=1e-3)
+    assert actual.half_peak_to_peak == pytest.approx(2.0)
+    assert actual.period == pytest.approx(10.0, rel=1e-3)
 
 
 def test_triangle_wave_with_ripple_around_its_zeros():
     theta = 2 * np.pi * TIME / 10.0
     triangle = 2.0 / math.pi * np.arcsin(np.sin(theta))
-    found = find_oscillation(TIME, triangle + 0.08 * np.sin(23.0 * theta))
-    assert found is not None
-    assert found.amplitude == pytest.approx(8.0 / math.pi**2, rel=2e-3)
-    assert found.period == pytest.approx(10.0, rel=1e-2)
+    actual = find_oscillation(TIME, triangle + 0.08 * np.sin(23.0 * theta))
+    assert actual is not None
+    assert actual.amplitude == pytest.approx(8.0 / math.pi**2, rel=2e-3)
+    assert actual.period == pytest.approx(10.0, rel=1e-2)
 
 
 def test_van_der_pol():
@@ -51,10 +51,10 @@ def test_van_der_pol():
     flown = solve_ivp(
         lambda t, y: [y[1], (1 - y[0] ** 2) * y[1] - y[0]], (0.0, 200.0), [0.01, 0.0], t_eval=TIME, rtol=1e-9
     )
-    found = find_oscillation(TIME, flown.y[0])
-    assert found is not None
-    assert found.period == pytest.approx(6.6633, rel=1e-4)
-    assert found.half_peak_to_peak == pytest.approx(2.0086, rel=1e-3)
+    actual = find_oscillation(TIME, flown.y[0])
+    assert actual is not None
+    assert actual.period == pytest.approx(6.6633, rel=1e-4)
+    assert actual.half_peak_to_peak == pytest.approx(2.0086, rel=1e-3)
 
 
 NOISE = np.random.default_rng(3).normal(size=len(TIME))
@@ -110,20 +110,20 @@ def test_noise_is_no_oscillation(seed):
 
 
 def test_noise_on_an_oscillation_is_borne():
-    found = find_oscillation(TIME, SINE + 0.05 * NOISE)
-    assert found is not None
-    assert found.amplitude == pytest.approx(1.0, rel=1e-2)
-    assert found.period == pytest.approx(6.0, rel=1e-2)
+    actual = find_oscillation(TIME, SINE + 0.05 * NOISE)
+    assert actual is not None
+    assert actual.amplitude == pytest.approx(1.0, rel=1e-2)
+    assert actual.period == pytest.approx(6.0, rel=1e-2)
 
 
 def test_phase_may_wander():
     """A sampled loop hops between cycles of 28 and 29 samples: the phase wanders, the amplitude does not."""
     lengths = np.repeat([28.0, 29.0, 28.0, 29.0, 28.0, 29.0], 23)
     angle = np.concatenate([2 * np.pi * np.arange(n) / n for n in lengths])
-    found = find_oscillation(np.arange(len(angle)) * 0.1, 2.0 * np.sin(angle))
-    assert found is not None
-    assert found.amplitude == pytest.approx(2.0, rel=1e-2)
-    assert found.period == pytest.approx(2.85, rel=1e-2)
+    actual = find_oscillation(np.arange(len(angle)) * 0.1, 2.0 * np.sin(angle))
+    assert actual is not None
+    assert actual.amplitude == pytest.approx(2.0, rel=1e-2)
+    assert actual.period == pytest.approx(2.85, rel=1e-2)
 
 
 def test_resonance_driven_by_noise_is_no_oscillation_that_lasts():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from slycot import ab13md
 
-from perilune.analysis.stability.loops.structured import scaled_bound
+from perilune.analysis.stability.loops.structured import upper_bound
 
 MATRICES = 40
 
@@ -33,7 +33,7 @@ def test_largest_singular_value_with_vectors_of_equal_sizes(channels: int) -> No
     sizes = random.uniform(0.0, 0.95, (MATRICES, channels))
     sizes[:, 0] = 1.0
     matrix = left * sizes[:, None, :] @ right.conj().swapaxes(1, 2)
-    np.testing.assert_allclose(scaled_bound(unscaled(random, matrix)), 1.0, rtol=2e-9)
+    np.testing.assert_allclose(upper_bound(unscaled(random, matrix)), 1.0, rtol=2e-9)
 
 
 @pytest.mark.parametrize("channels", [2, 3, 4, 6])
@@ -41,7 +41,7 @@ def test_unitary_matrices_have_one_and_a_kink(channels: int) -> None:
     """All singular values meet where every D is worse: the bound cannot be below a unitary matrix's eigenvalues."""
     random = np.random.default_rng(channels)
     matrix, _ = np.linalg.qr(complex_normal(random, MATRICES, channels, channels))
-    np.testing.assert_allclose(scaled_bound(unscaled(random, matrix)), 1.0, rtol=5e-9)
+    np.testing.assert_allclose(upper_bound(unscaled(random, matrix)), 1.0, rtol=5e-9)
 
 
 @pytest.mark.parametrize("channels", [2, 3, 5])
@@ -49,7 +49,7 @@ def test_matrices_of_rank_one(channels: int) -> None:
     random = np.random.default_rng(channels)
     column, row = complex_normal(random, MATRICES, channels, 1), complex_normal(random, MATRICES, 1, channels)
     expected = np.sum(np.abs(column[:, :, 0] * row[:, 0, :]), axis=1)
-    np.testing.assert_allclose(scaled_bound(column * row), expected, rtol=1e-9)
+    np.testing.assert_allclose(upper_bound(column * row), expected, rtol=1e-9)
 
 
 @pytest.mark.parametrize("channels", [1, 2, 3, 5])
@@ -58,9 +58,9 @@ def test_one_way_coupling_does_not_count(channels: int) -> None:
     random = np.random.default_rng(channels)
     matrix = np.triu(complex_normal(random, MATRICES, channels, channels))
     expected = np.max(np.abs(np.diagonal(matrix, axis1=1, axis2=2)), axis=1)
-    np.testing.assert_allclose(scaled_bound(matrix), expected, rtol=1e-12)
+    np.testing.assert_allclose(upper_bound(matrix), expected, rtol=1e-12)
     noise = 1e-17 * complex_normal(random, MATRICES, channels, channels)
-    np.testing.assert_allclose(scaled_bound(matrix + np.tril(noise, -1)), expected, rtol=1e-6)
+    np.testing.assert_allclose(upper_bound(matrix + np.tril(noise, -1)), expected, rtol=1e-6)
 
 
 @pytest.mark.parametrize("channels", [2, 3, 4, 5])
@@ -69,7 +69,7 @@ def test_equals_slicot(channels: int) -> None:
     matrix = complex_normal(random, MATRICES, channels, channels)
     kinds = np.ones(channels, dtype=int), np.full(channels, 2)
     expected = np.array([ab13md(one, *kinds)[0] for one in matrix])
-    np.testing.assert_allclose(scaled_bound(matrix), expected, rtol=1e-8)
+    np.testing.assert_allclose(upper_bound(matrix), expected, rtol=1e-8)
 
 
 @pytest.mark.parametrize("channels", [3, 4, 6])
@@ -78,16 +78,16 @@ def test_groups_that_do_not_answer_each_other(channels: int) -> None:
     random = np.random.default_rng(channels)
     matrix, order = complex_normal(random, MATRICES, channels, channels), random.permutation(channels)
     matrix[:, 2:, :2] = 0.0
-    expected = np.maximum(scaled_bound(matrix[:, :2, :2]), scaled_bound(matrix[:, 2:, 2:]))
-    np.testing.assert_allclose(scaled_bound(matrix[:, order][:, :, order]), expected, rtol=5e-9)
-    assert np.all(scaled_bound(np.triu(matrix, 1)) == 0.0)
+    expected = np.maximum(upper_bound(matrix[:, :2, :2]), upper_bound(matrix[:, 2:, 2:]))
+    np.testing.assert_allclose(upper_bound(matrix[:, order][:, :, order]), expected, rtol=5e-9)
+    assert np.all(upper_bound(np.triu(matrix, 1)) == 0.0)
 
 
 def test_nothing_and_size() -> None:
     random = np.random.default_rng(0)
     matrix = complex_normal(random, 3, 3, 3)
     matrix[1] = 0.0
-    found = scaled_bound(matrix)
-    assert found[1] == 0.0
-    np.testing.assert_allclose(scaled_bound(1e-200 * matrix), 1e-200 * found, rtol=1e-12)
-    np.testing.assert_allclose(scaled_bound(matrix[[2, 0]]), found[[2, 0]], rtol=1e-12)
+    actual = upper_bound(matrix)
+    assert actual[1] == 0.0
+    np.testing.assert_allclose(upper_bound(1e-200 * matrix), 1e-200 * actual, rtol=1e-12)
+    np.testing.assert_allclose(upper_bound(matrix[[2, 0]]), actual[[2, 0]], rtol=1e-12)

@@ -30,15 +30,17 @@ def test_the_intervals_of_both_meet(tmp_path):
     assert results.flown == TRIALS
     exact = binomtest(failures, TRIALS).proportion_ci(method="exact")
     for seed in (None, 1, 2) if LONG else (None,):
-        found = perilune.rare(
+        actual = perilune.rare(
             *CAMPAIGN, compare={"guidance": "analytic_guidance"}, failure=f"velocity_error > {LIMIT}", seed=seed,
             samples=SAMPLES, **options,
         )  # fmt: skip
-        low, high = found.interval
-        print(f"{failures} of {TRIALS}: {exact.low:.3g} to {exact.high:.3g}; rare {found.probability}, {low} to {high}")
+        low, high = actual.interval
+        print(
+            f"{failures} of {TRIALS}: {exact.low:.3g} to {exact.high:.3g}; rare {actual.probability}, {low} to {high}"
+        )
         assert low < exact.high
         assert high > exact.low
-        assert found.flights < TRIALS
+        assert actual.flights < TRIALS
 
 
 @pytest.mark.usefixtures("fmus")
@@ -46,12 +48,12 @@ def test_the_intervals_of_both_meet(tmp_path):
 def test_a_noisy_landing_beside_its_trials(limit):
     """The noise of one trial gives anything between 0 and 1 here; what the trials give is an integral over it."""
     exact = binomtest(MISSES[limit], LANDINGS).proportion_ci(method="exact")
-    found = perilune.rare(
+    actual = perilune.rare(
         *LANDING, compare={"guidance": GUIDANCE}, failure=f"position_error > {limit}", samples=either(4500, 200),
         workers=either(None, 1),
     )  # fmt: skip
-    low, high = found.interval
-    print(f"{limit}: {exact.low:.3g} to {exact.high:.3g}; rare {found.probability}, {low} to {high}, {high / low:.2f}")
+    low, high = actual.interval
+    print(f"{limit}: {exact.low:.3g} to {exact.high:.3g}; rare {actual.probability}, {low} to {high}, {high / low:.2f}")
     assert low < exact.high
     assert high > exact.low
     if limit == 3.5:

@@ -49,28 +49,28 @@ def simulate(weights, draws, probability, repeats=REPEATS):
 @pytest.mark.parametrize("case", CASES)
 def test_intervals_cover_what_is_true(case, probability):
     weights = np.ones(5)
-    found = simulate(weights, CASES[case] * np.linalg.norm(weights), probability)
-    lows, highs = np.array([result.interval[:2] for result in found]).T
-    mean = np.mean([result.probability for result in found]) / probability
+    actual = simulate(weights, CASES[case] * np.linalg.norm(weights), probability)
+    lows, highs = np.array([result.interval[:2] for result in actual]).T
+    mean = np.mean([result.probability for result in actual]) / probability
     widths = highs / lows
     covered = np.mean((lows <= probability) & (probability <= highs))
     print(f"{case} {probability:g}: {covered:.3f} cover, mean {mean:.3f}, median width {np.median(widths):.2f}")
     assert covered >= COVERED
     assert mean == pytest.approx(1.0, abs=either(0.1, 0.3))
     assert np.median(widths) < 5.0
-    assert not any(result.noise_ends for result in found)
+    assert not any(result.noise_ends for result in actual)
 
 
 @pytest.mark.parametrize("probability", [1e-3, 1e-4])
 def test_one_source_alone_is_bounded(probability):
     """A fresh stream of the only source is as rare as the level: nothing is gained on plain Monte Carlo."""
-    found = simulate([1.0], 0.0, probability, either(400, 20))
-    bounds = np.array([result.interval.high for result in found])
+    actual = simulate([1.0], 0.0, probability, either(400, 20))
+    bounds = np.array([result.interval.high for result in actual])
     print(
         f"one source {probability:g}: bound holds in {np.mean(bounds >= probability):.3f}, median {np.median(bounds)}"
     )
     assert np.mean(bounds >= probability) >= either(0.92, 0.85)
-    for result in found:
+    for result in actual:
         assert result.noise_ends
         last = result.levels[-1]
         assert not last.trusted
@@ -110,7 +110,7 @@ def test_streams_are_never_given_twice():
         seen.append(points.streams.copy())
         return limit_state(np.ones(3), 1.0, 1e-3, 1)(points)
 
-    found = subset_simulation(margin, DIMENSIONS, 3, seed=1, samples=500)
+    actual = subset_simulation(margin, DIMENSIONS, 3, seed=1, samples=500)
     first = seen[0]
     assert np.array_equal(first, np.repeat(np.arange(500)[:, np.newaxis], 3, axis=1))
     later = np.concatenate(seen[1:])
@@ -119,7 +119,7 @@ def test_streams_are_never_given_twice():
         fresh += [number for number in row.tolist() if number not in known]
         known.update(row.tolist())
     assert len(fresh) == len(set(fresh))
-    assert max(known) < 500 + 3 * found.evaluations
+    assert max(known) < 500 + 3 * actual.evaluations
 
 
 def test_sources_without_effect_cost_no_move():

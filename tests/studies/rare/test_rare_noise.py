@@ -36,14 +36,14 @@ def limit(trials):
 
 
 @pytest.fixture(scope="module")
-def found(limit, tmp_path_factory):
+def actual(limit, tmp_path_factory):
     folder = tmp_path_factory.mktemp("found")
     failure = f"position_error > {limit!r}"
     return folder, perilune.rare(*CAMPAIGN, compare=ONE, failure=failure, samples=SAMPLES, workers=1, output=folder)
 
 
-def test_the_interval_is_that_of_trials_with_noise_of_their_own(found):
-    _, result = found
+def test_the_interval_is_that_of_trials_with_noise_of_their_own(actual):
+    _, result = actual
     exact = binomtest(12, 300).proportion_ci(method="exact")
     low, high = result.interval
     assert low < exact.high
@@ -55,8 +55,8 @@ def test_the_interval_is_that_of_trials_with_noise_of_their_own(found):
     assert result.document()["noise_trial"] is None
 
 
-def test_noise_moves_are_in_the_table_of_levels(found):
-    _, result = found
+def test_noise_moves_are_in_the_table_of_levels(actual):
+    _, result = actual
     second = result.document()["levels"][1]
     assert 0.0 < second["noise_acceptance"] <= 1.0
     assert second["source"] in (None, "navigation", "allocation")
@@ -66,8 +66,8 @@ def test_noise_moves_are_in_the_table_of_levels(found):
     assert "levels, thresholds of the margin (m)" in result.text()
 
 
-def test_failures_fly_again_with_the_stream_of_each_component(found):
-    folder, result = found
+def test_failures_fly_again_with_the_stream_of_each_component(actual):
+    folder, result = actual
     table = pyarrow.parquet.read_table(folder / "failures.parquet")
     assert {"streams_of.navigation", "streams_of.allocation"} <= set(table.column_names)
     assert "streams_of" not in table.column_names
@@ -83,8 +83,8 @@ def test_failures_fly_again_with_the_stream_of_each_component(found):
             assert flown.metrics[name][entry["trial"]] == value
 
 
-def test_the_printed_command_flies_a_failure_again(found, capsys):
-    folder, result = found
+def test_the_printed_command_flies_a_failure_again(actual, capsys):
+    folder, result = actual
     command = result.replay(folder, 0)
     assert command in result.text(folder)
     assert json.loads((folder / "rare.json").read_text())["failures"][0]["replay"] == command
@@ -103,9 +103,9 @@ def test_held_noise_is_a_condition_on_every_line(limit, capsys):
         assert of.endswith("conditional on the noise realisation of trial 3")
 
 
-def test_streams_of_all_components_and_of_one(found, trials, tmp_path):
+def test_streams_of_all_components_and_of_one(actual, trials, tmp_path):
     """A file with one column for all, as files had before, flies as that trial; a component's own column wins."""
-    folder, _ = found
+    folder, _ = actual
     table = pyarrow.parquet.read_table(folder / "failures.parquet").slice(0, 1)
     draws = table.drop_columns(["streams_of.navigation", "streams_of.allocation"])
 

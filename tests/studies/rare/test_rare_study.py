@@ -28,13 +28,13 @@ def linear(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def found(linear, tmp_path_factory):
+def actual(linear, tmp_path_factory):
     folder = tmp_path_factory.mktemp("found")
     return folder, perilune.rare(*linear, failure=f"total > {LIMIT}", samples=SAMPLES, workers=1, output=folder)
 
 
-def test_the_interval_has_the_closed_form(found):
-    _, result = found
+def test_the_interval_has_the_closed_form(actual):
+    _, result = actual
     assert stats.norm.sf(LIMIT) == pytest.approx(1e-4, rel=1e-6)
     low, high = result.interval
     assert low < 1e-4 < high < either(3e-4, 1e-3)
@@ -43,9 +43,9 @@ def test_the_interval_has_the_closed_form(found):
     assert result.brute_force > 20 * result.flights
 
 
-def test_the_likeliest_failure_is_the_nearest_point_of_the_plane(found):
+def test_the_likeliest_failure_is_the_nearest_point_of_the_plane(actual):
     """The distance of the plane from the origin is LIMIT; the flights come near that."""
-    _, result = found
+    _, result = actual
     first = result.failures[0]
     assert LIMIT <= first["distance"] < LIMIT + either(0.15, 0.6)
     assert first["margin"] == first["metrics"]["total"] - LIMIT
@@ -53,8 +53,8 @@ def test_the_likeliest_failure_is_the_nearest_point_of_the_plane(found):
     assert distances == sorted(distances)
 
 
-def test_failures_fly_again_to_the_last_bit(found, linear):
-    folder, result = found
+def test_failures_fly_again_to_the_last_bit(actual, linear):
+    folder, result = actual
     again = perilune.batch(*linear, draws=folder / "failures.parquet", workers=1)
     assert again.plan.campaign.trials == len(result.failures)
     for entry in result.failures:
@@ -63,16 +63,16 @@ def test_failures_fly_again_to_the_last_bit(found, linear):
         assert not again.trials["default"].success[entry["trial"]]
 
 
-def test_workers_do_not_matter(found, linear):
-    _, result = found
+def test_workers_do_not_matter(actual, linear):
+    _, result = actual
     other = perilune.rare(*linear, failure=f"total > {LIMIT}", samples=SAMPLES, workers=2)
     assert other.document() == result.document()
     assert other.flown.points.tobytes() == result.flown.points.tobytes()
     assert other.flown.values.tobytes() == result.flown.values.tobytes()
 
 
-def test_what_is_written(found):
-    folder, result = found
+def test_what_is_written(actual):
+    folder, result = actual
     document = json.loads((folder / "rare.json").read_text())
     assert document["probability"] == result.probability
     assert document["flights"] == sum(1 for _ in result.flown.values) == result.flights

@@ -44,32 +44,34 @@ CASES = {
 def test_intervals_cover_what_is_true(case, probability):
     function, dimensions, limit_of = CASES[case]
     limit = limit_of(probability)
-    found = [
+    actual = [
         subset_simulation(lambda at: function(at.draws) - limit, dimensions, seed=seed)
         for seed in range(REPEATS if probability == 1e-4 or case == "plane" else either(400, 4))
     ]
-    flights = np.mean([result.evaluations for result in found])
+    flights = np.mean([result.evaluations for result in actual])
     assert flights < MEAN_FLIGHTS[probability]
-    if len(found) < 40:
-        assert all(result.interval.low < 3 * probability and result.interval.high > probability / 3 for result in found)
+    if len(actual) < 40:
+        assert all(
+            result.interval.low < 3 * probability and result.interval.high > probability / 3 for result in actual
+        )
         return
-    covered = np.mean([result.interval.low <= probability <= result.interval.high for result in found])
-    estimates = np.array([result.probability for result in found])
+    covered = np.mean([result.interval.low <= probability <= result.interval.high for result in actual])
+    estimates = np.array([result.probability for result in actual])
     assert covered >= COVERED
-    assert abs(estimates.mean() / probability - 1.0) < 4.0 * estimates.std() / probability / np.sqrt(len(found))
-    told = np.mean([result.interval.variation for result in found])
+    assert abs(estimates.mean() / probability - 1.0) < 4.0 * estimates.std() / probability / np.sqrt(len(actual))
+    told = np.mean([result.interval.variation for result in actual])
     assert told == pytest.approx(estimates.std() / probability, rel=either(0.15, 0.4))
 
 
 def test_a_probability_that_is_not_small_is_counted():
-    found = subset_simulation(lambda at: at.draws[:, 0] - 1.0, 1, seed=1, samples=2000)
-    assert found.evaluations == 2000
-    failures = round(found.probability * 2000)
+    actual = subset_simulation(lambda at: at.draws[:, 0] - 1.0, 1, seed=1, samples=2000)
+    assert actual.evaluations == 2000
+    failures = round(actual.probability * 2000)
     exact = stats.binomtest(failures, 2000).proportion_ci(0.95, method="exact")
-    assert found.interval[:2] == (exact.low, exact.high)
+    assert actual.interval[:2] == (exact.low, exact.high)
     assert exact.low < stats.norm.sf(1.0) < exact.high
-    assert len(found.failures) == failures
-    assert (found.failures.draws[:, 0] >= 1.0).all()
+    assert len(actual.failures) == failures
+    assert (actual.failures.draws[:, 0] >= 1.0).all()
 
 
 def test_the_same_seed_gives_the_same_bits():
@@ -95,23 +97,23 @@ def test_failures_are_distributed_as_failures():
 
 
 def test_what_is_not_reached_has_a_bound():
-    found = subset_simulation(lambda at: at.draws[:, 0] - 8.0, 1, seed=2, samples=1000, least=1e-6)
-    assert found.probability is None
-    assert found.interval.low == 0.0
-    assert stats.norm.sf(8.0) < found.interval.high < 1e-5
-    assert not len(found.failures)
+    actual = subset_simulation(lambda at: at.draws[:, 0] - 8.0, 1, seed=2, samples=1000, least=1e-6)
+    assert actual.probability is None
+    assert actual.interval.low == 0.0
+    assert stats.norm.sf(8.0) < actual.interval.high < 1e-5
+    assert not len(actual.failures)
 
 
 def test_infinite_margins_are_failures():
     """A part of the space where nothing can be told but that it is a failure."""
-    found = subset_simulation(lambda at: np.where(at.draws[:, 0] > 3.0, np.inf, at.draws[:, 0] - 3.5), 2, seed=3)
-    assert found.interval.low < stats.norm.sf(3.0) < found.interval.high
+    actual = subset_simulation(lambda at: np.where(at.draws[:, 0] > 3.0, np.inf, at.draws[:, 0] - 3.5), 2, seed=3)
+    assert actual.interval.low < stats.norm.sf(3.0) < actual.interval.high
 
 
 def test_steps_of_the_margin():
     """Margins with few values: levels are where they are, not at a tenth."""
-    found = subset_simulation(lambda at: np.floor(4.0 * at.draws[:, 0]) / 4.0 - 3.5, 1, seed=4)
-    assert found.interval.low < stats.norm.sf(3.5) < found.interval.high
+    actual = subset_simulation(lambda at: np.floor(4.0 * at.draws[:, 0]) / 4.0 - 3.5, 1, seed=4)
+    assert actual.interval.low < stats.norm.sf(3.5) < actual.interval.high
     with pytest.raises(StuckError) as caught:
         subset_simulation(lambda at: np.where(at.draws[:, 0] > 9.0, 1.0, -1.0), 1, seed=4)
     assert caught.value.args == (-1.0, 1.0)
@@ -139,8 +141,8 @@ def test_correlation_of_chains():
 
 def test_families_without_relatives_are_independent_draws():
     """Every failure of a family of its own: the variance of a share of independent draws."""
-    found = family_interval(0.1, np.arange(100), 1000, 0.95)
-    assert found.variation == pytest.approx(np.sqrt(0.9 / (0.1 * 1000)), rel=1e-12)
+    actual = family_interval(0.1, np.arange(100), 1000, 0.95)
+    assert actual.variation == pytest.approx(np.sqrt(0.9 / (0.1 * 1000)), rel=1e-12)
     one = family_interval(0.1, np.zeros(100), 1000, 0.95)  # all of one family: nothing is known
     assert one.low < 1e-4
     assert one.high == 1.0

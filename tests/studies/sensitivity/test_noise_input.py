@@ -28,21 +28,24 @@ def test_shares_of_a_sum_and_of_a_product():
     centred = (points - 0.5) * np.sqrt(12.0)  # of variance 1
     total = centred[:, 0] + 2.0 * centred[:, 1] + np.sqrt(3.0) * noise  # shares 1, 4 and 3 of 8
     product = centred[:, 0] * noise  # no share of either alone, all of it of both together
-    found = indices(np.array([total, product]), BASE, random)
-    np.testing.assert_allclose(found.first[0], [1 / 8, 4 / 8, 3 / 8], atol=0.06)
-    np.testing.assert_allclose(found.total[0], [1 / 8, 4 / 8, 3 / 8], atol=0.06)
-    np.testing.assert_allclose(found.first[1], [0, 0, 0], atol=0.12)
-    np.testing.assert_allclose(found.total[1], [1, 0, 1], atol=0.12)
-    for order, truth in ((found.first_interval, [1 / 8, 4 / 8, 3 / 8]), (found.total_interval, [1 / 8, 4 / 8, 3 / 8])):
+    actual = indices(np.array([total, product]), BASE, random)
+    np.testing.assert_allclose(actual.first[0], [1 / 8, 4 / 8, 3 / 8], atol=0.06)
+    np.testing.assert_allclose(actual.total[0], [1 / 8, 4 / 8, 3 / 8], atol=0.06)
+    np.testing.assert_allclose(actual.first[1], [0, 0, 0], atol=0.12)
+    np.testing.assert_allclose(actual.total[1], [1, 0, 1], atol=0.12)
+    for order, truth in (
+        (actual.first_interval, [1 / 8, 4 / 8, 3 / 8]),
+        (actual.total_interval, [1 / 8, 4 / 8, 3 / 8]),
+    ):
         assert np.all((order[0, 0] < truth) & (truth < order[1, 0]))
 
 
 def test_one_number_of_one_input():
     """All of the variance is its own."""
     random = np.random.Generator(np.random.Philox(5))
-    found = indices(saltelli_points(64, 1, random).T, 64, random)
-    assert found.first.shape == found.total.shape == (1, 1)
-    np.testing.assert_allclose([found.first[0, 0], found.total[0, 0]], 1.0, atol=0.2)
+    actual = indices(saltelli_points(64, 1, random).T, 64, random)
+    assert actual.first.shape == actual.total.shape == (1, 1)
+    np.testing.assert_allclose([actual.first[0, 0], actual.total[0, 0]], 1.0, atol=0.2)
 
 
 def test_rows_differ_in_one_input_only():

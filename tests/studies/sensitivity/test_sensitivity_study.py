@@ -103,10 +103,10 @@ def test_correlated_draws_are_refused(tmp_path):
 
 def test_rank_correlations_of_a_batch_and_its_page(linear, tmp_path):
     batch = perilune.batch(*linear, workers=1)
-    found = batch.rank_correlations()
-    assert found["total"]["b.gain"] > found["total"]["a.gain"]
-    assert found["same"]["b.gain"] is None
-    assert batch.rank_correlations("default") == found
+    actual = batch.rank_correlations()
+    assert actual["total"]["b.gain"] > actual["total"]["a.gain"]
+    assert actual["same"]["b.gain"] is None
+    assert batch.rank_correlations("default") == actual
     batch.report(tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text()
     assert "Correlation with dispersed inputs" in page

@@ -28,7 +28,7 @@ def weighted(places):
     return places @ np.array([3.0, 2.0, 1.0])
 
 
-def found(base, seed):
+def actual(base, seed):
     random = np.random.default_rng(seed)
     points = saltelli_points(base, 3, random)
     assert points.shape == (5 * base, 3)
@@ -36,7 +36,7 @@ def found(base, seed):
 
 
 def test_the_indices_of_ishigami_and_of_a_sum():
-    result = found(4096, 1)
+    result = actual(4096, 1)
     np.testing.assert_allclose(result.first, [FIRST, [9 / 14, 4 / 14, 1 / 14]], atol=0.02)
     np.testing.assert_allclose(result.total, [TOTAL, [9 / 14, 4 / 14, 1 / 14]], atol=0.02)
     assert (result.total_interval[0] <= result.total).all()
@@ -48,7 +48,7 @@ def test_intervals_cover():
     repeats = either(200, 12)
     inside = np.zeros((2, 2, 3))
     for seed in range(repeats):
-        result = found(128, seed)
+        result = actual(128, seed)
         for order, (ends, truth) in enumerate(((result.first_interval, FIRST), (result.total_interval, TOTAL))):
             for number, true in enumerate((truth, np.array([9, 4, 1]) / 14)):
                 inside[order, number] += (ends[0, number] <= true + 1e-12) & (true <= ends[1, number] + 1e-12)
@@ -74,7 +74,7 @@ def test_one_number_of_one_input_is_all_its_variance():
 
 
 def test_the_same_random_numbers_give_the_same_intervals():
-    first, again = found(64, 3), found(64, 3)
+    first, again = actual(64, 3), actual(64, 3)
     assert first.total_interval.tobytes() == again.total_interval.tobytes()
 
 
@@ -94,9 +94,9 @@ def test_rank_correlations_of_what_is_not_finite():
         "same": np.ones(6),
         "few": np.array([1.0, 2.0, np.nan, np.nan, np.nan, np.nan]),
     }
-    found = rank_correlations({"u": u, "held": np.full(6, 2.0)}, metrics)
-    assert found["monotone"] == {"u": pytest.approx(1.0), "held": None}
-    assert found["settles_never"]["u"] > 0.9
-    assert found["some"]["u"] == pytest.approx(-1.0)
-    assert found["same"]["u"] is None
-    assert found["few"]["u"] is None
+    actual = rank_correlations({"u": u, "held": np.full(6, 2.0)}, metrics)
+    assert actual["monotone"] == {"u": pytest.approx(1.0), "held": None}
+    assert actual["settles_never"]["u"] > 0.9
+    assert actual["some"]["u"] == pytest.approx(-1.0)
+    assert actual["same"]["u"] is None
+    assert actual["few"]["u"] is None

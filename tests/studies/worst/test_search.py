@@ -34,7 +34,7 @@ def stairs(x):
     return np.floor(20.0 * smooth(x))
 
 
-def found(function, evaluations=1600, seed=1):
+def actual(function, evaluations=1600, seed=1):
     random = np.random.default_rng(seed)
     points = random.random((200, 5))
     spent = [0]
@@ -56,14 +56,14 @@ def found(function, evaluations=1600, seed=1):
     [(corner, 4.5, 1e-6), (smooth, 0.0, 1e-6), (ripples, 0.0, 6.0), (valley, 5 * 0.51**2, 1e-6), (stairs, -1.0, 0)],
 )
 def test_the_largest_value(function, truth, tolerance):
-    _, value = found(function)
+    _, value = actual(function)
     assert truth - tolerance <= value <= truth
     many = function(np.random.default_rng(2).random((18000, 5)))
     assert value >= many.max()
 
 
 def test_the_same_random_numbers_give_the_same_point():
-    assert found(ripples)[0].tobytes() == found(ripples)[0].tobytes()
+    assert actual(ripples)[0].tobytes() == actual(ripples)[0].tobytes()
 
 
 def test_what_is_infinite_ends_the_search():
@@ -82,6 +82,6 @@ def test_what_is_infinite_ends_the_search():
 
 @pytest.mark.parametrize("evaluations", [0, 1, 10, 50])
 def test_few_evaluations(evaluations):
-    point, value = found(smooth, evaluations)
+    point, value = actual(smooth, evaluations)
     assert value >= smooth(np.random.default_rng(1).random((200, 5))).max()
     assert point.shape == (5,)

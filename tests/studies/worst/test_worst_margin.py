@@ -75,7 +75,7 @@ def box(written):
 
 
 @pytest.fixture(scope="module")
-def found(late, box, tmp_path_factory):
+def actual(late, box, tmp_path_factory):
     folder = tmp_path_factory.mktemp("found")
     return folder, perilune.worst(late, box, loop="loop", flights=FLIGHTS, workers=1, output=folder)
 
@@ -99,8 +99,8 @@ def test_a_gain_margin_in_closed_form(late, written):
     assert result.random_trials == FLIGHTS // 5
 
 
-def test_the_least_disk_margin_of_a_box(found):
-    _, result = found
+def test_the_least_disk_margin_of_a_box(actual):
+    _, result = actual
     worst = result.worst
     assert worst["value"] == pytest.approx(disk_margin(exact(worst["draws"])), rel=1e-4)
     ends = [np.linspace(*BOX[name], 5) for name in BOX]
@@ -124,9 +124,9 @@ def test_other_margins(late, box, margin):
     assert result.worst["value"] <= result.worst_random["value"]
 
 
-def test_the_worst_is_studied_again(found, late, box, capsys):
+def test_the_worst_is_studied_again(actual, late, box, capsys):
     """Dispersed over the file of draws, and by the command that is told, which makes the whole study."""
-    folder, result = found
+    folder, result = actual
     report = perilune.stability(late, loops=["loop"], campaign=box, draws=folder / "worst.parquet", workers=1)
     spread = report.loops[0].dispersion
     margins = [item.disk for item in spread.margins]
@@ -175,8 +175,8 @@ def test_of_several_channels_the_least_counts(exact_fmus, written, tmp_path):
     assert np.ptp(channels[0]) > 0.01
 
 
-def test_workers_do_not_matter(found, late, box):
-    _, result = found
+def test_workers_do_not_matter(actual, late, box):
+    _, result = actual
     other = perilune.worst(late, box, loop="loop", flights=FLIGHTS, workers=2)
     assert other.document() == result.document()
     assert other.flown.values.tobytes() == result.flown.values.tobytes()

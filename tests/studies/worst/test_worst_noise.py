@@ -19,7 +19,7 @@ COUNT = 2
 
 
 @pytest.fixture(scope="module")
-def found(fmus, tmp_path_factory):
+def actual(fmus, tmp_path_factory):
     folder = tmp_path_factory.mktemp("found")
     result = perilune.worst(
         *CAMPAIGN, compare=ONE, metric="position_error", flights=240, realisations=COUNT, quantile=1.0, workers=1,
@@ -28,8 +28,8 @@ def found(fmus, tmp_path_factory):
     return folder, result
 
 
-def test_every_point_flies_the_same_realisations(found):
-    _, result = found
+def test_every_point_flies_the_same_realisations(actual):
+    _, result = actual
     search = slice(0, result.flights - 10 * COUNT)
     for name in ("navigation", "allocation"):
         streams = result.flown.draws[f"streams_of.{name}"]
@@ -38,8 +38,8 @@ def test_every_point_flies_the_same_realisations(found):
     assert result.flights <= 240
 
 
-def test_the_worst_is_the_largest_objective_and_fresh_noise_says_what_it_is(found):
-    _, result = found
+def test_the_worst_is_the_largest_objective_and_fresh_noise_says_what_it_is(actual):
+    _, result = actual
     errors = result.flown.metrics["position_error"]
     pairs = errors[: -10 * COUNT].reshape(-1, COUNT).max(axis=1)
     inside = np.all((result.flown.points >= 0) & (result.flown.points <= 1), axis=1)[: -10 * COUNT : COUNT]
@@ -50,8 +50,8 @@ def test_the_worst_is_the_largest_objective_and_fresh_noise_says_what_it_is(foun
     assert result.values()["fresh_worst"] == fresh["worst"]
 
 
-def test_fresh_flights_are_those_of_the_worst_draws(found, tmp_path):
-    folder, result = found
+def test_fresh_flights_are_those_of_the_worst_draws(actual, tmp_path):
+    folder, result = actual
     worst = pyarrow.parquet.read_table(folder / "worst.parquet").slice(0, 1)
     fresh = worst.drop_columns(["streams_of.navigation", "streams_of.allocation"])
     pyarrow.parquet.write_table(fresh.append_column("streams_of", pyarrow.array([COUNT])), tmp_path / "fresh.parquet")
@@ -65,8 +65,8 @@ def test_fresh_flights_are_those_of_the_worst_draws(found, tmp_path):
     assert error(tmp_path / "fresh.parquet") == result.flown.metrics["position_error"][-10 * COUNT]
 
 
-def test_what_is_printed(found, capsys):
-    folder, result = found
+def test_what_is_printed(actual, capsys):
+    folder, result = actual
     text = result.text(folder)
     assert "position_error: worst " in text
     assert f" m (worst of {COUNT} noise realisations) in {result.flights} flights" in text

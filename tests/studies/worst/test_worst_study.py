@@ -31,13 +31,13 @@ def linear(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def found(linear, tmp_path_factory):
+def actual(linear, tmp_path_factory):
     folder = tmp_path_factory.mktemp("found")
     return folder, perilune.worst(*linear, metric="total", flights=400, workers=1, output=folder)
 
 
-def test_the_worst_is_the_corner(found):
-    _, result = found
+def test_the_worst_is_the_corner(actual):
+    _, result = actual
     assert result.value == pytest.approx(CORNER, rel=1e-6)
     assert result.flights <= 400
     assert result.worst["draws"]["a.gain"] == pytest.approx(3.6, rel=1e-6)
@@ -45,8 +45,8 @@ def test_the_worst_is_the_corner(found):
     assert result.random_trials == 80
 
 
-def test_it_flies_again_to_the_last_bit(found, linear):
-    folder, result = found
+def test_it_flies_again_to_the_last_bit(actual, linear):
+    folder, result = actual
     again = perilune.batch(*linear, draws=folder / "worst.parquet", workers=1).trials["default"].metrics["total"]
     assert again.tolist() == [result.worst["value"], result.worst_random["value"]]
     document = json.loads((folder / "worst.json").read_text())
@@ -54,8 +54,8 @@ def test_it_flies_again_to_the_last_bit(found, linear):
     assert document == result.document(folder)
 
 
-def test_workers_do_not_matter(found, linear):
-    _, result = found
+def test_workers_do_not_matter(actual, linear):
+    _, result = actual
     other = perilune.worst(*linear, metric="total", flights=400, workers=2)
     assert other.document() == result.document()
     assert other.flown.points.tobytes() == result.flown.points.tobytes()

@@ -53,14 +53,14 @@ class DaskCluster:
 
     def flying(self):
         """Process ids of the workers, without the nannies."""
-        found = []
+        collected = []
         for nanny in self._processes[1:]:
             try:
                 children = psutil.Process(nanny.pid).children(recursive=True)
-                found += [child.pid for child in children if "spawn_main" in " ".join(child.cmdline())]
+                collected += [child.pid for child in children if "spawn_main" in " ".join(child.cmdline())]
             except psutil.Error:  # it has just ended
                 continue
-        return found
+        return collected
 
     def end(self, what):
         """SIGKILL for the ``scheduler``, or for all ``workers`` with their nannies."""

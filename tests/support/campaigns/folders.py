@@ -26,15 +26,15 @@ def started(*words):
 
 def workers_of(process):
     """The process ids of a command's worker processes."""
-    found = []
+    collected = []
     for child in psutil.Process(process.pid).children(recursive=True):
         try:
             line = " ".join(child.cmdline())
         except psutil.Error:  # it has just ended
             continue
         if "--process-name LokyProcess" in line:
-            found.append(child.pid)
-    return found
+            collected.append(child.pid)
+    return collected
 
 
 def shards_in(folder):

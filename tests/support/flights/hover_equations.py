@@ -56,10 +56,10 @@ def flown(p, vehicle, until=None):
             thrust = full if now >= t7 - tp or inside else least
             stop = end if until is None else min(end, until)
             run = fly(now, stop, state, turning, thrust)
-            found = [t for t in run.t_events[0] if t > now + 1e-7]
-            if found and p[2] > 0.0 and now < t7 - tp:
-                state = fly(now, found[0], state, turning, thrust).y[:, -1]
-                now, inside = found[0], not inside
+            collected = [t for t in run.t_events[0] if t > now + 1e-7]
+            if collected and p[2] > 0.0 and now < t7 - tp:
+                state = fly(now, collected[0], state, turning, thrust).y[:, -1]
+                now, inside = collected[0], not inside
             else:
                 state, now = run.y[:, -1], stop
     return state

@@ -76,7 +76,8 @@ class Native:
         )
         integers = np.ascontiguousarray(counts(measurements).astype(np.int32))
         measured, counted, read = (
-            (ctypes.c_uint * len(found))(*found) for found in map(self.references, (MEASURED, COUNTS, outputs))
+            (ctypes.c_uint * len(collected))(*collected)
+            for collected in map(self.references, (MEASURED, COUNTS, outputs))
         )
         buffer = (ctypes.c_double * len(read))()
         rows = []

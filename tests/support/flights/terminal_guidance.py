@@ -98,8 +98,8 @@ def polynomials(position, velocity):
 
 
 def positive_roots(polynomial, degree):
-    found = np.roots(polynomial.coef[: degree + 1][::-1])
-    real = found[abs(found.imag) < 1e-9 * abs(found)].real
+    collected = np.roots(polynomial.coef[: degree + 1][::-1])
+    real = collected[abs(collected.imag) < 1e-9 * abs(collected)].real
     real = real - polynomial(real) / polynomial.deriv()(real)
     return sorted(real[real > 0.0])
 

@@ -142,11 +142,11 @@ class Pair:
         else:
             frames = traceback.extract_tb(error.__traceback__)
             frame = [each for each in frames if each.filename != vector_types.__file__][-1]  # operators of vectors
-            found = FAULT.match(message)
-            assert found, message
+            collected = FAULT.match(message)
+            assert collected, message
             place = (label(Path(frame.filename)), frame.lineno)
-            assert (found["file"], int(found["line"])) == place, f"{error!r} at {place}, C: {message}"
-            assert found["error"] == type(error).__name__
+            assert (collected["file"], int(collected["line"])) == place, f"{error!r} at {place}, C: {message}"
+            assert collected["error"] == type(error).__name__
         self.faults.append(message)
         return False
 

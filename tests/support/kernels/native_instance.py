@@ -13,7 +13,7 @@ from lxml import etree
 
 from perilune.fmus_src.block import Block
 from perilune.fmus_src.catalogue import catalogue
-from perilune.fmus_src.export.compilers import PLATFORMS, local_platform, shared_library
+from perilune.fmus_src.export.compilers import PLATFORMS, build_library, local_platform
 from perilune.fmus_src.export.native_fmu import native_sources
 from perilune.fmus_src.paths import BUILD, built_fmu
 from tests.support.built import native_are_current
@@ -42,7 +42,7 @@ def load(sources: dict[str, bytes], main: str, portable: bool = False) -> ctypes
     """The library of a C file, compiled through the build cache and loaded from a copy of its own."""
     platform = local_platform()
     assert platform is not None
-    text = shared_library(sources, main, platform, CACHE, portable=portable)
+    text = build_library(sources, main, platform, CACHE, portable=portable)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         file = Path(folder) / f"library{PLATFORMS[platform].extension}"
         file.write_bytes(text)
@@ -99,10 +99,10 @@ class NativeInstance:
         return getattr(self.dll, function)(self.handle, *arguments)
 
     def _split(self, references: list[int]) -> dict[str, list[int]]:
-        found: dict[str, list[int]] = {}
+        collected: dict[str, list[int]] = {}
         for reference in references:
-            found.setdefault(self.kinds[reference], []).append(reference)
-        return found
+            collected.setdefault(self.kinds[reference], []).append(reference)
+        return collected
 
     def get(self, references: list[int]) -> list | None:
         """Values, or None after an error."""

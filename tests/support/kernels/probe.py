@@ -38,11 +38,11 @@ def reference(component, name, element=0):
 
 
 def references(component, *names):
-    found: list[int] = []
+    collected: list[int] = []
     for name in names:
         first = reference(component, name)
-        found += range(first, first + type(component.block).variables[name].size)
-    return found
+        collected += range(first, first + type(component.block).variables[name].size)
+    return collected
 
 
 def everything(component):

@@ -33,8 +33,8 @@ class FormulaEvaluator:
         sums, successes, flown = task.known
         law = Law("", task.law.matrix, task.law.q, "true")
         while flown < self.trials:
-            found = evaluate_tree(law, *POINTS[flown])
-            missed = [abs(a - b) for a, b in zip(found, self.target(*POINTS[flown]), strict=True)]
+            collected = evaluate_tree(law, *POINTS[flown])
+            missed = [abs(a - b) for a, b in zip(collected, self.target(*POINTS[flown]), strict=True)]
             sums = tuple(total + min(miss, 100.0) for total, miss in zip(sums, missed, strict=True))
             successes += all(miss < TOLERANCE for miss in missed)
             flown += 1

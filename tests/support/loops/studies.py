@@ -112,6 +112,6 @@ def keep_studies(folder: Path, fmus: Path) -> None:
 
 def kept_studies(folder: Path) -> Studies:
     """What `keep_studies` kept there."""
-    found = pickle.loads((folder / KEPT).read_bytes())
-    assert isinstance(found, Studies)
-    return found
+    collected = pickle.loads((folder / KEPT).read_bytes())
+    assert isinstance(collected, Studies)
+    return collected

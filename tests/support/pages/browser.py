@@ -18,12 +18,12 @@ FLAGS = (
 
 def find_browser() -> str:
     """The path of chromium; without it the tests that ask for it are left out, which CI does not allow."""
-    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if found is None and os.environ.get("PERILUNE_REQUIRE_BROWSER") == "1":
+    collected = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if collected is None and os.environ.get("PERILUNE_REQUIRE_BROWSER") == "1":
         pytest.fail("chromium is not installed, and PERILUNE_REQUIRE_BROWSER=1 asks for it")
-    if found is None:
+    if collected is None:
         pytest.skip(NO_BROWSER)
-    return found
+    return collected
 
 
 def start(browser: str, page: Path, folder: Path, *arguments: str) -> str:

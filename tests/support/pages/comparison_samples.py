@@ -97,18 +97,18 @@ def flight(source, end, mass):
     time = np.arange(0.0, END + 0.25, 0.5)
     share = time / END
     start = np.array([-1000.0 + 30.0 * source.normal(), 40.0 * source.normal(), 500.0])
-    found = {"time": time}
+    collected = {"time": time}
     for k, name in enumerate(POSITION):
-        found[name] = start[k] + (end[k] - start[k]) * share
+        collected[name] = start[k] + (end[k] - start[k]) * share
     for k, name in enumerate(VELOCITY):
-        found[name] = np.full(time.size, (end[k] - start[k]) / END)
-    found["ship.mass"] = 100.0 + (mass - 100.0) * share
-    found["pilot.thrust"] = 50.0 + 5.0 * source.normal() + 10.0 * share
+        collected[name] = np.full(time.size, (end[k] - start[k]) / END)
+    collected["ship.mass"] = 100.0 + (mass - 100.0) * share
+    collected["pilot.thrust"] = 50.0 + 5.0 * source.normal() + 10.0 * share
     angle = 0.3 + 0.1 * source.normal() + 0.5 * share
-    found |= dict(zip(DIRECTION, (np.cos(angle), np.zeros(time.size), np.sin(angle)), strict=True))
-    found["pilot.status"] = np.where(share > 0.9, 1.0, 0.0)
-    found["checker.x_error_ratio"] = source.normal(size=time.size)
-    return {name: values[::2] for name, values in found.items()}
+    collected |= dict(zip(DIRECTION, (np.cos(angle), np.zeros(time.size), np.sin(angle)), strict=True))
+    collected["pilot.status"] = np.where(share > 0.9, 1.0, 0.0)
+    collected["checker.x_error_ratio"] = source.normal(size=time.size)
+    return {name: values[::2] for name, values in collected.items()}
 
 
 def sample_batch(
@@ -137,7 +137,7 @@ def sample_batch(
         )
     )
     plan = BatchPlan("ship", campaign, SystemOptions(), DIGEST[::-1])
-    found = {}
+    collected = {}
     for number, variant in enumerate(variants):
         source = np.random.default_rng(100 * seed + number)
         errors = noise * (1.0 + 0.5 * number) * source.normal(size=(trials, 3)) + [0.4 * number, 0.0, 0.0]
@@ -155,7 +155,7 @@ def sample_batch(
             "x_error_over_sigma": source.normal(size=trials),
         }
         columns = np.concatenate([ends, speeds, mass[:, np.newaxis]], axis=1)
-        found[variant] = Trials(
+        collected[variant] = Trials(
             statuses=["finished" if value <= 3.0 else "stop_time (pilot.status 2)" for value in miss],
             success=miss <= 3.0,
             metrics={metric.name: metrics[metric.name] for metric in campaign.metrics},
@@ -172,7 +172,7 @@ def sample_batch(
         "fmus": {variant: {"ship": DIGEST, "pilot": variant.ljust(64, "0")} for variant in variants},
     } | facts(campaign, variants, targets)  # fmt: skip
     drawn = plan.draws.columns
-    return BatchResult(plan, {name: replace(rows, draws=drawn) for name, rows in found.items()}, provenance)
+    return BatchResult(plan, {name: replace(rows, draws=drawn) for name, rows in collected.items()}, provenance)
 
 
 def write_sample(folder: Path, **options) -> BatchResult:

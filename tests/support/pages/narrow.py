@@ -53,15 +53,15 @@ def measure(browser: str, page: Path, folder: Path, width: int = PHONE) -> Measu
     document = f'<!DOCTYPE html><meta charset="utf-8"><body>{frame}{SCRIPT}</body>'
     framed.write_text(document, encoding="utf-8")
     dom = start(browser, framed, folder, "--dump-dom")
-    found = re.search(r'data-measured="([^"]*)"', dom)
-    assert found is not None, "the page did not load"
-    return Measured(**json.loads(html.unescape(found[1])))
+    collected = re.search(r'data-measured="([^"]*)"', dom)
+    assert collected is not None, "the page did not load"
+    return Measured(**json.loads(html.unescape(collected[1])))
 
 
 def assert_legible(browser: str, page: Path, folder: Path, smallest: float = 8.5) -> None:
     """On a telephone no text of a figure is smaller (px), and nothing makes the page wider than the screen."""
-    found = measure(browser, page, folder)
-    assert found.width == PHONE
-    assert found.texts > 10
-    assert found.smallest >= smallest
-    assert (found.overflow, found.wide) == (0, [])
+    collected = measure(browser, page, folder)
+    assert collected.width == PHONE
+    assert collected.texts > 10
+    assert collected.smallest >= smallest
+    assert (collected.overflow, collected.wide) == (0, [])

@@ -29,18 +29,18 @@ def vector(name, size, unit=None, factor=1.0, offsets=None):
 
 def flown(**signals):
     """A run with signals of a `ship`; vectors are given element by element. Row n is at n / 2 s."""
-    found = {}
+    collected = {}
     for name, values in signals.items():
         rows = np.atleast_2d(np.asarray(values, dtype=float))
         for index, row in enumerate(rows, 1):
-            found[f"ship.{name}" if len(rows) == 1 else f"ship.{name}[{index}]"] = row
-    rows = len(next(iter(found.values())))
+            collected[f"ship.{name}" if len(rows) == 1 else f"ship.{name}[{index}]"] = row
+    rows = len(next(iter(collected.values())))
     return replace(
         run_result(),
         time=TIME[:rows],
-        signals=found,
-        units=dict.fromkeys(found),
-        types=dict.fromkeys(found, "Real"),
+        signals=collected,
+        units=dict.fromkeys(collected),
+        types=dict.fromkeys(collected, "Real"),
     )
 
 

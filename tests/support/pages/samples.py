@@ -103,7 +103,7 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
     if list(outcomes) != ["default"]:
         campaign = replace(campaign, compare={"guidance": tuple(outcomes)})
     names = [metric.name for metric in campaign.metrics]
-    found = {
+    collected = {
         variant: Trials(
             statuses=["finished" if row[0] else "stop_time (ship.status 2)" for row in rows],
             success=np.array([row[0] for row in rows]),
@@ -129,7 +129,7 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
     }
     plan = BatchPlan("ship", campaign, SystemOptions())
     drawn = plan.draws.columns
-    return BatchResult(plan, {name: replace(rows, draws=drawn) for name, rows in found.items()}, provenance)
+    return BatchResult(plan, {name: replace(rows, draws=drawn) for name, rows in collected.items()}, provenance)
 
 
 def grouped_batch(trials: int = 60) -> BatchResult:

@@ -33,7 +33,7 @@ def cluster(address: str | None, *, workers: int | None = None, engine: str | No
         if value is not None:
             problem = "the cluster's own workers fly, in as many threads as they have"
             raise InputError(option, str(value), problem, f"leave it or {OPTION} out")
-    distributed = _distributed()
+    distributed = _import_distributed()
     with _quiet(), _client(distributed, address) as client:
         _look_at_workers(client, address)
         yield Cluster(client, address)
@@ -53,7 +53,7 @@ def _quiet() -> Iterator[None]:
             log.setLevel(level)
 
 
-def _distributed() -> Any:
+def _import_distributed() -> Any:
     try:
         return importlib.import_module("distributed")
     except ImportError as error:

@@ -17,7 +17,7 @@ from ..shards.parts import Parts
 from ..workers.workers import WorkersDiedError
 from . import work
 from .retry import Again, Task
-from .sent import sent_of
+from .sent import make_sent
 from .task_size import Portions
 
 WAITING = 2  # tasks for each thread: one flies, one is there when it is done
@@ -51,7 +51,7 @@ class Cluster:
         parts = Parts(campaign.numbering, variants)
         portions = Portions(campaign.numbering, shards, variants)
         again = Again()
-        sent = sent_of(campaign)
+        sent = make_sent(campaign)
         here = client.submit(_itself, sent, pure=False)  # the workers pass it on, and make it again where all lose it
         under_way: dict[Any, Task] = {}
         try:
@@ -63,7 +63,7 @@ class Cluster:
                         under_way[client.submit(work.fly, here, task, pure=False)] = task
                 if not under_way:
                     return
-                for future in self._done(under_way):
+                for future in self._finish(under_way):
                     task = under_way.pop(future)
                     try:
                         shard_trials = future.result()
@@ -76,7 +76,7 @@ class Cluster:
                             raise WorkersDiedError(_what_ends_them(left)) from error
                         continue
                     for piece, (trials, seconds) in zip(task, shard_trials, strict=True):
-                        portions.measured(piece, seconds)
+                        portions.record_duration(piece, seconds)
                         whole = parts.add(piece.shard, piece.variant, trials)
                         if whole is not None:
                             yield piece.shard, whole
@@ -95,7 +95,7 @@ class Cluster:
         """How many flights the workers that are there can fly at once."""
         return sum(self._client.nthreads().values())
 
-    def _done(self, under_way: dict[Any, Any]) -> Iterator[Any]:
+    def _finish(self, under_way: dict[Any, Any]) -> Iterator[Any]:
         """Those of some futures that are done, one at least. Raises WorkersDiedError where no worker is left."""
         from distributed import wait
 

@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 
 from ....common.errors import InputError
 from ..campaign import Campaign
-from ..manifest.contents import stored
+from ..manifest.contents import store_content
 from ..manifest.gather import gather
 from ..manifest.manifest import CONTENTS, Manifest
 from ..shards.files import DRAWS, write_draws
@@ -38,11 +38,11 @@ class Sent:
     threads: bool
 
 
-def sent_of(campaign: Campaign) -> Sent:
+def make_sent(campaign: Campaign) -> Sent:
     """A campaign as workers are sent it: from its folder, or what it has read where it has none. Raises InputError."""
     manifest, folder = campaign.manifest, campaign.folder
     if folder is not None:
-        contents = {name: stored(folder / CONTENTS, name).read_bytes() for name in manifest.names()}
+        contents = {name: store_content(folder / CONTENTS, name).read_bytes() for name in manifest.names()}
         draws = b"" if campaign.plan.is_counted else (folder / DRAWS).read_bytes()
     else:
         described, contents = gather(campaign.plan, campaign.systems)

@@ -31,7 +31,7 @@ class Portions:
         self.trials = sum(len(piece.trials) for piece in self._left)
         self._seconds: dict[str, float] = {}  # of a trial, by variant
 
-    def measured(self, piece: Piece, seconds: float) -> None:
+    def record_duration(self, piece: Piece, seconds: float) -> None:
         """Remember how long a piece took in a worker."""
         self._seconds[piece.variant] = seconds / len(piece.trials)
 

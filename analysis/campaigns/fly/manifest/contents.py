@@ -32,7 +32,7 @@ def forget(folder: Path) -> None:
             path.unlink()
 
 
-def stored(folder: Path, name: str) -> Path:
+def store_content(folder: Path, name: str) -> Path:
     """Where a content lies, once it is seen to be the one of that name. Raises InputError."""
     path = folder / name
     try:

@@ -10,7 +10,7 @@ import numpy as np
 from ....common.atomic import remove_partial
 from ....common.errors import InputError
 from ...spec.plan import BatchPlan
-from ..shards.draws import stored_draws
+from ..shards.draws import read_draws
 from ..shards.files import DRAWS, FOLDER, SUMMARY, clear, trace_path, write_draws
 from ..shards.numbering import Numbering
 from .contents import forget, store
@@ -48,8 +48,8 @@ def resume_folder(folder: Path, manifest: Manifest, contents: dict[str, bytes], 
 
 def _check_draws(folder: Path, held: Manifest, plan: BatchPlan) -> None:
     """Refuse a plan that does not draw for the first trials what is held for them."""
-    names = plan.campaign.drawn_names()
-    stored, first = stored_draws(folder, held.trials, names), 0
+    names = plan.campaign.input_names()
+    stored, first = read_draws(folder, held.trials, names), 0
     for part in plan.draw_parts(held.shard_size):
         known = stored.of_part(range(first, min(first + part.trials, held.trials)))
         for name in names:

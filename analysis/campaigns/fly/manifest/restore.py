@@ -9,7 +9,7 @@ from typing import Any
 
 import pyarrow.parquet
 
-from ....runtime.flight.instances.reset_check import ResetVerdict, known
+from ....runtime.flight.instances.reset_check import ResetVerdict, recall
 from ....runtime.ssp.archive import SystemArchive
 from ....runtime.system.fault import parse_fault
 from ....runtime.system.in_flight.series import InputSeries
@@ -20,8 +20,8 @@ from ...spec.file import parse_campaign
 from ...spec.plan import BatchPlan
 from ...spec.sweeps import with_sweeps
 from ...spec.toml.source import CampaignSource
-from ..shards.draws import stored_draws
-from .contents import stored
+from ..shards.draws import read_draws
+from .contents import store_content
 from .manifest import CONTENTS, Manifest
 
 
@@ -60,42 +60,42 @@ def restore(folder: Path, manifest: Manifest, log: str | None = None, *, draws: 
         archive=_archive(contents, manifest),
     )
     if manifest.draws is not None:
-        plan = plan.of_samples(_given(contents, manifest.draws)).of_first(manifest.trials)
+        plan = plan.of_samples(_read_given(contents, manifest.draws)).of_first(manifest.trials)
     elif not plan.is_counted:
-        stored_table = stored_draws((draws or folder).absolute(), manifest.trials, plan.campaign.drawn_names())
+        stored_table = read_draws((draws or folder).absolute(), manifest.trials, plan.campaign.input_names())
         plan = replace(plan, known_draws=stored_table)  # made anew they could differ
     for digest, verdict in manifest.resets.items():
-        known(digest, ResetVerdict(**verdict))
+        recall(digest, ResetVerdict(**verdict))
     return plan
 
 
 def _source(contents: Path, campaign: Mapping[str, Any]) -> CampaignSource:
     extends = tuple(_source(contents, part) for part in campaign.get("extends", []))
-    data = stored(contents, campaign["content"]).read_bytes()
+    data = store_content(contents, campaign["content"]).read_bytes()
     return CampaignSource(campaign["label"], data, extends, campaign.get("position", 0))
 
 
 def _archive(contents: Path, manifest: Manifest) -> SystemArchive:
     system: Mapping[str, Any] = manifest.system
-    files = {name: stored(contents, content) for name, content in system["files"].items()}
+    files = {name: store_content(contents, content) for name, content in system["files"].items()}
     return SystemArchive(
         name=system["name"],
         label=system["label"],
         path=contents if system["fmu"] is None else files[system["fmu"]],
         files=files,
         description=system["description"],
-        elsewhere={asked: stored(contents, content) for asked, content in manifest.elsewhere.items()},
+        elsewhere={asked: store_content(contents, content) for asked, content in manifest.elsewhere.items()},
         known_digest=system["sha256"],  # without the files that were read in addition to its list of files
     )
 
 
 def _series(contents: Path, series: Mapping[str, str]) -> InputSeries:
-    table = pyarrow.parquet.read_table(stored(contents, series["content"]))
+    table = pyarrow.parquet.read_table(store_content(contents, series["content"]))
     columns = {name: table[name].to_numpy() for name in table.column_names}
     return InputSeries(series["label"], series["sha256"], columns.pop("time"), columns)
 
 
-def _given(contents: Path, given: Mapping[str, str]) -> GivenDraws:
-    table = pyarrow.parquet.read_table(stored(contents, given["content"]))
+def _read_given(contents: Path, given: Mapping[str, str]) -> GivenDraws:
+    table = pyarrow.parquet.read_table(store_content(contents, given["content"]))
     columns = {name: table[name].to_numpy() for name in table.column_names}
     return GivenDraws(*part_streams(columns), given["label"], given["sha256"])

@@ -33,7 +33,7 @@ class StoredDraws:
 
     def of_part(self, trials: range) -> DrawTable:
         """Those of trials in a row, which are counted from 0 then. Raises InputError where the file is damaged."""
-        with _opened(self.path) as file:
+        with _open_draws(self.path) as file:
             ends = np.cumsum([file.metadata.row_group(group).num_rows for group in range(file.num_row_groups)])
             groups = range(
                 int(np.searchsorted(ends, trials.start, side="right")), int(np.searchsorted(ends, trials.stop)) + 1
@@ -44,10 +44,10 @@ class StoredDraws:
         return DrawTable(len(trials), {name: numpy_of(table[name])[rows] for name in self.names})
 
 
-def stored_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
+def read_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
     """The draws of a folder's first trials. Raises InputError where it does not hold them all."""
     path = folder / DRAWS
-    with _opened(path) as file:
+    with _open_draws(path) as file:
         there, rows = file.schema_arrow.names, file.metadata.num_rows
     missing = [name for name in names if name not in there]
     if missing or rows < trials:
@@ -57,7 +57,7 @@ def stored_draws(folder: Path, trials: int, names: list[str]) -> StoredDraws:
 
 
 @contextmanager
-def _opened(path: Path) -> Iterator[pyarrow.parquet.ParquetFile]:
+def _open_draws(path: Path) -> Iterator[pyarrow.parquet.ParquetFile]:
     try:
         with pyarrow.parquet.ParquetFile(path, page_checksum_verification=True) as file:
             yield file

@@ -41,10 +41,10 @@ def write_shard(folder: Path, batch: str, shard: int, plan: BatchPlan, trials: M
     for variant, rows in trials.items():
         for trial, traces in rows.traces.items():
             about = {"batch": batch, "variant": variant, "trial": trial}
-            write_parquet(_described(table_of(traces), about), trace_path(folder, variant, trial))
+            write_parquet(_describe_field(table_of(traces), about), trace_path(folder, variant, trial))
     numbers = next(iter(trials.values())).trial
     about = {"batch": batch, "shard": shard, "trials": [int(numbers[0]), int(numbers[-1]) + 1]}
-    table = _described(trial_table(plan, trials), about)
+    table = _describe_field(trial_table(plan, trials), about)
     write_parquet(table, shard_path(folder, shard), len(numbers))  # each variant a row group
 
 
@@ -78,7 +78,7 @@ def write_draws(plan: BatchPlan, folder: Path, size: int) -> None:
 
 def is_flown(folder: Path, batch: str, shard: int, trials: range) -> bool:
     """Whether the shard lies in the folder, of this campaign and with these trials."""
-    return described(shard_path(folder, shard)) == {
+    return describe_columns(shard_path(folder, shard)) == {
         "batch": batch,
         "shard": shard,
         "trials": [trials.start, trials.stop],
@@ -92,27 +92,27 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
     """
     variants = list(trials.values())
     numbers = variants[0].trial
-    drawn = plan.drawn(range(int(numbers[0]), int(numbers[-1]) + 1))
+    drawn = plan.values_of(range(int(numbers[0]), int(numbers[-1]) + 1))
     columns: dict[str, Any] = {
         "variant": texts_of(name for name, part in trials.items() for _ in part.trial),
-        "trial": _joined(variants, lambda part: part.trial),
+        "trial": _join_tables(variants, lambda part: part.trial),
         "status": texts_of(status for part in variants for status in part.statuses),
-        "success": _joined(variants, lambda part: part.success),
+        "success": _join_tables(variants, lambda part: part.success),
         "message": texts_of(part.messages.get(int(trial), "") for part in variants for trial in part.trial),
-        "end_time": _joined(variants, lambda part: part.end_time),
+        "end_time": _join_tables(variants, lambda part: part.end_time),
     }
     for name, values in drawn.table.columns.items():
         columns[f"draw.{name}"] = np.tile(values, len(variants))
     for fault in drawn.faults:
         columns |= {name: np.tile(values, len(variants)) for name, values in fault.columns().items()}
     for name in variants[0].final:
-        columns[f"final.{name}"] = _joined(variants, lambda part, name=name: part.final[name])
+        columns[f"final.{name}"] = _join_tables(variants, lambda part, name=name: part.final[name])
     for name in variants[0].metrics:
-        columns[f"metric.{name}"] = _joined(variants, lambda part, name=name: part.metrics[name])
+        columns[f"metric.{name}"] = _join_tables(variants, lambda part, name=name: part.metrics[name])
     return table_of(columns)
 
 
-def _joined(tables: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.ndarray:
+def _join_tables(tables: Sequence[Trials], column: Callable[..., np.ndarray]) -> np.ndarray:
     return np.concatenate([column(part) for part in tables])
 
 
@@ -125,11 +125,11 @@ def write_parquet(table: pyarrow.Table, path: Path, rows: int | None = None) -> 
         pyarrow.parquet.write_table(table, partial, row_group_size=rows, write_page_checksum=True)
 
 
-def _described(table: pyarrow.Table, about: Mapping[str, Any]) -> pyarrow.Table:
+def _describe_field(table: pyarrow.Table, about: Mapping[str, Any]) -> pyarrow.Table:
     return table.replace_schema_metadata({"perilune": json.dumps(about)})
 
 
-def described(path: Path) -> Any:
+def describe_columns(path: Path) -> Any:
     """What a file that `write_shard` wrote says of itself; None where it says nothing, or is not there.
 
     Raises InputError for one that is damaged.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...trials import Trials, joined
+from ...trials import Trials, join_trials
 from .numbering import Numbering
 
 
@@ -23,4 +23,4 @@ class Parts:
         flown = sum(len(piece.trial) for parts in pieces.values() for piece in parts)
         if flown < len(self._numbering.of(shard)) * len(self._variants):
             return None
-        return {name: joined(parts) for name, parts in self._pieces.pop(shard).items()}
+        return {name: join_trials(parts) for name, parts in self._pieces.pop(shard).items()}

@@ -11,9 +11,9 @@ import pyarrow.parquet
 
 from ...rows import Part
 from ...spec.plan import BatchPlan
-from ...trials import Trials, joined
+from ...trials import Trials, join_trials
 from .arrow import numpy_of
-from .files import described, shard_path, trace_path, unreadable
+from .files import describe_columns, shard_path, trace_path, unreadable
 from .numbering import Numbering
 from .reading import numbers, read_table, trials_of
 
@@ -43,7 +43,7 @@ class ShardRows:
 
     def whole(self) -> Trials:
         """All of them in memory, with their traces. Raises InputError."""
-        return joined(self._trials(shard) for shard in self.shards)
+        return join_trials(self._trials(shard) for shard in self.shards)
 
     def _table(self, shard: int, names: list[str] | None = None) -> pyarrow.Table:
         path = shard_path(self.folder, shard)
@@ -60,7 +60,7 @@ class ShardRows:
         trials = trials_of(self._table(shard), metrics, path)[self.variant]
         for trial in trials.trial.tolist():
             place = trace_path(self.folder, self.variant, trial)
-            if described(place) == {"batch": self.batch, "variant": self.variant, "trial": trial}:
+            if describe_columns(place) == {"batch": self.batch, "variant": self.variant, "trial": trial}:
                 table = read_table(place)
                 trials.traces[trial] = {name: numbers(table, name, place) for name in table.column_names}
         return trials

@@ -31,7 +31,7 @@ class Judge:
         self._at_end = [metric for metric in campaign.metrics if is_of_the_end(metric)]
         self._over_time = [metric for metric in campaign.metrics if not is_of_the_end(metric)]
         ends = {name for metric in self._at_end for name in metric.names}
-        drawn = set(campaign.drawn_names())
+        drawn = set(campaign.input_names())
         self._signals = sorted(ends & set(names.signals))
         self._last_of = sorted({*self._signals, *campaign.record.final})
         self._drawn = sorted((ends & drawn) - set(names.signals))
@@ -66,11 +66,11 @@ class Judge:
         self._complete.append(complete)
         if not complete:
             self._messages[trial] = flight.message
-        traces = self._kept(flight, trial)
+        traces = self._select_signals(flight, trial)
         if traces is not None:
             self._traces[trial] = traces
 
-    def _kept(self, flight: Flight, trial: int) -> Traces | None:
+    def _select_signals(self, flight: Flight, trial: int) -> Traces | None:
         """Copies of what the campaign keeps over time: sampled signals, or everything of some trials."""
         record = self._campaign.record
         if record.traces == "all" or (record.traces == "failures" and not self._success(len(self._rows) - 1)[-1]):

@@ -57,7 +57,7 @@ class Flyer:
                 names = variant_names(self.plan, prepared)
                 everything = self.plan.campaign.record.traces != "none"
                 wanted = None if everything else {*names.signals, *names.statuses}
-                faults = self.plan.declared_faults()
+                faults = self.plan.list_faults()
                 log = self._log_of(variant)
                 simulation = Simulation(prepared, varied=names.varied, wanted=wanted, faults=faults, log=log)
                 self._ready[variant] = simulation, names
@@ -71,17 +71,17 @@ class Flyer:
         self._logs[variant].place = f"{variant}: "
         return self._logs[variant]
 
-    def drawn_for(self, trial: int) -> DrawnTrials:
+    def values_for(self, trial: int) -> DrawnTrials:
         """What is drawn for a trial and those around it."""
         if self._drawn is None or trial not in self._drawn.numbers:
             first = trial - trial % AROUND
-            self._drawn = self.plan.drawn(range(first, min(first + AROUND, self.plan.campaign.trials)))
+            self._drawn = self.plan.values_of(range(first, min(first + AROUND, self.plan.campaign.trials)))
         return self._drawn
 
     def fly_others(self, variant: str, plan: BatchPlan) -> Trials:
         """Fly all trials of another plan for the same system. Raises KeyboardInterrupt after an `interrupt`."""
         trials = range(plan.campaign.trials)
-        self._drawn = plan.drawn(trials)
+        self._drawn = plan.values_of(trials)
         try:
             return self.fly(variant, trials)
         finally:
@@ -97,7 +97,7 @@ class Flyer:
         """Fly some trials of one variant, in order. Raises KeyboardInterrupt after an `interrupt`."""
         judge = self._judge(variant)
         for trial in trials:
-            judge.add(self._flight(variant, trial), trial, self.drawn_for(trial))
+            judge.add(self._flight(variant, trial), trial, self.values_for(trial))
             if self.halted:
                 raise KeyboardInterrupt
         return judge.trials()
@@ -109,15 +109,15 @@ class Flyer:
         the variant's last flight.
         """
         judge = self._judge(variant)
-        judge.add(self._flight(variant, trial, overlay), trial, self.drawn_for(trial))
+        judge.add(self._flight(variant, trial, overlay), trial, self.values_for(trial))
         return _result(judge.trials())
 
     def replay(self, variant: str, trial: int) -> tuple[Result, TrialResult]:
         """Fly one trial with every signal recorded; same bits as in the batch."""
         prepared = self.plan.prepare(self.variants[variant])
         names = variant_names(self.plan, prepared)
-        faults, log = self.plan.declared_faults(), self._log_of(variant)
-        drawn = self.drawn_for(trial)
+        faults, log = self.plan.list_faults(), self._log_of(variant)
+        drawn = self.values_for(trial)
         with Simulation(prepared, varied=names.varied, faults=faults, log=log) as simulation:
             simulation.set_faults(drawn.faults_of(trial))
             simulation.set(drawn.parameters(prepared, trial))
@@ -134,10 +134,10 @@ class Flyer:
         simulation, _ = self.simulation(variant)
         if variant in self._logs:
             self._logs[variant].place = f"{variant}: trial {trial}: "
-        drawn = self.drawn_for(trial)
+        drawn = self.values_for(trial)
         simulation.set_faults(drawn.faults_of(trial))
         parameters = {**drawn.parameters(simulation.prepared, trial), **(overlay or {})}
-        words = self._words if drawn.plan is self.plan and overlay is None else None
+        words = self._words if drawn.campaign is self.plan.campaign and overlay is None else None
         if words is not None and (variant, trial) in words.hung:
             return nothing_flown(simulation, words.hung[variant, trial])
         if words is not None:

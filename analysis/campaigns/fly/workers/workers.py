@@ -106,7 +106,7 @@ class FlyerPool:
         deaths = known = 0
         while True:
             try:
-                for done in self._handed_out(function, held, fresh):
+                for done in self._hand_out(function, held, fresh):
                     deaths = 0
                     yield done
                 return
@@ -119,7 +119,7 @@ class FlyerPool:
                 assert self._make is not None
                 self._executor = self._make()
 
-    def _handed_out(
+    def _hand_out(
         self, function: Callable[..., Result], held: dict[int, tuple], fresh: Iterator[tuple[int, tuple]]
     ) -> Iterator[tuple[int, Result]]:
         """The results of tasks, those that are held and then fresh ones; so few at a time that all cost no memory."""

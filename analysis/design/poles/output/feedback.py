@@ -98,10 +98,10 @@ def _placements(
             except PlacementError as error:
                 refusals.append(error)
                 continue
-            yield candidates if route is Route.DIRECT else _transposed(candidates)
+            yield candidates if route is Route.DIRECT else _transpose(candidates)
 
 
-def _transposed(feedback: OutputFeedback) -> OutputFeedback:
+def _transpose(feedback: OutputFeedback) -> OutputFeedback:
     return replace(feedback, method=Route.DUAL, gain=feedback.gain.T, closed_loop=feedback.closed_loop.T)
 
 

@@ -16,7 +16,7 @@ from scipy.optimize import minimize
 
 from ..refusal import PlacementError, Reason
 from ..results import OutputFeedback
-from .newton import polished
+from .newton import polish
 
 _STARTS = 5  # the smallest that the spreads gave
 _ACCURACY = 1e-10  # of |F|^2, relative to the start's
@@ -100,6 +100,6 @@ def _search(start: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) 
         upper=None,
         condition_x=None,
     )
-    there = polished(there, a, b, c)
+    there = polish(there, a, b, c)
     allowed = _ALLOWED * there.kappa * np.linalg.norm(there.closed_loop, 2)
     return there if there.error <= allowed else None

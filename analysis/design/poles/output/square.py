@@ -16,7 +16,7 @@ from ..freedom import family_of, on_levels
 from ..refusal import PlacementError, Reason
 from ..results import OutputFeedback
 from ..spectrum import Spectrum
-from .newton import polished
+from .newton import polish
 from .zeroth_level import ZerothLevel, condition_of
 
 _SOLVED = 1e-5  # of the polynomial's coefficients, poles measured by the largest wanted one; Newton does the rest
@@ -43,7 +43,7 @@ def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, se
             inverse, x, y = level.lower_matrices(-first.gain)
             phi = np.linalg.solve(x.T, y.T).T
             placed = replace(level.feedback(inverse, phi, upper, lower, condition_of(x)), levels=first.levels)
-            return polished(placed, level.a, level.b, level.c)
+            return polish(placed, level.a, level.b, level.c)
     raise PlacementError(
         "output feedback",
         Reason.RESIDUAL,

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.linalg import null_space
 
 from ..controllability import TOLERANCE
-from ..place import placed
+from ..place import make_placement
 from ..refusal import PlacementError, Reason
 from ..results import OutputFeedback, StateFeedback
 from ..spectrum import Spectrum
@@ -75,7 +75,7 @@ class ZerothLevel:
 
 def direct(level: ZerothLevel, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
     """``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth, for m + p > n. Raises PlacementError."""
-    return under(level, placed(*level.above, upper) if upper.size else None, upper, lower)
+    return under(level, make_placement(*level.above, upper) if upper.size else None, upper, lower)
 
 
 def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lower: Spectrum) -> OutputFeedback:
@@ -84,7 +84,7 @@ def under(level: ZerothLevel, first: StateFeedback | None, upper: Spectrum, lowe
     condition = condition_of(x)
     own, q = y @ np.linalg.pinv(x), null_space(x.T).T
     try:
-        z = -placed(own.T, q.T, lower).gain.T
+        z = -make_placement(own.T, q.T, lower).gain.T
     except PlacementError as error:
         if error.reason is not Reason.NOT_CONTROLLABLE:
             raise

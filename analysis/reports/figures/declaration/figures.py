@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ....runtime.flight.results import Flight
-from ...common.quantities import shown_factor
+from ...common.quantities import display_factor
 from .values import Arc, BaseFigure, Rows, Signal, Unavailable
 
 
@@ -40,7 +40,7 @@ class Band(BaseFigure):
     def plot_values(self, flight: Flight) -> np.ndarray:
         """The same values to be plotted: angles in deg, nan where not finite."""
         values = self.values(flight)
-        return np.where(np.isfinite(values), values, np.nan) * shown_factor(self.signal.unit_name)
+        return np.where(np.isfinite(values), values, np.nan) * display_factor(self.signal.unit_name)
 
 
 @dataclass(frozen=True)

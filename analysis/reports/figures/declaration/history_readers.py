@@ -40,7 +40,7 @@ def read_band(reader: SignalReader, element: etree._Element) -> Band:
         less=reader.signal(element, "less", like=signal) if "less" in attributes else None,
         shade=reader.scalar(element, "shade") if "shade" in attributes else None,
         shade_below=reader.number(element, "shade_below") or 0.0,
-        against=tuple(reader.named(element, "against", name) for name in attributes.get("against", "").split()),
+        against=tuple(reader.find_signal(element, "against", name) for name in attributes.get("against", "").split()),
     )
 
 
@@ -83,10 +83,11 @@ def _sigma(reader: SignalReader, element: etree._Element, attribute: str, estima
 def read_curve(reader: SignalReader, element: etree._Element) -> Curve:
     attributes = reader.attributes(element, ("signals",), CURVE)
     names = attributes["signals"].split()
-    first = reader.named(element, "signals", names[0])
+    first = reader.find_signal(element, "signals", names[0])
     unit = reader.unit(element, attributes["unit"], names[0]) if "unit" in attributes else first.unit
     signals = [
-        reader.converted(element, f"signals {name}", reader.named(element, "signals", name), unit) for name in names
+        reader.convert_limits(element, f"signals {name}", reader.find_signal(element, "signals", name), unit)
+        for name in names
     ]
     labels = tuple(element.get("labels", "").split())
     if labels and len(labels) != len(signals):

@@ -11,7 +11,7 @@ from ....common.errors import suggestion
 from ....runtime.flight.program import layout_of
 from ....runtime.ssp.annotations import AnnotationReader
 from ....runtime.ssp.units import Unit
-from ....runtime.system.names import elements, parted
+from ....runtime.system.names import elements, split_name
 from ....runtime.system.prepared import PreparedSystem
 from .values import Rows, Signal
 
@@ -51,7 +51,7 @@ class SignalReader(AnnotationReader):
 
     def parameter_value(self, element: etree._Element, attribute: str, name: str) -> float:
         """The value of a parameter by its name, of one element where it is a vector's."""
-        component, variable = parted(name, self.network.fmus)
+        component, variable = split_name(name, self.network.fmus)
         fmu = self.network.fmus.get(component)
         if fmu is None or variable not in fmu.variables or fmu.variables[variable].causality != "parameter":
             remedy = "name one as COMPONENT.VARIABLE"
@@ -123,7 +123,7 @@ class SignalReader(AnnotationReader):
             self.notes.append(f"Left out: {error}.")
             return None
 
-    def named(self, element: etree._Element, attribute: str, name: str) -> Signal:
+    def find_signal(self, element: etree._Element, attribute: str, name: str) -> Signal:
         """One scalar of several in an attribute."""
         if name not in self.types or self.types[name] not in NUMBERS:
             raise self.unfit(element, name, f"{attribute} {name}: no such scalar", suggestion(name, self.types))
@@ -170,7 +170,7 @@ class SignalReader(AnnotationReader):
         if like is not None:
             self.check_size(element, f"{what} has {len(names)} elements", len(names), like)
             unit = like.unit
-        return signal if unit is None and like is None else self.converted(element, what, signal, unit)
+        return signal if unit is None and like is None else self.convert_limits(element, what, signal, unit)
 
     def about(self, element: etree._Element, signal: Signal) -> Signal:
         """A signal minus the numbers of the attribute ``about``, which are in its own unit."""
@@ -183,7 +183,7 @@ class SignalReader(AnnotationReader):
     def less(self, element: etree._Element, signal: Signal) -> tuple[Signal, Signal | None]:
         """The signal of the attribute ``less``; parameters go into the offsets of the first signal instead."""
         name = element.get("less", "").strip()
-        component, variable = parted(name, self.network.fmus)
+        component, variable = split_name(name, self.network.fmus)
         fmu = self.network.fmus.get(component)
         names = elements(variable, fmu.variables) if fmu is not None else []
         if "less" not in element.attrib or fmu is None or not names or elements(name, self.types):
@@ -191,13 +191,13 @@ class SignalReader(AnnotationReader):
         self.check_size(element, f"less {name} has {len(names)} elements", len(names), signal)
         unit = fmu.units.get(fmu.unit_of(fmu.variables[names[0]]) or "")
         values = Signal(name, tuple(f"{component}.{item}" for item in names), unit, 1.0, (0.0,) * len(names))
-        like = self.converted(element, f"less {name}", values, signal.unit)
+        like = self.convert_limits(element, f"less {name}", values, signal.unit)
         constants = (self.parameter_value(element, "less", item) for item in values.names)
         pairs = zip(signal.offsets, constants, like.offsets, strict=True)
         offsets = tuple(offset - (like.factor * value + shift) for offset, value, shift in pairs)
         return replace(signal, offsets=offsets), None
 
-    def converted(self, element: etree._Element, what: str, signal: Signal, unit: Unit | None) -> Signal:
+    def convert_limits(self, element: etree._Element, what: str, signal: Signal, unit: Unit | None) -> Signal:
         declared = signal.unit
         if declared is None and unit is None:
             return signal
@@ -210,7 +210,7 @@ class SignalReader(AnnotationReader):
 
     def unfit(self, element: etree._Element, name: str, problem: str, remedy: str) -> Exception:
         """The error for a signal: an input error, unless its FMU was substituted."""
-        component, _ = parted(name, self.network.fmus)
+        component, _ = split_name(name, self.network.fmus)
         if component in self.substituted:
             return MissingSignalError(f"{problem}, with {self.network.fmus[component].name} as {component}")
         return self.refuse(element, problem, remedy)
@@ -220,13 +220,13 @@ class SignalReader(AnnotationReader):
         node = self.network.nodes.get(name)
         if node is not None:
             return node.unit
-        component, variable = parted(name, self.network.fmus)
+        component, variable = split_name(name, self.network.fmus)
         fmu = self.network.fmus[component]
         return fmu.units.get(fmu.unit_of(fmu.variables[variable]) or "")
 
     def unit(self, element: etree._Element, name: str, signal: str) -> Unit:
         """A unit by its name, of the SSD or of the signal's FMU."""
-        component, _ = parted(signal, self.network.fmus)
+        component, _ = split_name(signal, self.network.fmus)
         known = self.network.fmus[component].units if component else {}
         known = known | self.network.description.units
         if name not in known:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ....runtime.flight.results import Flight
 from ....runtime.ssp.units import Unit
-from ...common.quantities import shown_factor
+from ...common.quantities import display_factor
 from ...common.round_body import ground_range
 
 
@@ -34,7 +34,7 @@ class Signal:
     def plot_values(self, flight: Flight) -> np.ndarray:
         """Values to be plotted: angles in deg, nan where not finite."""
         values = self.values(flight)
-        return np.where(np.isfinite(values), values, np.nan) * shown_factor(self.unit_name)
+        return np.where(np.isfinite(values), values, np.nan) * display_factor(self.unit_name)
 
     @property
     def unit_name(self) -> str | None:

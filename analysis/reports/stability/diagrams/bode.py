@@ -23,9 +23,9 @@ from .frequency import (
     beside,
     frequency_axis,
     gain_words,
+    has_measurement,
     in_db,
     margin_crossings,
-    measured_too,
     phase_of,
     phase_words,
 )
@@ -47,7 +47,7 @@ def draw_bode(loop: LoopReport, gain_axes: Axes, phase_axes: Axes) -> None:
     degrees = phase_of(curve, centre)
     gain_axes.plot(curve.frequency, in_db(curve.value), color=BLUE)
     phase_axes.plot(curve.frequency, degrees, color=BLUE)
-    measured = measured_too(loop)
+    measured = has_measurement(loop)
     if measured is not None:
         gain_axes.plot(measured.frequency, in_db(measured.value), **MEASURED)
         phase_axes.plot(measured.frequency, beside(curve, degrees, measured), **MEASURED)

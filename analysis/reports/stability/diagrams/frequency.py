@@ -61,7 +61,7 @@ def frequency_axis(axes: Axes, low: float, high: float) -> None:
         axes.xaxis.set_major_formatter(FuncFormatter(log_tick))
 
 
-def measured_too(loop: LoopReport) -> Curve | None:
+def has_measurement(loop: LoopReport) -> Curve | None:
     """The response of the frequency-response test where the curve is the linearisation's."""
     if loop.linearised is None or loop.measured_response is None:
         return None

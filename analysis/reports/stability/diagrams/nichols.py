@@ -15,7 +15,17 @@ from ....stability.loops.readings import Crossing
 from ....stability.results.loop import LoopReport
 from ...common.quantities import number, tick
 from ...common.style import BLUE, VERMILION
-from .frequency import DECISIVE, GAIN_MARK, MARGIN, MEASURED, OTHER, PHASE_MARK, in_db, margin_crossings, measured_too
+from .frequency import (
+    DECISIVE,
+    GAIN_MARK,
+    MARGIN,
+    MEASURED,
+    OTHER,
+    PHASE_MARK,
+    has_measurement,
+    in_db,
+    margin_crossings,
+)
 from .limits import BEHIND, FORBIDDEN, LIMIT, limits_of
 from .nyquist import ANGLES, CRITICAL
 
@@ -40,8 +50,8 @@ def draw_nichols(loop: LoopReport, axes: Axes) -> None:
     if limits.modulus is not None and limits.modulus < 1.0:
         oval = -1.0 + limits.modulus * np.exp(1j * ANGLES)
         axes.plot(np.degrees(np.angle(-oval)) - 180.0, in_db(oval), **LIMIT)
-    axes.plot(*_wrapped(value), color=BLUE)
-    measured = measured_too(loop)
+    axes.plot(*_wrap_phase(value), color=BLUE)
+    measured = has_measurement(loop)
     if measured is not None:
         axes.plot(np.degrees(np.angle(-measured.value)) - 180.0, in_db(measured.value), **MEASURED)
     height = _draw_margins(loop, axes)
@@ -86,7 +96,7 @@ def _modulus_words(loop: LoopReport) -> str:
     return f"modulus margin {number(modulus, 3)}{least}"
 
 
-def _wrapped(value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _wrap_phase(value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Phase (deg, -360 to 0) and gain (dB) with gaps where the phase wraps."""
     phase, gain = np.degrees(np.angle(-value)) - 180.0, in_db(value)
     jumps = np.flatnonzero(np.abs(np.diff(phase)) > 180.0) + 1

@@ -12,7 +12,7 @@ from ....stability.results.loop import LoopReport
 from ....stability.results.nonlinear import Nonlinearity
 from ...common.quantities import MINUS
 from ...common.style import BLUE, GREEN, INK, PURPLE, plain_ticks
-from .frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, margin_crossings, measured_too
+from .frequency import GAIN_MARK, MEASURED, PHASE_MARK, faint_line, has_measurement, margin_crossings
 from .limits import LIMIT, limits_of
 
 INVERSE = f"{MINUS}1/N"
@@ -57,7 +57,7 @@ def draw_nyquist(loop: LoopReport, axes: Axes) -> None:
     left, right = -min(max(2.6, 1.15 * furthest), 8.0), 1.4
     axes.plot(value.real, value.imag, color=BLUE)
     axes.plot(value.real, -value.imag, color=BLUE, linewidth=0.8, linestyle=(0, (1.2, 1.2)))
-    measured = measured_too(loop)
+    measured = has_measurement(loop)
     if measured is not None:
         axes.plot(measured.value.real, measured.value.imag, **MEASURED)
     faint_line(axes, np.cos(ANGLES), np.sin(ANGLES))

@@ -81,13 +81,13 @@ def courses(report: StabilityReport) -> list[Course]:
 
 
 def _alike(one: Course, other: Course) -> bool:
-    if not np.array_equal(one.times, other.times) or _required(one) != _required(other):
+    if not np.array_equal(one.times, other.times) or _draw_requirement(one) != _draw_requirement(other):
         return False
     pairs = [(a[key], b[key]) for key in QUANTITIES for a, b in ((one.upper, other.upper), (one.lower, other.lower))]
     return all(np.allclose(*pair, rtol=SAME, atol=0.0, equal_nan=True) for pair in pairs)
 
 
-def _required(course: Course) -> set[tuple[Quantity, float]]:
+def _draw_requirement(course: Course) -> set[tuple[Quantity, float]]:
     return {(item.quantity, item.limit) for loops in course.loops for loop in loops for item in loop.requirements}
 
 
@@ -102,7 +102,7 @@ def draw_over_time(histories: Sequence[Course], quantity: Quantity, axes: Axes) 
     The nearer margin of each loop is filled, the other hollow. A cross at 0 is an unstable loop, a triangle at the top
     one without a crossover.
     """
-    limits = {limit for course in histories for key, limit in _required(course) if key is quantity}
+    limits = {limit for course in histories for key, limit in _draw_requirement(course) if key is quantity}
     below = any(np.any(np.isclose(-course.lower[quantity], course.sizes[quantity])) for course in histories)
     every = np.concatenate([course.sizes[quantity] for course in histories])
     top = BEYOND * max([1e-6, *every[np.isfinite(every)].tolist(), *limits])

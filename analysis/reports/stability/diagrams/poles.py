@@ -23,7 +23,7 @@ def poles_of(loop: LoopReport) -> np.ndarray:
     return loop.poles_z if loop.poles_z.size else np.array([mode.z for mode in loop.modes], dtype=complex)
 
 
-def crowded(poles: np.ndarray) -> bool:
+def are_crowded(poles: np.ndarray) -> bool:
     """Whether so many poles lie near z = 1 that a map of the unit circle does not tell them apart."""
     return bool(np.sum(np.abs(poles - 1.0) < NEAR) >= 2)
 
@@ -83,7 +83,7 @@ def draw_poles(loop: LoopReport, axes: Axes, *, near: bool) -> None:
         _frame(axes, 0.0, max(1.12, min(2.0, 1.1 * float(np.max(np.abs(poles), initial=1.0)))))
 
 
-def thinned(poles: np.ndarray, extent: float) -> np.ndarray:
+def thin(poles: np.ndarray, extent: float) -> np.ndarray:
     """A cloud with at most so many points: one in each cell of a grid, fine enough not to be seen."""
     cells = 400
     while poles.size > MOST and cells >= 25:
@@ -101,12 +101,12 @@ def draw_cloud(loop: LoopReport, axes: Axes) -> None:
     poles = np.ravel(loop.dispersion.poles)
     poles = poles[np.isfinite(poles)]
     nominal = poles_of(loop)
-    near = crowded(nominal if nominal.size else poles)
+    near = are_crowded(nominal if nominal.size else poles)
     if near:
         centre, half = _near_one(np.concatenate([poles, nominal]), 1.7 * NEAR, LOW_SHAPE)
     else:
         centre, half = 0.0, max(1.12, min(2.0, 1.1 * float(np.max(np.abs(poles)))))
-    shown = thinned(poles[np.abs(poles - centre) < 3.0 * half], half)
+    shown = thin(poles[np.abs(poles - centre) < 3.0 * half], half)
     _grid(axes, named=not near)
     outside = np.abs(shown) >= 1.0
     for some, colour in ((shown[~outside], BLUE), (shown[outside], VERMILION)):

@@ -16,7 +16,7 @@ from ....stability.loops.margins import disk_of_gain, disk_of_phase
 from ....stability.results.loop import JointReport, LoopReport
 from ....stability.results.nonlinear import Nonlinearity
 from ....stability.results.varied import SweepReport
-from ...common.quantities import labelled, shown_factor, tick
+from ...common.quantities import display_factor, label_with_unit, tick
 from ...common.style import BLUE, FAILED, GREEN, INK, VERMILION, log_ticks_x, plain_ticks
 from .frequency import PHASE_MARK, frequency_axis, in_db
 from .limits import LIMIT, Limits
@@ -70,14 +70,14 @@ def draw_histogram(sizes: np.ndarray, axes: Axes, what: str, limit: float | None
 
 def draw_amplitudes(loop: LoopReport, gain_axes: Axes, phase_axes: Axes) -> None:
     """Gain and phase of L at one frequency over the amplitude of the injected signal."""
-    factor = shown_factor(loop.unit)
+    factor = display_factor(loop.unit)
     amplitude = factor * np.array([point.amplitude for point in loop.amplitudes])
     value = np.array([point.value for point in loop.amplitudes])
     order = np.argsort(amplitude)
     amplitude, value = amplitude[order], value[order]
     _over(gain_axes, amplitude, in_db(value), "gain, dB")
     _over(phase_axes, amplitude, np.degrees(np.unwrap(np.angle(value))), "phase, deg")
-    phase_axes.set_xlabel(labelled("amplitude at the cut", loop.unit))
+    phase_axes.set_xlabel(label_with_unit("amplitude at the cut", loop.unit))
 
 
 def _over(axes: Axes, x: np.ndarray, y: np.ndarray, title: str) -> None:
@@ -95,7 +95,7 @@ def _over(axes: Axes, x: np.ndarray, y: np.ndarray, title: str) -> None:
 
 def draw_describing(element: Nonlinearity, axes: Axes) -> None:
     """Size of the describing function over the amplitude at the element's input, cycles marked."""
-    factor = shown_factor(element.unit)
+    factor = display_factor(element.unit)
     amplitude = factor * element.amplitude
     axes.plot(amplitude, np.abs(element.gain), color=BLUE)
     if np.any(np.abs(element.gain.imag) > 1e-9 * np.max(np.abs(element.gain), initial=1e-300)):
@@ -112,12 +112,12 @@ def draw_describing(element: Nonlinearity, axes: Axes) -> None:
     plain_ticks(axes, y=5)
     axes.set_ylim(bottom=0.0)
     axes.set_title("size of N", loc="left", fontsize=8.5)
-    axes.set_xlabel(labelled("amplitude", element.unit))
+    axes.set_xlabel(label_with_unit("amplitude", element.unit))
 
 
 def draw_sweep(sweep: SweepReport, limits: Limits, gain_axes: Axes, phase_axes: Axes) -> None:
     """Gain and phase margin over a parameter, the limits, where they are crossed; hatched: unstable."""
-    factor = shown_factor(sweep.unit)
+    factor = display_factor(sweep.unit)
     x = factor * sweep.values
     unstable = np.array([item.unstable for item in sweep.margins])
     gain = np.array([math.nan if item.unstable else decibels(item.gain) for item in sweep.margins])
@@ -145,7 +145,7 @@ def draw_sweep(sweep: SweepReport, limits: Limits, gain_axes: Axes, phase_axes: 
         else:
             plain_ticks(axes, x=5)
             axes.set_xlim(float(np.min(x)), float(np.max(x)))
-    phase_axes.set_xlabel(labelled(sweep.parameter, sweep.unit))
+    phase_axes.set_xlabel(label_with_unit(sweep.parameter, sweep.unit))
 
 
 def _runs(unstable: np.ndarray, values: np.ndarray, edges: list[float]) -> list[tuple[float, float]]:

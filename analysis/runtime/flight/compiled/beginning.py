@@ -21,7 +21,7 @@ from .codes import (
     WHOLE_PARAMETERS,
     WHOLE_READ_BACK,
 )
-from .compiler import compiled
+from .compiler import compile_cached
 from .fmi_calls import change_mode, compare_texts, exchange, setup_experiment
 
 KEPT = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own
@@ -75,4 +75,4 @@ def _begin(instruction, program, given, read_back, span, outcome):  # type: igno
     return status
 
 
-begin = compiled(_begin)
+begin = compile_cached(_begin)

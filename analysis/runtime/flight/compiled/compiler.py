@@ -14,7 +14,7 @@ from numba import config, njit
 from .....fmus_src.paths import CACHE
 
 
-def compiled(function: Any, **options: Any) -> Any:
+def compile_cached(function: Any, **options: Any) -> Any:
     """``function`` compiled at its first call, and kept for the next process.
 
     Kept in NUMBA_CACHE_DIR where that is set. Where the cache folder cannot be written, every process compiles for

@@ -54,7 +54,7 @@ from .codes import (
     TRANSFORM,
     UNMAPPED,
 )
-from .compiler import compiled
+from .compiler import compile_cached
 from .fmi_calls import boolean_at, do_step, exchange, put_real, real_at, whole_at
 from .strings import exchange_texts
 
@@ -250,11 +250,11 @@ def _under_another_name(function: Any, name: str) -> FunctionType:
 
 
 # For Python FMUs, which need the interpreter lock at every call, and for native ones, which run without.
-fly_locked = compiled(_fly)
-fly_unlocked = compiled(_under_another_name(_fly, "_fly_unlocked"), nogil=True)
+fly_locked = compile_cached(_fly)
+fly_unlocked = compile_cached(_under_another_name(_fly, "_fly_unlocked"), nogil=True)
 
 
-def compiled_for(arguments: tuple, *, locked: bool) -> Callable[..., int]:
+def compile_for(arguments: tuple, *, locked: bool) -> Callable[..., int]:
     """The loop for arguments of these types, as all flights of a simulation have them; ``locked`` for Python FMUs.
 
     Called by itself numba's dispatcher would look at the type of every array in every flight.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .codes import ADDRESS, CODE, COPY_TEXT, COUNT, FIRST, FMI_WARNING, INSTANCE, SET_TEXT, TOO_LONG
-from .compiler import compiled
+from .compiler import compile_cached
 from .fmi_calls import copy_text, exchange
 
 
@@ -35,4 +35,4 @@ def _exchange_texts(instruction, texts, outcome):  # type: ignore[no-untyped-def
     return status
 
 
-exchange_texts = compiled(_exchange_texts)
+exchange_texts = compile_cached(_exchange_texts)

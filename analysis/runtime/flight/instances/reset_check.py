@@ -37,12 +37,12 @@ _verdicts: dict[str, ResetVerdict] = {}  # by the FMUs' digests
 _trying = threading.Lock()
 
 
-def known_verdict(fmu: Fmu) -> ResetVerdict | None:
+def verdict_in_cache(fmu: Fmu) -> ResetVerdict | None:
     """The verdict on an FMU, if there is one yet; our own reset, which their tests show."""
     return ResetVerdict(True) if fmu.is_own else _verdicts.get(fmu.digest)
 
 
-def known(digest: str, verdict: ResetVerdict) -> None:
+def recall(digest: str, verdict: ResetVerdict) -> None:
     """Keep a verdict of another process on the FMU with this SHA-256."""
     _verdicts[digest] = verdict
 
@@ -59,17 +59,17 @@ def reset_verdict(fmu: Fmu) -> ResetVerdict:
     outputs and parameters must be those of a fresh instance, to the last bit.
     """
     with _trying:
-        verdict = known_verdict(fmu)
+        verdict = verdict_in_cache(fmu)
         if verdict is None:
             with LOADING, chdir(Path.cwd()):  # back, should the FMU have gone elsewhere
-                verdict = _verdicts[fmu.digest] = _tried(fmu)
+                verdict = _verdicts[fmu.digest] = _try_reset(fmu)
         return verdict
 
 
-def _tried(fmu: Fmu) -> ResetVerdict:
+def _try_reset(fmu: Fmu) -> ResetVerdict:
     fresh = instantiate(fmu, "fresh")
     try:
-        expected = [*_flown(fresh, {}), _read(fresh.slave, fmu, "parameter")]
+        expected = [*_simulate(fresh, {}), _read(fresh.slave, fmu, "parameter")]
     except FMICallException as error:
         _free(fresh, error)
         return ResetVerdict(False, f"it cannot be tried on its declared starts: {_words(error)}")
@@ -77,14 +77,14 @@ def _tried(fmu: Fmu) -> ResetVerdict:
     for changes in _changes(fmu):
         used = instantiate(fmu, "used")
         try:
-            _flown(used, changes)
+            _simulate(used, changes)
         except FMICallException as error:  # does not fly with these
             _free(used, error)
             continue
         try:
             used.slave.terminate()
             used.slave.reset()
-            state = [*_flown(used, {}), _read(used.slave, fmu, "parameter")]
+            state = [*_simulate(used, {}), _read(used.slave, fmu, "parameter")]
         except FMICallException as error:
             _free(used, error)
             return ResetVerdict(False, f"after a flight {_words(error)}")
@@ -146,7 +146,7 @@ def _other(variable: Any) -> Any:
     )
 
 
-def _flown(instance: Instance, changes: dict[str, Any]) -> list[bytes]:
+def _simulate(instance: Instance, changes: dict[str, Any]) -> list[bytes]:
     """The outputs after initialisation and after every step, as bytes.
 
     Raises FMICallException where a call fails. A discarded step ends the flight, which is a row, too.

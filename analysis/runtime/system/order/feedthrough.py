@@ -78,7 +78,7 @@ def find_feedthrough(network: Network, options: SystemOptions, algorithm: str, *
     initial: Dependencies = {}
     origins: dict[str, Origin] = {}
     for name, fmu in network.fmus.items():
-        declared = fmu.declared_dependencies()
+        declared = fmu.read_dependencies()
         every = {variable.name for variable in fmu.variables.values() if variable.causality == "input"}
         is_open = None in declared.values()
         if name in stated:

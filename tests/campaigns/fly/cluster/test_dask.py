@@ -40,8 +40,8 @@ def place(tmp_path_factory):
 @pytest.fixture(scope="module")
 def cluster(place, tmp_path_factory, fmus):
     hidden = place if can_hide() else None
-    with dask_cluster(tmp_path_factory.mktemp("cluster"), hidden=hidden) as found:
-        yield found
+    with dask_cluster(tmp_path_factory.mktemp("cluster"), hidden=hidden) as actual:
+        yield actual
 
 
 @pytest.fixture(scope="module")
@@ -110,10 +110,10 @@ def test_a_step_that_hangs_ends_its_worker(cluster, tmp_path):
     fmu = build_lone_fmu("Holding", tmp_path, 'stopTime="1" stepSize="0.25"')
     (tmp_path / "c.toml").write_text(STUCK.format(name="Holding", trials=4))
     limited = dict(set={"Holding.at": 0.5}, timeout=0.5)
-    found = perilune.batch(fmu, tmp_path / "c.toml", **limited, scheduler=cluster.address)
-    late = found.plan.draws.columns["Holding.pause"] > 0.0
+    actual = perilune.batch(fmu, tmp_path / "c.toml", **limited, scheduler=cluster.address)
+    late = actual.plan.draws.columns["Holding.pause"] > 0.0
     assert 0 < late.sum() < late.size
-    assert found.trials["default"].statuses == ["timed_out" if value else "stop_time" for value in late]
+    assert actual.trials["default"].statuses == ["timed_out" if value else "stop_time" for value in late]
 
 
 @pytest.mark.slow

@@ -14,12 +14,12 @@ VARIANTS = ("a", "b")
 
 def all_of(portions, threads, seconds):
     """Tasks in turn, each measured as soon as it is given."""
-    found = []
+    actual = []
     while task := portions.next(threads):
-        found.append(task)
+        actual.append(task)
         for piece in task:
-            portions.measured(piece, seconds[piece.variant] * len(piece.trials))
-    return found
+            portions.record_duration(piece, seconds[piece.variant] * len(piece.trials))
+    return actual
 
 
 @given(
@@ -31,10 +31,10 @@ def all_of(portions, threads, seconds):
 def test_every_trial_once(trials, size, threads, seconds):
     numbering = Numbering(trials, size)
     portions = Portions(numbering, range(numbering.count), VARIANTS)
-    found = [piece for task in all_of(portions, threads, seconds) for piece in task]
-    flown = [(piece.variant, trial) for piece in found for trial in piece.trials]
+    actual = [piece for task in all_of(portions, threads, seconds) for piece in task]
+    flown = [(piece.variant, trial) for piece in actual for trial in piece.trials]
     assert sorted(flown) == [(name, trial) for name in VARIANTS for trial in range(trials)]
-    assert all(set(piece.trials) <= set(numbering.of(piece.shard)) for piece in found)
+    assert all(set(piece.trials) <= set(numbering.of(piece.shard)) for piece in actual)
     assert portions.trials == 0
 
 
@@ -54,12 +54,12 @@ def test_tasks_of_some_seconds(trial, threads):
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(1, 9)), min_size=1, max_size=6))
 def test_halves(asked):
     pieces = [Piece(shard, VARIANTS[shard % 2], range(10 * shard, 10 * shard + count)) for shard, count in asked]
-    found = halves(pieces)
-    sizes = [sum(len(piece.trials) for piece in half) for half in found]
+    actual = halves(pieces)
+    sizes = [sum(len(piece.trials) for piece in half) for half in actual]
     assert max(sizes) - min(sizes) <= 1
-    assert len(found) == min(2, sum(sizes))
+    assert len(actual) == min(2, sum(sizes))
 
     def flown(parts):
         return [(piece.shard, piece.variant, trial) for piece in parts for trial in piece.trials]
 
-    assert flown([piece for half in found for piece in half]) == flown(pieces)
+    assert flown([piece for half in actual for piece in half]) == flown(pieces)

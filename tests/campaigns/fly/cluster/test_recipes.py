@@ -65,5 +65,5 @@ def test_shard_processes_that_are_killed(tmp_path):
     assert main(["shard", str(parts), f"0-{count - 1}"]) == 0
     assert main(["merge", str(parts)]) == 0
     assert main([*command, "--output", str(left)]) == 0
-    found = {name: digest for name, digest in bytes_of(parts).items() if not Path(name).name.startswith(".")}
-    assert found == bytes_of(left)
+    actual = {name: digest for name, digest in bytes_of(parts).items() if not Path(name).name.startswith(".")}
+    assert actual == bytes_of(left)

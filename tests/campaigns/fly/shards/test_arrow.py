@@ -39,17 +39,17 @@ def test_texts_are_those_that_pyarrow_makes(values):
 @given(columns, st.integers(0, 3), st.integers(0, 10), st.integers(0, 40))
 def test_numbers_come_back_whatever_their_pieces(values, pieces, first, count):
     column = pyarrow.chunked_array([pyarrow.array(values)] * pieces, pyarrow.array(values).type).slice(first, count)
-    found = numpy_of(column)
-    assert found.dtype == values.dtype
-    np.testing.assert_array_equal(found, np.tile(values, pieces)[first : first + count])
+    actual = numpy_of(column)
+    assert actual.dtype == values.dtype
+    np.testing.assert_array_equal(actual, np.tile(values, pieces)[first : first + count])
 
 
 @given(st.lists(st.text(), max_size=20), st.integers(0, 3), st.integers(0, 5))
 def test_texts_come_back_whatever_their_pieces(values, pieces, first):
     column = pyarrow.chunked_array([pyarrow.array(values, pyarrow.string())] * pieces, pyarrow.string()).slice(first)
-    found = numpy_of(column)
-    assert found.dtype == object
-    assert found.tolist() == (values * pieces)[first:]
+    actual = numpy_of(column)
+    assert actual.dtype == object
+    assert actual.tolist() == (values * pieces)[first:]
 
 
 def test_a_table_has_its_columns_in_order():
@@ -68,5 +68,5 @@ sys.exit(status or "pandas" in sys.modules)
 
 @pytest.mark.usefixtures("fmus")
 def test_a_batch_flies_without_pandas(tmp_path):
-    found = subprocess.run([sys.executable, "-c", WITHOUT, str(tmp_path / "out")], capture_output=True, text=True)
-    assert found.returncode == 0, found.stderr
+    actual = subprocess.run([sys.executable, "-c", WITHOUT, str(tmp_path / "out")], capture_output=True, text=True)
+    assert actual.returncode == 0, actual.stderr

@@ -18,7 +18,7 @@ from perilune.analysis.campaigns import plotted_sample as shown_trials
 from perilune.analysis.campaigns import statistics, summary
 from perilune.analysis.campaigns.fly.campaign import open_folder
 from perilune.analysis.campaigns.folder.stored import read_batch
-from perilune.analysis.campaigns.plotted_sample import FIRST, shown
+from perilune.analysis.campaigns.plotted_sample import FIRST, select_trials
 from perilune.analysis.campaigns.spec.campaign import Metric
 from perilune.analysis.campaigns.spec.expressions import Expression
 from perilune.analysis.campaigns.spec.groups import Group
@@ -101,13 +101,13 @@ def test_draws_by_a_counter_fly_in_any_part(counted, tmp_path):
     assert main(["merge", str(tmp_path / "parts")]) == 0
     assert bytes_of(tmp_path / "parts") == whole
     assert main([*line, "--trials", "100", "--output", str(tmp_path / "whole"), "--resume"]) == 0
-    found = read_batch(tmp_path / "whole")
+    actual = read_batch(tmp_path / "whole")
     drawn = open_folder(tmp_path / "whole").plan.draws
     for trial in (0, 59, 60, 99):
         assert drawn.of_part(range(trial, trial + 1)).row(0) == {
-            name: values[trial] for name, values in found.draws.items()
+            name: values[trial] for name, values in actual.draws.items()
         }
-    assert [group.label for group in found.groups] == ["1", "2"]
+    assert [group.label for group in actual.groups] == ["1", "2"]
     page = tmp_path / "page.html"
     assert main(["compare", str(tmp_path / "whole"), str(tmp_path / "parts"), "--report", str(page)]) == 2  # 100, 60
     assert main(["compare", str(tmp_path / "whole"), "--report", str(page)]) == 0
@@ -187,11 +187,11 @@ def test_summing_up_takes_no_more_memory_for_more_trials(monkeypatch):
     def most(trials):
         rows = Made(trials)
         tracemalloc.start()
-        found = summarise({"made": rows}, metrics, groups, "case", requirements=[requirement])
-        figures = shown(rows, ["case"], ["miss"])
+        actual = summarise({"made": rows}, metrics, groups, "case", requirements=[requirement])
+        figures = select_trials(rows, ["case"], ["miss"])
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
-        assert found["made"].trials == trials
+        assert actual["made"].trials == trials
         assert figures.first.success.size == FIRST
         return peak
 

@@ -68,18 +68,18 @@ def stored(folder, variant):
 def test_every_metric_is_the_stored_one_to_the_last_bit(folder, variant):
     rows = stored(folder, variant)
     for trial in (0, TRIALS - 1):
-        found = perilune.replay(folder, trial, configuration=variant)
+        actual = perilune.replay(folder, trial, configuration=variant)
         row = rows[trial]
         names = [name.removeprefix("metric.") for name in row if name.startswith("metric.")]
         assert len(names) > 2
-        assert {name: value.hex() for name, value in found.metrics.items()} == {
+        assert {name: value.hex() for name, value in actual.metrics.items()} == {
             name: float(row[f"metric.{name}"]).hex() for name in names
         }
-        assert (found.status, found.success) == (row["status"].partition(" (")[0], row["success"])
-        assert found.time[-1] == row["end_time"]
-        assert found["plant.position"].shape == (found.time.size, 3)
-        assert (found.stored, found.differences) == (True, ())
-        assert len(found.replayed.faults) == 2
+        assert (actual.status, actual.success) == (row["status"].partition(" (")[0], row["success"])
+        assert actual.time[-1] == row["end_time"]
+        assert actual["plant.position"].shape == (actual.time.size, 3)
+        assert (actual.stored, actual.differences) == (True, ())
+        assert len(actual.replayed.faults) == 2
 
 
 def test_the_command(folder, tmp_path, monkeypatch, capsys):
@@ -92,10 +92,10 @@ def test_the_command(folder, tmp_path, monkeypatch, capsys):
     assert status == 0 if row["success"] else 1
     assert "identical to the stored trial, bit for bit" in captured.out.splitlines()
     assert captured.out.splitlines()[-1] == "written: flight.parquet, page.html, flight.json"
-    found = json.loads((tmp_path / "flight.json").read_text())
-    assert (found["trial"], found["configuration"], found["stored"]) == (3, "astar_guidance", True)
-    assert found["metrics"] == {name[7:]: value for name, value in row.items() if name.startswith("metric.")}
-    assert {limit["verdict"] for limit in found["limits"]} == {"met"}
+    actual = json.loads((tmp_path / "flight.json").read_text())
+    assert (actual["trial"], actual["configuration"], actual["stored"]) == (3, "astar_guidance", True)
+    assert actual["metrics"] == {name[7:]: value for name, value in row.items() if name.startswith("metric.")}
+    assert {limit["verdict"] for limit in actual["limits"]} == {"met"}
     table = pyarrow.parquet.read_table(tmp_path / "flight.parquet")
     assert table["time"][-1].as_py() == row["end_time"]
     assert f"{SYSTEM}, astar_guidance, trial 3" in (tmp_path / "page.html").read_text()
@@ -140,9 +140,9 @@ def test_a_campaign_that_has_not_flown(folder, tmp_path, capsys):
     shutil.copytree(folder, bare)
     shutil.rmtree(bare / "trials")
     (bare / "summary.json").unlink()
-    found = perilune.replay(bare, 4, configuration="analytic_guidance")
-    assert (found.stored, found.differences) == (False, ())
-    assert found.metrics["flight_time"] == stored(folder, "analytic_guidance")[4]["metric.flight_time"]
+    actual = perilune.replay(bare, 4, configuration="analytic_guidance")
+    assert (actual.stored, actual.differences) == (False, ())
+    assert actual.metrics["flight_time"] == stored(folder, "analytic_guidance")[4]["metric.flight_time"]
 
 
 REFUSED = {

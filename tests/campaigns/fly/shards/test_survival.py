@@ -78,9 +78,9 @@ def test_more_trials_extend_it(tmp_path):
         True, True, False,
     ]  # fmt: skip
     expected = perilune.batch(SYSTEM, "paper", trials=TRIALS)
-    found = perilune.merge(out)
-    assert found.table().equals(expected.table())
-    assert found.summary == expected.summary
+    actual = perilune.merge(out)
+    assert actual.table().equals(expected.table())
+    assert actual.summary == expected.summary
 
 
 def test_ctrl_c_leaves_what_can_be_gone_on_with(whole, tmp_path, capsys):

@@ -62,8 +62,8 @@ def test_it_ends_where_it_is_decided(campaign, whole, tmp_path, capsys):
     document = json.loads((tmp_path / "one" / "summary.json").read_text())
     assert document["trials"] == end
     assert {int(path.stem) for path in (tmp_path / "one" / "traces").rglob("*.parquet")} == set(range(end))
-    for variant, found in document["variants"].items():
-        lands = found["requirements"]["lands"]
+    for variant, actual in document["variants"].items():
+        lands = actual["requirements"]["lands"]
         assert lands["verdict"] == ("met" if variant == "analytic_guidance" else "not met")
         assert lands["rule"] == "until decided"
         assert lands["failures"] == int(np.sum(~whole.trials[variant].success[:end]))

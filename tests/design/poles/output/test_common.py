@@ -23,14 +23,14 @@ def turned_plant(q: float) -> np.ndarray:
 
 def test_the_example() -> None:
     wanted = [[[0.25, 0.0], [0.0, FREE]], np.eye(2)]
-    found = modal.common_feedback([turned_plant(q) for q in VALUES], INPUTS, MEASURED, wanted)
+    actual = modal.common_feedback([turned_plant(q) for q in VALUES], INPUTS, MEASURED, wanted)
     expected = [[-0.25, -0.93969, -0.34202], [0.0, 0.34202, -0.93969]]
-    np.testing.assert_allclose(found.gain, expected, atol=5e-6)
-    assert found.residual < 1e-14
-    np.testing.assert_allclose(found.coefficients[:, 0, 1, 1], VALUES, rtol=1e-12)
-    for q, loop in zip(VALUES, found.loops, strict=True):
+    np.testing.assert_allclose(actual.gain, expected, atol=5e-6)
+    assert actual.residual < 1e-14
+    np.testing.assert_allclose(actual.coefficients[:, 0, 1, 1], VALUES, rtol=1e-12)
+    for q, loop in zip(VALUES, actual.loops, strict=True):
         # (s^2 + s + 1/4)(s^2 + s + q), the first with a double root
-        closed = turned_plant(q) + INPUTS @ found.gain @ MEASURED
+        closed = turned_plant(q) + INPUTS @ actual.gain @ MEASURED
         np.testing.assert_allclose(np.poly(closed), np.convolve([1, 1, 0.25], [1, 1, q]), atol=1e-14 * (1.0 + q))
         assert pole_error(closed, np.roots(np.convolve([1, 1, 0.25], [1, 1, q]))) < 1e-6
         np.testing.assert_array_equal(loop.closed_loop, closed)
@@ -43,8 +43,8 @@ def test_what_the_plants_do_not_let_be_prescribed() -> None:
     assert refused.value.reason is modal.Reason.RESIDUAL
     assert refused.value.number == pytest.approx(0.94, abs=0.005)
     # one plant alone lets it
-    found = modal.common_feedback([turned_plant(0.5)], INPUTS, MEASURED, wanted)
-    np.testing.assert_allclose(found.coefficients[0], wanted, atol=1e-13)
+    actual = modal.common_feedback([turned_plant(0.5)], INPUTS, MEASURED, wanted)
+    np.testing.assert_allclose(actual.coefficients[0], wanted, atol=1e-13)
 
 
 def test_plants_that_a_common_feedback_made() -> None:
@@ -61,9 +61,9 @@ def test_plants_that_a_common_feedback_made() -> None:
             companion = np.block([[np.zeros((2, 2)), np.eye(2)], [-own[0], -own[1]]])
             plants.append(companion - b @ gain @ c)
         wanted[0, 1, 1] = FREE
-        found = modal.common_feedback(plants, b, c, wanted)
-        assert found.residual < 1e-12
-        np.testing.assert_allclose(found.gain, gain, atol=1e-9 * (1.0 + np.max(np.abs(gain))))
+        actual = modal.common_feedback(plants, b, c, wanted)
+        assert actual.residual < 1e-12
+        np.testing.assert_allclose(actual.gain, gain, atol=1e-9 * (1.0 + np.max(np.abs(gain))))
 
 
 @pytest.mark.parametrize(

@@ -25,18 +25,20 @@ def test_places_every_draw(states: int, inputs: int, outputs: int, method: str) 
     upper = states - (inputs if method == "direct" else outputs)
     most = (upper // 2) + ((states - upper) // 2)
     for a, b, c, poles in random_systems(COUNT, states, inputs, outputs, most_pairs=most, seed=25):
-        found = modal.output_feedback(a, b, c, poles, method=method)
-        assert (found.method, found.gain.shape, len(found.upper)) == (method, (inputs, outputs), upper)
-        assert_placed(a + b @ found.gain @ c, poles, found.condition_x)
-        np.testing.assert_array_equal(found.closed_loop.shape, (states, states))
-        np.testing.assert_allclose(found.closed_loop, a + b @ found.gain @ c, atol=1e-12 * np.max(np.abs(found.gain)))
+        actual = modal.output_feedback(a, b, c, poles, method=method)
+        assert (actual.method, actual.gain.shape, len(actual.upper)) == (method, (inputs, outputs), upper)
+        assert_placed(a + b @ actual.gain @ c, poles, actual.condition_x)
+        np.testing.assert_array_equal(actual.closed_loop.shape, (states, states))
+        np.testing.assert_allclose(
+            actual.closed_loop, a + b @ actual.gain @ c, atol=1e-12 * np.max(np.abs(actual.gain))
+        )
 
 
 def test_every_pole_on_every_level() -> None:
     a, b, c, poles = next(random_systems(1, 5, 3, 3, most_pairs=0, seed=26))
     for upper, lower in Spectrum.of(poles, 5).splits(2):
-        found = modal.output_feedback(a, b, c, poles, method="direct", upper=upper.poles)
-        assert_placed(a + b @ found.gain @ c, poles, found.condition_x)
+        actual = modal.output_feedback(a, b, c, poles, method="direct", upper=upper.poles)
+        assert_placed(a + b @ actual.gain @ c, poles, actual.condition_x)
         # the poles of the upper level stay when level 0 is closed with others
         other = modal.output_feedback(a, b, c, [*upper.poles, *(lower.poles - 3.0)], method="direct", upper=upper.poles)
         shared = np.linalg.eigvals(a + b @ other.gain @ c)
@@ -53,12 +55,12 @@ def test_least_norm_is_the_least_of_all_spreads() -> None:
             for upper, _ in spectrum.splits(size)
         ]
         assert len(tried) == 20 + 15
-        found = modal.output_feedback(a, b, c, poles, choice="least_norm")
-        assert found.norm == min(tried)
-        assert_placed(a + b @ found.gain @ c, poles, found.condition_x)
+        actual = modal.output_feedback(a, b, c, poles, choice="least_norm")
+        assert actual.norm == min(tried)
+        assert_placed(a + b @ actual.gain @ c, poles, actual.condition_x)
         direct = modal.output_feedback(a, b, c, poles, choice="least_norm", method="direct")
         assert direct.norm == min(tried[:20])
-        norms.append((tried[0], direct.norm, found.norm))
+        norms.append((tried[0], direct.norm, actual.norm))
     if LONG:
         first, direct, both = np.median(norms, axis=0)
         assert both <= direct < first
@@ -66,9 +68,9 @@ def test_least_norm_is_the_least_of_all_spreads() -> None:
 
 def test_measuring_every_state_is_state_feedback() -> None:
     for a, b, c, poles in random_systems(COUNT, 4, 2, 4, seed=28):
-        found = modal.output_feedback(a, b, c, poles)
-        assert_placed(a + b @ found.gain @ c, poles)
-        assert found.condition_x == 1.0
+        actual = modal.output_feedback(a, b, c, poles)
+        assert_placed(a + b @ actual.gain @ c, poles)
+        assert actual.condition_x == 1.0
         dual = modal.output_feedback(a.T, c.T, b.T, poles)
         assert_placed(a.T + c.T @ dual.gain @ b.T, poles)
 
@@ -90,11 +92,11 @@ def test_the_dual_of_the_transposed_plant_is_the_direct_route(seed: int) -> None
 
 def test_repeated_poles() -> None:
     for a, b, c, _ in random_systems(COUNT, 5, 3, 4, seed=29):
-        found = modal.output_feedback(a, b, c, [-1.0] * 5)
-        loop = a + b @ found.gain @ c
+        actual = modal.output_feedback(a, b, c, [-1.0] * 5)
+        loop = a + b @ actual.gain @ c
         # index of the pole: levels of (A_1, B_1), and those of (Y X^+, Q)
         left = np.linalg.matrix_power(loop + np.eye(5), 5)
-        assert np.linalg.norm(left, 2) < 1e-13 * max(1.0, found.condition_x) * np.linalg.norm(loop, 2) ** 5
+        assert np.linalg.norm(left, 2) < 1e-13 * max(1.0, actual.condition_x) * np.linalg.norm(loop, 2) ** 5
 
 
 def test_what_it_refuses() -> None:
@@ -111,9 +113,9 @@ def test_what_it_refuses() -> None:
     pairs = [-1 + 1j, -1 - 1j, -2 + 1j, -2 - 1j, -3 + 1j, -3 - 1j]
     with pytest.raises(modal.PlacementError, match="do not split over the levels"):
         modal.output_feedback(a, b, c, pairs, method="direct")
-    found = modal.output_feedback(a, b, c, pairs)
-    assert found.method == "dual"
-    assert_placed(a + b @ found.gain @ c, pairs, found.condition_x)
+    actual = modal.output_feedback(a, b, c, pairs)
+    assert actual.method == "dual"
+    assert_placed(a + b @ actual.gain @ c, pairs, actual.condition_x)
 
 
 def test_plants_with_modes_out_of_reach() -> None:

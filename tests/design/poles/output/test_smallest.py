@@ -28,9 +28,9 @@ def test_has_the_poles_and_is_smaller() -> None:
     norms = []
     for a, b, c, poles in random_systems(either(20, 1), 6, 3, 4, most_pairs=2, seed=36):
         least = modal.output_feedback(a, b, c, poles, choice="least_norm")
-        found = modal.output_feedback(a, b, c, poles, choice="smallest")
-        assert_placed(a + b @ found.gain @ c, poles)
-        norms.append((found.norm, least.norm))
+        actual = modal.output_feedback(a, b, c, poles, choice="smallest")
+        assert_placed(a + b @ actual.gain @ c, poles)
+        norms.append((actual.norm, least.norm))
         assert norms[-1][0] <= norms[-1][1]
     if LONG:
         smallest, least = np.median(norms, axis=0)
@@ -41,21 +41,21 @@ def test_no_way_down_remains() -> None:
     """Where the search ended, F is at right angles to every direction that leaves the poles (Lagrange)."""
     ended = 0
     for a, b, c, poles in random_systems(either(20, 3), 4, 3, 3, most_pairs=0, seed=37):
-        found = modal.output_feedback(a, b, c, poles, choice="smallest")
-        if found.method == "smallest":
-            slope = polynomial_and_slope(a + b @ found.gain @ c)[1]
+        actual = modal.output_feedback(a, b, c, poles, choice="smallest")
+        if actual.method == "smallest":
+            slope = polynomial_and_slope(a + b @ actual.gain @ c)[1]
             constraints = (c @ slope @ b).swapaxes(1, 2).reshape(4, -1)
             along = null_space(constraints / np.linalg.norm(constraints, axis=1, keepdims=True))
-            ended += np.linalg.norm(along.T @ found.gain.ravel()) < 0.05 * np.linalg.norm(found.gain)
-            assert (found.upper, found.condition_x) == (None, None)
+            ended += np.linalg.norm(along.T @ actual.gain.ravel()) < 0.05 * np.linalg.norm(actual.gain)
+            assert (actual.upper, actual.condition_x) == (None, None)
     assert ended >= either(15, 2)
 
 
 def test_poles_that_the_plant_has_need_little_gain() -> None:
     for a, b, c, _ in random_systems(either(10, 2), 5, 3, 3, seed=38):
-        found = modal.output_feedback(a, b, c, np.linalg.eigvals(a), choice="smallest")
-        assert found.norm <= modal.output_feedback(a, b, c, np.linalg.eigvals(a), choice="least_norm").norm
-        assert_placed(a + b @ found.gain @ c, np.linalg.eigvals(a))
+        actual = modal.output_feedback(a, b, c, np.linalg.eigvals(a), choice="smallest")
+        assert actual.norm <= modal.output_feedback(a, b, c, np.linalg.eigvals(a), choice="least_norm").norm
+        assert_placed(a + b @ actual.gain @ c, np.linalg.eigvals(a))
 
 
 def test_repeated_poles_have_no_derivative() -> None:

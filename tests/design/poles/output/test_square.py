@@ -15,8 +15,8 @@ from tests.support.modal.draws import assert_placed, random_systems
 )
 def test_places_every_draw(states: int, inputs: int, outputs: int, most: int, count: int) -> None:
     for a, b, c, poles in random_systems(count, states, inputs, outputs, most_pairs=most, seed=30):
-        found = modal.output_feedback(a, b, c, poles, method="direct")
-        assert_placed(a + b @ found.gain @ c, poles, found.condition_x)
+        actual = modal.output_feedback(a, b, c, poles, method="direct")
+        assert_placed(a + b @ actual.gain @ c, poles, actual.condition_x)
 
 
 def real_solutions(a: np.ndarray, b: np.ndarray, c: np.ndarray, poles: np.ndarray) -> bool:
@@ -42,8 +42,8 @@ def test_two_by_two_is_placed_where_a_real_solution_exists() -> None:
     count = either(50, 8)
     for a, b, c, poles in random_systems(count, 4, 2, 2, seed=31):
         if real_solutions(a, b, c, poles):
-            found = modal.output_feedback(a, b, c, poles)
-            assert_placed(a + b @ found.gain @ c, poles, found.condition_x)
+            actual = modal.output_feedback(a, b, c, poles)
+            assert_placed(a + b @ actual.gain @ c, poles, actual.condition_x)
             placed += 1
         else:
             with pytest.raises(
@@ -57,6 +57,6 @@ def test_two_by_two_is_placed_where_a_real_solution_exists() -> None:
 
 def test_least_norm_over_the_spreads() -> None:
     a, b, c, poles = next(random_systems(1, 4, 2, 2, most_pairs=0, seed=32))
-    found = modal.output_feedback(a, b, c, poles, choice="least_norm")
-    assert found.norm <= modal.output_feedback(a, b, c, poles).norm
-    assert_placed(a + b @ found.gain @ c, poles, found.condition_x)
+    actual = modal.output_feedback(a, b, c, poles, choice="least_norm")
+    assert actual.norm <= modal.output_feedback(a, b, c, poles).norm
+    assert_placed(a + b @ actual.gain @ c, poles, actual.condition_x)

@@ -27,10 +27,10 @@ def test_the_loop_is_kept_in_the_cache_folder():
 def test_a_function_is_kept_and_found_again(tmp_path, monkeypatch):
     monkeypatch.setattr(compiler, "CACHE", tmp_path)
     monkeypatch.setattr(config, "CACHE_DIR", "")
-    assert compiler.compiled(doubled)(21) == 42
+    assert compiler.compile_cached(doubled)(21) == 42
     assert list((tmp_path / "numba").rglob("*doubled*.nbc"))
     assert config.CACHE_DIR == ""
-    again = compiler.compiled(doubled)
+    again = compiler.compile_cached(doubled)
     assert again(21) == 42
     assert sum(again.stats.cache_hits.values()) == 1
 
@@ -38,7 +38,7 @@ def test_a_function_is_kept_and_found_again(tmp_path, monkeypatch):
 def test_the_folder_that_numba_is_told_of_wins(tmp_path, monkeypatch):
     monkeypatch.setattr(compiler, "CACHE", tmp_path / "ours")
     monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path / "theirs"))
-    assert compiler.compiled(doubled)(21) == 42
+    assert compiler.compile_cached(doubled)(21) == 42
     assert [path.name for path in tmp_path.iterdir()] == ["theirs"]
 
 
@@ -47,6 +47,6 @@ def test_a_folder_that_cannot_be_written_is_said(tmp_path, monkeypatch):
     monkeypatch.setattr(compiler, "CACHE", tmp_path / "file")
     monkeypatch.setattr(config, "CACHE_DIR", "")
     with pytest.warns(UserWarning, match="cannot be written: compiled anew; set NUMBA_CACHE_DIR"):
-        function = compiler.compiled(doubled)
+        function = compiler.compile_cached(doubled)
     assert function(21) == 42
     assert not list(Path(__file__).parent.rglob("*doubled*.nb*"))

@@ -58,7 +58,7 @@ def test_what_is_connected_has_the_last_values(tiny_folder, tmp_path, algorithm)
 def test_a_good_end_on_the_command_line(tmp_path, capsys):
     path = odd_system(tmp_path, ENDS_AT=0.6)
     assert main(["run", str(path), "--require", "time <= 0.6", "--report", str(tmp_path / "page.html")]) == 0
-    found = capsys.readouterr()
-    assert "odd: terminated at t = 0.6 s, 4 samples" in found.out
-    assert found.err == ""
+    actual = capsys.readouterr()
+    assert "odd: terminated at t = 0.6 s, 4 samples" in actual.out
+    assert actual.err == ""
     assert "Terminated by an FMU." in (tmp_path / "page.html").read_text()

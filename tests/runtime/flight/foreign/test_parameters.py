@@ -110,9 +110,9 @@ def test_parameters_of_the_system_are_read_back_too(tmp_path):
 def test_what_cannot_be_read_back_is_said_once(tmp_path, quirk, status):
     path = odd_system(tmp_path, **{quirk: status})
     name = quirk.split("_")[1].lower()
-    with pytest.warns(UserWarning, match=f"odd.fmu: {name} cannot be read back: whether odd takes its value") as found:
+    with pytest.warns(UserWarning, match=f"odd.fmu: {name} cannot be read back: whether odd takes its value") as actual:
         assert closed_form(fly(path, set=GIVEN), RATE)
-    assert len(found) == 1
+    assert len(actual) == 1
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert closed_form(fly(path, set=GIVEN), RATE)
