@@ -35,11 +35,11 @@ def numbers(declared, kind):
     option = declared.option
     low = option.minimum if option.minimum is not None else option.above
     if kind is Kind.INTEGER:
-        least = 0 if low is None else int(low) + (option.above is not None)
-        return st.integers(least, least + 1000 if option.maximum is None else int(option.maximum))
+        lower = 0 if low is None else int(low) + (option.above is not None)
+        return st.integers(lower, lower + 1000 if option.maximum is None else int(option.maximum))
     high = 1e6 if option.maximum is None else option.maximum
-    least = -1e6 if low is None else low
-    return st.floats(least, high, exclude_min=option.above is not None)
+    lower = -1e6 if low is None else low
+    return st.floats(lower, high, exclude_min=option.above is not None)
 
 
 def singles(declared, kind):

@@ -31,7 +31,7 @@ class Paper:
     def words(self) -> str:
         """What is left out, for the reader of the paper."""
         if self.kinds is None:
-            return "On paper without the tables of loops whose figures stand with another loop; the screen has them."
+            return "Printed without the tables of loops whose figures are shown with another loop."
         return (
             f"On paper, of each loop: {', '.join(self.kinds)}; classical and robust margins of those with figures of "
             "their own. The screen has the other figures and tables."

@@ -166,4 +166,4 @@ def test_the_command_that_flies_a_design_point_again(rare_result, tmp_path):
     words = text_of(page_of(rare_result, tmp_path))
     assert rare_result.replay(rare_result.folder, 0) in words
     without = text_of(page_of(replace(rare_result, folder=None), tmp_path))
-    assert "The draws were not written" in without
+    assert "The samples were not written" in without
