@@ -8,7 +8,6 @@ import inspect
 import os
 import sys
 from collections.abc import Sequence
-from importlib.metadata import version
 from typing import NoReturn
 
 import argcomplete
@@ -73,6 +72,15 @@ def _carry_out(given: Sequence[str]) -> int:
         return ExitStatus.REFUSED
 
 
+class _Version(argparse.Action):
+    """Prints the version, which takes a while to read, only where it is asked for."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        metadata = importlib.import_module("importlib.metadata")
+        print(f"perilune {metadata.version('perilune')}")
+        parser.exit()
+
+
 def carry_out(verb: Verb, parsed: argparse.Namespace) -> int:
     """Call the function of a verb with what a command line gives, and present its result."""
     arguments, options, files = read_parsed(verb, parsed)
@@ -95,8 +103,7 @@ def parser_of(given: Sequence[str]) -> Parser:
     """All verbs by name; only the one that is given has its options read, which is what keeps completion quick."""
     parser = Parser(prog="perilune", usage=USAGE, description=overview(), add_help=False)
     parser.add_argument("--help", "-h", action="help", help="show this help")
-    text = f"perilune {version('perilune')}"
-    parser.add_argument("--version", action="version", version=text, help="show the version")
+    parser.add_argument("--version", action=_Version, nargs=0, help="show the version")
     named = [*given, *os.environ.get(COMPLETING, "").split()]
     is_complete = HELP_ALL in named or COMPLETING in os.environ
     seconds = {}

@@ -65,4 +65,4 @@ def test_the_documents_state_the_defaults():
     for system, default in DEFAULTS.items():
         assert f"| `{system}` | `{default}.ssv` |" in table
         readme = (SYSTEMS / system / "README.md").read_text(encoding="utf-8")
-        assert f"As it stands, the system flies `{default}.ssv`" in readme
+        assert f"- Default: `{default}.ssv`" in readme
