@@ -128,9 +128,9 @@ def parser_of(given: Sequence[str]) -> Parser:
         )
         if first in named and (not second or second in named):
             add_verb(own, verb, is_complete=is_complete)
-            shown = own.add_argument_group("help")
-            shown.add_argument("--help", "-h", action="help", help="show this help")
-            shown.add_argument(HELP_ALL, action="help", help="show this help with the shared options")
+            displayed = own.add_argument_group("help")
+            displayed.add_argument("--help", "-h", action="help", help="show this help")
+            displayed.add_argument(HELP_ALL, action="help", help="show this help with the shared options")
     return parser
 
 

@@ -40,19 +40,19 @@ def select_trials(rows: TrialRows, draws: list[str], metrics: list[str]) -> Show
     names = ["success", *(f"metric.{name}" for name in metrics), *(f"draw.{name}" for name in draws)]
     first: list[Part] = []
     behind: list[Part] = []
-    trials = taken = failures = kept = 0
+    trials = selected = failures = retained = 0
     for part in rows.parts(*names):
         success = part["success"]
         trials += len(success)
         failures += int(np.count_nonzero(~success))
-        room = min(FIRST - taken, len(success))
+        room = min(FIRST - selected, len(success))
         if room:
             first.append({name: values[:room] for name, values in part.items()})
-            taken += room
-        failed = room + np.flatnonzero(~success[room:])[: FAILURES - kept]
+            selected += room
+        failed = room + np.flatnonzero(~success[room:])[: FAILURES - retained]
         if failed.size:
             behind.append({name: values[failed] for name, values in part.items()})
-            kept += failed.size
+            retained += failed.size
     return Shown(_columns(first), _columns(first + behind), trials, failures)
 
 

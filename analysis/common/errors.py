@@ -114,9 +114,9 @@ def suggestion(name: str, known: Iterable[str]) -> str:
         return f"use one of {', '.join(near + [other for other in names if other not in near])}"
     if near:
         return f"the nearest of {len(names)} known names: {', '.join(near)}"
-    shown = names if len(names) <= ALL else names[:NEAREST]
-    more = f" and {len(names) - len(shown)} more" if len(shown) < len(names) else ""
-    return f"use one of {', '.join(shown)}{more}"
+    displayed = names if len(names) <= ALL else names[:NEAREST]
+    more = f" and {len(names) - len(displayed)} more" if len(displayed) < len(names) else ""
+    return f"use one of {', '.join(displayed)}{more}"
 
 
 def _natural(name: str) -> list[tuple[int, str]]:

@@ -8,11 +8,11 @@ def percent(fraction: float, decimals: int = 2) -> str:
 
     What is neither 0 nor 1 never reads as 0 or 100: it is ``< 0.01`` or ``> 99.99``.
     """
-    text, least = f"{100.0 * fraction:.{decimals}f}", 10.0**-decimals
+    text, minimum = f"{100.0 * fraction:.{decimals}f}", 10.0**-decimals
     if fraction > 0.0 and float(text) == 0.0:
-        return f"< {least:.{decimals}f}"
+        return f"< {minimum:.{decimals}f}"
     if fraction < 1.0 and float(text) == 100.0:
-        return f"> {100.0 - least:.{decimals}f}"
+        return f"> {100.0 - minimum:.{decimals}f}"
     return text
 
 

@@ -50,9 +50,9 @@ def study(request: Request, workers: int | None = None) -> StabilityReport:
 
     The report does not depend on their number. Raises InputError, and StudyError where no flight reaches a point.
     """
-    with chdir(Path.cwd()), show_progress() as tell:  # an FMU may change the folder
+    with chdir(Path.cwd()), show_progress() as report:  # an FMU may change the folder
         count = worker_count(workers)
-        return in_both_orders(request, lambda asked: _study(asked, count, tell))
+        return in_both_orders(request, lambda asked: _study(asked, count, report))
 
 
 def _study(request: Request, count: int, tell: Tell) -> StabilityReport:

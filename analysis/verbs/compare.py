@@ -75,10 +75,10 @@ class Comparison(comparison.Comparison):
         for name in metrics:
             if name not in known:
                 raise KeyError(f"no metric {name}; {suggestion(name, known)}")
-        drawn = [known[name] for name in metrics] or varying_metrics(self)
-        if not drawn:
+        sampled = [known[name] for name in metrics] or varying_metrics(self)
+        if not sampled:
             raise ValueError("no metric that varies and is finite anywhere")
-        return metric_plot(self, drawn)
+        return metric_plot(self, sampled)
 
     def _repr_html_(self) -> str:
         names = [comparison.name_of(rate) for rate in self.rates]
@@ -95,10 +95,10 @@ class Comparison(comparison.Comparison):
             Grid((*who_heads(self.group), "trials", *(f"{name}, %" for name in names)), rates),
             metric_grid(rows, [metric.name for metric in self.metrics], self.group),
         ]
-        drawn = varying_metrics(self)[:MOST_PLOTTED]
+        sampled = varying_metrics(self)[:MOST_PLOTTED]
         system = self.first.document["system"]
         words = [f"{len(self.contenders)} variants on the same trials", *self.notes]
-        return notebook_view(system, words, grids, metric_plot(self, drawn) if drawn else None)
+        return notebook_view(system, words, grids, metric_plot(self, sampled) if sampled else None)
 
 
 @verb(COMPARE)

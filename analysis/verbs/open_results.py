@@ -44,8 +44,8 @@ class StoredResults(OpenedResults):
         rows = [(name, column.unit or "", column.meaning) for name, column in self.columns.items()]
         there = f"{self.flown} of {self.trials} trials of {', '.join(self.variants)}"
         named = " --configuration NAME" if len(self.variants) > 1 else ""
-        again = f"a trial again: perilune replay {shlex.quote(str(self.source.folder))} TRIAL{named}"
-        words = [f"{Path(self.provenance['campaign']).name}: {there}", str(self.source.folder), again]
+        repeated = f"a trial again: perilune replay {shlex.quote(str(self.source.folder))} TRIAL{named}"
+        words = [f"{Path(self.provenance['campaign']).name}: {there}", str(self.source.folder), repeated]
         return notebook_view(self.provenance["system"], words, [Grid(("column", "unit", "meaning"), rows)], None)
 
 

@@ -49,16 +49,16 @@ def distributions(results: Mapping[str, Results], metrics: Sequence[str] | None)
         for label, known in declared.items():
             if name not in known:
                 raise KeyError(f"no metric {name}{f' in {label}' if label else ''}; {suggestion(name, known)}")
-    shown: dict[Metric, dict[str, np.ndarray]] = {}
+    displayed: dict[Metric, dict[str, np.ndarray]] = {}
     for name in common if metrics is None else dict.fromkeys(metrics):
         metric = _of_one_unit(name, declared)
         values = {line: column for label, batch in results.items() for line, column in _lines(label, batch, name)}
         if _varies(np.concatenate(list(values.values()))) or (metrics is not None and _is_somewhere(values)):
-            shown[metric] = values
-    if not shown:
+            displayed[metric] = values
+    if not displayed:
         raise ValueError(f"{', '.join(filter(None, results)) or 'the campaign'}: no metric that varies and is finite")
-    lines = list(dict.fromkeys(line for values in shown.values() for line in values))
-    return distribution_plot(shown, {line: look(index) for index, line in enumerate(lines)})
+    lines = list(dict.fromkeys(line for values in displayed.values() for line in values))
+    return distribution_plot(displayed, {line: look(index) for index, line in enumerate(lines)})
 
 
 def _metrics(results: Results) -> dict[str, Metric]:

@@ -103,19 +103,19 @@ def _one_size(name: str, looks: Sequence[int]) -> Rule:
 def rules() -> list[Rule]:
     """The rules that are compared, ours last."""
     ours = StoppingRule(SHARE, CONFIDENCE)
-    looks = ours.looks(MOST)
+    analyses = ours.looks(MOST)
     sizes = [flights_needed(failures, SHARE, CONFIDENCE) for failures in FURTHER]
     return [
         _one_size(f"one campaign of {sizes[-1]}", sizes[-1:]),
         _one_size(f"{sizes[0]}, {sizes[1]}, {sizes[2]} in turn, each as if alone", sizes),
-        _by_evidence("Wald's ratios, half and twice the rate", looks, _point(RATE / 2.0), _point(2.0 * RATE)),
-        _by_evidence("Robbins' mixture", looks, _mixture(above=False), _mixture(above=True)),
-        _spent(f"spending planned for {MOST}", looks, lambda flights: SPENT * RISK * flights / MOST),
+        _by_evidence("Wald's ratios, half and twice the rate", analyses, _point(RATE / 2.0), _point(2.0 * RATE)),
+        _by_evidence("Robbins' mixture", analyses, _mixture(above=False), _mixture(above=True)),
+        _spent(f"spending planned for {MOST}", analyses, lambda flights: SPENT * RISK * flights / MOST),
         Rule(
             "spending without an end",
-            looks,
-            [ours.acceptance_number(flights) for flights in looks],
-            [ours.rejection_number(flights) for flights in looks],
+            analyses,
+            [ours.acceptance_number(flights) for flights in analyses],
+            [ours.rejection_number(flights) for flights in analyses],
         ),
     ]
 
@@ -135,13 +135,13 @@ def main() -> None:
     print(table(["rule", "met, %", "not met, %"], risks))
     rows = []
     for rule in outcomes:
-        courses = [course(rule, 1.0 - share) for share in SHARES]
+        courses = [course(rule, 1.0 - fraction) for fraction in SHARES]
         decided = [100 * (c.met + c.refused) for c in courses]
         rows.append(
             [rule.name, *(f"{c.flights:.0f}, {c.nearly_all}, {d:.1f}" for c, d in zip(courses, decided, strict=True))]
         )
     print()
-    print(table(["rule", *(f"{100 * share:g} %" for share in SHARES)], rows))
+    print(table(["rule", *(f"{100 * fraction:g} %" for fraction in SHARES)], rows))
 
 
 if __name__ == "__main__":

@@ -63,8 +63,10 @@ def start(variable: Variable) -> str:
 
 def _filled(head: list[str], rows: list[list[str]]) -> str:
     """A table of the columns in which something stands; nothing without rows."""
-    kept = [index for index in range(len(head)) if any(row[index] for row in rows)]
-    return table([head[index] for index in kept], [[row[index] for index in kept] for row in rows]) if rows else ""
+    retained = [index for index in range(len(head)) if any(row[index] for row in rows)]
+    return (
+        table([head[index] for index in retained], [[row[index] for index in retained] for row in rows]) if rows else ""
+    )
 
 
 def _name(variable: Variable) -> list[str]:

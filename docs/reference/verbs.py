@@ -30,9 +30,9 @@ def verbs_page() -> str:
 def verb_parser(name: str) -> argparse.ArgumentParser:
     """The parser of a verb, with all options explained."""
     parser: argparse.ArgumentParser = parser_of([*name.split(), HELP_ALL])
-    for word in name.split():
+    for token in name.split():
         (choices,) = (each.choices for each in parser._actions if isinstance(each, argparse._SubParsersAction))
-        parser = choices[word]
+        parser = choices[token]
     return parser
 
 

@@ -44,9 +44,9 @@ class OrbitalArrivalControl(OrbitalControl):
         change = wanted - rate
         mobility = self.inverse_inertia[4 * k]
         worth = WORTHWHILE * abs(wanted)
-        least = mobility * self.jet_torque[k] * self.shortest_pulse
-        if worth < least:
-            worth = least
+        minimum = mobility * self.jet_torque[k] * self.shortest_pulse
+        if worth < minimum:
+            worth = minimum
         if abs(change) > worth:
             return change / (mobility * self.sample_period)
         return 0.0

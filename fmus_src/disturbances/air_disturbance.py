@@ -30,10 +30,10 @@ class AirDisturbance(Block):
     def put_out(self, time: float) -> None:
         """Outputs ``time`` (s) after the start."""
         since = time - self.gust_time
-        share = 0.0
+        fraction = 0.0
         if since > 0.0 and since < self.gust_duration:
-            share = 0.5 * (1.0 - math.cos(2.0 * math.pi * since / self.gust_duration))
-        self.air_velocity = self.wind + share * self.gust
+            fraction = 0.5 * (1.0 - math.cos(2.0 * math.pi * since / self.gust_duration))
+        self.air_velocity = self.wind + fraction * self.gust
         self.density_factor = self.density
         if time >= self.density_time:
             self.density_factor = self.later_density

@@ -69,8 +69,8 @@ def _with_pythonfmu(closure: Closure, script_name: str, script: str) -> dict[str
     """
     path_before = list(sys.path)
     modules_before = set(sys.modules)
-    kept: list = sys.__dict__.setdefault("_perilune_scripts", [])
-    scripts_before = len(kept)
+    retained: list = sys.__dict__.setdefault("_perilune_scripts", [])
+    scripts_before = len(retained)
     with tempfile.TemporaryDirectory() as folder:
         work = Path(folder) / "script"
         script_file = work / f"{script_name}.py"
@@ -90,6 +90,6 @@ def _with_pythonfmu(closure: Closure, script_name: str, script: str) -> dict[str
             for name in set(sys.modules) - modules_before:
                 if name.startswith(("perilune_", script_name)):
                     del sys.modules[name]
-            del kept[scripts_before:]  # but none of an FMU that is loaded in this process
+            del retained[scripts_before:]  # but none of an FMU that is loaded in this process
         files = read_zip(built)
     return {name: text for name, text in files.items() if name != "modelDescription.xml"}

@@ -59,10 +59,10 @@ class AstarProgramme(TerminalGuidance, interface=True):
             direction = direction + self.apply_weights(1.0 / 6.0, theta, psi)
             direction = direction + self.apply_weights(4.0 / 6.0, theta + theta_rate * half, psi + psi_rate * half)
             direction = direction + self.apply_weights(1.0 / 6.0, theta + theta_rate * span, psi + psi_rate * span)
-            share = norm(direction)
-            self.thrust_acceleration = w * share
-            if share > 0.0:
-                direction = direction / share
+            fraction = norm(direction)
+            self.thrust_acceleration = w * fraction
+            if fraction > 0.0:
+                direction = direction / fraction
             self.thrust_direction_rate = vector(0.0, 0.0, 0.0)
         else:
             direction = direction + self.apply_weights(1.0, theta, psi)

@@ -42,10 +42,10 @@ class CertainTime(TerminalGuidance, interface=True):
             return self.frozen_time_to_go
         g = self.gravity
         time = cubic_time(dr, self.velocity, dv, g)
-        least = 0.0
+        minimum = 0.0
         if not self.started or self.least_effort or time <= 0.0:
-            least = least_effort_time(dr, self.velocity, dv, g)
-            close = abs(time - least) < AGREEMENT * least
+            minimum = least_effort_time(dr, self.velocity, dv, g)
+            close = abs(time - minimum) < AGREEMENT * minimum
             suits = time > 0.0 and steady(dr, self.velocity, dv, g, time)
             brakes = suits and not effort_rises(dr, self.velocity, dv, g, time)
             if not self.started:
@@ -54,8 +54,8 @@ class CertainTime(TerminalGuidance, interface=True):
                 self.braking = True
             self.least_effort = not (self.braking and suits and (brakes or close))
         if self.least_effort:
-            time = least
-            if self.started and self.expected_time < ENDING and least > CHASE * self.expected_time:
+            time = minimum
+            if self.started and self.expected_time < ENDING and minimum > CHASE * self.expected_time:
                 time = 0.0
         return time
 

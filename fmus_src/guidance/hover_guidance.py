@@ -268,10 +268,10 @@ class HoverGuidance(HoverPlan):
         reach = math.tan(self.largest_tilt)
         self.saturated = norm(error) > self.largest_error or norm(lateral) > reach
         lateral = limit_length(lateral, reach)
-        share = 1.0
+        fraction = 1.0
         if self.tilt_filter > 0.0:
-            share = -math.expm1(-self.elapsed / self.tilt_filter)
-        self.tilt = self.tilt + share * (lateral - self.tilt)
+            fraction = -math.expm1(-self.elapsed / self.tilt_filter)
+        self.tilt = self.tilt + fraction * (lateral - self.tilt)
         if wanted < LEAST_THRUST:
             wanted = LEAST_THRUST
         leaning = direction + self.tilt

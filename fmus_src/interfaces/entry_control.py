@@ -73,8 +73,8 @@ class EntryControl(Block, interface=True):
         """Set torque_command and status."""
         bank = math.isfinite(self.measured_bank) and math.isfinite(self.reference_bank)
         lead = math.isfinite(self.reference_bank_rate) and math.isfinite(self.reference_bank_acceleration)
-        told = math.isfinite(self.dynamic_pressure) and math.isfinite(self.error_limit)
-        if not (bank and lead and told and is_finite(self.measured_angular_velocity)):
+        reported = math.isfinite(self.dynamic_pressure) and math.isfinite(self.error_limit)
+        if not (bank and lead and reported and is_finite(self.measured_angular_velocity)):
             self.status = NOT_FINITE
             self.torque_command = vector(0.0, 0.0, 0.0)
             return

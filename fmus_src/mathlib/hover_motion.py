@@ -97,9 +97,9 @@ def interval(s: list, vehicle: list, begin: float, until: float) -> tuple[float,
 def nodes(node: list, weight: list) -> None:
     """Places and weights of Gauss-Legendre quadrature of eight nodes over [0, 1]."""
     place = [0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363]
-    share = [0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763]
+    fraction = [0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763]
     for k in range(4):
         node[k] = 0.5 - 0.5 * place[k]
         node[7 - k] = 0.5 + 0.5 * place[k]
-        weight[k] = 0.5 * share[k]
-        weight[7 - k] = 0.5 * share[k]
+        weight[k] = 0.5 * fraction[k]
+        weight[7 - k] = 0.5 * fraction[k]

@@ -90,7 +90,7 @@ def least_propellant(x: float, y: float, vehicle: list, p: list) -> None:
         if behind > p[END]:
             high = behind
     trial = [0.0] * UNKNOWNS
-    least = propellant_fraction(p, vehicle)
+    minimum = propellant_fraction(p, vehicle)
     for _ in range(LARGEST_PATH):
         if high - low > TIME_SETTLED:
             end = p[END] + (1.0 - SECTION) * (high - p[END])
@@ -98,9 +98,9 @@ def least_propellant(x: float, y: float, vehicle: list, p: list) -> None:
                 end = p[END] - (1.0 - SECTION) * (p[END] - low)
             value = ending(end, x, y, vehicle, p, trial)
             outside = end  # of the new bracket
-            if value < least:
+            if value < minimum:
                 outside = p[END]
-                least = value
+                minimum = value
                 copy(trial, p)
             if outside > p[END]:
                 high = outside
@@ -114,14 +114,14 @@ def descend(way: float, x: float, y: float, vehicle: list, p: list) -> tuple[flo
     Returns the ends (s) before the last one, which is that of p where there is none, and after it.
     """
     trial = [0.0] * UNKNOWNS
-    least = propellant_fraction(p, vehicle)
+    minimum = propellant_fraction(p, vehicle)
     before = p[END]
     beyond = p[END] + way
     for _ in range(LARGEST_PATH):
         value = ending(beyond, x, y, vehicle, p, trial)
-        if not value < least:
+        if not value < minimum:
             return before, beyond
-        least = value
+        minimum = value
         before = p[END]
         copy(trial, p)
         way = 1.6 * way

@@ -55,8 +55,8 @@ def shape(p: list, acceleration: float, s: list) -> bool:
     if acceleration * first * first > STEEPEST or acceleration * last * last > STEEPEST:
         return False
     d = 2.0 * (first * first + last * last) / (between + math.sqrt(room))
-    share = 2.0 * first * first - width * width  # 2 k t1^2
-    if not share >= 0.0:
+    fraction = 2.0 * first * first - width * width  # 2 k t1^2
+    if not fraction >= 0.0:
         return False
     s[0] = first
     s[1] = p[TURN]
@@ -68,7 +68,7 @@ def shape(p: list, acceleration: float, s: list) -> bool:
     s[7] = p[TURN] - width
     s[8] = p[TURN] + width
     if width > first:
-        s[7] = math.sqrt(share)
+        s[7] = math.sqrt(fraction)
     if width > d:
         if not d > 0.0:
             return False

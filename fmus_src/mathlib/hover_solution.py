@@ -75,23 +75,23 @@ def sensitivities(kind: int, p: list, vehicle: list, x: float, y: float, r: list
     """inverted[16] = how the free times answer to the residual, by differences from r at p; whether they do."""
     free = [0] * 4
     n = free_times(kind, free)
-    slopes = [0.0] * 16
+    derivatives = [0.0] * 16
     ahead = [0.0] * 4
     for j in range(n):
-        kept = p[free[j]]
+        retained = p[free[j]]
         change = DIFFERENCE
-        move(kind, p, free[j], kept + change)
+        move(kind, p, free[j], retained + change)
         size = residual(p, vehicle, x, y, ahead)
         if not size < math.inf:
             change = -DIFFERENCE
-            move(kind, p, free[j], kept + change)
+            move(kind, p, free[j], retained + change)
             size = residual(p, vehicle, x, y, ahead)
-        move(kind, p, free[j], kept)
+        move(kind, p, free[j], retained)
         if not size < math.inf:
             return False
         for i in range(n):
-            slopes[n * i + j] = (ahead[i] - r[i]) / change
-    is_regular = inverse(slopes, inverted, n)
+            derivatives[n * i + j] = (ahead[i] - r[i]) / change
+    is_regular = inverse(derivatives, inverted, n)
     return is_regular
 
 
@@ -114,8 +114,8 @@ def solve(kind: int, p: list, vehicle: list, x: float, y: float) -> bool:
     Steps are halved until the residual falls; while it falls to a tenth, the sensitivities are kept. Free are t2, t5
     (not VERTICAL), w (WITH_FIRST_BURN), tp, t7 (not WITH_FIRST_BURN).
     """
-    kept = [0.0] * UNKNOWNS
-    copy(p, kept)
+    retained = [0.0] * UNKNOWNS
+    copy(p, retained)
     before = [0.0] * UNKNOWNS
     inverted = [0.0] * 16
     r = [0.0] * 4
@@ -124,7 +124,7 @@ def solve(kind: int, p: list, vehicle: list, x: float, y: float) -> bool:
     size = residual(p, vehicle, x, y, r)
     for _ in range(ITERATIONS):
         if not size < math.inf:
-            copy(kept, p)
+            copy(retained, p)
             return False
         if size <= SETTLED:
             return True
@@ -132,7 +132,7 @@ def solve(kind: int, p: list, vehicle: list, x: float, y: float) -> bool:
         if fresh:
             known = sensitivities(kind, p, vehicle, x, y, r, inverted)
             if not known:
-                copy(kept, p)
+                copy(retained, p)
                 return False
         copy(p, before)
         for i in range(4):
@@ -154,5 +154,5 @@ def solve(kind: int, p: list, vehicle: list, x: float, y: float) -> bool:
             copy(before, p)
             for i in range(4):
                 r[i] = last[i]
-    copy(kept, p)
+    copy(retained, p)
     return False

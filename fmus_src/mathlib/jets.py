@@ -69,9 +69,9 @@ def pseudo_inverse(strength: list, wrench: list, thrust: list) -> bool:
         thrust[p] = 0.0
     for k in range(6):
         if strength[k] != 0.0:
-            share = wrench[k] / (8.0 * strength[k])
+            fraction = wrench[k] / (8.0 * strength[k])
             for p in range(JETS):
-                thrust[p] = thrust[p] + WALSH[JETS * k + p] * share
+                thrust[p] = thrust[p] + WALSH[JETS * k + p] * fraction
         elif wrench[k] != 0.0:
             possible = False
     return possible
@@ -83,18 +83,18 @@ def shift_and_scale(thrust: list, maximum: float) -> float:
     Returns the scale, 1 where nothing had to be scaled. Equal thrusts give no wrench, so what comes out
     is the scale times the wrench that went in.
     """
-    least = thrust[0]
+    minimum = thrust[0]
     largest = thrust[0]
     for p in range(1, JETS):
-        if thrust[p] < least:
-            least = thrust[p]
+        if thrust[p] < minimum:
+            minimum = thrust[p]
         if thrust[p] > largest:
             largest = thrust[p]
     scale = 1.0
-    if largest - least > maximum:
-        scale = maximum / (largest - least)
+    if largest - minimum > maximum:
+        scale = maximum / (largest - minimum)
     for p in range(JETS):
-        thrust[p] = scale * (thrust[p] - least)
+        thrust[p] = scale * (thrust[p] - minimum)
         if thrust[p] > maximum:
             thrust[p] = maximum  # by a rounding error
     return scale
@@ -177,7 +177,7 @@ def nearest_levels(strength: list, force: Vector3, quantum: float, highest: floa
         odd = float(candidate % 2)
         above = candidate // 2
         cost = 0.0
-        least = math.inf
+        minimum = math.inf
         total = 0.0
         for i in range(3):
             wanted = scale * exact[i]
@@ -186,9 +186,9 @@ def nearest_levels(strength: list, force: Vector3, quantum: float, highest: floa
             miss = strength[i] * (trial[i] - wanted)
             cost = cost + miss * miss
             total = total + abs(trial[i])
-            if abs(trial[i]) < least:
-                least = abs(trial[i])
-        if total - least <= 2.0 * highest and cost < best:
+            if abs(trial[i]) < minimum:
+                minimum = abs(trial[i])
+        if total - minimum <= 2.0 * highest and cost < best:
             best = cost
             levels = vector(*trial)
     return levels, scale
@@ -197,7 +197,7 @@ def nearest_levels(strength: list, force: Vector3, quantum: float, highest: floa
 def thrust_of_levels(levels: Vector3, quantum: float, thrust: list) -> None:
     """thrust = the least propellant for a point of the lattice, in whole quanta (N)."""
     largest = -math.inf
-    least = math.inf
+    minimum = math.inf
     u = [0.0] * 4
     for i in range(4):
         total = 0.0
@@ -206,10 +206,10 @@ def thrust_of_levels(levels: Vector3, quantum: float, thrust: list) -> None:
         u[i] = 0.5 * WALSH[7 * JETS + i] * total
         if u[i] > largest:
             largest = u[i]
-        if u[i] < least:
-            least = u[i]
-    lift = 0.5 * (largest - least)
+        if u[i] < minimum:
+            minimum = u[i]
+    lift = 0.5 * (largest - minimum)
     for i in range(4):
-        d = WALSH[7 * JETS + i] * (u[i] - 0.5 * (largest + least))
+        d = WALSH[7 * JETS + i] * (u[i] - 0.5 * (largest + minimum))
         thrust[i] = quantum * (0.5 * (lift + d))
         thrust[7 - i] = quantum * (0.5 * (lift - d))

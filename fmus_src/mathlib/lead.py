@@ -24,8 +24,8 @@ def tustin_lead(gain: float, lead: float, lag: float, period: float) -> Vector3:
 
 def lead_output(law: Vector3, g: Vector3, e: Vector3) -> Vector3:
     """The output from the state g and the input e."""
-    _, share, direct = law
-    return share * g + direct * e
+    _, fraction, direct = law
+    return fraction * g + direct * e
 
 
 def advance_lead(law: Vector3, g: Vector3, e: Vector3) -> Vector3:
@@ -36,7 +36,7 @@ def advance_lead(law: Vector3, g: Vector3, e: Vector3) -> Vector3:
 def change_lead(old: Vector3, new: Vector3, e: Vector3, g: Vector3) -> Vector3:
     """The state with which the new law puts out for e what the old one did; 0 where the new one has no state."""
     _, old_share, old_direct = old
-    _, share, direct = new
-    if abs(share) > NO_STATE * abs(direct):
-        return (old_share * g + (old_direct - direct) * e) / share
+    _, fraction, direct = new
+    if abs(fraction) > NO_STATE * abs(direct):
+        return (old_share * g + (old_direct - direct) * e) / fraction
     return vector(0.0, 0.0, 0.0)

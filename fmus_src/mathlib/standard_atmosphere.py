@@ -24,8 +24,8 @@ def thin_density(h: float) -> float:
     k = 0
     while k < 7 and h >= height[k + 1]:
         k = k + 1
-    share = (h - height[k]) / (height[k + 1] - height[k])
-    return density[k] * math.exp(share * math.log(density[k + 1] / density[k]))
+    fraction = (h - height[k]) / (height[k + 1] - height[k])
+    return density[k] * math.exp(fraction * math.log(density[k + 1] / density[k]))
 
 
 def air(h: float) -> tuple[float, float]:

@@ -130,8 +130,8 @@ def linear_thrust(
     """
     p = 3.0 * b - time * a
     q = time * a - 2.0 * b
-    share = 1.5 * span / time
-    mean = p + share * q
+    fraction = 1.5 * span / time
+    mean = p + fraction * q
     length = norm(p)
     size = norm(mean)
     if length > 0.0:

@@ -151,16 +151,16 @@ def capture(
     """
     trial = [0.0] * TRANSFER
     best = 0.0
-    least = math.inf
+    minimum = math.inf
     spent_best = 0.0
     excess_best = 0.0
     duration = FIRST
     for _ in range(TRIALS):
         transfer(place, speed, acceleration, jerk, goal, duration, trial)
-        spent, excess = expense(trial, duration, lift, mass, limits, least)
+        spent, excess = expense(trial, duration, lift, mass, limits, minimum)
         price = spent + EXCESS_PRICE * excess
-        if price < least:
-            least = price
+        if price < minimum:
+            minimum = price
             best = duration
             spent_best = spent
             excess_best = excess

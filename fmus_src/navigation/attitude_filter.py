@@ -158,8 +158,8 @@ class AttitudeFilter(Block):
         momentum = self.inertia * self.angular_velocity + self.last_momentum
         # half of what jets and disturbance give over h, and the angular velocity in the middle
         impulse = 0.5 * h * (self.jet_torque + self.inertia * self.disturbance)
-        taken = 0.5 * (h * cross(self.angular_velocity, momentum) + self.gyro_momentum - self.last_momentum)
-        turned = from_rotation_vector(h * (self.angular_velocity + (impulse - taken) / self.inertia))
+        selected = 0.5 * (h * cross(self.angular_velocity, momentum) + self.gyro_momentum - self.last_momentum)
+        turned = from_rotation_vector(h * (self.angular_velocity + (impulse - selected) / self.inertia))
         self.quaternion = normalise(multiply(self.quaternion, turned))
         momentum = to_body(turned, momentum + impulse) + impulse
         self.angular_velocity = (momentum - self.gyro_momentum) / self.inertia

@@ -33,16 +33,16 @@ class ColouredNavigation(Navigation):
         seed_streams(self.generator, self.seed, self.stream)
         for i in range(6):
             self.wandering[i] = normal(self.generator)
-        share = 1.0 + self.white_share * self.white_share
-        position_sigma = math.sqrt(share) * self.position_sigma
-        velocity_sigma = math.sqrt(share) * self.velocity_sigma
+        fraction = 1.0 + self.white_share * self.white_share
+        position_sigma = math.sqrt(fraction) * self.position_sigma
+        velocity_sigma = math.sqrt(fraction) * self.velocity_sigma
         self.position_estimate_sigma = vector(position_sigma, position_sigma, position_sigma)
         self.velocity_estimate_sigma = vector(velocity_sigma, velocity_sigma, velocity_sigma)
         k = 0
         for i in range(6):
-            self.estimate_covariance[k] = share * self.position_sigma * self.position_sigma
+            self.estimate_covariance[k] = fraction * self.position_sigma * self.position_sigma
             if i > 2:
-                self.estimate_covariance[k] = share * self.velocity_sigma * self.velocity_sigma
+                self.estimate_covariance[k] = fraction * self.velocity_sigma * self.velocity_sigma
             k = k + 6 - i
         self.measure()
 
@@ -57,9 +57,9 @@ class ColouredNavigation(Navigation):
         self.sample_count = self.sample_count + 1
 
     def step(self, t: float, h: float) -> None:
-        kept = math.exp(-h / self.correlation_time)
+        retained = math.exp(-h / self.correlation_time)
         fresh = math.sqrt(-math.expm1(-2.0 * h / self.correlation_time))
         for i in range(6):
             error = normal(self.generator)
-            self.wandering[i] = kept * self.wandering[i] + fresh * error
+            self.wandering[i] = retained * self.wandering[i] + fresh * error
         self.measure()

@@ -23,7 +23,7 @@ class OrbitalObserverContinuousReduced(AttitudeObserver):
     def observe(self) -> None:
         w0 = self.orbital_rate
         pole = self.reduced_yaw_pole
-        share = -pole / w0
+        fraction = -pole / w0
         roll = 0.5 * (self.last_roll + self.measured_roll)
         pitch = 0.5 * (self.last_pitch + self.measured_pitch)
         w = 0.5 * (self.last_rates + self.measured_angular_velocity)
@@ -34,12 +34,12 @@ class OrbitalObserverContinuousReduced(AttitudeObserver):
         yaw_rate = q / cos_pitch + w0 * sin_yaw * tan_pitch
         roll_rate = w.x - tan_pitch * q
         bent = sin_yaw / cos_pitch - self.angles_now.y
-        f = yaw_rate - share * roll_rate + share * w0 * bent + share * share * w0 * roll
-        kept = math.exp(-pole * self.sample_period)
-        self.z = kept * self.z + (1.0 - kept) * f / pole
-        self.take_measured(self.z + share * self.measured_roll)
+        f = yaw_rate - fraction * roll_rate + fraction * w0 * bent + fraction * fraction * w0 * roll
+        retained = math.exp(-pole * self.sample_period)
+        self.z = retained * self.z + (1.0 - retained) * f / pole
+        self.take_measured(self.z + fraction * self.measured_roll)
 
     def coast(self) -> None:
         self.angles_now, self.rates_now = self.carry(self.angles_now, self.rates_now, True)
-        share = -self.reduced_yaw_pole / self.orbital_rate
-        self.z = self.angles_now.y - share * self.angles_now.x
+        fraction = -self.reduced_yaw_pole / self.orbital_rate
+        self.z = self.angles_now.y - fraction * self.angles_now.x

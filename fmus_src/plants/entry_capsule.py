@@ -136,10 +136,10 @@ class EntryCapsule(Block):
         k = 0
         while k < MACHS - 2 and mach >= self.mach_numbers[k + 1]:
             k = k + 1
-        share = (mach - self.mach_numbers[k]) / (self.mach_numbers[k + 1] - self.mach_numbers[k])
+        fraction = (mach - self.mach_numbers[k]) / (self.mach_numbers[k + 1] - self.mach_numbers[k])
         below = cubic_value(values, second, KNOTS * k, KNOTS, ANGLE_STEP, angle)
         above = cubic_value(values, second, KNOTS * (k + 1), KNOTS, ANGLE_STEP, angle)
-        return below + share * (above - below)
+        return below + fraction * (above - below)
 
     def spatial_angle(self, v: Vector3) -> float:
         """Angle (rad) between the axis of symmetry and the velocity v against the air (body)."""

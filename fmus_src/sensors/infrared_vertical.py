@@ -44,10 +44,10 @@ class InfraredVertical(Block):
         self.sample_count = self.sample_count + 1
 
     def step(self, t: float, h: float) -> None:
-        kept = 0.0
+        retained = 0.0
         if self.correlation_time > 0.0:
             period = self.sample_period
             if period <= 0.0:
                 period = h
-            kept = math.exp(-period / self.correlation_time)
-        self.measure(kept)
+            retained = math.exp(-period / self.correlation_time)
+        self.measure(retained)

@@ -143,8 +143,8 @@ class OrbitPhases(LandingSequence, interface=True):
 
     def ignite(self, answered: bool, ahead: float) -> None:
         """Turn the engine on once the axis is on the guidance's direction, or after a while in any case."""
-        least = math.cos(self.pointing_tolerance) * norm(self.sampled_attitude) * norm(self.sampled_direction)
-        if answered and dot(self.sampled_attitude, self.sampled_direction) >= least:
+        minimum = math.cos(self.pointing_tolerance) * norm(self.sampled_attitude) * norm(self.sampled_direction)
+        if answered and dot(self.sampled_attitude, self.sampled_direction) >= minimum:
             self.engine_on = True
         elif self.since_start(ahead) >= self.pointing_patience - ROUNDING:
             self.note(TIMEOUT, ahead)

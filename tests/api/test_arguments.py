@@ -37,9 +37,9 @@ def test_compare_takes_a_list(name, fmus, monkeypatch):
         raise AskedError(compare)
 
     monkeypatch.setattr("perilune.analysis.verbs.common.plans.read_plan", read)
-    with pytest.raises(AskedError) as asked:
+    with pytest.raises(AskedError) as requested:
         getattr(perilune, name)(SYSTEM, "paper", compare={"guidance": fmus}, **COMPARING[name])
-    assert asked.value.args == ({"guidance": ["analytic_guidance"]},)
+    assert requested.value.args == ({"guidance": ["analytic_guidance"]},)
 
 
 def test_these_are_all_that_compare():

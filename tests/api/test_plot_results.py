@@ -33,8 +33,8 @@ def test_lines_are_empirical_distributions(folders):
     (panel,) = figure.axes
     for line, trials in zip(panel.lines, columns, strict=True):
         values = np.sort(trials.metrics["miss"])
-        drawn = line.get_xdata()[1:-1]
-        np.testing.assert_array_equal(drawn, np.clip(values, drawn[0], None))
+        sampled = line.get_xdata()[1:-1]
+        np.testing.assert_array_equal(sampled, np.clip(values, sampled[0], None))
         np.testing.assert_allclose(line.get_ydata()[1:-1], 100.0 * np.arange(1, values.size + 1) / values.size)
     assert panel.get_xlabel() == "miss, m"
 

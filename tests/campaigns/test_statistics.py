@@ -41,12 +41,12 @@ def test_finite_columns_against_other_libraries(values):
     assert actual.mean == pytest.approx(exact.fmean(values), rel=1e-9, abs=1e-9)
     assert actual.std == pytest.approx(exact.stdev(values), rel=1e-9, abs=1e-9)
     assert actual.rms == pytest.approx(math.sqrt(exact.fmean(value * value for value in values)), rel=1e-9)
-    share = ecdf(values).cdf
+    fraction = ecdf(values).cdf
     for key, percent in QUANTILES.items():
         assert (
-            share.evaluate(actual.value(key))
+            fraction.evaluate(actual.value(key))
             >= percent / 100
-            > share.evaluate(np.nextafter(actual.value(key), -math.inf))
+            > fraction.evaluate(np.nextafter(actual.value(key), -math.inf))
         )
 
 

@@ -70,8 +70,8 @@ def test_requirements_of_the_campaign(capsys, tmp_path, limit, share, status, wo
     (tmp_path / "c.toml").write_text(text)
     options = ["--compare", "guidance=analytic_guidance", "--json", "-"]
     known = "analytic_guidance.requirements.near.failures >= 0"
-    asked = ["batch", SYSTEM, "--campaign", str(tmp_path / "c.toml"), "--trials", "10", "--workers", "1"]
-    assert main([*asked, *options, "--require", known]) == status
+    requested = ["batch", SYSTEM, "--campaign", str(tmp_path / "c.toml"), "--trials", "10", "--workers", "1"]
+    assert main([*requested, *options, "--require", known]) == status
     captured = capsys.readouterr()
     assert words in captured.err
     assert captured.err.startswith("perilune: analytic_guidance: requirement near: " if status else "")
@@ -220,8 +220,8 @@ def test_groups_settled_and_first(grouped, capsys):
     late, near = summary["metrics"]["late_mass"], summary["metrics"]["near"]
     assert (late["condition"], late["delay"], near["truth"]) == ("plant.position[3] < 6000", 10.0, False)
     row = rows[17]
-    drawn = {name[5:]: value for name, value in row.items() if name.startswith("draw.") and "." in name[5:]}
-    flight = perilune.simulate(SYSTEM, use={"guidance": row["variant"]}, set=drawn)
+    sampled = {name[5:]: value for name, value in row.items() if name.startswith("draw.") and "." in name[5:]}
+    flight = perilune.simulate(SYSTEM, use={"guidance": row["variant"]}, set=sampled)
     below = [float(t) for t, z in zip(flight.time, flight["plant.position[3]"], strict=True) if z < 6000]
     last_above = max(t for t, z in zip(flight.time, flight["plant.position[3]"], strict=True) if z >= 6000)
     assert row["metric.near"] == pytest.approx(min(t for t in below if t > last_above) - 20.05)
@@ -245,7 +245,7 @@ def test_other_conditions_are_noted_when_batches_are_compared(grouped, tmp_path,
 
 def test_a_replay_says_null_for_what_never_settles(grouped, capsys):
     command = of_campaign(grouped, "--configuration", "astar_guidance", "--json", "-")
-    command = ["replay", command[1], "2", *(word for word in command[2:] if word not in ("--workers", "1"))]
+    command = ["replay", command[1], "2", *(token for token in command[2:] if token not in ("--workers", "1"))]
     assert main(command) == 0
     metrics = json.loads(capsys.readouterr().out)["metrics"]
     assert metrics["never"] is None

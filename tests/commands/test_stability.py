@@ -213,7 +213,7 @@ def test_a_time_behind_the_end_of_a_point_is_refused(packed, capsys):
 )
 def test_wrong_input(plain, campaign, tmp_path, monkeypatch, capsys, arguments, words):
     monkeypatch.chdir(tmp_path)
-    given = [campaign if word == "CAMPAIGN" else word for word in arguments]
+    given = [campaign if token == "CAMPAIGN" else token for token in arguments]
     assert main(["stability", plain, *given, "--report", "page.html", "--json", "found.json"]) == 2
     captured = capsys.readouterr()
     assert captured.out == ""
@@ -240,14 +240,14 @@ def test_margins_over_a_campaign_and_its_worst_trial_again(plain, campaign, caps
     columns = {name: [] for name in ("gain_margin_db", "phase_margin_deg", "disk_margin")}
     for trial in range(TRIALS):
         one, _ = run(capsys, *given, "--trial", str(trial))
-        drawn = late_double_integrator(proportional=one["provenance"]["parameters"]["control.proportional"]).loop
-        gain, phase, _ = crossings(drawn)
-        (again,) = one["loops"]
-        assert again["gain_margin_db"] == pytest.approx(nearest(gain), abs=1e-3)
-        assert again["phase_margin_deg"] == pytest.approx(np.degrees(np.min(abs(phase))), abs=1e-3)
-        assert "dispersion" not in again
+        sampled = late_double_integrator(proportional=one["provenance"]["parameters"]["control.proportional"]).loop
+        gain, phase, _ = crossings(sampled)
+        (repeated,) = one["loops"]
+        assert repeated["gain_margin_db"] == pytest.approx(nearest(gain), abs=1e-3)
+        assert repeated["phase_margin_deg"] == pytest.approx(np.degrees(np.min(abs(phase))), abs=1e-3)
+        assert "dispersion" not in repeated
         for name, value in zip(
-            columns, (nearest(gain), np.degrees(np.min(abs(phase))), disk_margin(drawn)), strict=True
+            columns, (nearest(gain), np.degrees(np.min(abs(phase))), disk_margin(sampled)), strict=True
         ):
             columns[name].append(value)
     assert np.ptp(columns["gain_margin_db"]) > 0.1
@@ -275,16 +275,16 @@ def test_unstable_trials_are_counted_and_the_worst_is_named(plain, tmp_path, cap
     largest = []
     for trial in range(TRIALS):
         one, _ = run(capsys, *given, "--trial", str(trial), status=None)
-        drawn = late_double_integrator(proportional=one["provenance"]["parameters"]["control.proportional"])
-        largest.append(np.max(abs(drawn.closed)))
+        sampled = late_double_integrator(proportional=one["provenance"]["parameters"]["control.proportional"])
+        largest.append(np.max(abs(sampled.closed)))
         assert one["loops"][0]["stable"] == (largest[-1] < 1.0)
     unstable = int(np.sum(np.array(largest) > 1.0))
     assert 0 < unstable < TRIALS
     assert (spread["unstable_trials"], spread["worst_trial"]) == (unstable, int(np.argmax(largest)))
     assert {spread[name]["least"] for name in ("gain_margin_db", "phase_margin_deg", "disk_margin")} == {"unstable"}
-    share = f"share of stable trials {1.0 - unstable / TRIALS:.4g} misses the limit 1"
+    fraction = f"share of stable trials {1.0 - unstable / TRIALS:.4g} misses the limit 1"
     assert errors == [
-        f"perilune: loop loop at there: {share}: {unstable} of {TRIALS} trials unstable; "
+        f"perilune: loop loop at there: {fraction}: {unstable} of {TRIALS} trials unstable; "
         f"the worst again: {spread['replay']}"
     ]
     assert main(["stability", *given]) == 1
@@ -305,14 +305,14 @@ def test_the_same_numbers_twice_whatever_the_workers(packed, campaign, capsys):
 
 
 def test_fewer_trials_and_another_seed_draw_others(plain, campaign, capsys):
-    drawn = []
+    sampled = []
     for seed in ("11", "12"):
         actual, _ = run(capsys, plain, "--campaign", campaign, "--trials", "2", "--seed", seed)
         (loop,) = actual["loops"]
         assert loop["dispersion"]["trials"] == 2
         assert f"--seed {seed}" in loop["dispersion"]["replay"]
-        drawn.append(loop["dispersion"]["gain_margin_db"]["least"])
-    assert drawn[0] != drawn[1]
+        sampled.append(loop["dispersion"]["gain_margin_db"]["least"])
+    assert sampled[0] != sampled[1]
 
 
 def test_dispersed_limits_fail_with_a_line_of_their_own(packed, campaign, capsys):
@@ -320,9 +320,9 @@ def test_dispersed_limits_fail_with_a_line_of_their_own(packed, campaign, capsys
         capsys, packed('dispersed_gain_margin_db="30"'), "--campaign", campaign, "--trials", "2", status=1
     )
     (loop,) = actual["loops"]
-    least = loop["dispersion"]["gain_margin_db"]["least"]
+    minimum = loop["dispersion"]["gain_margin_db"]["least"]
     assert errors == [
-        f"perilune: loop loop at there: dispersed gain margin {least:.4g} dB misses the limit 30 dB",
+        f"perilune: loop loop at there: dispersed gain margin {minimum:.4g} dB misses the limit 30 dB",
     ]
     assert actual["verdict"] == "fail"
 
@@ -338,9 +338,9 @@ def test_the_robot_s_margins_over_its_uncertain_inertia(capsys):
     assert len(worst) == 1  # the lightest robot
     _, *replay = shlex.split(actual["loops"][0]["dispersion"]["replay"])
     assert main([*replay, "--json", "-"]) == 0
-    again = strict(capsys.readouterr().out)
-    mass = again["provenance"]["parameters"]["robot.mass"]
-    for loop, one in zip(actual["loops"], again["loops"], strict=True):
+    repeated = strict(capsys.readouterr().out)
+    mass = repeated["provenance"]["parameters"]["robot.mass"]
+    for loop, one in zip(actual["loops"], repeated["loops"], strict=True):
         spread = loop["dispersion"]
         assert (spread["trials"], spread["unstable_trials"]) == (3, 0)
         assert one["gain_margin_db"] == pytest.approx(exact.gain + DECIBEL * np.log(mass / 1000.0), abs=1e-3)

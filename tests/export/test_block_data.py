@@ -164,9 +164,9 @@ REFUSED = {
 def test_what_cannot_travel_is_refused_in_one_line(here, capsys, case):
     (old, new), words = REFUSED[case]
     text = (here / "my_table.py").read_text()
-    declared, rest = text.partition("    u = Input")[::2]
+    declared, remainder = text.partition("    u = Input")[::2]
     assert old in declared
-    (here / "my_table.py").write_text(declared.replace(old, new) + "    u = Input" + rest)
+    (here / "my_table.py").write_text(declared.replace(old, new) + "    u = Input" + remainder)
     before = sorted(here.rglob("*"))
     assert main(["export", "my_table.py"]) == 2
     error = capsys.readouterr().err

@@ -111,9 +111,9 @@ def test_libraries_that_a_block_requires_are_let_through(tmp_path):
 
 def test_the_name_follows_the_content(tmp_path):
     first = closure_of(block(tmp_path, value="1.0"))
-    again = closure_of(block(tmp_path, value="1.0"))
+    repeated = closure_of(block(tmp_path, value="1.0"))
     changed = closure_of(block(tmp_path, value="2.0"))
-    assert first.package == again.package != changed.package
+    assert first.package == repeated.package != changed.package
 
 
 def test_no_more_than_the_closure():

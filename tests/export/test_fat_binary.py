@@ -27,7 +27,7 @@ def thin(processor, rest=b"", variant=0):
 
 @given(st.lists(st.binary(max_size=40_000), min_size=1, max_size=2), st.integers(0, 9))
 def test_every_part_is_found_again(rests, variant):
-    parts = [thin(processor, rest, variant) for processor, rest in zip((X86_64, ARM64), rests, strict=False)]
+    parts = [thin(processor, remainder, variant) for processor, remainder in zip((X86_64, ARM64), rests, strict=False)]
     joined = fat_binary(parts)
     stream = io.BytesIO(joined)
     assert fat_header.from_fileobj(stream, _endian_=">").nfat_arch == len(parts)

@@ -44,8 +44,8 @@ def actual(request: pytest.FixtureRequest, fmus: Path) -> dict[str, list]:
     folder = fmus.with_name(request.param)
     if request.param == "native" and not folder.is_dir():
         pytest.skip("native FMUs are not built")
-    taken = BLOCKS[FIRST[request.param] :: EVERY]
-    names = [name for name, block in taken if request.param == "python" or not block.python_only]
+    selected = BLOCKS[FIRST[request.param] :: EVERY]
+    names = [name for name, block in selected if request.param == "python" or not block.python_only]
     paths = {name: str(folder / f"{name}.fmu") for name in names}
     command = [sys.executable, "-c", SCRIPT, str(STEPS), *paths.values()]
     done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -104,7 +104,7 @@ def test_c_program_steps_the_fmu_without_python(tmp_path: Path) -> None:
     for n, line in enumerate(printed.splitlines()):
         if n > 0:
             component.do_step((n - 1) * 0.25, 0.25)
-        assert [float(word) for word in line.split()] == [n * 0.25, *component.get(references)]
+        assert [float(token) for token in line.split()] == [n * 0.25, *component.get(references)]
     assert n == 20
 
 

@@ -36,7 +36,7 @@ def whole(name: str) -> str:
 
 def words(name: str) -> set[str]:
     """`keptRows`, `KEPT_ROWS` and `_kept_rows` have the words kept and rows."""
-    return {word.lower() for word in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)}
+    return {token.lower() for token in re.findall(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+", name)}
 
 
 def count_words(sources: Iterable[Source], limits: dict[str, dict[str, int]]) -> Counter[str]:
@@ -44,8 +44,8 @@ def count_words(sources: Iterable[Source], limits: dict[str, dict[str, int]]) ->
     names = Counter(name for source in sources for name, _ in given_names(source))
     counts: Counter[str] = Counter()
     for name, number in names.items():
-        for word in {whole(name)} | (words(name) & {*limits["words"]}):
-            counts[word] += number
+        for token in {whole(name)} | (words(name) & {*limits["words"]}):
+            counts[token] += number
     return counts
 
 
@@ -56,15 +56,19 @@ def read_limits() -> dict[str, dict[str, int]]:
 def check_limits(counts: Counter[str], limits: dict[str, dict[str, int]]) -> list[str]:
     """A line for each number that is not as stored."""
     problems = [
-        f"{word}: {counts[word]} names at the start {stored}: give the thing its own name"
-        for word, stored in limits["plain"].items()
-        if counts[word] > GROWTH * stored
+        f"{token}: {counts[token]} names at the start {stored}: give the thing its own name"
+        for token, stored in limits["plain"].items()
+        if counts[token] > GROWTH * stored
     ]
-    for word, stored in (limits["words"] | limits["names"]).items():
-        if counts[word] > stored:
-            problems.append(f"{word}: {counts[word]} names, {stored} allowed: see python -m tests.house --list {word}")
-        elif counts[word] < stored:
-            problems.append(f"{word}: {counts[word]} names, {stored} stored: lower it, python -m tests.house --ratchet")
+    for token, stored in (limits["words"] | limits["names"]).items():
+        if counts[token] > stored:
+            problems.append(
+                f"{token}: {counts[token]} names, {stored} allowed: see python -m tests.house --list {token}"
+            )
+        elif counts[token] < stored:
+            problems.append(
+                f"{token}: {counts[token]} names, {stored} stored: lower it, python -m tests.house --ratchet"
+            )
     return problems
 
 

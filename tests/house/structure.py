@@ -37,8 +37,8 @@ def participles(checkout: Checkout) -> Measure:
     for source in checkout.below(*PRODUCT):
         for node in source.nodes:
             if isinstance(node, ast.FunctionDef) and not any("property" in ast.unparse(d) for d in node.decorator_list):
-                word = node.name.lstrip("_").split("_")[0]
-                if IRREGULAR.fullmatch(word) or (word.endswith("ed") and not PRESENT.fullmatch(word)):
+                token = node.name.lstrip("_").split("_")[0]
+                if IRREGULAR.fullmatch(token) or (token.endswith("ed") and not PRESENT.fullmatch(token)):
                     entries.append(f"{source.path}:{node.lineno} {node.name}")
     return str(len(entries)), entries
 

@@ -51,8 +51,8 @@ def residual(angles):
 
 
 def direction(seed):
-    drawn = np.random.default_rng(seed).normal(size=3)
-    return drawn / np.linalg.norm(drawn)
+    sampled = np.random.default_rng(seed).normal(size=3)
+    return sampled / np.linalg.norm(sampled)
 
 
 def lawful_angles(momentum, rho=RHO, near=ISOTROPIC_ANGLES):
@@ -137,15 +137,15 @@ def test_what_the_law_cannot_give_leaves_the_angles(momentum):
 def test_law_stays_away_from_singular_states_below_its_bound():
     """Published: free of singularity for |h| < 1.96; the bound is 2 rho, met where one pair has no momentum."""
     random = np.random.default_rng(3)
-    least = {1.0: math.inf, 1.5: math.inf, 1.9: math.inf}
-    for size in least:
+    minimum = {1.0: math.inf, 1.5: math.inf, 1.9: math.inf}
+    for size in minimum:
         for _ in range(2000):
-            drawn = random.normal(size=3)
-            angles = lawful_angles(size * drawn / np.linalg.norm(drawn))
-            least[size] = min(least[size], singularity_measure(angles))
-    assert least[1.0] > 1.13
-    assert least[1.5] > 0.60
-    assert least[1.9] > 0.08
+            sampled = random.normal(size=3)
+            angles = lawful_angles(size * sampled / np.linalg.norm(sampled))
+            minimum[size] = min(minimum[size], singularity_measure(angles))
+    assert minimum[1.0] > 1.13
+    assert minimum[1.5] > 0.60
+    assert minimum[1.9] > 0.08
     nearly = lawful_angles([-2.0 * RHO + 1e-6, 0.0, 0.0])  # pair 1 without momentum, all of it in pair 2
     assert singularity_measure(nearly) < 1e-4
     assert abs(2.0 * RHO - 1.96) < 1e-3

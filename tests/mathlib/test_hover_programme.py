@@ -186,8 +186,8 @@ def test_impulse_is_the_integral_of_thrust_over_mass():
 
 
 def test_straight_down_is_the_rocket_equation():
-    full, least, c, gravity, _ = PAPER
-    q, r = least / c, full / c
+    full, minimum, c, gravity, _ = PAPER
+    q, r = minimum / c, full / c
 
     def missing(times):
         coast, burn = times

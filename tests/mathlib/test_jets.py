@@ -172,8 +172,8 @@ def test_least_propellant_is_the_least_maximum_too():
         unlimited, _ = shared(wrench, least_propellant, 1e9)
         limited, _ = shared(wrench, least_propellant)
         assert limited == pytest.approx(unlimited, abs=1e-14)
-        least = linprog([0.0] * 8 + [1.0], A_eq=matrix, b_eq=wrench, A_ub=below, b_ub=np.zeros(8), method="highs").fun
-        assert unlimited.max() == pytest.approx(least, abs=1e-9)
+        minimum = linprog([0.0] * 8 + [1.0], A_eq=matrix, b_eq=wrench, A_ub=below, b_ub=np.zeros(8), method="highs").fun
+        assert unlimited.max() == pytest.approx(minimum, abs=1e-9)
 
 
 @given(seeds, st.floats(0.05, 30.0))
@@ -257,9 +257,9 @@ def test_lattice_of_forces_without_torque():
         if len({k % 2 for k in n}) == 1 and sum(map(abs, n)) - min(map(abs, n)) <= 2 * highest
     }
     assert actual == expected
-    least = {}
+    minimum = {}
     for thrust, n in zip(free, map(tuple, sums // 2), strict=True):
-        least[n] = min(least.get(n, 10**9), int(thrust.sum()))
+        minimum[n] = min(minimum.get(n, 10**9), int(thrust.sum()))
     for n in expected:
         thrust = [0.0] * 8
         thrust_of_levels(vector(*map(float, n)), 0.05, thrust)
@@ -267,7 +267,7 @@ def test_lattice_of_forces_without_torque():
         assert thrust == [0.05 * k for k in levels]  # to the last bit
         assert min(levels) >= 0
         assert max(levels) <= highest
-        assert sum(levels) == least[n]
+        assert sum(levels) == minimum[n]
         wrench = B @ thrust
         assert wrench[:3] == pytest.approx(0.1 * np.array(n) * strengths()[:3], abs=1e-15)
         assert wrench[3:] == pytest.approx([0.0, 0.0, 0.0], abs=1e-16)

@@ -107,9 +107,9 @@ def test_normalised_square_is_that_of_a_solved_system(n, seed):
     generator = np.random.default_rng(seed)
     _, p, _, _ = random_system(generator, n)
     e = generator.normal(size=n)
-    kept = p.ravel().tolist()
-    assert normalised_square(kept, e.tolist(), n) == pytest.approx(e @ np.linalg.solve(p, e), rel=1e-9)
-    assert kept == p.ravel().tolist()
+    retained = p.ravel().tolist()
+    assert normalised_square(retained, e.tolist(), n) == pytest.approx(e @ np.linalg.solve(p, e), rel=1e-9)
+    assert retained == p.ravel().tolist()
 
 
 def test_normalised_square_says_where_a_matrix_is_not_positive():

@@ -41,8 +41,8 @@ def test_response_is_that_of_the_bilinear_rule(gain, lead, lag, period):
 @pytest.mark.parametrize("design", DESIGNS)
 def test_frequency_response_is_that_of_python_control(design):
     gain, lead, lag, period = design
-    decay, share, direct = tustin_lead(*design)
-    ours = control.ss(decay, 1.0, share, direct, period)
+    decay, fraction, direct = tustin_lead(*design)
+    ours = control.ss(decay, 1.0, fraction, direct, period)
     theirs = control.sample_system(control.tf([gain * lead, gain], [lag, 1.0]), period, method="tustin")
     w = np.geomspace(1e-4, 3.0, 30) / period
     assert ours(np.exp(1j * w * period)) == pytest.approx(theirs(np.exp(1j * w * period)), rel=1e-10)

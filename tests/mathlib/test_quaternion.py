@@ -128,9 +128,9 @@ def test_more_than_half_a_turn_comes_back_the_shorter_way(seed, angle):
 def test_difference_leads_from_the_one_to_the_other(reference_seed, q_seed):
     reference, q = attitude(reference_seed), attitude(q_seed)
     error = difference(reference, q)
-    again = multiply(reference, error)
+    repeated = multiply(reference, error)
     assert error[0] >= 0.0
-    assert rotation(again).as_matrix() == pytest.approx(rotation(q).as_matrix(), abs=1e-14)
+    assert rotation(repeated).as_matrix() == pytest.approx(rotation(q).as_matrix(), abs=1e-14)
 
 
 @given(seeds, seeds, st.floats(0.0, 3.1))

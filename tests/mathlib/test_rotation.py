@@ -21,8 +21,8 @@ AXES = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 
 
 def unit(seed):
-    drawn = np.random.default_rng(seed).normal(size=3)
-    return drawn / np.linalg.norm(drawn)
+    sampled = np.random.default_rng(seed).normal(size=3)
+    return sampled / np.linalg.norm(sampled)
 
 
 def angle_between(a, b):

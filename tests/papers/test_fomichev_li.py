@@ -58,9 +58,9 @@ def result(fmus):
 def test_success_rates(result, method):
     low, high = BANDS[method]
     assert low <= TABLE[method].success <= high
-    fewest, most = successes_within(low, high, TRIALS)
+    fewest, maximum = successes_within(low, high, TRIALS)
     reached = round(result.summary[method].success_rate * TRIALS)
-    assert fewest <= reached <= most
+    assert fewest <= reached <= maximum
 
 
 def test_methods_rank_as_published(result):

@@ -210,9 +210,9 @@ def test_margins_along_the_way():
     phases = [abs(np.degrees(loop.classical.phase_margin.value)) for loop in loops]
     moduli = [loop.robust.modulus_margin for loop in loops]
     disks = [loop.robust.disk_margin for loop in loops]
-    for values, (least, most), within in zip(
+    for values, (minimum, maximum), within in zip(
         (gains, phases, moduli, disks), MARGINS.values(), (0.5, 2.0, 0.02, 0.03), strict=True
     ):
-        assert min(values) == pytest.approx(least, abs=within)
-        assert max(values) == pytest.approx(most, abs=within)
+        assert min(values) == pytest.approx(minimum, abs=within)
+        assert max(values) == pytest.approx(maximum, abs=within)
     assert all(loop.stable for loop in loops)

@@ -147,13 +147,13 @@ def test_the_flight_software_has_one_sample_period(name, capfd):
     """None of those who share it can be set apart: refused before the flight, with who else has it."""
     assert main(["run", SYSTEM, "--parameters", "start_9.ssv", "--set", f"{name}=0.2"]) == 2
     said = capfd.readouterr().err
-    for word in (
+    for token in (
         "--set",
         f"{name}: 0.2 is not 0.1",
         "hover.sample_period, inertial.sample_period",
         "set sample_period",
     ):
-        assert word in said
+        assert token in said
     assert len(said.splitlines()) == 1
     assert perilune.simulate(SYSTEM, parameters=["start_9.ssv"], set={name: 0.1}).status == "finished"
 
@@ -246,8 +246,8 @@ STATUSES = {
 
 @pytest.mark.parametrize("status", STATUSES)
 def test_every_status_can_be_provoked(status):
-    asked = dict(STATUSES[status])
-    flight = perilune.simulate(SYSTEM, **{**asked, "parameters": [*asked["parameters"], "ideal.ssv"]})
+    requested = dict(STATUSES[status])
+    flight = perilune.simulate(SYSTEM, **{**requested, "parameters": [*requested["parameters"], "ideal.ssv"]})
     assert flight.status == "finished"
     assert flight["sequencer.status"][-1] == status
     assert flight[f"sequencer.status_time[{status}]"][-1] >= 0.0

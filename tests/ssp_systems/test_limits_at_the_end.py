@@ -68,8 +68,8 @@ def test_the_limits_of_a_system(name, capsys):
     final = perilune.simulate(name).final()
     limits = [line for line in said if ".status: " not in line]
     for line, truth in zip(limits, TRUTH[name], strict=True):
-        shown = re.search(r" (\S*\d\S*)", line).group(1).replace("\N{MINUS SIGN}", "-")
-        assert float(shown) == pytest.approx(truth(final), rel=1e-3), line
+        displayed = re.search(r" (\S*\d\S*)", line).group(1).replace("\N{MINUS SIGN}", "-")
+        assert float(displayed) == pytest.approx(truth(final), rel=1e-3), line
         assert line.endswith(": PASS")
 
 

@@ -156,8 +156,8 @@ def test_the_network_operator_in_space_brakes_as_in_its_plane():
 
 def test_inputs_for_longer_missions_change_no_bit_where_they_say_nothing():
     """A guidance told to be active, a navigation told of thrust: the flight in which nobody says so."""
-    told = {"guidance.active": True, "navigation.free_flight": False, "navigation.gravity_gradient": False}
-    plain, other = perilune.simulate(SYSTEM), perilune.simulate(SYSTEM, set=told)
+    reported = {"guidance.active": True, "navigation.free_flight": False, "navigation.gravity_gradient": False}
+    plain, other = perilune.simulate(SYSTEM), perilune.simulate(SYSTEM, set=reported)
     assert plain.time.size == other.time.size
     for name, values in plain.signals.items():
         assert np.array_equal(values, other[name]), name

@@ -82,11 +82,11 @@ def ideal(fmus):
 
 def test_every_fixed_start_settles_as_it_should(ideal):
     for pair, flown in ideal.items():
-        mean, most, propellant, error = IDEAL[pair]
+        mean, maximum, propellant, error = IDEAL[pair]
         assert flown.success.all(), pair
         within = 0.5 if pair[0] == SEQUENCE else 0.2
         assert settled(flown).mean() == pytest.approx(mean, abs=within), pair
-        assert settled(flown).max() == pytest.approx(most, abs=0.41), pair
+        assert settled(flown).max() == pytest.approx(maximum, abs=0.41), pair
         assert flown.metrics["propellant"].mean() == pytest.approx(propellant, abs=0.2), pair
         assert flown.metrics["yaw_error"].max() == pytest.approx(error, abs=0.002), pair
 
@@ -183,13 +183,13 @@ def test_inertia_wrong_by_a_fifth(pair):
 )
 def test_ticks_of_a_second(pair):
     """Mean and most within the spread that is known: continuous and unsplit, split, filter."""
-    mean, most = {CONTINUOUS: (67.0, 90.0), DISCRETE_SPLIT: (63.0, 77.0), FILTER: (48.0, 60.0)}[pair[0]]
+    mean, maximum = {CONTINUOUS: (67.0, 90.0), DISCRETE_SPLIT: (63.0, 77.0), FILTER: (48.0, 60.0)}[pair[0]]
     if pair[1] == ARRIVAL:
-        mean, most = 40.5, 48.0
+        mean, maximum = 40.5, 48.0
     flown = fly("fixed_starts", [pair], parameters=["tick_1s.ssv"])[pair]
     assert flown.success.all()
     assert settled(flown).mean() <= mean + 0.5
-    assert settled(flown).max() <= most + 0.5
+    assert settled(flown).max() <= maximum + 0.5
 
 
 def test_the_communication_step_changes_no_flight():

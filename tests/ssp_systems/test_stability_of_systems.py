@@ -91,10 +91,10 @@ def assert_routes_agree(loop):
 
 def relative_error(curve, response, lowest, highest):
     """Largest of a curve between two frequencies (rad/s), with the frequencies and the errors there."""
-    kept = (curve.frequency > lowest) & (curve.frequency < highest)
-    assert np.sum(kept) > 10
-    frequency = curve.frequency[kept]
-    return frequency, abs(curve.value[kept] / response(frequency) - 1.0)
+    retained = (curve.frequency > lowest) & (curve.frequency < highest)
+    assert np.sum(retained) > 10
+    frequency = curve.frequency[retained]
+    return frequency, abs(curve.value[retained] / response(frequency) - 1.0)
 
 
 @each_loop
@@ -222,8 +222,8 @@ def test_hover_poles_and_encirclements(hover, time_to_go, axis):
 def test_hover_axes_at_once(hover, time_to_go):
     """What one axis does to another is of second order: the joint disk margin is the least of them."""
     joint = hover(time_to_go)[1]
-    least = min(disk_margin(HoverLoop(time_to_go, vertical).state_space, 1e-4) for vertical in (False, True))
-    assert joint.disk_margin == pytest.approx(least, rel=1e-3)
+    minimum = min(disk_margin(HoverLoop(time_to_go, vertical).state_space, 1e-4) for vertical in (False, True))
+    assert joint.disk_margin == pytest.approx(minimum, rel=1e-3)
 
 
 @each_axis

@@ -103,11 +103,11 @@ def test_matlab_reads_the_same(content, structs):
 def test_responses_are_those_of_the_study_by_both_methods(studies, content, folder):
     exact = response_of(LATE.loop)
     late = named(content["loops"], "late")
-    for kind, most in (("", 1e-6), ("measured_", 2e-3)):
+    for kind, maximum in (("", 1e-6), ("measured_", 2e-3)):
         frequency = np.array(late[f"{kind}frequency_rad_s"])
         value = np.array(late[f"{kind}L"]) @ [1.0, 1.0j]
         low = frequency < 0.5 * np.pi / LATE.period
-        assert np.max(abs(value / exact(frequency) - 1.0)[low]) < most
+        assert np.max(abs(value / exact(frequency) - 1.0)[low]) < maximum
     with (folder / "responses.csv").open(encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if row["loop"] == "late"]
     assert {row["response"] for row in rows} == {"linearised", "measured"}

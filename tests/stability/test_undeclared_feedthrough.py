@@ -84,7 +84,8 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def reports(folder, exact_fmus):
     return {
-        share: perilune.stability(wheel_satellite(folder, exact_fmus, PERIOD / share), workers=1) for share in (1, 2, 4)
+        fraction: perilune.stability(wheel_satellite(folder, exact_fmus, PERIOD / fraction), workers=1)
+        for fraction in (1, 2, 4)
     }
 
 
@@ -204,12 +205,13 @@ def test_text_json_page_and_exit_status(folder, exact_fmus, tmp_path, capsys):
     path = wheel_satellite(folder, exact_fmus, PERIOD)
     page, file = tmp_path / "page.html", tmp_path / "report.json"
     assert main(["stability", str(path), "--report", str(page), "--json", str(file), "--workers", "1"]) == 1
-    told = capsys.readouterr()
-    assert "  as feedthrough: " in told.out
+    reported = capsys.readouterr()
+    assert "  as feedthrough: " in reported.out
     assert (
-        "note: direct dependencies of outputs on inputs are not declared by wheel (FMU lag): assumed none" in told.out
+        "note: direct dependencies of outputs on inputs are not declared by wheel (FMU lag): assumed none"
+        in reported.out
     )
-    (line,) = [line for line in told.err.splitlines() if "modulus margin withheld" in line]
+    (line,) = [line for line in reported.err.splitlines() if "modulus margin withheld" in line]
     assert line.startswith("perilune: loop attitude at there: modulus margin withheld: 0.3963 without")
     assert line.endswith("limit 0.5; say --feedthrough wheel or --no-feedthrough wheel, or take a smaller step")
     actual = json.loads(file.read_text())

@@ -49,7 +49,7 @@ def test_nothing_holds_a_pendulum(every, exact_fmus, tmp_path):
 def test_its_command_says_so(exact_fmus, tmp_path, capsys):
     path = str(pendulum().packed(tmp_path, exact_fmus))
     actual = tmp_path / "z.json"
-    words = [word for name in NOTHING for word in ("--set", f"{name}=0")]
+    words = [token for name in NOTHING for token in ("--set", f"{name}=0")]
     assert main(["stability", path, *words, "--json", str(actual)]) == 1
     (loop,) = json.loads(actual.read_text())["loops"]
     assert (loop["stable"], loop["gain_margin_db"], loop["verdict"]) == (False, "unstable", "fail")

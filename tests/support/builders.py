@@ -340,8 +340,8 @@ def parameter_set(values: str) -> str:
     """An ssv:ParameterSet, complete with namespaces and units."""
     collected = []
     for part in filter(None, (piece.strip() for piece in values.split(";"))):
-        name, _, rest = part.partition("=")
-        type_name, _, value = rest.partition(":")
+        name, _, remainder = part.partition("=")
+        type_name, _, value = remainder.partition(":")
         value, _, unit = value.partition(" ")
         unit = f' unit="{unit}"' if unit else ""
         collected.append(f'<ssv:Parameter name="{name}"><ssv:{type_name} value="{value}"{unit}/></ssv:Parameter>')

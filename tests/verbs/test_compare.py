@@ -96,9 +96,9 @@ def test_json_file_and_page(folders, tmp_path, capsys):
         assert words in text_of(text)
     for digest in json.loads((folders[0] / "summary.json").read_text())["fmus"]["astar_guidance"].values():
         assert digest in text
-    again = tmp_path / "again.html"
-    assert main([*command, "--report", str(again)]) == 0
-    assert again.read_bytes() == page.read_bytes()
+    repeated = tmp_path / "again.html"
+    assert main([*command, "--report", str(repeated)]) == 0
+    assert repeated.read_bytes() == page.read_bytes()
 
 
 def damage(folder, name):

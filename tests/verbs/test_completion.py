@@ -61,7 +61,7 @@ def offered(tmp_path):
         assert "argcomplete" in imported
         assert not imported & set(HEAVY)
         answers = [(tmp_path / f"answer{number}").read_text() for number in range(len(lines))]
-        return [{word.strip() for word in answer.splitlines()} for answer in answers]
+        return [{token.strip() for token in answer.splitlines()} for answer in answers]
 
     return complete
 

@@ -89,7 +89,7 @@ def test_declarations_import_nothing_heavy():
     """Truth: the modules that a fresh interpreter has after it."""
     code = "import sys, perilune.analysis.cli; from perilune.analysis.cli import parser_of; "
     code += (
-        f"parser_of({sorted({word for name in VERBS for word in name.split()})!r}).format_help(); print(*sys.modules)"
+        f"parser_of({sorted({token for name in VERBS for token in name.split()})!r}).format_help(); print(*sys.modules)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not {name.partition(".")[0] for name in done.stdout.split()} & HEAVY

@@ -365,8 +365,8 @@ def test_a_mistake(name, working, capfd):
     captured = capfd.readouterr()
     assert captured.err.startswith("perilune: "), captured.err
     assert captured.err.count("\n") == 1, captured.err
-    for word in words:
-        assert word in captured.err, captured.err
+    for token in words:
+        assert token in captured.err, captured.err
     assert status == 2
     assert captured.out == ""
     assert snapshot(working) == before

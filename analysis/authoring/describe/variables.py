@@ -72,12 +72,12 @@ def _join_elements(before: str | None, now: str | None) -> str | None:
     """Where the elements of a vector come from, each place once, lines that follow each other as one stretch."""
     if now is None or before is None:
         return before or now
-    *rest, last = before.split("; ")
+    *remainder, last = before.split("; ")
     stretch, line = LINE.fullmatch(last), LINE.fullmatch(now)
     if stretch is not None and line is not None and stretch.group(1) == line.group(1):
         first, end = int(stretch.group(2)), int(stretch.group(3) or stretch.group(2))
         if first <= int(line.group(2)) <= end:
             return before
         if int(line.group(2)) == end + 1:
-            return "; ".join([*rest, f"{line.group(1)} lines {first} to {end + 1}"])
-    return before if now in (*rest, last) else f"{before}; {now}"
+            return "; ".join([*remainder, f"{line.group(1)} lines {first} to {end + 1}"])
+    return before if now in (*remainder, last) else f"{before}; {now}"

@@ -53,12 +53,12 @@ def _write(folder: Path, name: str) -> list[str]:
     parts = dict(zip(PARTS, map(part_of, blocks_in_file(blocks)), strict=True))
     shutil.rmtree(folder / "__pycache__", ignore_errors=True)
     units = units_of(list(parts.values()), SHOWN_UNITS)
-    rest = [entry for entry in template_names(SYSTEM) if entry != BLOCKS]
-    for entry in rest:
+    remainder = [entry for entry in template_names(SYSTEM) if entry != BLOCKS]
+    for entry in remainder:
         path = folder / entry
         path.parent.mkdir(exist_ok=True)
         path.write_text(render(f"{SYSTEM}/{entry}", **words, **parts, units=units), encoding="utf-8")
-    return [BLOCKS, *rest]
+    return [BLOCKS, *remainder]
 
 
 def _mask() -> int:

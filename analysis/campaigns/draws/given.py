@@ -97,20 +97,20 @@ def read_given(path: Path, campaign: Declared) -> GivenDraws:
         raise InputError(path, "", error.strerror or str(error), "give a Parquet file of draws") from error
     except pyarrow.ArrowInvalid as error:
         raise InputError(path, "", f"not Parquet: {error}", "give a Parquet file of draws") from error
-    drawn = input_names(campaign)
-    for name in drawn:
+    sampled = input_names(campaign)
+    for name in sampled:
         if name not in table.column_names:
             raise InputError(path, name, "is drawn, and no column has it", "add the column")
     stream_columns = [name for name in table.column_names if stream_component(name) is not None]
     for name in table.column_names:
-        if name not in (TRIAL, *stream_columns, *drawn, *campaign.derived):
-            known = [*drawn, *campaign.derived, STREAMS]
+        if name not in (TRIAL, *stream_columns, *sampled, *campaign.derived):
+            known = [*sampled, *campaign.derived, STREAMS]
             raise InputError(path, name, f"{campaign.file} draws and derives no such value", suggestion(name, known))
     if not table.num_rows:
         raise InputError(path, "", "no row", "give one row or more")
-    if not drawn and not stream_columns:
+    if not sampled and not stream_columns:
         raise InputError(path, "", f"{campaign.file} draws nothing", "leave the file out")
-    columns = {name: _numbers(path, table, name) for name in (*drawn, *stream_columns)}
+    columns = {name: _numbers(path, table, name) for name in (*sampled, *stream_columns)}
     for name in stream_columns:
         if np.any((columns[name] < 0.0) | (columns[name] != np.round(columns[name]))):
             raise InputError(path, name, "not all are numbers of trials", "give whole numbers, 0 or more")

@@ -39,8 +39,8 @@ class HeldShards:
     def rows(self, numbering: Numbering) -> dict[str, FlownRows]:
         """The trials of shards that are all there, by variant."""
         parts = [self._parts[shard] for shard in range(numbering.count)]
-        drawn = self._plan.values_of(range(numbering.trials)).table.columns
-        return {name: replace(join_trials(part[name] for part in parts), draws=drawn) for name in parts[0]}
+        sampled = self._plan.values_of(range(numbering.trials)).table.columns
+        return {name: replace(join_trials(part[name] for part in parts), draws=sampled) for name in parts[0]}
 
 
 class StoredShards:

@@ -39,20 +39,20 @@ def _column(name: str, provenance: Mapping[str, Any]) -> Column:
         return FLIGHT[name]
     if name == "success":
         return Column("1", f"whether {provenance['success']}")
-    kind, _, rest = name.partition(".")
+    kind, _, remainder = name.partition(".")
     if kind == "metric":
-        fact = provenance["metrics"][rest]
+        fact = provenance["metrics"][remainder]
         return Column(fact["unit"], fact["description"] or f"{fact['reduction']} of {fact['expression']}")
     if kind == "final":
-        return Column(provenance["signals"].get(rest, {}).get("unit"), f"last value of {rest}")
+        return Column(provenance["signals"].get(remainder, {}).get("unit"), f"last value of {remainder}")
     if kind == "fault":
-        end = next((end for end in FAULT if rest.endswith(end)), None)
+        end = next((end for end in FAULT if remainder.endswith(end)), None)
         if end is None:
-            return Column("1", f"whether the fault {rest} flew")
-        return Column(FAULT[end].unit, f"fault {rest.removesuffix(end)}: {FAULT[end].meaning}")
-    component = stream_component(rest)
+            return Column("1", f"whether the fault {remainder} flew")
+        return Column(FAULT[end].unit, f"fault {remainder.removesuffix(end)}: {FAULT[end].meaning}")
+    component = stream_component(remainder)
     if component is not None:
         whose = f"random stream {component}" if component else "random streams it"
         return Column("1", f"number of the trial whose {whose} flew with")
-    swept = provenance.get("sweep", {}).get(rest)
-    return Column(None, f"drawn or derived: {rest}" if swept is None else f"swept: {rest}, {swept}")
+    swept = provenance.get("sweep", {}).get(remainder)
+    return Column(None, f"drawn or derived: {remainder}" if swept is None else f"swept: {remainder}, {swept}")

@@ -108,8 +108,8 @@ def _draws(folder: Path, shards: Mapping[Path, pyarrow.Table], is_counted: bool)
     """The draws of all trials: of their table or, where they were drawn without one, of the shards' first variant."""
     if not is_counted:
         _check_there(folder, DRAWS)
-        drawn = read_table(folder / DRAWS)
-        return {name: numbers(drawn, name, folder / DRAWS) for name in drawn.column_names}
+        sampled = read_table(folder / DRAWS)
+        return {name: numbers(sampled, name, folder / DRAWS) for name in sampled.column_names}
     columns: dict[str, list[np.ndarray]] = {}
     for path, table in shards.items():
         first = pyarrow.compute.equal(table["variant"], table["variant"][0])
@@ -199,8 +199,8 @@ def _variants(
         columns = {name: numbers(table, _column(name), path) for name in draws}
         for variant, trials in trials_of(table, [metric.name for metric in metrics], path).items():
             rows = labels == variant
-            drawn = "trial" in draws and rows_drawn == {total}
-            same = drawn and all(
+            sampled = "trial" in draws and rows_drawn == {total}
+            same = sampled and all(
                 np.array_equal(columns[name][rows], column[trials.trial]) for name, column in draws.items()
             )
             if not same:

@@ -41,8 +41,8 @@ def check_draws(plan: BatchPlan, systems: Iterable[PreparedSystem]) -> None:
     """Refuse draws and drawn faults that a prepared system cannot have. Raises InputError."""
     systems = list(systems)
     _check_streams(plan, systems)
-    drawn = set(plan.campaign.input_names())
-    varied = [(prepared, _variables(plan, prepared, drawn)) for prepared in systems]
+    sampled = set(plan.campaign.input_names())
+    varied = [(prepared, _variables(plan, prepared, sampled)) for prepared in systems]
     first = 0
     for part in plan.draw_parts():
         trials = plan.values_from(part, range(first, first + part.trials))
@@ -83,8 +83,8 @@ def _refuse_conflicts(plan: BatchPlan) -> None:
     for name in plan.options.set:
         if any(name in variant.settings for variant in variants):
             raise InputError("`set`", name, "configurations of the campaign set it", "change the campaign")
-        drawn = any(column == name or column.startswith(f"{name}[") for column in plan.campaign.input_names())
-        if drawn or name.endswith((".seed", ".stream")):
+        sampled = any(column == name or column.startswith(f"{name}[") for column in plan.campaign.input_names())
+        if sampled or name.endswith((".seed", ".stream")):
             raise InputError("`set`", name, "the campaign draws it in every trial", "change the campaign, or `seed`")
 
 

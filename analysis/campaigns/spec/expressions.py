@@ -157,11 +157,11 @@ class _Translator:
         name = path_name(node.func)
         if name not in FUNCTIONS:
             self.refuse(f"{ast.unparse(node.func)!r} is not a function", suggestion(str(name), FUNCTIONS))
-        function, fewest, most = FUNCTIONS[name]
+        function, fewest, maximum = FUNCTIONS[name]
         if node.keywords or any(isinstance(argument, ast.Starred) for argument in node.args):
             self.refuse(f"{ast.unparse(node)!r} has more than plain arguments", f"write {name}(a, ...)")
-        if len(node.args) < fewest or (most is not None and len(node.args) > most):
-            wanted = f"{fewest}" if most == fewest else f"{fewest} or more"
+        if len(node.args) < fewest or (maximum is not None and len(node.args) > maximum):
+            wanted = f"{fewest}" if maximum == fewest else f"{fewest} or more"
             self.refuse(f"{name} is given {len(node.args)} argument(s)", f"give it {wanted} instead")
         self.namespace[f"f_{name}"] = function
         return self.call(f"f_{name}", *[self.translate(argument) for argument in node.args])

@@ -38,14 +38,14 @@ def _check_name(table: Table, name: str, taken: Iterable[str]) -> None:
 
 def _draws(table: Table) -> tuple[Draw, ...]:
     draws: list[Draw] = []
-    taken: list[str] = []
+    selected: list[str] = []
     for name, content in table.flat(of_tables=True):
         if not isinstance(content, dict):
             raise table.error(name, "not a table", f'write [draw."{name}"] with distribution = ... below it')
         draw = read_draw(name, Table(content, table.file, table.place(name), table.origins))
         for filled in draw.names:
-            _check_name(table, filled, taken)
-            taken.append(filled)
+            _check_name(table, filled, selected)
+            selected.append(filled)
         draws.append(draw)
     return tuple(draws)
 
@@ -196,8 +196,8 @@ def parse_campaign(table: Table) -> Campaign:
     table.only([*keys, *tables, "scatter"])
     draws = _draws(table.table("draw"))
     derived = _read_derived(table.table("derive"), draws)
-    drawn = [name for draw in draws for name in draw.names] + list(derived)
-    metrics = _metrics(table.table("metric"), drawn)
+    sampled = [name for draw in draws for name in draw.names] + list(derived)
+    metrics = _metrics(table.table("metric"), sampled)
     return Campaign(
         file=table.file,
         system=table.get("system", text),
@@ -208,14 +208,14 @@ def parse_campaign(table: Table) -> Campaign:
         metrics=metrics,
         draws=draws,
         derived=derived,
-        settings=read_settings(table.table("set"), drawn),
+        settings=read_settings(table.table("set"), sampled),
         compare=read_compare(table.table("compare")),
-        configurations=read_configurations(table, drawn),
+        configurations=read_configurations(table, sampled),
         parameters=table.get("parameters", names, ()),
         record=_record(table.table("record")),
         description=" ".join(table.get("description", text, "").split()),
-        group=_group(table.table("group"), drawn) if "group" in table.content else None,
-        faults=_faults(table.table("fault"), drawn),
+        group=_group(table.table("group"), sampled) if "group" in table.content else None,
+        faults=_faults(table.table("fault"), sampled),
         scatters=_scatters(table.table("scatter"), metrics),
         requirements=read_requirements(table.table("requirement"), [metric.name for metric in metrics], draws),
     )

@@ -147,8 +147,8 @@ class BatchPlan:
 
     def parameter_names(self, prepared: PreparedSystem) -> set[str]:
         """The names of `parameters`, which are those of every trial."""
-        drawn = {name for name in self.campaign.input_names() if "." in name}
-        return drawn | {f"{name}.{number}" for name in with_streams(prepared) for number in StreamNumbers._fields}
+        sampled = {name for name in self.campaign.input_names() if "." in name}
+        return sampled | {f"{name}.{number}" for name in with_streams(prepared) for number in StreamNumbers._fields}
 
 
 def read_plan(

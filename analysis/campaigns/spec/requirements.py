@@ -55,18 +55,18 @@ def read_requirements(table: Table, metrics: Collection[str], draws: Iterable[Dr
 
 def _requirement(name: str, table: Table, metrics: Collection[str]) -> Requirement:
     table.only(KEYS)
-    asked = table.get("expression", expression)
+    requested = table.get("expression", expression)
     known = [*metrics, SUCCESS]
-    for unknown in sorted(asked.names - set(known)):
+    for unknown in sorted(requested.names - set(known)):
         raise table.error("expression", f"{unknown!r} is not a metric", suggestion(unknown, known))
-    if not asked.names:
+    if not requested.names:
         raise table.error("expression", "uses no metric, so that no flight bears on it", suggestion("", known))
     metric = table.get("metric", text, REQUIRED if "bound" in table.content else None)
     if metric is not None and metric not in metrics:
         raise table.error("metric", f"{metric!r} is not a metric", suggestion(metric, metrics))
     return Requirement(
         name=name,
-        expression=asked,
+        expression=requested,
         share=table.get("share", _share),
         confidence=table.get("confidence", _confidence),
         metric=metric,

@@ -38,13 +38,13 @@ def with_sweeps(campaign: Campaign, sweeps: Mapping[str, str]) -> Campaign:
     """
     if not sweeps:
         return campaign
-    drawn = campaign.input_names()
+    sampled = campaign.input_names()
     grids = {name: Grid(_values(name, text)) for name, text in sweeps.items()}
     draws = [Draw(name, (name,), grid) for name, grid in grids.items()]
     for name, text in sweeps.items():
         if "." not in name:
             raise InputError(SINGLE, f"{name}={text}", "a sweep of what is no component's", "give component.variable")
-        if name in drawn:
+        if name in sampled:
             problem = "the campaign draws it in every trial"
             raise InputError(SINGLE, f"{name}={text}", problem, "leave it out, or change the campaign")
         if campaign.requirements:

@@ -69,6 +69,6 @@ class Boundary:
         high = len(probabilities) - int(np.searchsorted(np.cumsum(probabilities[::-1]), TAIL))
         probabilities, lowest = probabilities[low:high], lowest + low
         left = self.spend(flights) - spent
-        most = lowest + int(np.searchsorted(np.cumsum(probabilities), left, side="right")) - 1
-        self.looks.append(Look(flights, most, spent, lowest, probabilities))
+        maximum = lowest + int(np.searchsorted(np.cumsum(probabilities), left, side="right")) - 1
+        self.looks.append(Look(flights, maximum, spent, lowest, probabilities))
         return self.looks[-1]

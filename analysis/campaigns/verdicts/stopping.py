@@ -89,8 +89,8 @@ class StoppingRule:
         """How many more flights meet the requirement, by failures still to come."""
         by_failures = {}
         for more in FURTHER:
-            looks = (look for look in self._all_looks() if look >= flights)
-            enough = next(look for look in looks if self.acceptance_number(look) >= failures + more)
+            analyses = (look for look in self._all_looks() if look >= flights)
+            enough = next(look for look in analyses if self.acceptance_number(look) >= failures + more)
             by_failures[more] = enough - flights
         return by_failures
 
@@ -105,12 +105,12 @@ class StoppingRule:
         return boundary.looks[self._places[flights]]
 
     def _all_looks(self) -> Iterator[int]:
-        most = self._next
-        yield from self.looks(most)
+        maximum = self._next
+        yield from self.looks(maximum)
         while True:
-            most = self._next
-            self._extend(most)
-            yield most
+            maximum = self._next
+            self._extend(maximum)
+            yield maximum
 
     def _extend(self, most: int) -> None:
         while self._next <= most:

@@ -57,17 +57,17 @@ def least_norm(
 def condition(vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
     """log |Y|_q |Y^-1|_q in Schatten norms of order q, and its gradient in Y."""
     left, sizes, right = np.linalg.svd(vectors)
-    size, share = _norm(sizes, order)
+    size, fraction = _norm(sizes, order)
     inverse_size, inverse_share = _norm(1.0 / sizes, order)
-    return size + inverse_size, (left * (share - inverse_share / sizes**2)) @ right
+    return size + inverse_size, (left * (fraction - inverse_share / sizes**2)) @ right
 
 
 def gain_norm(family: Eigenvectors, vectors: np.ndarray, order: float) -> tuple[float, np.ndarray]:
     """log |K|_q in the Schatten norm of order q, and its gradient in Y."""
     gain = family.gain(vectors)
     left, sizes, right = np.linalg.svd(gain, full_matrices=False)
-    size, share = _norm(sizes, order)
-    seen = np.linalg.solve(vectors, ((left * share) @ right).T).T
+    size, fraction = _norm(sizes, order)
+    seen = np.linalg.solve(vectors, ((left * fraction) @ right).T).T
     outer = family.inverse.T @ seen
     return size, outer @ family.matrix.T - family.a.T @ outer - gain.T @ seen
 
@@ -95,13 +95,13 @@ def family_of(
     """The levels of a pair, and the eigenvectors that its closed loops may have. Raises PlacementError."""
     levels = decompose(a, b, tolerance)
     rank = levels[0].rank
-    most = max(np.unique(spectrum.poles, return_counts=True)[1])
-    if most > rank:
+    maximum = max(np.unique(spectrum.poles, return_counts=True)[1])
+    if maximum > rank:
         raise PlacementError(
             "free eigenvectors",
             Reason.RANK,
-            f"a pole is wanted {most} times and B has rank {rank}: there is no full set of eigenvectors",
-            float(most),
+            f"a pole is wanted {maximum} times and B has rank {rank}: there is no full set of eigenvectors",
+            float(maximum),
             "take choice diagonal",
         )
     return levels, Eigenvectors(levels[0], spectrum)

@@ -62,13 +62,17 @@ def decompose(
             raise _unreachable(len(levels), len(a), values, scale, tolerance)
         if sizes is None:
             # signs that do not depend on the state's coordinates: the largest element of each row of R is positive
-            rest = right[:rank]
-            signs = np.sign(rest[np.arange(rank), np.argmax(np.abs(rest), axis=1)])
-            factor, rest, down = left[:, :rank] * (values[:rank] * signs), signs[:, None] * rest, left[:, rank:].T
+            remainder = right[:rank]
+            signs = np.sign(remainder[np.arange(rank), np.argmax(np.abs(remainder), axis=1)])
+            factor, remainder, down = (
+                left[:, :rank] * (values[:rank] * signs),
+                signs[:, None] * remainder,
+                left[:, rank:].T,
+            )
         else:
             _check_size(sizes, len(levels), rank, b)
-            factor, rest, down = np.eye(len(a), rank), b[:rank], np.eye(len(a))[rank:]
-        levels.append(Level(a, b, factor, rest, down, values[:rank]))
+            factor, remainder, down = np.eye(len(a), rank), b[:rank], np.eye(len(a))[rank:]
+        levels.append(Level(a, b, factor, remainder, down, values[:rank]))
         if rank == len(a):
             return levels
         scale = float(np.linalg.norm(a, 2) * np.linalg.norm(factor, 2))

@@ -80,9 +80,9 @@ class Search:
         """The candidate to hand out: most successes, then the best compromise of the Pareto set."""
         state = self.state
         assert state.champion is not None  # there is one from the start on
-        most = state.champion.evaluation.successes
+        maximum = state.champion.evaluation.successes
         order = ParetoOrder(objectives_of(state.front)).order()
-        best = [state.front[place] for place in order if state.front[place].evaluation.successes == most]
+        best = [state.front[place] for place in order if state.front[place].evaluation.successes == maximum]
         return best[0] if best else state.champion
 
     def law(self, candidate: Candidate) -> Phenotype:
@@ -189,7 +189,7 @@ class Search:
         """A line of history."""
         state = self.state
         assert state.champion is not None
-        least = objectives_of(state.front).min(axis=0)
+        minimum = objectives_of(state.front).min(axis=0)
         state.history.append(
             {
                 "generation": state.generation,
@@ -197,7 +197,7 @@ class Search:
                 "flights": state.flights,
                 "front": len(state.front),
                 "successes": state.champion.evaluation.successes,
-                **{f"least_{place + 1}": value for place, value in enumerate(least.tolist())},
+                **{f"least_{place + 1}": value for place, value in enumerate(minimum.tolist())},
             }
         )
 

@@ -86,8 +86,8 @@ def read_synthesis(path: Path) -> Synthesis:
     for key, reason in REFUSED.items():
         if key in whole.content:
             raise whole.error(key, f"not for a synthesis: {reason}", "drop it; perilune batch flies what was found")
-    rest = {key: value for key, value in whole.content.items() if key != SYNTHESIS}
-    campaign = parse_campaign(Table(rest, whole.file, origins=whole.origins))
+    remainder = {key: value for key, value in whole.content.items() if key != SYNTHESIS}
+    campaign = parse_campaign(Table(remainder, whole.file, origins=whole.origins))
     table = whole.table(SYNTHESIS)
     settings_keys = [field.name for field in fields(SearchSettings)]
     table.only([*OWN_KEYS, *settings_keys])

@@ -63,10 +63,10 @@ def solve_fixed_time(
     ``near``, a solution with as many intervals for another time, is expanded about first, in place of straight lines.
     """
     if near is None:
-        share = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
+        fraction = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
         ends = np.array([problem.start_position, problem.end_position])
-        position = (1.0 - share) * ends[0] + share * ends[1]
-        log_mass = -share[:, 0] * problem.most * duration / (2.0 * problem.exhaust_speed)
+        position = (1.0 - fraction) * ends[0] + fraction * ends[1]
+        log_mass = -fraction[:, 0] * problem.most * duration / (2.0 * problem.exhaust_speed)
     else:
         position, log_mass = near.position, near.log_mass
     last = math.inf
@@ -127,8 +127,8 @@ def _solve(
     middle = (here + there) @ log_about / 2.0
     ratio = np.exp(-middle)  # of the mass at the start to that in the middle of an interval
     away = sparse.csr_array((here + there) / 2.0) @ z  # y = away z - middle
-    most = problem.most / unit * ratio
-    below = [(s + sparse.diags_array(most) @ away, most * (1.0 + middle))]
+    maximum = problem.most / unit * ratio
+    below = [(s + sparse.diags_array(maximum) @ away, maximum * (1.0 + middle))]
     cones: list[tuple[Any, Any]] = [(_interleave([s, *(u[axis::axes] for axis in range(axes))]), None)]
     kinds = [clarabel().SecondOrderConeT(1 + axes)] * intervals
     if problem.least > 0.0:

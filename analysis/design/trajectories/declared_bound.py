@@ -142,12 +142,12 @@ def pieces_of(inputs: Inputs, file: str) -> dict[str, tuple[PointMassProblem, fl
             stop = replace(landing, target_altitude=values[f"{name}.altitude"])
             pieces[name] = landing_problem(vehicle, stop), vehicle.mass
             continue
-        mass, least, start, end = (values[f"{name}.{role}"] for role in HOVER)
+        mass, minimum, start, end = (values[f"{name}.{role}"] for role in HOVER)
         if not (start > end and mass > 0.0):
             raise InputError(file, name, f"from {start:g} m down to {end:g} m with {mass:g} kg", "fix the annotation")
         radii = np.array([start, end]) + landing.radius
         gravity = float(np.mean(landing.gravitational_parameter / radii**2))
-        lander = replace(vehicle, mass=mass, minimum_thrust=least)
+        lander = replace(vehicle, mass=mass, minimum_thrust=minimum)
         transfer = Transfer(math.hypot(*values[f"{name}.{ASIDE}"]), start - end, gravity)
         pieces[name] = transfer_problem(lander, transfer), mass
     return pieces

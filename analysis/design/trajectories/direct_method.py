@@ -42,9 +42,9 @@ def direct_propellant(problem: PointMassProblem, intervals: int) -> tuple[float,
 def _guess(problem: PointMassProblem, start: np.ndarray, end: np.ndarray, intervals: int) -> Shooting:
     """Straight lines at the natural time; thrust against the change of velocity, upwards from rest to rest."""
     duration = problem.natural_time
-    share = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
+    fraction = np.linspace(0.0, 1.0, intervals + 1)[:, np.newaxis]
     spent = 1.0 - math.exp(-THROTTLE * problem.most * duration / problem.exhaust_speed)
-    states = (1.0 - share) * start + share * np.where(np.isnan(end), spent, end)
+    states = (1.0 - fraction) * start + fraction * np.where(np.isnan(end), spent, end)
     change = np.subtract(problem.end_velocity, problem.start_velocity)
     angle = math.atan2(change[1], change[0]) if np.any(change) else 0.5 * math.pi
     return Shooting(duration, states, np.tile([THROTTLE, angle], (intervals, 1)))

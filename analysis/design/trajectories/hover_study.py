@@ -65,7 +65,7 @@ class HoverStudy:
     def document(self) -> dict[str, Any]:
         """All of it for other programs; times in s, angles in deg, propellant over the initial mass and in kg."""
         programme = self.programme
-        least, largest = (math.degrees(angle) for angle in programme.extremes)
+        minimum, largest = (math.degrees(angle) for angle in programme.extremes)
         return {
             "vehicle": vehicle_document(self.vehicle),
             "margins": None if self.margins is None else _degrees(asdict(self.margins)),
@@ -76,7 +76,7 @@ class HoverStudy:
                 **dict(zip(NAMES, programme.times, strict=True)),
                 "k": programme.threshold,
                 **self._propellant(programme.propellant_fraction),
-                "least_pitch_deg": least,
+                "least_pitch_deg": minimum,
                 "largest_pitch_deg": largest,
                 "largest_pitch_rate_deg_s": math.degrees(programme.turn_rate),
                 "full_thrust_s": [list(burn) for burn in programme.burns],
@@ -130,9 +130,9 @@ def hover_study(
         )
     best = programme if duration is None or not (optimum or curves) else find_programme(planned, transfer)
     assert best is not None  # a programme of a given duration is found from it
-    most = vehicle.maximum_thrust
+    maximum = vehicle.maximum_thrust
     with progress_bar(total=optimum + bound + 2 * curves, unit="part") as progress:
-        optimal_path = find_true_optimum(best, intervals or OPTIMUM_INTERVALS, most) if optimum else None
+        optimal_path = find_true_optimum(best, intervals or OPTIMUM_INTERVALS, maximum) if optimum else None
         progress.update(optimum)
         bounded = _bound(vehicle, transfer, intervals or BOUND_INTERVALS) if bound else None
         progress.update(bound)

@@ -38,12 +38,12 @@ def least_propellant(problem: PointMassProblem, intervals: int) -> PointMassPath
 def _bracket(problem: PointMassProblem) -> tuple[float, float]:
     """Durations (s) on both sides of the best, from coarse solutions at growing ones until it rises."""
     times = problem.natural_time * GROWTH ** np.arange(FIRST, LAST + 1)
-    best, least = None, 1.0
+    best, minimum = None, 1.0
     for index, time in enumerate(times):
         path = solve_fixed_time(problem, float(time), COARSE)
         value = 1.0 if path is None else path.propellant_fraction
-        if value < least:
-            best, least = index, value
+        if value < minimum:
+            best, minimum = index, value
         elif best is not None:
             return float(times[max(0, best - 1)]), float(time)
     raise PlanError(f"bound: the vehicle cannot do it in any time from {times[0]:.3g} to {times[-1]:.3g} s")

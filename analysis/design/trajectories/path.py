@@ -56,14 +56,14 @@ class PlannedPath:
         low, high = float(self.throttle.min()), float(self.throttle.max())
         if not high > low:
             return [(float(self.time[0]), self.duration)]
-        share = (self.throttle - low) / (high - low)
-        share[share > ALL] = 1.0
-        burning = np.concatenate([[False], share > OFF, [False]])
+        fraction = (self.throttle - low) / (high - low)
+        fraction[fraction > ALL] = 1.0
+        burning = np.concatenate([[False], fraction > OFF, [False]])
         edges = np.flatnonzero(burning[1:] != burning[:-1]).reshape(-1, 2)
         step = np.diff(self.time)
         burns = []
         for first, after in edges:
-            idle = (1.0 - share[[first, after - 1]]) * step[[first, after - 1]]
+            idle = (1.0 - fraction[[first, after - 1]]) * step[[first, after - 1]]
             if after - first == 1:  # where in its interval such a burn lies nobody knows
                 idle /= 2.0
             burns.append((float(self.time[first] + idle[0]), float(self.time[after] - idle[1])))

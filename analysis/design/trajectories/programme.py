@@ -74,13 +74,13 @@ class Programme:
         """At times (s): rows of x, x', y, y' (m, m/s), and rows of pitch, its rate (rad, rad/s) and propellant."""
         shape, vehicle = self.shape(), _kernel_vehicle(self.vehicle, self.transfer)
         motion, state = np.zeros((time.size, 4)), [0.0] * 4
-        rest = np.zeros((time.size, 3))
+        remainder = np.zeros((time.size, 3))
         for index, value in enumerate(map(float, time)):
             hover_motion.motion(shape, vehicle, value, state)
             motion[index] = state
             turn, rate = hover_shape.pitch(shape, self.vehicle.angular_acceleration, value)
-            rest[index] = 0.5 * math.pi + turn, rate, hover_motion.propellant(shape, vehicle, value)
-        return motion, rest
+            remainder[index] = 0.5 * math.pi + turn, rate, hover_motion.propellant(shape, vehicle, value)
+        return motion, remainder
 
     def thrust(self, time: np.ndarray) -> np.ndarray:
         """Thrust at times (s), N."""
@@ -94,12 +94,12 @@ class Programme:
         switches = [time for burn in self.burns for time in burn]
         time = np.unique(np.clip([*even, *switches], 0.0, self.duration))
         middle = (time[1:] + time[:-1]) / 2.0
-        motion, rest = self.states(time)
+        motion, remainder = self.states(time)
         return PlannedPath(
             time=time,
             position=motion[:, [0, 2]],
             velocity=motion[:, [1, 3]],
-            propellant=rest[:, 2],
+            propellant=remainder[:, 2],
             throttle=self.thrust(middle) / engine,
             pitch=self.states(middle)[1][:, 0],
         )

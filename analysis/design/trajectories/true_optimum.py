@@ -65,8 +65,8 @@ def find_true_optimum(programme: Programme, intervals: int, engine: float) -> Pl
 def _guess(programme: Programme, intervals: int, scale: np.ndarray) -> Shooting:
     """The programme at equal times."""
     time = np.linspace(0.0, programme.duration, intervals + 1)
-    motion, rest = programme.states(time)
+    motion, remainder = programme.states(time)
     throttle = programme.thrust((time[1:] + time[:-1]) / 2.0) / programme.vehicle.maximum_thrust
-    turn = np.diff(rest[:, 1]) / np.diff(time) / programme.vehicle.angular_acceleration
+    turn = np.diff(remainder[:, 1]) / np.diff(time) / programme.vehicle.angular_acceleration
     controls = np.stack([throttle, np.clip(turn, -1.0, 1.0)], axis=1)
-    return Shooting(programme.duration, np.concatenate([motion, rest], axis=1) / scale, controls)
+    return Shooting(programme.duration, np.concatenate([motion, remainder], axis=1) / scale, controls)

@@ -88,15 +88,17 @@ def check_vehicle(vehicle: Vehicle) -> Vehicle:
 def check_hover(planned: Vehicle, transfer: Transfer) -> None:
     """Refuse a vehicle that cannot hover, or cannot sink, as the plan uses it."""
     check_vehicle(planned)
-    full, least = f"{planned.maximum_thrust:g} N", f"{planned.minimum_thrust:g} N"
+    full, minimum = f"{planned.maximum_thrust:g} N", f"{planned.minimum_thrust:g} N"
     if not planned.full > transfer.gravity:
         problem = f"{planned.full:.4g} m/s2 do not carry the mass against {transfer.gravity:g} m/s2"
         raise InputError("`maximum_thrust`", full, problem, "give more thrust, or less mass")
     if not planned.least > 0.0:
-        raise InputError("`minimum_thrust`", least, "the programme's engine never stops", "give the least that it has")
+        raise InputError(
+            "`minimum_thrust`", minimum, "the programme's engine never stops", "give the least that it has"
+        )
     if not planned.least < transfer.gravity:
         problem = f"{planned.least:.4g} m/s2 carry the mass, against {transfer.gravity:g} m/s2: it does not sink"
-        raise InputError("`minimum_thrust`", least, problem, "give less thrust, or more mass")
+        raise InputError("`minimum_thrust`", minimum, problem, "give less thrust, or more mass")
 
 
 @dataclass(frozen=True)

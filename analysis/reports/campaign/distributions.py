@@ -45,11 +45,11 @@ def sort_metrics(result: BatchResult) -> tuple[list[Metric], list[tuple[Metric, 
 
 def distribution_panels(result: BatchResult, metrics: Sequence[Metric]) -> list[Panel]:
     """Empirical cumulative distributions over all trials."""
-    looks = [look(index) for index in range(len(result.rows))]
+    analyses = [look(index) for index in range(len(result.rows))]
 
     def drawing(metric: Metric) -> Callable[[Axes], None]:
         def draw(axes: Axes) -> None:
-            draw_distribution(axes, metric, metric_values(result, metric.name), looks)
+            draw_distribution(axes, metric, metric_values(result, metric.name), analyses)
             axes.set_title(CUMULATIVE, loc="left", fontsize=8.5)
 
         return draw
@@ -93,14 +93,14 @@ def draw_distribution(axes: Axes, metric: Metric, values: dict[str, np.ndarray],
 
 def _limits(values: np.ndarray) -> tuple[float, float, bool]:
     """Low and high end of an axis, and whether it is logarithmic."""
-    least, most = float(values.min()), float(values.max())
+    minimum, maximum = float(values.min()), float(values.max())
     positive = values[values > 0.0]
-    if least >= 0.0 and positive.size:
+    if minimum >= 0.0 and positive.size:
         start = float(quantiles(positive, [TAIL])[0])
-        if np.log10(most / start) > DECADES:
-            return start / 1.5, most * 1.5, True
-    margin = 0.05 * (most - least) or 0.05 * abs(most) or 1.0
-    return least - margin, most + margin, False
+        if np.log10(maximum / start) > DECADES:
+            return start / 1.5, maximum * 1.5, True
+    margin = 0.05 * (maximum - minimum) or 0.05 * abs(maximum) or 1.0
+    return minimum - margin, maximum + margin, False
 
 
 COLUMNS = 3
@@ -109,8 +109,8 @@ HEIGHT = 2.3  # in, of a panel
 
 def metric_plot(result: BatchResult, metrics: list[Metric]) -> Figure:
     """Empirical distributions over the plotted trials, a panel per metric, a line per variant."""
-    looks = {name: look(index) for index, name in enumerate(result.rows)}
-    return distribution_plot({metric: metric_values(result, metric.name) for metric in metrics}, looks)
+    analyses = {name: look(index) for index, name in enumerate(result.rows)}
+    return distribution_plot({metric: metric_values(result, metric.name) for metric in metrics}, analyses)
 
 
 def distribution_plot(metrics: Mapping[Metric, Mapping[str, np.ndarray]], looks: Mapping[str, Look]) -> Figure:

@@ -58,9 +58,9 @@ def rates_figure(result: BatchResult, published: Mapping[str, float] | None = No
         if others:
             figure.legend([Line2D([], [], **RING)], ["published rate"], loc="outside upper right", borderpad=0.1)
 
-    rest = 0.75 + (0.25 if others else 0.0)
+    remainder = 0.75 + (0.25 if others else 0.0)
     description = "Success probabilities of " + ", ".join(names)
-    return both_widths("rates", description, draw, rest + LANE * len(names), rest + SLIM_LANE * len(names))
+    return both_widths("rates", description, draw, remainder + LANE * len(names), remainder + SLIM_LANE * len(names))
 
 
 def _draw_rate(axes: Axes, index: int, rate: float, low: float, high: float) -> None:

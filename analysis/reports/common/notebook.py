@@ -30,9 +30,9 @@ class Grid(NamedTuple):
 
 def notebook_view(title: str, words: Iterable[str], grids: Iterable[Grid], plot: Plot | None) -> str:
     """The HTML of a result; of long tables the first rows, and how many there are."""
-    shown = [(grid.head, grid.rows[:MOST_ROWS], len(grid.rows)) for grid in grids if grid.rows]
+    displayed = [(grid.head, grid.rows[:MOST_ROWS], len(grid.rows)) for grid in grids if grid.rows]
     lines = [line for line in words if line]
-    return render_page(TEMPLATE, title=title, words=lines, grids=shown, picture=plot and _picture(plot))
+    return render_page(TEMPLATE, title=title, words=lines, grids=displayed, picture=plot and _picture(plot))
 
 
 def _picture(plot: Plot) -> str:

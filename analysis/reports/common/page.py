@@ -17,11 +17,11 @@ FOLDER = Path(__file__).parent
 
 def exact(value: Any, unit: str | None = None, digits: int = 4) -> Markup:
     """A number for reading in its shown unit, with the exact SI value in the markup for programs."""
-    shown = number(in_shown_unit(value, unit), digits)
+    displayed = number(in_shown_unit(value, unit), digits)
     if value is None or isinstance(value, str):
-        return Markup("<span>{}</span>").format(shown)
+        return Markup("<span>{}</span>").format(displayed)
     raw = str(value).lower() if isinstance(value, bool) else repr(value)
-    return Markup('<data value="{}">{}</data>').format(raw, shown)
+    return Markup('<data value="{}">{}</data>').format(raw, displayed)
 
 
 def breakable(name: str) -> Markup:

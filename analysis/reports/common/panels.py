@@ -59,14 +59,14 @@ def both_widths(
 
     Heights in inches; ``name`` must differ between the figures of a page. How wide it is, ``draw`` asks the figure.
     """
-    drawn = []
+    plotted = []
     for kind, width, high in (("wide", WIDTH, height), ("slim", HALF_WIDTH, slim_height or height)):
         with house_style():
             figure = new_figure(high, width)
             draw(figure)
             own = name if kind == "wide" else f"{name}-{kind}"
-            drawn.append(inline_svg(figure, own, description, kind=kind))
-    return Widths(*drawn)
+            plotted.append(inline_svg(figure, own, description, kind=kind))
+    return Widths(*plotted)
 
 
 def is_slim(figure: Figure) -> bool:

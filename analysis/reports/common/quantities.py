@@ -30,8 +30,8 @@ def display_factor(unit: str | None) -> float:
 
 def label_with_unit(name: str, unit: str | None) -> str:
     """An axis label: ``name, unit``, or the name alone where there is no unit."""
-    shown = display_unit(unit)
-    return f"{name}, {shown}" if shown else name
+    displayed = display_unit(unit)
+    return f"{name}, {displayed}" if displayed else name
 
 
 def number(value: Any, digits: int = 4) -> str:

@@ -31,8 +31,8 @@ def fraction(value: float | None) -> Markup:
     """A number of the order of 1 with `PLACES` decimals and the exact value in the markup."""
     if value is None or not math.isfinite(value):
         return exact(value)
-    shown = f"{round(value, PLACES) + 0.0:.{PLACES}f}".replace("-", MINUS)
-    return Markup('<data value="{}">{}</data>').format(repr(value), shown)
+    displayed = f"{round(value, PLACES) + 0.0:.{PLACES}f}".replace("-", MINUS)
+    return Markup('<data value="{}">{}</data>').format(repr(value), displayed)
 
 
 def fractions(low: float | None, high: float | None) -> Markup:

@@ -57,12 +57,12 @@ def sigma_rows(comparison: Comparison) -> list[SigmaRow]:
 
 
 def _row(metric: str, label: str, values: np.ndarray) -> SigmaRow:
-    told = values[np.isfinite(values) & (values != 0.0)]
-    if not told.size:
+    reported = values[np.isfinite(values) & (values != 0.0)]
+    if not reported.size:
         return SigmaRow(metric, label, 0, None, None, [])
     within = []
     for limit in LIMITS:
-        inside = int(np.sum(np.abs(told) <= limit))
-        within.append(Share(inside / told.size, success_interval(inside, told.size)))
-    deviation = float(told.std(ddof=1)) if told.size > 1 else None
-    return SigmaRow(metric, label, int(told.size), float(told.mean()), deviation, within)
+        inside = int(np.sum(np.abs(reported) <= limit))
+        within.append(Share(inside / reported.size, success_interval(inside, reported.size)))
+    deviation = float(reported.std(ddof=1)) if reported.size > 1 else None
+    return SigmaRow(metric, label, int(reported.size), float(reported.mean()), deviation, within)

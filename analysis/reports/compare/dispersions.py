@@ -49,8 +49,8 @@ def target_of(contender: Contender, variable: str) -> Target:
         if contender.stored.split_rows(name)[1].startswith(f"target_{variable}[")
     }
     for base, elements in vectors(known).items():
-        drawn = contender.stored.draws
-        columns = [drawn.get(name, np.full(count, known[name])) for name in elements]
+        plotted = contender.stored.draws
+        columns = [plotted.get(name, np.full(count, known[name])) for name in elements]
         return Target(base, np.stack(columns, axis=1).astype(float))
     return Target("", np.zeros((count, 3)))
 
@@ -120,11 +120,11 @@ def dispersion_panels(
 ) -> tuple[list[Panel], list[Panel]]:
     """Panels to one scale; and, where these differ much, each to its own."""
     reaches = {label: reach_of(points) for label, points in ends.items()}
-    most = max(reaches.values())
+    maximum = max(reaches.values())
     common = [
-        _panel(label, points, looks[label], most, unit, f"{name}-{i}") for i, (label, points) in _number_axes(ends)
+        _panel(label, points, looks[label], maximum, unit, f"{name}-{i}") for i, (label, points) in _number_axes(ends)
     ]
-    if most <= UNEVEN * min(reaches.values()):
+    if maximum <= UNEVEN * min(reaches.values()):
         return common, []
     own = [
         _panel(label, points, looks[label], reaches[label], unit, f"{name}-own-{i}")
@@ -155,7 +155,7 @@ def reach_of(ends: Ends) -> float:
 
 
 def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: str) -> Panel:
-    factor, shown = far(np.array([reach])) if unit == "m" else (1.0, unit)
+    factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
     good, bad = (factor * points for points in select_ends(ends))
     reach *= factor
 
@@ -183,8 +183,8 @@ def _panel(label: str, ends: Ends, style: Look, reach: float, unit: str, name: s
         axes.set_xlim(-reach, reach)
         axes.set_ylim(-reach, reach)
         axes.set_box_aspect(1.0)
-        axes.set_xlabel(f"x, {shown}")
-        axes.set_title(f"y, {shown}", loc="left", fontsize=8.5)
+        axes.set_xlabel(f"x, {displayed}")
+        axes.set_title(f"y, {displayed}", loc="left", fontsize=8.5)
         plain_ticks(axes, x=4, y=4)
 
     what = ends.variable
@@ -196,7 +196,7 @@ def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str
     if len(ends) < 2:
         return []
     reach = max(map(reach_of, ends.values()))
-    factor, shown = far(np.array([reach])) if unit == "m" else (1.0, unit)
+    factor, displayed = far(np.array([reach])) if unit == "m" else (1.0, unit)
 
     def draw(axes: Axes) -> None:
         for label, points in ends.items():
@@ -208,8 +208,8 @@ def overlaid_ends(ends: Mapping[str, Ends], looks: Mapping[str, Look], unit: str
         axes.set_xlim(-factor * reach, factor * reach)
         axes.set_ylim(-factor * reach, factor * reach)
         axes.set_box_aspect(1.0)
-        axes.set_xlabel(f"x, {shown}")
-        axes.set_title(f"y, {shown}", loc="left", fontsize=8.5)
+        axes.set_xlabel(f"x, {displayed}")
+        axes.set_title(f"y, {displayed}", loc="left", fontsize=8.5)
         plain_ticks(axes, x=4, y=4)
 
     what = next(iter(ends.values())).variable

@@ -38,8 +38,10 @@ def make_distribution(comparison: Comparison) -> dict[Metric, dict[str, np.ndarr
         metric: all_values(comparison, metric) for metric in comparison.metrics if not is_over_sigma(metric)
     } | _final_masses(comparison)
     return {
-        metric: {label: np.where(contenders[label].trials.success, values, np.nan) for label, values in shown.items()}
-        for metric, shown in distributions.items()
+        metric: {
+            label: np.where(contenders[label].trials.success, values, np.nan) for label, values in displayed.items()
+        }
+        for metric, displayed in distributions.items()
     }
 
 
@@ -65,7 +67,7 @@ def sort_metrics(
     distributed: Mapping[Metric, Mapping[str, np.ndarray]],
 ) -> tuple[list[Metric], list[tuple[Metric, float]], list[Metric]]:
     """Metrics worth a panel; those that are the same wherever they are finite, and it; those that are nowhere."""
-    drawn, still, empty = [], [], []
+    plotted, still, empty = [], [], []
     for metric, by_label in distributed.items():
         values = np.concatenate(list(by_label.values()))
         finite = values[np.isfinite(values)]
@@ -74,8 +76,8 @@ def sort_metrics(
         elif finite.size > 1 and np.ptp(finite) == 0.0:
             still.append((metric, float(finite[0])))
         else:
-            drawn.append(metric)
-    return drawn, still, empty
+            plotted.append(metric)
+    return plotted, still, empty
 
 
 def distribution_panel(metric: Metric, values: dict[str, np.ndarray], looks: Mapping[str, Look]) -> Panel:
@@ -102,8 +104,8 @@ def varying_metrics(comparison: Comparison) -> list[Metric]:
 
 def metric_plot(comparison: Comparison, metrics: Sequence[Metric]) -> Figure:
     """Empirical distributions over the successful trials, a panel per metric, a line per contender."""
-    shown = make_distribution(comparison)
-    return distribution_plot({metric: shown[metric] for metric in metrics}, looks_of(comparison))
+    displayed = make_distribution(comparison)
+    return distribution_plot({metric: displayed[metric] for metric in metrics}, looks_of(comparison))
 
 
 def looks_of(comparison: Comparison) -> dict[str, Look]:
@@ -111,9 +113,9 @@ def looks_of(comparison: Comparison) -> dict[str, Look]:
     if len(comparison.batches) == 1:
         return {label: look(contender.variant) for label, contender in comparison.contenders.items()}
     several = len({contender.variant for contender in comparison.contenders.values()}) > 1
-    looks = {}
+    analyses = {}
     for label, contender in comparison.contenders.items():
         hue = contender.variant if several else contender.batch
         marker = MARKERS[contender.batch % len(MARKERS)]
-        looks[label] = Look(COLOURS[hue % len(COLOURS)], DASHES[contender.batch % len(DASHES)], marker)
-    return looks
+        analyses[label] = Look(COLOURS[hue % len(COLOURS)], DASHES[contender.batch % len(DASHES)], marker)
+    return analyses

@@ -37,7 +37,7 @@ def missing_parts(
         if goes and "commands" not in kinds:
             words = "thrust_acceleration, thrust or thrust_direction"
             reasons["commands"] = f"No commands: no {words} is among the recorded signals."
-        without = [label for label, kept in flights.items() if not kept]
+        without = [label for label, retained in flights.items() if not retained]
         if without:
             reasons["traces"] = f"No flight has a trace: {', '.join(without)}."
     lacking = [variable for variable in UNITS if variable not in ends]
@@ -53,8 +53,8 @@ def missing_parts(
 
 def _goes_somewhere(comparison: Comparison) -> bool:
     """Whether a signal of something under way is kept, or none of any kind, which leaves it open."""
-    kept = {variable_of(batch, name) for batch in comparison.batches.values() for name in batch.document["signals"]}
-    return not kept or bool(kept & PATH)
+    retained = {variable_of(batch, name) for batch in comparison.batches.values() for name in batch.document["signals"]}
+    return not retained or bool(retained & PATH)
 
 
 def _has_mass(comparison: Comparison) -> bool:
@@ -67,6 +67,6 @@ def _has_mass(comparison: Comparison) -> bool:
 
 def is_biased(comparison: Comparison, flights: Mapping[str, list[Flight]]) -> bool:
     """Whether what is shown over time is not the same trials of every contender, or failed ones only."""
-    trials = {tuple(flight.trial for flight in kept) for kept in flights.values() if kept}
+    trials = {tuple(flight.trial for flight in retained) for retained in flights.values() if retained}
     records = [batch.document["record"] for batch in comparison.batches.values()]
     return len(trials) > 1 or any(record["every"] is None and record["traces"] == "failures" for record in records)

@@ -54,21 +54,21 @@ class End:
 
 def write_comparison_page(comparison: Comparison, path: Path, command: str) -> None:
     """Write one self-contained HTML page; the same results and command give the same bytes."""
-    looks = looks_of(comparison)
+    analyses = looks_of(comparison)
     flights = _flights(comparison)
     bundles = {
         label: bundle
         for label, flight in flights.items()
         if (bundle := bundle_of(comparison.contenders[label], flight)) is not None
     }
-    histories = _histories(comparison, flights, looks)
-    ends = [end for variable in UNITS if (end := _end(comparison, variable, looks)) is not None]
-    shown = make_distribution(comparison)
-    drawn, still, empty = sort_metrics(shown)
+    histories = _histories(comparison, flights, analyses)
+    ends = [end for variable in UNITS if (end := _end(comparison, variable, analyses)) is not None]
+    displayed = make_distribution(comparison)
+    plotted, still, empty = sort_metrics(displayed)
     errors = {metric: all_values(comparison, metric) for metric in comparison.metrics if is_over_sigma(metric)}
     first = comparison.first.document
     rows, grouped = variant_rows(comparison.summary), group_rows(comparison.summary)
-    paired = [metric for metric in comparison.metrics if metric in drawn]
+    paired = [metric for metric in comparison.metrics if metric in plotted]
     write_page(
         path,
         Path(__file__).with_name("comparison.html"),
@@ -77,8 +77,8 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         comparison=comparison,
         first=first,
         summary=comparison.summary,
-        looks=[(swatch(style), label) for label, style in looks.items()],
-        swatches={label: swatch(style) for label, style in looks.items()},
+        looks=[(swatch(style), label) for label, style in analyses.items()],
+        swatches={label: swatch(style) for label, style in analyses.items()},
         rows=rows,
         group_rows=grouped,
         statistics=HEADINGS,
@@ -87,20 +87,22 @@ def write_comparison_page(comparison: Comparison, path: Path, command: str) -> N
         rate_pairs=rate_pairs(comparison),
         metric_pairs=metric_pairs(comparison, paired, successful=True),
         metric_pairs_all=metric_pairs(comparison, paired, successful=False),
-        side=side_panels(bundles, looks) if bundles else [],
-        plan=plan_panels(bundles, looks) if bundles else [],
+        side=side_panels(bundles, analyses) if bundles else [],
+        plan=plan_panels(bundles, analyses) if bundles else [],
         radius=next((bundle.radius for bundle in bundles.values() if bundle.radius is not None), None),
         over_ground=all(bundle.over_ground for bundle in bundles.values()),
         flights={label: len(flight) for label, flight in flights.items()},
         most_drawn=DRAWN,
         ends=ends,
-        distributions=[distribution_panel(metric, shown[metric], looks) for metric in drawn],
+        distributions=[distribution_panel(metric, displayed[metric], analyses) for metric in plotted],
         still=still,
         empty=empty,
         histories={kind: [flight for flight in histories if flight.quantity.kind == kind] for kind in KINDS},
         over_sigma=[metric.name for metric in errors],
         sigma_rows=sigma_rows(comparison),
-        sigma_distributions=[distribution_panel(metric, errors[metric], looks) for metric in sort_metrics(errors)[0]],
+        sigma_distributions=[
+            distribution_panel(metric, errors[metric], analyses) for metric in sort_metrics(errors)[0]
+        ],
         limits=[(limit, NORMAL[limit]) for limit in LIMITS],
         missing=missing_parts(
             comparison,
@@ -135,14 +137,14 @@ def _histories(comparison: Comparison, flights: Mapping[str, list[Flight]], look
     by_label = {quantity.label: quantity for batch in comparison.batches.values() for quantity in quantities(batch)}
     histories = []
     for index, quantity in enumerate(by_label.values()):
-        bands = {label: bands_of(quantity, kept) for label, kept in flights.items()}
-        shown = {label: band for label, band in bands.items() if band is not None and band.time.size}
-        if not shown:
+        bands = {label: bands_of(quantity, retained) for label, retained in flights.items()}
+        displayed = {label: band for label, band in bands.items() if band is not None and band.time.size}
+        if not displayed:
             continue
-        constant = _constant(shown.values())
+        constant = _constant(displayed.values())
         if constant is None:
-            together = overlaid_bands(quantity, shown, looks, f"history{index}-all")
-            panels = band_panels(quantity, shown, looks, f"history{index}")
+            together = overlaid_bands(quantity, displayed, looks, f"history{index}-all")
+            panels = band_panels(quantity, displayed, looks, f"history{index}")
             histories.append(History(quantity, together, panels, None, expectation(quantity)))
         else:
             histories.append(History(quantity, [], [], constant, expectation(quantity)))

@@ -66,13 +66,13 @@ def names_of_record(batch: StoredBatch) -> list[str]:
     if record["traces"] == "none":
         return []
     owners: dict[str, str] = {}
-    kept = []
+    retained = []
     for name in batch.document["signals"]:
         owner, variable = batch.split_rows(name)[0], variable_of(batch, name)
         known = variable in KNOWN or variable.endswith(RATIO)
         if known and owners.setdefault(variable, owner) == owner:
-            kept.append(name)
-    return kept
+            retained.append(name)
+    return retained
 
 
 def vectors(names: Iterable[str]) -> dict[str, tuple[str, str, str]]:
@@ -105,7 +105,7 @@ def quantities(batch: StoredBatch) -> list[Quantity]:
     """Every quantity over time that can be drawn, in order of their signals."""
     names = names_of_record(batch)
     listed: list[Quantity] = []
-    taken: set[str] = set()
+    selected: set[str] = set()
     altitude = any(variable_of(batch, name) == "altitude" for name in names)
     for base, elements in vectors(names).items():
         variable = variable_of(batch, base)
@@ -122,9 +122,9 @@ def quantities(batch: StoredBatch) -> list[Quantity]:
             listed.append(Quantity(elements[2], variable, unit, "motion", elements[2:], _element(elements[2])))
         elif variable != "position":
             continue
-        taken |= set(elements)
+        selected |= set(elements)
     for name in names:
-        if name not in taken:
+        if name not in selected:
             variable = variable_of(batch, name)
             held = batch.document["signals"].get(name, {}).get("type", "Real") != "Real"
             unit, kind = _unit(batch, name), _kind(variable)
@@ -164,8 +164,8 @@ def trials_with_traces(contenders: Iterable[Contender]) -> dict[str, list[int]]:
         traced = contender.stored.traced[contender.name]
         own[contender.label] = [trial for trial in traced if limit is None or trial < limit]
     common = set.intersection(*map(set, own.values())) if own else set()
-    shown = {label: [trial for trial in trials if not common or trial in common] for label, trials in own.items()}
-    return {label: trials[:MOST_FLIGHTS] for label, trials in shown.items()}
+    displayed = {label: [trial for trial in trials if not common or trial in common] for label, trials in own.items()}
+    return {label: trials[:MOST_FLIGHTS] for label, trials in displayed.items()}
 
 
 def doubling(ratio: float) -> int:

@@ -61,16 +61,16 @@ def bundle_of(contender: Contender, flights: Sequence[Flight]) -> Bundle | None:
     height = next((name for name in altitudes if contender.stored.split_rows(name)[0] == owner), position[2])
     target = target_of(contender, "position")
     row = {int(trial): index for index, trial in enumerate(contender.trials.trial)}
-    drawn: list[tuple[bool, np.ndarray, np.ndarray, np.ndarray]] = []  # success, path, heights, target
+    plotted: list[tuple[bool, np.ndarray, np.ndarray, np.ndarray]] = []  # success, path, heights, target
     for flight in _spread([flight for flight in flights if {*position, height} <= set(flight.signals)]):
         index = row[flight.trial]
         *places, heights = _to_the_end(contender, flight, (*position, height), index)
         if heights.size > 1:
-            drawn.append((flight.success, np.stack(places), heights, target.values[index]))
-    fits = (radius_of(path, heights) for _, path, heights, _ in drawn if height != position[2])
+            plotted.append((flight.success, np.stack(places), heights, target.values[index]))
+    fits = (radius_of(path, heights) for _, path, heights, _ in plotted if height != position[2])
     radius = next((fit for fit in fits if fit is not None), None)  # of all flights: they are drawn in one figure
     paths = []
-    for success, path, heights, aim in drawn:
+    for success, path, heights, aim in plotted:
         along = _along(path[:2], aim[:2]) if radius is None else radius * track_angles(path, radius, aim)[0]
         paths.append(Path(success, along, heights, path[:2]))
     return Bundle(paths, target.values[0, :2], height, radius) if paths else None

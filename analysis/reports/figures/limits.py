@@ -99,6 +99,6 @@ def _row(limit: Limit, verdict: Verdict, result: Flight) -> tuple[Markup | str, 
 
 def _limit(limit: Limit, unit: str | None) -> Markup:
     if limit.least is None or limit.most is None:
-        word, value = ("at most", limit.most) if limit.least is None else ("at least", limit.least)
-        return Markup("{} {}").format(word, exact(value, unit))
+        token, value = ("at most", limit.most) if limit.least is None else ("at least", limit.least)
+        return Markup("{} {}").format(token, exact(value, unit))
     return Markup("{} to {}").format(exact(limit.least, unit), exact(limit.most, unit))

@@ -59,8 +59,8 @@ def _figure(pulses: Pulses, result: Result, lengths: np.ndarray, name: str) -> W
     def draw(figure: Figure) -> None:
         all_axes = figure.subplots(len(heights), 1, squeeze=False, sharex=True, height_ratios=heights)[:, 0]
         for index, axes in enumerate(all_axes[: len(lengths)]):
-            rest = None if rests is None else rests[index]
-            _draw_lane(axes, result.time, lengths[index], rest, reach)
+            remainder = None if rests is None else rests[index]
+            _draw_lane(axes, result.time, lengths[index], remainder, reach)
             label = pulses.labels[index] or pulses.lengths.label
             axes.set_title(f"{label}, s", loc="left", pad=4)
         if pulses.total is not None:

@@ -82,8 +82,8 @@ def condition_text(rows: Rows) -> Markup:
     """The condition of a selection of samples."""
     label, unit = rows.signal.label, rows.signal.unit_name
     if rows.low is None or rows.high is None:
-        word, limit = ("at least", rows.low) if rows.high is None else ("at most", rows.high)
-        return Markup("{} is {} {}").format(label, word, exact(limit, unit))
+        token, limit = ("at least", rows.low) if rows.high is None else ("at most", rows.high)
+        return Markup("{} is {} {}").format(label, token, exact(limit, unit))
     if rows.low == rows.high:
         return Markup("{} is {}").format(label, exact(rows.low, unit))
     return Markup("{} is {} to {}").format(label, exact(rows.low, unit), exact(rows.high, unit))
@@ -97,8 +97,8 @@ def empty_section(title: str, rows: Rows) -> Section:
 def align(values: Sequence[float | None], unit: str | None, digits: int = 5) -> list[Markup]:
     """Numbers of a column, all with the decimals of the largest at so many significant digits."""
     sizes = [abs(in_shown_unit(value, unit)) for value in values if value is not None and math.isfinite(value)]
-    most = max(sizes, default=0.0)
-    places = max(0, digits - 1 - math.floor(math.log10(most))) if most > 0.0 else 0
+    maximum = max(sizes, default=0.0)
+    places = max(0, digits - 1 - math.floor(math.log10(maximum))) if maximum > 0.0 else 0
     return [
         exact(value, unit)
         if value is None or not math.isfinite(value)

@@ -70,7 +70,7 @@ def time_histories(result: Result) -> Histories:
     named = states_and_commands(varying, result)
     unfolded = named or varying[:MOST]
     components = list(dict.fromkeys(group.component for group in groups))
-    first, rest = [], []
+    first, remainder = [], []
     for position, component in enumerate(components):
         members = [group for group in groups if group.component == component]
         selected = [group for group in unfolded if group.component == component]
@@ -78,8 +78,8 @@ def time_histories(result: Result) -> Histories:
             name = f"history{position}-first"
             first.append(ComponentHistory(component, _panels(selected, result, name), _legend(selected), [], []))
         others = [group for group in members if group not in unfolded]
-        rest.append(_fold_history(component, others, originals, result, position))
-    return Histories(first, [history for history in rest if not history.is_empty], bool(named))
+        remainder.append(_fold_history(component, others, originals, result, position))
+    return Histories(first, [history for history in remainder if not history.is_empty], bool(named))
 
 
 def _fold_history(
@@ -160,15 +160,15 @@ def _clip_spikes(axes: Axes, values: np.ndarray) -> None:
         axes.text(0.5, 0.5, "no finite value", transform=axes.transAxes, ha="center", va="center", color=FAINT)
         return
     low, high = quantiles(finite, [0.01, 0.99])
-    least, most = float(finite.min()), float(finite.max())
-    if not (high > low and most - least > SPIKE * (high - low)):
+    minimum, maximum = float(finite.min()), float(finite.max())
+    if not (high > low and maximum - minimum > SPIKE * (high - low)):
         return
     margin = 0.15 * (high - low)
     axes.set_ylim(low - margin, high + 3.0 * margin)  # room for the note
     outside = np.flatnonzero(np.any((values < low - margin) | (values > high + 3.0 * margin), axis=0))
     early = float(np.mean(outside)) < values.shape[1] / 2
     axes.text(
-        0.98 if early else 0.02, 0.98, f"clipped; full range {number(least, 3)} to {number(most, 3)}",
+        0.98 if early else 0.02, 0.98, f"clipped; full range {number(minimum, 3)} to {number(maximum, 3)}",
         transform=axes.transAxes,
         ha="right" if early else "left", va="top", fontsize=8.0, color=FAINT,
     )  # fmt: skip

@@ -26,7 +26,7 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
     own = Point(NAMES[0], study.programme.duration, study.programme.propellant_fraction, look(0))
     compared = [Point(one.name, one.path.duration, one.path.propellant_fraction, one.look) for one in series[1:]]
     here = Point(NAMES[0], study.transfer.distance, own.propellant, look(0))
-    shown = [np.stack([*one.path.position.T, _at_ends(one.path.pitch)]) for one in series]
+    displayed = [np.stack([*one.path.position.T, _at_ends(one.path.pitch)]) for one in series]
     write_page(
         path,
         Path(__file__).with_name("hover_transfer.html"),
@@ -38,7 +38,7 @@ def write_hover_page(study: HoverStudy, path: Path) -> None:
         looks=[(swatch(one.look), one.name) for one in series],
         rows=[(swatch(one.look), one.name, one.path) for one in series],
         missing=[name for name, plan in zip(NAMES[1:], (study.optimum, study.bound), strict=True) if plan is None],
-        track=[path_panel(series, shown, ("along", "up"))],
+        track=[path_panel(series, displayed, ("along", "up"))],
         over_time=time_panels(series, "Pitch from the horizontal, deg"),
         curves=[
             curve_panel("Propellant over t7", "durations", study.durations, "t7, s", [own, *compared]),
@@ -59,7 +59,7 @@ def write_landing_page(study: LandingStudy, path: Path) -> None:
     x, y = study.bound.position[:, 0], study.bound.position[:, 1] + radius
     central = np.arctan2(x, y)
     turned = study.bound.pitch + (central[1:] + central[:-1]) / 2.0  # from the local horizontal
-    shown = np.stack([radius * central, np.hypot(x, y) - radius, np.append(turned, turned[-1])])
+    displayed = np.stack([radius * central, np.hypot(x, y) - radius, np.append(turned, turned[-1])])
     write_page(
         path,
         Path(__file__).with_name("landing_bound.html"),
@@ -68,6 +68,6 @@ def write_landing_page(study: LandingStudy, path: Path) -> None:
         direct=None if study.direct is None else study.direct.propellant_fraction * study.vehicle.mass,
         climb=math.degrees(study.landing.climb),
         burns=study.bound.burns(),
-        track=path_widths(series, [shown], ("range from the site", "altitude")),
+        track=path_widths(series, [displayed], ("range from the site", "altitude")),
         over_time=time_panels(series, "Angle of thrust above the site's horizontal, deg"),
     )

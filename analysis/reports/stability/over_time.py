@@ -45,11 +45,15 @@ def _names(course: Course) -> str:
 
 def _panel(histories: list[Course], quantity: Quantity, name: str) -> Panel:
     sizes = [size for course in histories for size in course.sizes[quantity].tolist()]
-    least = min(sizes)
+    minimum = min(sizes)
     loops = sum(len(course.loops) for course in histories)
     words = f"{quantity.capitalize()} of {loops} loops over the time of flight, minimum "
     words += (
-        number(least, 3) if abs(least) < float("inf") else "that of an unstable loop" if least < 0.0 else "unlimited"
+        number(minimum, 3)
+        if abs(minimum) < float("inf")
+        else "that of an unstable loop"
+        if minimum < 0.0
+        else "unlimited"
     )
     draw: Any = lambda axes: draw_over_time(histories, quantity, axes)  # noqa: E731
     return panel(quantity.capitalize(), name, words, draw)

@@ -127,7 +127,7 @@ def _figures(loop: LoopReport, name: str) -> Panels:
 
 def _card(report: StabilityReport, summary: Table, index: int, shared: Shared, paper: Paper) -> Card:
     loop = report.loops[index]
-    shown = [replace(part, figures=shared.panels.get(part.key, [])) for part in parts(loop)]
+    displayed = [replace(part, figures=shared.panels.get(part.key, [])) for part in parts(loop)]
     return Card(
         loop=loop,
         id=anchor(index),
@@ -140,10 +140,10 @@ def _card(report: StabilityReport, summary: Table, index: int, shared: Shared, p
         seen_elsewhere=_elsewhere(report, shared, seen=True),
         figures=shared.panels[""],
         elsewhere=_elsewhere(report, shared, seen=False),
-        blocks=_blocks(shown),
+        blocks=_blocks(displayed),
         without=without(loop),
         screen=paper.screen_only([panel for panels in shared.panels.values() for panel in panels]),
-        screen_parts=[part.key for part in shown if not paper.prints(part.key, shared)],
+        screen_parts=[part.key for part in displayed if not paper.prints(part.key, shared)],
     )
 
 

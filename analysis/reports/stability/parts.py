@@ -122,14 +122,14 @@ def classical(loop: LoopReport) -> Part:
 def robust(loop: LoopReport) -> Part:
     """Distances from the critical point."""
     margins = loop.robust
-    word = state(loop.margins)
+    token = state(loop.margins)
     rows: list[tuple[Cell, ...]] = [
-        ("modulus margin", word or numeral(margins.modulus_margin), numeral(margins.sensitivity_frequency)),
+        ("modulus margin", token or numeral(margins.modulus_margin), numeral(margins.sensitivity_frequency)),
         ("peak of S, dB", in_decibels(margins.sensitivity_peak), numeral(margins.sensitivity_frequency)),
         ("peak of T, dB", in_decibels(margins.complementary_peak), numeral(margins.complementary_frequency)),
-        ("disk margin", word or numeral(margins.disk_margin), numeral(margins.disk_frequency)),
-        ("— gain, upper and lower, dB", word or in_decibels(margins.disk_gain, "without limit"), ""),
-        ("— phase, deg", word or in_degrees(margins.disk_phase), ""),
+        ("disk margin", token or numeral(margins.disk_margin), numeral(margins.disk_frequency)),
+        ("— gain, upper and lower, dB", token or in_decibels(margins.disk_gain, "without limit"), ""),
+        ("— phase, deg", token or in_degrees(margins.disk_phase), ""),
     ]
     note = "Gain and phase may vary simultaneously within the disk margin."
     if loop.margins.unstable:

@@ -67,25 +67,25 @@ def alike(one: Picture, other: Picture) -> bool:
 
 def share(loops: Sequence[LoopReport], figures: Sequence[Panels]) -> list[Shared]:
     """What each loop's section draws, ``figures`` being those of each: a figure stands with the first that has it."""
-    drawn: dict[str, list[_Drawn]] = {}
-    kept: list[dict[str, list[_Drawn]]] = []
+    plotted: dict[str, list[_Drawn]] = {}
+    retained: list[dict[str, list[_Drawn]]] = []
     elsewhere: list[dict[int, list[str]]] = [{} for _ in loops]
     for index, parts in enumerate(figures):
-        kept.append({key: [] for key in parts})
+        retained.append({key: [] for key in parts})
         for key, panels in parts.items():
             for panel in panels:
                 picture = picture_of(panel.figure)
-                same = next((one for one in drawn.get(panel.label, []) if alike(one.picture, picture)), None)
+                same = next((one for one in plotted.get(panel.label, []) if alike(one.picture, picture)), None)
                 if same is None:
                     one = _Drawn(panel, picture, [index])
-                    drawn.setdefault(panel.label, []).append(one)
-                    kept[-1][key].append(one)
+                    plotted.setdefault(panel.label, []).append(one)
+                    retained[-1][key].append(one)
                 elif same.loops[0] != index:
                     same.loops.append(index)
                     elsewhere[index].setdefault(same.loops[0], []).append(panel.label)
     return [
         Shared({key: [_title(one, loops) for one in pictures] for key, pictures in parts.items()}, away)
-        for parts, away in zip(kept, elsewhere, strict=True)
+        for parts, away in zip(retained, elsewhere, strict=True)
     ]
 
 

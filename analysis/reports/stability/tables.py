@@ -105,7 +105,7 @@ def verdict_table(rows: Sequence[Row]) -> Table:
 def counts(rows: Sequence[Row]) -> dict[str, int]:
     """How many requirements hold, fail and are not applicable."""
     verdicts = [item.verdict for *_, item in rows]
-    return {word: verdicts.count(word) for word in Verdict}
+    return {token: verdicts.count(token) for token in Verdict}
 
 
 def summary_table(report: StabilityReport) -> Table:
@@ -200,11 +200,11 @@ def hash_table(provenance: dict[str, Any]) -> Table:
 
 def facts(provenance: dict[str, Any]) -> list[tuple[str, Cell]]:
     """Everything else that the study depends on: seed, step, versions and so on."""
-    shown = {"system", "system_sha256", "fmus", "parameters", "assumptions"}
+    displayed = {"system", "system_sha256", "fmus", "parameters", "assumptions"}
     return [
         (key.replace("_", " "), fact(value) + Markup(" s") if key in TIMES else fact(value))
         for key, value in provenance.items()
-        if key not in shown
+        if key not in displayed
     ]
 
 

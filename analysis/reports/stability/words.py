@@ -46,8 +46,8 @@ def in_decibels(factor: float | None, infinite: str = NO_CROSSING, *, absolute: 
     """A factor in dB, without the unit; ``absolute``: how far from 1, up or down."""
     if factor is None:
         return numeral(None)
-    shown = decibel_size(factor) if absolute else decibels(float(factor))
-    return _data(float(factor), shown, 4, infinite)
+    displayed = decibel_size(factor) if absolute else decibels(float(factor))
+    return _data(float(factor), displayed, 4, infinite)
 
 
 def in_degrees(angle: float | None, infinite: str = NO_CROSSING) -> Markup:
@@ -65,10 +65,10 @@ def complex_number(value: complex, digits: int = 4) -> Markup:
     value = complex(value)
     if not (math.isfinite(value.real) and math.isfinite(value.imag)):
         return Markup("<span>{}</span>").format(NONE)
-    shown = number(value.real, digits)
+    displayed = number(value.real, digits)
     if value.imag:
-        shown += f" {'±' if value.imag > 0.0 else MINUS} {number(abs(value.imag), digits)} j"
-    return Markup('<data value="{}">{}</data>').format(repr(value).strip("()"), shown)
+        displayed += f" {'±' if value.imag > 0.0 else MINUS} {number(abs(value.imag), digits)} j"
+    return Markup('<data value="{}">{}</data>').format(repr(value).strip("()"), displayed)
 
 
 def left_out(part: str, reason: str, loop: LoopReport) -> Markup:
@@ -115,8 +115,8 @@ def phase_margin(margins: Margins) -> Markup:
     """A phase margin in degrees; a lead is said to be one."""
     if margins.unstable or not math.isfinite(margins.phase):
         return state(margins) or Markup("<span>{}</span>").format(NO_CROSSING)
-    shown = _data(float(margins.phase), degree_size(margins.phase), 4, NO_CROSSING)
-    return shown + Markup("" if margins.phase >= 0.0 else " (lead)")
+    displayed = _data(float(margins.phase), degree_size(margins.phase), 4, NO_CROSSING)
+    return displayed + Markup("" if margins.phase >= 0.0 else " (lead)")
 
 
 def size(value: float | None) -> Markup:
@@ -153,5 +153,5 @@ def limit(requirement: Requirement) -> Markup:
 
 
 def _unit(unit: str) -> Markup:
-    shown = unit if unit in ("dB", "deg") else display_unit(unit)
-    return Markup(" {}").format(shown) if shown else Markup("")
+    displayed = unit if unit in ("dB", "deg") else display_unit(unit)
+    return Markup(" {}").format(displayed) if displayed else Markup("")

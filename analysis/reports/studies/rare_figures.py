@@ -52,9 +52,9 @@ def level_spans(result: RareResult) -> list[Span]:
         spans.append(
             Span(index + 1, first, last, level.threshold, following if trusted else None, reached if trusted else None)
         )
-        share = level.probability or 0.0
-        first, seeds = last + 1, round(share * level.samples)
-        reached *= share
+        fraction = level.probability or 0.0
+        first, seeds = last + 1, round(fraction * level.samples)
+        reached *= fraction
     return spans
 
 
@@ -121,9 +121,9 @@ def draw_exceedance(axes: Axes, result: RareResult) -> None:
     spans = level_spans(result)
     factor = display_factor(result.margin_unit)
     first = np.sort(factor * result.flown.values[: spans[0].last])
-    share = 1.0 - np.arange(first.size) / first.size
+    fraction = 1.0 - np.arange(first.size) / first.size
     seen = np.isfinite(first)
-    axes.step(first[seen], share[seen], where="pre", color=GREY, linewidth=1.4, label="level 1: Monte Carlo")
+    axes.step(first[seen], fraction[seen], where="pre", color=GREY, linewidth=1.4, label="level 1: Monte Carlo")
     known = [
         (span.threshold, span.reached) for span in spans if span.threshold is not None and span.reached is not None
     ]

@@ -65,8 +65,8 @@ def draw_indices(axes: Axes, bars: list[Bar]) -> None:
             ("total", bar.total, bar.total_interval, -0.19, BLUE),
             ("first order", bar.first, bar.first_interval, 0.19, SKY),
         ):
-            (drawn,) = axes.barh(index + offset, value, height=0.34, color=colour, label=None if index else order)
-            drawn.set_gid(f"{order.split()[0]}-{index}")
+            (plotted,) = axes.barh(index + offset, value, height=0.34, color=colour, label=None if index else order)
+            plotted.set_gid(f"{order.split()[0]}-{index}")
             axes.plot(ends, [index + offset] * 2, color=INK, linewidth=1.1, marker="|", markersize=5)
     axes.axvline(0.0, color=INK, linewidth=0.8)
     all_ends = [end for bar in bars for end in (*bar.total_interval, *bar.first_interval)]

@@ -72,11 +72,11 @@ def point_values(result: WorstResult) -> np.ndarray:
 def objective_of(result: WorstResult) -> Objective:
     """The objective of all points in the order in which they were flown, angles in degrees."""
     values = point_values(result)
-    shown = select_values(result, values)
+    displayed = select_values(result, values)
     label = label_with_unit(result.badness.text, result.unit)
     random = int(np.argmax(values[: result.random_trials]))
     failed = ~np.isfinite([result.badness.size(float(value)) for value in values])
-    return Objective(label, shown, failed, is_rising(result), int(np.argmax(values)), random)
+    return Objective(label, displayed, failed, is_rising(result), int(np.argmax(values)), random)
 
 
 def is_rising(result: WorstResult) -> bool:
@@ -154,8 +154,8 @@ def draw_fresh(axes: Axes, result: WorstResult) -> None:
     assert result.fresh is not None
     assert result.over is not None
     ranked = select_values(result, np.sort(result.fresh.values))
-    share = np.arange(1, ranked.size + 1) / ranked.size
-    axes.step(ranked, share, where="post", color=GREY, linewidth=1.6, label=f"{ranked.size} fresh realisations")
+    fraction = np.arange(1, ranked.size + 1) / ranked.size
+    axes.step(ranked, fraction, where="post", color=GREY, linewidth=1.6, label=f"{ranked.size} fresh realisations")
     middle = () if result.fresh.quantile == 1.0 else ((result.fresh.at_quantile, BLUE, f"their {result.over.name}"),)
     marks = (
         *middle,
@@ -163,10 +163,12 @@ def draw_fresh(axes: Axes, result: WorstResult) -> None:
         (result.value, VERMILION, f"{result.over.name} in the search"),
     )
     for value, colour, label in marks:
-        (shown,) = select_values(result, np.array([value]))
-        if np.isfinite(shown):
+        (displayed,) = select_values(result, np.array([value]))
+        if np.isfinite(displayed):
             style = "-" if colour == VERMILION else (0, (4, 2))
-            axes.axvline(shown, color=colour, linewidth=1.6, linestyle=style, label=f"{label}: {number(float(shown))}")
+            axes.axvline(
+                displayed, color=colour, linewidth=1.6, linestyle=style, label=f"{label}: {number(float(displayed))}"
+            )
     axes.set_ylim(0.0, 1.03)
     axes.set_xlabel(label_with_unit(result.badness.text, result.unit))
     axes.set_ylabel("fraction of realisations")
@@ -214,9 +216,9 @@ class Lane(NamedTuple):
 
 def box_lanes(result: WorstResult) -> list[Lane]:
     """A lane for every dispersed parameter."""
-    drawn, (worst, random) = result.flown.draws, result.places
+    plotted, (worst, random) = result.flown.draws, result.places
     return [
-        Lane(name, result.units.get(name, ""), low, high, float(drawn[name][worst]), float(drawn[name][random]))
+        Lane(name, result.units.get(name, ""), low, high, float(plotted[name][worst]), float(plotted[name][random]))
         for name, (low, high) in result.space.ranges(result.sigmas).items()
     ]
 

@@ -17,9 +17,9 @@ from ..figures.declaration.reading import read_figures
 
 def worst_flight(result: WorstResult, plan: BatchPlan) -> tuple[Result, list[Figure]]:
     """The flight of the worst case with the bits of the search; ``plan`` is that of the study. Raises InputError."""
-    drawn = result.flown.draws
-    names = [*input_names(plan.campaign), *(name for name in drawn if stream_component(name) is not None)]
-    given = GivenDraws(*part_streams({name: drawn[name][[result.row]] for name in names}))
+    plotted = result.flown.draws
+    names = [*input_names(plan.campaign), *(name for name in plotted if stream_component(name) is not None)]
+    given = GivenDraws(*part_streams({name: plotted[name][[result.row]] for name in names}))
     plain = replace(plan, campaign=replace(plan.campaign, record=Record(), group=None, scatters=()))
     flyer = Flyer(plain.of_samples(given))
     (variant,) = flyer.variants

@@ -80,8 +80,10 @@ def value_cell(value: float | str | None, unit: str | None) -> Markup:
 
 def with_unit(value: float | str | None, unit: str) -> Markup:
     """A value of the objective with its unit behind it, if it has one."""
-    shown = value_cell(value, unit)
-    return Markup("{} {}").format(shown, display_unit(unit)) if display_unit(unit) and value is not None else shown
+    displayed = value_cell(value, unit)
+    return (
+        Markup("{} {}").format(displayed, display_unit(unit)) if display_unit(unit) and value is not None else displayed
+    )
 
 
 class FreshCells(NamedTuple):

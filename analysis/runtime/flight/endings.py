@@ -122,10 +122,10 @@ def in_words(
     if code == codes.FAILED:
         component = list(instances)[subject]
         log = " | ".join(instances[component].messages) or "no message in its log"
-        word = status_word(outcome.fmi_status)
+        token = status_word(outcome.fmi_status)
         if outcome.is_discarded_step:
-            word += ", which is no wish to end,"
-        return status, f"{component}: {FUNCTION_NAMES[outcome.function]} returned {word} at t = {time:g} s: {log}"
+            token += ", which is no wish to end,"
+        return status, f"{component}: {FUNCTION_NAMES[outcome.function]} returned {token} at t = {time:g} s: {log}"
     return status, ""
 
 

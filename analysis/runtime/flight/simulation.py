@@ -277,11 +277,11 @@ class Simulation:
 
     def _replace_instances(self, fatal: str | None = None) -> None:
         """Everything instantiated anew, with the values that parameters have; ``fatal`` as in `LifeCycle.close`."""
-        kept = self.layout.parameters
+        retained = self.layout.parameters
         self.life_cycle.close(fatal)
         self.instances = {}
         self._instantiate()
-        self.layout.parameters.update({key: kept[key] for key in kept.keys})
+        self.layout.parameters.update({key: retained[key] for key in retained.keys})
 
     def provenance(self) -> dict[str, Any]:
         """Parameter values, hashes, options and version: what the result depends on."""

@@ -24,10 +24,10 @@ def status_lines(network: Network, flight: Flight) -> list[str]:
             continue
         worst, last = int(np.max(values)), int(values[-1])
         first = float(flight.time[np.argmax(values == worst)])
-        share = np.count_nonzero(values == worst) / values.size
+        fraction = np.count_nonzero(values == worst) / values.size
         meaning = status_meaning(network, name, worst)
         value = f"{worst} ({meaning})" if meaning else f"{worst}"
-        words = f"{name}: {value} from t = {first:g} s, {_percent(share)} of the samples"
+        words = f"{name}: {value} from t = {first:g} s, {_percent(fraction)} of the samples"
         lines.append(words if last == worst else f"{words}, {last} at the end")
     return lines
 

@@ -73,10 +73,10 @@ def _times(fmu: Fmu, options: SystemOptions) -> tuple[float, float, float, list[
         step = float(auto_interval(duration if duration > 0.0 else DURATION))
         if options.step is None:
             remarks.append(f"the FMU proposes no step: {step:g} s taken")
-    taken = step if options.step is None else options.step
-    steps = math.floor((stop - start) / taken + WHOLE) if 0.0 < (stop - start) / taken < math.inf else 0
-    if options.stop_time is None and steps and (stop - start) / taken - steps > WHOLE:
-        whole = start + steps * taken
-        remarks.append(f"{stop - start:g} s are not whole steps of {taken:g} s: the end is {whole:g} s")
+    selected = step if options.step is None else options.step
+    steps = math.floor((stop - start) / selected + WHOLE) if 0.0 < (stop - start) / selected < math.inf else 0
+    if options.stop_time is None and steps and (stop - start) / selected - steps > WHOLE:
+        whole = start + steps * selected
+        remarks.append(f"{stop - start:g} s are not whole steps of {selected:g} s: the end is {whole:g} s")
         stop = whole
     return start, stop, step, remarks

@@ -123,11 +123,11 @@ def _resolve(network: Network, path: str, name: str) -> Node | tuple[str, str] |
         return network.nodes[path + name]
     for element in system.elements.values():
         if name.startswith(f"{element.name}."):
-            rest = name[len(element.name) + 1 :]
+            remainder = name[len(element.name) + 1 :]
             if isinstance(element, Component):
-                return path + element.name, rest
+                return path + element.name, remainder
             if isinstance(element, System):
-                return _resolve(network, f"{path}{element.name}.", rest)
+                return _resolve(network, f"{path}{element.name}.", remainder)
     return None
 
 

@@ -119,8 +119,8 @@ def load_fmu(data: bytes, label: str, *, strict: bool = False) -> Fmu:
 
 def _require(names: Sequence[str]) -> list[str]:
     """Which files of an FMU built by Perilune a flight on this platform reads."""
-    kept = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
-    return [name for name in names if name.startswith(kept)]
+    retained = (DESCRIPTION, f"binaries/{fmpy.platform}/", "resources/")
+    return [name for name in names if name.startswith(retained)]
 
 
 @lru_cache(maxsize=MOST_DESCRIPTIONS)

@@ -59,6 +59,8 @@ def _components(system: System, path: str = "") -> Iterator[tuple[str, Component
 
 
 def _line(file: Path, source: Path, names: list[str]) -> str:
-    shown, again = (os.path.relpath(path) if path.is_relative_to(Path.cwd()) else str(path) for path in (file, source))
+    displayed, repeated = (
+        os.path.relpath(path) if path.is_relative_to(Path.cwd()) else str(path) for path in (file, source)
+    )
     are = "was" if len(names) == 1 else "were"
-    return f"{shown}: has changed since {', '.join(names)} {are} exported; perilune export {again}"
+    return f"{displayed}: has changed since {', '.join(names)} {are} exported; perilune export {repeated}"

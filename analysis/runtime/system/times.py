@@ -40,8 +40,8 @@ def flight_times(network: Network, options: SystemOptions) -> tuple[float, float
         raise InputError(*stop_asked, f"lies before the start, {start:g} s", "give a later stop time")
     if max(abs(stop), abs(start)) + step == max(abs(stop), abs(start)):
         problem = f"a step of {step:g} s does not advance a time of {stop:g} s"
-        asked = step_asked if options.step is not None else stop_asked
-        raise InputError(*asked, problem, "give a longer `step` or earlier times")
+        requested = step_asked if options.step is not None else stop_asked
+        raise InputError(*requested, problem, "give a longer `step` or earlier times")
     steps = round(duration / step) if duration / step < float("inf") else -1
     if steps < 0 or abs(steps * step - duration) > 1e-9 * max(step, abs(stop)):
         problem = f"{duration:g} s from the start are not a whole number of steps of {step:g} s"

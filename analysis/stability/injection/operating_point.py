@@ -58,19 +58,19 @@ class OperatingPoint:
 
 def _scales(cells: list[Cell], largest: np.ndarray, now: np.ndarray) -> np.ndarray:
     vectors: dict[str, float] = {}
-    least: dict[str, float] = {}
+    minimum: dict[str, float] = {}
     units: dict[str, float] = {}
     names = [cell.name.partition("[")[0] for cell in cells]
     for cell, name, size, present in zip(cells, names, largest, abs(now), strict=True):
         vectors[name] = max(vectors.get(name, 0.0), float(size))
         if present > 0.0:
-            least[name] = min(least.get(name, np.inf), float(present))
+            minimum[name] = min(minimum.get(name, np.inf), float(present))
         if cell.unit is not None:
             units[cell.unit] = max(units.get(cell.unit, 0.0), float(size))
     scales = []
     for cell, name, present in zip(cells, names, abs(now), strict=True):
         if cell.unit is None:
-            scales.append(float(present) or least.get(name, 1.0))
+            scales.append(float(present) or minimum.get(name, 1.0))
             continue
         like = units[cell.unit]
         scale = max(vectors[name], LEAST * like) if vectors[name] > 0.0 else NEVER * like

@@ -83,8 +83,8 @@ class LiftedModel:
         connected = self._part(np.flatnonzero(moved & moves))
         if not connected.a.size:
             return connected
-        share = np.max([connected._shares(port) for port in ports], axis=0)
-        return connected._part(np.flatnonzero(share > SHARE))
+        fraction = np.max([connected._shares(port) for port in ports], axis=0)
+        return connected._part(np.flatnonzero(fraction > SHARE))
 
     def _part(self, kept: np.ndarray) -> LiftedModel:
         """The model of some of the cells."""
@@ -103,7 +103,7 @@ class LiftedModel:
 
     def _shares(self, port: Port) -> np.ndarray:
         """By cell: the largest relative change of what comes back, at any frequency, per relative change of it."""
-        shares = np.zeros(len(self.a))
+        fractions = np.zeros(len(self.a))
         identity = np.eye(len(self.a))
         for w in np.geomspace(LOWEST, 1.0, LOOKS) * np.pi / port.seconds:
             wave = np.exp(1j * w * port.seconds * np.arange(port.count))
@@ -112,8 +112,8 @@ class LiftedModel:
             heard = wave.conj() @ self.cv[port.rows]
             moves = np.linalg.solve(shifted.T, heard)
             whole = abs(heard @ moved + wave.conj() @ (self.dv[port.rows, port.rows] @ wave))
-            shares = np.maximum(shares, abs(moved * moves) / max(whole, QUIET))
-        return shares
+            fractions = np.maximum(fractions, abs(moved * moves) / max(whole, QUIET))
+        return fractions
 
     @cached_property
     def lasting(self) -> LiftedModel:

@@ -64,5 +64,5 @@ def _rank(a: np.ndarray, b: np.ndarray) -> tuple[int, float]:
     sizes = np.linalg.svd(np.hstack(blocks), compute_uv=False)
     if not sizes.size or sizes[0] == 0.0:
         return 0, 0.0
-    kept = sizes[sizes > RANK * sizes[0]]
-    return kept.size, float(kept[-1] / sizes[0])
+    retained = sizes[sizes > RANK * sizes[0]]
+    return retained.size, float(retained[-1] / sizes[0])

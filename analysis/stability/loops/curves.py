@@ -32,11 +32,11 @@ class Remembered:
         self._known: dict[float, np.ndarray] = {}
 
     def __call__(self, frequency: np.ndarray) -> np.ndarray:
-        asked = np.asarray(frequency, dtype=float).tolist()
-        new = [angular for angular in dict.fromkeys(asked) if angular not in self._known]
+        requested = np.asarray(frequency, dtype=float).tolist()
+        new = [angular for angular in dict.fromkeys(requested) if angular not in self._known]
         if new:
             self._known.update(zip(new, self._response(np.array(new)), strict=True))
-        return np.array([self._known[angular] for angular in asked])
+        return np.array([self._known[angular] for angular in requested])
 
 
 def cache_response(response: Response) -> Response:
@@ -153,8 +153,8 @@ def _refine(response: Response, frequency: np.ndarray, value: np.ndarray, most: 
         chosen = np.zeros(len(frequency), dtype=bool)
         for distance in (gain, phase, np.abs(1.0 + value)):
             inner = distance[1:-1]
-            least = (inner <= distance[:-2]) & (inner < distance[2:]) & (inner < _NEAR) & (inner > _ROUNDING)
-            chosen[1:-1] |= least
+            minimum = (inner <= distance[:-2]) & (inner < distance[2:]) & (inner < _NEAR) & (inner > _ROUNDING)
+            chosen[1:-1] |= minimum
         points = np.flatnonzero(chosen)
         intervals = np.unique(np.concatenate([points - 1, points]))
         intervals = intervals[np.diff(frequency)[intervals] > 1e-8 * frequency[intervals]]

@@ -96,15 +96,15 @@ def _quantiser(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
 def _staircase(amplitude: np.ndarray, parameters: Parameters) -> np.ndarray:
     """What is fired follows the integral of the demand in steps of a least pulse, a whole one behind at the most: a
     staircase of relays whose thresholds lie a least pulse apart, each with half of one as its hysteresis."""
-    least = parameters["least_pulse"]
+    minimum = parameters["least_pulse"]
 
     def gain(a: float) -> complex:
         """Half the sum over relays on both sides of the middle, switched at i - 1/2 and i + 1/2 least pulses."""
-        steps = np.arange(-math.floor(a / least - 0.5), math.floor(a / least - 0.5) + 1) * least
+        steps = np.arange(-math.floor(a / minimum - 0.5), math.floor(a / minimum - 0.5) + 1) * minimum
         if not len(steps):
             return 0.0 + 0.0j
-        sides = _share(steps - 0.5 * least, np.asarray(a)) + _share(steps + 0.5 * least, np.asarray(a))
-        return least / (math.pi * a) * (float(np.sum(sides)) - 1j * len(steps) * least / a)
+        sides = _share(steps - 0.5 * minimum, np.asarray(a)) + _share(steps + 0.5 * minimum, np.asarray(a))
+        return minimum / (math.pi * a) * (float(np.sum(sides)) - 1j * len(steps) * minimum / a)
 
     return np.array([gain(a) for a in amplitude.tolist()], dtype=complex)
 

@@ -171,8 +171,8 @@ def _roots(
     crossing: Callable[[float, float], bool],
 ) -> list[float]:
     """Zeros of ``function`` between points of different sign; points within rounding of zero have none."""
-    kept = np.abs(values) > _ROUNDING
-    frequency, values = frequency[kept], values[kept]
+    retained = np.abs(values) > _ROUNDING
+    frequency, values = frequency[retained], values[retained]
     roots = []
     for i in np.flatnonzero(values[1:] * values[:-1] < 0.0):
         if crossing(values[i], values[i + 1]):

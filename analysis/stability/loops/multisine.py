@@ -97,8 +97,8 @@ def line_spectrum(record: np.ndarray, samples: int, lines: np.ndarray) -> np.nda
     Raises ValueError when the record is not a whole number of periods.
     """
     record = np.asarray(record, dtype=float)
-    periods, rest = divmod(len(record), samples)
-    if rest or not periods:
+    periods, remainder = divmod(len(record), samples)
+    if remainder or not periods:
         raise ValueError(f"a record of {len(record)} samples is not a whole number of periods of {samples}")
     mean = record.reshape(periods, samples, *record.shape[1:]).mean(axis=0)
     return 2.0 / samples * np.fft.rfft(mean, axis=0)[np.asarray(lines)]

@@ -88,8 +88,8 @@ def _several(matrix: np.ndarray) -> np.ndarray:
 def _balance(squares: np.ndarray) -> np.ndarray:
     """Log D (n, m) that nearly makes the rows of D M D^-1 as long as its columns (Osborne 1960)."""
     channels = squares.shape[-1]
-    least = 1e-20 * np.sum(squares, axis=(1, 2), keepdims=True)  # else a row of zeros has no balance
-    squares = (squares + least) * (1.0 - np.eye(channels))
+    minimum = 1e-20 * np.sum(squares, axis=(1, 2), keepdims=True)  # else a row of zeros has no balance
+    squares = (squares + minimum) * (1.0 - np.eye(channels))
     logarithm = np.zeros(squares.shape[:2])
     for _ in range(_SWEEPS):
         for k in range(channels):
@@ -107,8 +107,8 @@ def _scale(matrix: np.ndarray, logarithm: np.ndarray) -> np.ndarray:
 
 def _norm(sizes: np.ndarray, half: np.ndarray) -> np.ndarray:
     """Log of the Schatten norm of order 2 ``half`` from singular values, the largest first."""
-    shares = (sizes / sizes[:, :1]) ** (2.0 * half[:, None])
-    return np.log(sizes[:, 0]) + np.log(np.sum(shares, axis=1)) / (2.0 * half)
+    fractions = (sizes / sizes[:, :1]) ** (2.0 * half[:, None])
+    return np.log(sizes[:, 0]) + np.log(np.sum(fractions, axis=1)) / (2.0 * half)
 
 
 def _descend(

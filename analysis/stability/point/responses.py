@@ -87,8 +87,8 @@ class LoopModel:
         Where the loop has several samples a hyperperiod, a multiplier tells the frequency of slow poles only.
         """
         angle = np.angle(self.poles_open)
-        most = np.pi if self.port.count == 1 else SLOW_ANGLE
-        oscillating = self.poles_open[(angle > BESIDE_ONE) & (angle < most)]
+        maximum = np.pi if self.port.count == 1 else SLOW_ANGLE
+        oscillating = self.poles_open[(angle > BESIDE_ONE) & (angle < maximum)]
         on_circle = abs(abs(oscillating) - 1.0) <= self.blur
         frequencies = np.angle(oscillating) / self.model.period
         near = (abs(oscillating) > 0.9) & ~on_circle
@@ -150,9 +150,9 @@ def _doubtful(model: LiftedModel, neighbour: LiftedModel) -> tuple[str, ...]:
 def agreement(response: Response, measured: Measured, sample_period: float) -> Agreement:
     """The linearised response against the measured one on its lines below half the Nyquist frequency."""
     highest = 0.5 * np.pi / sample_period
-    kept = measured.curve.frequency <= highest
-    frequency = measured.curve.frequency[kept]
-    ratio = quotient(measured.curve.value[kept], response(frequency))
+    retained = measured.curve.frequency <= highest
+    frequency = measured.curve.frequency[retained]
+    ratio = quotient(measured.curve.value[retained], response(frequency))
     with np.errstate(divide="ignore"):
         gain = float(np.exp(np.max(abs(np.log(abs(ratio))))))
     phase = float(np.max(abs(np.angle(ratio))))

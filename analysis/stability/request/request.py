@@ -134,18 +134,18 @@ def _select(description: Description, names: Sequence[str], at: Sequence[float])
         wanted.append(by_name.get(name) or Loop(name, cut=name, points=tuple(point.name for point in cuts)))
     points, sweeps = (*declared.points, *cuts), declared.sweeps
     if at:
-        asked = {name for loop in wanted for name in loop.points}
-        here = [point for point in declared.points if point.name in asked]
+        requested = {name for loop in wanted for name in loop.points}
+        here = [point for point in declared.points if point.name in requested]
         points, sweeps = (*_shift(here, at), *cuts), ()
         origins = {point.name: _with_settings_of(point, here) for point in here}
         wanted = [_at_times(loop, at, origins) if loop.name in by_name else loop for loop in wanted]
     used = {point for loop in wanted for point in loop.points}
-    kept = {loop.name for loop in wanted}
+    retained = {loop.name for loop in wanted}
     return Declaration(
         declared.limits,
         tuple(point for point in points if point.name in used),
         tuple(wanted),
-        tuple(sweep for sweep in sweeps if sweep.loop in kept),
+        tuple(sweep for sweep in sweeps if sweep.loop in retained),
     )
 
 
@@ -193,5 +193,5 @@ def _values_of_trial(plan: BatchPlan, options: SystemOptions, trial: int) -> Sys
         raise InputError("`trial`", str(trial), problem, "give one of them")
     (variant,) = plan.campaign.variants()
     prepared = plan.prepare(variant)
-    drawn = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
-    return options.among(campaign=plan.campaign.layer_of(variant), draws=Layer(set=drawn))
+    sampled = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
+    return options.among(campaign=plan.campaign.layer_of(variant), draws=Layer(set=sampled))

@@ -72,7 +72,7 @@ def combine(requirements: Iterable[Requirement]) -> Verdict:
     """Fail if one fails, withheld if one is, pass if one passes; what is not applicable decides nothing."""
     verdicts = [requirement.verdict for requirement in requirements]
     decisive = (Verdict.FAIL, Verdict.WITHHELD, Verdict.PASS)
-    return next((word for word in decisive if word in verdicts), Verdict.NOT_APPLICABLE)
+    return next((token for token in decisive if token in verdicts), Verdict.NOT_APPLICABLE)
 
 
 def grows(outside: Sequence[str], most: int = 4) -> str:

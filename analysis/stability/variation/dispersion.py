@@ -81,12 +81,12 @@ def _dispersion(
     worst = worst_of(items)
     unstable = sum(item.unstable for item in items)
     note = f"{unstable} of {len(items)} trials unstable; the worst again: {replay(worst)}" if unstable else ""
-    share = Requirement(Scope.DISPERSED, Quantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note)
+    fraction = Requirement(Scope.DISPERSED, Quantity.STABILITY, 1.0 - unstable / len(items), 1.0, unstable == 0, note)
     wanted = {
         Quantity.GAIN: limits.dispersed_gain_margin_db,
         Quantity.PHASE: limits.dispersed_phase_margin_deg,
     }
-    least = [
+    minimum = [
         Requirement.at_least(Scope.DISPERSED, quantity, min(item.size(quantity) for item in items), limit)
         for quantity, limit in wanted.items()
     ]
@@ -96,5 +96,5 @@ def _dispersion(
         poles=poles,
         worst=worst,
         replay=replay(worst),
-        requirements=(share, *least),
+        requirements=(fraction, *minimum),
     )

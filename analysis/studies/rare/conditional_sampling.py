@@ -135,8 +135,8 @@ def grow_chains(
             noise_moves.count(chosen, good[noise], proposed[noise] != level[noise])
             if not noise.all():
                 steps.append(float(good[~noise].mean()))
-            kept = good[:, np.newaxis]
-            here = Points(np.where(kept, candidates.draws, here.draws), np.where(kept, renewed, here.streams))
+            retained = good[:, np.newaxis]
+            here = Points(np.where(retained, candidates.draws, here.draws), np.where(retained, renewed, here.streams))
             level = np.where(good, proposed, level)
             draws[group, step], streams[group, step], values[group, step] = here.draws, here.streams, level
         noise_moves.adapt()

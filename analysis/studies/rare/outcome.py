@@ -88,12 +88,12 @@ class RareResult:
             return ""
         level = self.simulation.levels[-1]
         assert level.noise_acceptance is not None
-        rate, least = short_percent(level.noise_acceptance), short_percent(LEAST_ACCEPTED)
+        rate, minimum = short_percent(level.noise_acceptance), short_percent(LEAST_ACCEPTED)
         lowest = ""
         if level.source is not None and level.least_acceptance is not None:
             lowest = f" (least of {self.noise.sources[level.source]}, {short_percent(level.least_acceptance)} %)"
         place = len(self.simulation.levels)
-        return f"levels end at level {place}: {rate} % of the noise moves are accepted, below {least} %{lowest}"
+        return f"levels end at level {place}: {rate} % of the noise moves are accepted, below {minimum} %{lowest}"
 
     @cached_property
     def failures(self) -> list[dict[str, Any]]:
@@ -137,9 +137,9 @@ class RareResult:
 
     def values(self) -> dict[str, float]:
         """The numbers that requirements are about: probability, interval[1] and [2], flights."""
-        share = math.nan if self.probability is None else self.probability
+        fraction = math.nan if self.probability is None else self.probability
         low, high = self.interval
-        return {"probability": share, "interval[1]": low, "interval[2]": high, "flights": float(self.flights)}
+        return {"probability": fraction, "interval[1]": low, "interval[2]": high, "flights": float(self.flights)}
 
     def document(self, folder: Path | None = None) -> dict[str, Any]:
         """The machine-readable result; ``folder`` is where it has been written, if it has."""
@@ -205,8 +205,8 @@ class RareResult:
             return ""
         text = f"{self.why_levels_ended}; what is below is bounded as by {trials:.2g} Monte Carlo flights"
         command = self.monte_carlo
-        again = f": {command}" if command else ""
-        return f"{text}; a bound ten times lower takes {10.0 * trials:.2g}{again}{self.conditions}"
+        repeated = f": {command}" if command else ""
+        return f"{text}; a bound ten times lower takes {10.0 * trials:.2g}{repeated}{self.conditions}"
 
     @property
     def monte_carlo(self) -> str:

@@ -64,8 +64,10 @@ def rare_failure(
                 margin, space.size, len(noise.sources), seed=plan.campaign.seed, samples=samples, least=least
             )
         except StuckError as stuck:
-            worth, share = stuck.args
-            problem = f"{100 * share:.0f} % of a level's flights have one margin, {worth:g}, and none is nearer to it"
+            worth, fraction = stuck.args
+            problem = (
+                f"{100 * fraction:.0f} % of a level's flights have one margin, {worth:g}, and none is nearer to it"
+            )
             where = ("`failure`", failure) if failure is not None else (plan.campaign.file, "success")
             raise InputError(*where, problem, "compare numbers that come near their limits by degrees") from stuck
         units = units_of(space, flights.prepared, flights.facts)

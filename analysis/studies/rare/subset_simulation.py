@@ -189,15 +189,15 @@ def _bound(
     of all its points have. The failures among them are counted as theirs, with the interval of Clopper and Pearson.
     """
     failed = population.margins >= 0.0
-    share = float(failed.mean())
+    fraction = float(failed.mean())
     trials = float(samples)
     if len(levels) > 2:
         variation = family_interval(reached, population.family, samples, CONFIDENCE).variation
         trials = equivalent_trials(reached, variation) or trials
-    interval = fractional_interval(reached * share * trials, trials, CONFIDENCE)
+    interval = fractional_interval(reached * fraction * trials, trials, CONFIDENCE)
     levels[-2] = _level(population, failed)
     return SubsetSimulation(
-        reached * share if failed.any() else None,
+        reached * fraction if failed.any() else None,
         interval,
         tuple(levels),
         evaluations,

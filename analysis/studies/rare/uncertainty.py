@@ -21,8 +21,8 @@ class Interval(NamedTuple):
 def binomial_interval(failures: int, samples: int, confidence: float) -> Interval:
     """Clopper and Pearson's interval, of independent samples."""
     ends = binomtest(failures, samples).proportion_ci(confidence, method="exact")
-    share = failures / samples
-    return Interval(float(ends.low), float(ends.high), float(np.sqrt((1.0 - share) / (share * samples))))
+    fraction = failures / samples
+    return Interval(float(ends.low), float(ends.high), float(np.sqrt((1.0 - fraction) / (fraction * samples))))
 
 
 def fractional_interval(failures: float, samples: float, confidence: float) -> Interval:
@@ -30,8 +30,10 @@ def fractional_interval(failures: float, samples: float, confidence: float) -> I
     outside = (1.0 - confidence) / 2.0
     low = float(beta.ppf(outside, failures, samples - failures + 1.0)) if failures > 0.0 else 0.0
     high = float(beta.ppf(1.0 - outside, failures + 1.0, samples - failures)) if failures < samples else 1.0
-    share = failures / samples
-    return Interval(low, high, float(np.sqrt((1.0 - share) / (share * samples))) if share > 0.0 else float("inf"))
+    fraction = failures / samples
+    return Interval(
+        low, high, float(np.sqrt((1.0 - fraction) / (fraction * samples))) if fraction > 0.0 else float("inf")
+    )
 
 
 def equivalent_trials(probability: float, variation: float) -> float | None:
@@ -67,8 +69,8 @@ def family_interval(probability: float, families: np.ndarray, first: int, confid
     interval is log-normal, with Student's t of as many degrees of freedom as the sum of squares has (Satterthwaite).
     """
     _, sizes = np.unique(families, return_counts=True)
-    shares = sizes / sizes.sum()
-    squares = shares**2
+    fractions = sizes / sizes.sum()
+    squares = fractions**2
     variance = max(float(squares.sum()) - 1.0 / first, 0.0)
     freedom = max(2.0 * float(squares.sum()) ** 2 / float((squares**2).sum()) - 1.0, 1.0)
     deviation = np.sqrt(np.log1p(variance))  # of the logarithm, where that is normal

@@ -129,8 +129,8 @@ class SensitivityResult:
 
     def write(self, folder: Path) -> None:
         """Write sensitivity.json, flights.parquet, and draws.parquet of all flights for `--draws`."""
-        drawn = input_names(self.space.campaign)
-        write_parquet(self.flown.given(drawn, np.arange(self.flights)), folder / DRAWS)
+        sampled = input_names(self.space.campaign)
+        write_parquet(self.flown.given(sampled, np.arange(self.flights)), folder / DRAWS)
         write_parquet(self.flown.table("success"), folder / "flights.parquet")
         text = f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n"
         write_atomically(folder / "sensitivity.json", text.encode())

@@ -59,16 +59,16 @@ def sensitivity(
         columns = space.from_normals(ndtri(np.clip(points, EDGE, 1.0 - EDGE)))
         trials, draws = flights.fly(columns, noise.same(streams))
         metrics = {**trials.metrics, SUCCESS: trials.success.astype(float)}
-        told = [name for name, values in metrics.items() if np.all(np.isfinite(values)) and np.ptp(values) > 0.0]
-        computed = indices(np.array([metrics[name] for name in told]), base, random) if told else None
+        reported = [name for name, values in metrics.items() if np.all(np.isfinite(values)) and np.ptp(values) > 0.0]
+        computed = indices(np.array([metrics[name] for name in reported]), base, random) if reported else None
         independent = slice(0, 2 * base)  # A and B
-        drawn = {name: draws[name][independent] for name in space.names}
-        ranks = rank_correlations(drawn, {name: values[independent] for name, values in metrics.items()})
+        sampled = {name: draws[name][independent] for name in space.names}
+        ranks = rank_correlations(sampled, {name: values[independent] for name, values in metrics.items()})
         flown = Flown()
         flown.add(points, draws, trials.metrics, metrics[SUCCESS])
         return SensitivityResult(
-            base, space, tuple(told), computed, _untold(metrics, told), ranks, flown.whole(), flights.facts, noise,
-            units_of(space, flights.prepared, flights.facts),
+            base, space, tuple(reported), computed, _untold(metrics, reported), ranks, flown.whole(), flights.facts,
+            noise, units_of(space, flights.prepared, flights.facts),
         )  # fmt: skip
 
 

@@ -184,8 +184,8 @@ class WorstResult:
 
     def write(self, folder: Path) -> None:
         """Write worst.json, flights.parquet, and worst.parquet for `--draws`: the worst trial, and the random one."""
-        drawn = [name for draw in self.space.campaign.draws for name in draw.names]
-        write_parquet(self.flown.given(drawn, np.array(self.places)), folder / WORST)
+        sampled = [name for draw in self.space.campaign.draws for name in draw.names]
+        write_parquet(self.flown.given(sampled, np.array(self.places)), folder / WORST)
         write_parquet(self.flown.table("value"), folder / "flights.parquet")
         write_atomically(
             folder / "worst.json", f"{json.dumps(self.document(folder), indent=1, allow_nan=False)}\n".encode()

@@ -94,11 +94,11 @@ def _lines(loop: LoopReport) -> Iterator[str]:
             yield f"  {name}: {reason}"
     if (spread := loop.dispersion) is not None:
         if spread.unstable:
-            again = f"worst trial {spread.worst}: {spread.replay}"
-            text = f"{spread.unstable} of {spread.trials} trials unstable; {again}"
+            repeated = f"worst trial {spread.worst}: {spread.replay}"
+            text = f"{spread.unstable} of {spread.trials} trials unstable; {repeated}"
         else:
-            least = {quantity: spread.levels(quantity)["least"] for quantity in MARGINS}
-            text = f"{spread.trials} trials stable, minimum {_words(least)}"
+            minimum = {quantity: spread.levels(quantity)["least"] for quantity in MARGINS}
+            text = f"{spread.trials} trials stable, minimum {_words(minimum)}"
         yield f"  over {Path(spread.campaign).name}: {text}"
 
 

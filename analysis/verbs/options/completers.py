@@ -59,9 +59,9 @@ def parameter_sets(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> li
 
 def slots_with_fmus(prefix: str, parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """``SLOT=`` of the system first, then ``SLOT=FMU``."""
-    slot, equals, rest = prefix.partition("=")
+    slot, equals, remainder = prefix.partition("=")
     if equals:
-        return [f"{slot}={name}" for name in fmus(rest)]
+        return [f"{slot}={name}" for name in fmus(remainder)]
     archive = _system(parsed_args)
     if archive is None:
         return []

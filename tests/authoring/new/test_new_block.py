@@ -86,7 +86,7 @@ def test_the_block_of_no_slot_flies_in_a_new_system(tmp_path, monkeypatch, capsy
     commands = [line.strip().split()[1:] for line in capsys.readouterr().out.splitlines()[2:]]
     assert commands[-1] == ["run", "SYSTEM", "--use", "control=damper"]
     for words in commands:  # without an integral the disturbance leaves more of the angle than its limit
-        assert main([word.replace("SYSTEM", "axis") for word in words]) == (1 if words[0] == "run" else 0)
+        assert main([token.replace("SYSTEM", "axis") for token in words]) == (1 if words[0] == "run" else 0)
     flight = perilune.simulate("axis", use={"control": "damper"}, set={"plant.disturbance": 0.0})
     assert abs(flight["plant.angle"][-1]) < 1e-3 * flight["plant.angle"][0]
     # what a disturbance leaves of the angle without an integral
@@ -94,8 +94,8 @@ def test_the_block_of_no_slot_flies_in_a_new_system(tmp_path, monkeypatch, capsy
     assert held["plant.angle"][-1] == pytest.approx(0.01 / 6.6, rel=1e-2)
     (loop,) = perilune.stability("axis", use={"control": "damper"}).loops
     plant = control.ss([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0 / 500.0]], np.eye(2), np.zeros((2, 1)))
-    share = 0.5 / (0.5 + 0.5)
-    low_pass = control.ss(1.0 - share, 1.0 - share, share, share, 0.5)
+    fraction = 0.5 / (0.5 + 0.5)
+    low_pass = control.ss(1.0 - fraction, 1.0 - fraction, fraction, fraction, 0.5)
     exact = low_pass * control.ss([], [], [], [[6.6, 90.0]], 0.5) * control.c2d(plant, 0.5, "zoh")
     gain, phase, _ = crossings(exact)
     assert loop.margins.gain == pytest.approx(gain[np.argmin(abs(np.log(gain)))], rel=1e-4)
@@ -138,7 +138,7 @@ def test_what_is_refused(arguments, words, tmp_path, monkeypatch, capsys):
     error = capsys.readouterr().err
     assert error.startswith("perilune: ")
     assert error.count("\n") == 1
-    for word in words:
-        assert word in error
+    for token in words:
+        assert token in error
     assert sorted(tmp_path.rglob("*")) == before
     assert (tmp_path / "taken.py").read_text() == "mine"

@@ -97,8 +97,8 @@ def test_lead_of_half_a_period_makes_the_mean_exact_to_second_order(block_class)
 @settings(max_examples=either(200, 50), deadline=None)
 def test_torque_is_exact_wherever_the_law_is_used(seed, size):
     random = np.random.default_rng(seed)
-    drawn = random.normal(size=3)
-    momentum_wanted = vector(*(size * drawn / np.linalg.norm(drawn)))
+    sampled = random.normal(size=3)
+    momentum_wanted = vector(*(size * sampled / np.linalg.norm(sampled)))
     possible, angles = distribute_angles(momentum_wanted, ISOTROPIC_RHO, vector(*ISOTROPIC_ANGLES))
     assert possible
     wanted = 0.3 * random.normal(size=3)
@@ -206,8 +206,8 @@ def test_torque_beyond_the_envelope_ends_at_it_safely_and_the_way_back_is_free(b
     for beta, after in pairwise(path[:first]):
         assert torque(beta, (after - beta) / PERIOD) == pytest.approx(wanted, abs=1e-11)
     back, statuses = flown(block_class, -np.array(wanted), 60.0, angles=path[-1])
-    least = min(np.linalg.norm(momentum(beta)) / ROTOR for beta in back)
-    assert least < 0.75 * sizes[-1]
+    minimum = min(np.linalg.norm(momentum(beta)) / ROTOR for beta in back)
+    assert minimum < 0.75 * sizes[-1]
 
 
 def test_swing_leads_out_of_a_state_in_which_the_pseudo_inverse_is_locked():

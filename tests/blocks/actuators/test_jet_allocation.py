@@ -166,10 +166,10 @@ def test_saturation_keeps_the_direction_and_says_so(block_class, size):
 def test_least_propellant_gives_what_the_rule_of_the_paper_must_scale():
     """0.55 N along each axis: any two make 1.1 N, less than 1.155 N, all three more than 1.154 N."""
     force = [0.55, 0.55, 0.55]
-    least = started(JetAllocationLeastPropellant, force, delay_fraction=0.0).block
+    minimum = started(JetAllocationLeastPropellant, force, delay_fraction=0.0).block
     paper = started(JetAllocationPseudoInverse, force, delay_fraction=0.0).block
-    assert (least.status, paper.status) == (0, 1)
-    assert least.allocated_force == pytest.approx(force, abs=1e-12)
+    assert (minimum.status, paper.status) == (0, 1)
+    assert minimum.allocated_force == pytest.approx(force, abs=1e-12)
     assert sum(paper.allocated_force) == pytest.approx(1.1547, abs=1e-4)
 
 
@@ -178,11 +178,11 @@ def test_least_propellant_gives_what_the_rule_of_the_paper_must_scale():
 def test_propellant_of_a_force_is_that_of_all_axes_or_of_two(seed):
     """Sums of thrusts: |F1| + |F2| + |F3| over the axes' cosines by the paper's rule, the two largest at best."""
     force = np.random.default_rng(seed).uniform(-0.38, 0.38, 3)
-    least = started(JetAllocationLeastPropellant, force, delay_fraction=0.0).block
+    minimum = started(JetAllocationLeastPropellant, force, delay_fraction=0.0).block
     paper = started(JetAllocationPseudoInverse, force, delay_fraction=0.0).block
     parts = np.sort(np.abs(force) / AXES)
     assert sum(paper.jet_thrust) == pytest.approx(parts.sum(), abs=1e-12)
-    assert sum(least.jet_thrust) == pytest.approx(parts[1:].sum(), abs=1e-12)
+    assert sum(minimum.jet_thrust) == pytest.approx(parts[1:].sum(), abs=1e-12)
 
 
 @pytest.mark.parametrize("block_class", BLOCKS)

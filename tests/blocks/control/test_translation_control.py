@@ -96,10 +96,10 @@ def test_inputs_that_are_not_finite_leave_the_force(law, name):
 
 def double_integrator(period, delay):
     """Position at the ticks from an acceleration held from ``delay`` after each tick on."""
-    rest = period - delay
+    remainder = period - delay
     z = control.tf([1, 0], [1], period)
-    position = 0.5 * rest * rest + (0.5 * period * period - 0.5 * rest * rest) / z
-    velocity = rest + delay / z
+    position = 0.5 * remainder * remainder + (0.5 * period * period - 0.5 * remainder * remainder) / z
+    velocity = remainder + delay / z
     return position / (z - 1) + period * velocity / (z - 1) ** 2
 
 
@@ -125,10 +125,10 @@ def test_law_of_position_and_velocity_is_stable_with_the_delay(design, period):
     """Closed loop of the sampled double integrator and a held, delayed command: poles near exp(s period)."""
     w, zeta = TranslationControl().natural_frequency[design], TranslationControl().damping[design]
     delay = 0.25 * period
-    rest = period - delay
+    remainder = period - delay
     a = np.array([[1.0, period], [0.0, 1.0]])
-    now = np.array([0.5 * rest * rest, rest])
-    before = np.array([0.5 * period**2 - 0.5 * rest**2, delay])
+    now = np.array([0.5 * remainder * remainder, remainder])
+    before = np.array([0.5 * period**2 - 0.5 * remainder**2, delay])
     feedback = -np.array([w * w, 2.0 * zeta * w])
     loop = np.block([[a + np.outer(now, feedback), before[:, None]], [feedback[None, :], np.zeros((1, 1))]])
     poles = np.log(np.linalg.eigvals(loop).astype(complex)) / period

@@ -16,8 +16,16 @@ def at(block, time):
 def test_a_gust_comes_and_goes():
     block = AirDisturbance(wind=[1.0, 0.0, 0.0], gust=[0.0, 0.0, 100.0], gust_time=370.0, gust_duration=10.0)
     block.initialize()
-    for time, share in [(0.0, 0.0), (370.0, 0.0), (372.5, 0.5), (375.0, 1.0), (377.5, 0.5), (380.0, 0.0), (400.0, 0.0)]:
-        assert [*at(block, time).air_velocity] == pytest.approx([1.0, 0.0, 100.0 * share], abs=1e-9)
+    for time, fraction in [
+        (0.0, 0.0),
+        (370.0, 0.0),
+        (372.5, 0.5),
+        (375.0, 1.0),
+        (377.5, 0.5),
+        (380.0, 0.0),
+        (400.0, 0.0),
+    ]:
+        assert [*at(block, time).air_velocity] == pytest.approx([1.0, 0.0, 100.0 * fraction], abs=1e-9)
     assert at(block, 371.0).air_velocity.z == pytest.approx(50.0 * (1.0 - math.cos(math.pi / 5.0)))
 
 

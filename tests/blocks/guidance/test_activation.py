@@ -16,9 +16,9 @@ STEP = 0.5
 
 def states(guidance_class):
     """A way to the target, seen every step; the network operator's band is 1200 to 1800 m."""
-    share = np.linspace(1.0, 0.0, 40)[:, None]
+    fraction = np.linspace(1.0, 0.0, 40)[:, None]
     target = np.array([0.0, 0.0, 1500.0 if guidance_class is NetworkOperatorGuidance else 2000.0])
-    return target + share**2 * (POSITION - target), share * VELOCITY
+    return target + fraction**2 * (POSITION - target), fraction * VELOCITY
 
 
 def outputs(guidance):

@@ -61,8 +61,8 @@ def test_it_is_the_quickest_within_its_limits(way, speed, acceleration):
     block = programme(
         first_target=0.5 * way, reversal_times=[10.0, 1e9], bank_rate=speed, bank_acceleration=acceleration
     )
-    least = bound(way, speed, acceleration)
-    times = np.linspace(10.0, 10.0 + least, 2001)
+    minimum = bound(way, speed, acceleration)
+    times = np.linspace(10.0, 10.0 + minimum, 2001)
     rows = np.array([at(block, time) for time in times])
     assert np.abs(rows[:, 1]).max() <= speed * (1.0 + 1e-12)
     assert set(np.round(np.abs(rows[:, 2]) / acceleration, 9)) <= {0.0, 1.0}
@@ -72,4 +72,4 @@ def test_it_is_the_quickest_within_its_limits(way, speed, acceleration):
     assert np.abs(np.diff(rows[:, 1])).max() <= acceleration * h * (1.0 + 1e-6)
     assert rows[0, 0] == pytest.approx(0.5 * way)
     assert rows[-1, 0] == pytest.approx(-0.5 * way, abs=1e-9)
-    assert at(block, 10.0 + least + 1e-6) == (-0.5 * way, 0.0, 0.0)
+    assert at(block, 10.0 + minimum + 1e-6) == (-0.5 * way, 0.0, 0.0)

@@ -58,9 +58,9 @@ def test_a_free_filter_is_one_with_a_perfect_sensor_that_measures_nothing(block_
     assert state_of(free).tolist() == state_of(perfect).tolist()
     assert list(free.estimate_covariance) == list(perfect.estimate_covariance)
     assert free.sample_count == perfect.sample_count
-    kept = np.reshape(free.covariance, (15, 15))
-    assert np.sqrt(kept.diagonal()[6:]) == pytest.approx([1e-3] * 3 + [3e-4] * 3 + [math.radians(0.02)] * 3)
-    assert not kept[:6, 6:].any()
+    retained = np.reshape(free.covariance, (15, 15))
+    assert np.sqrt(retained.diagonal()[6:]) == pytest.approx([1e-3] * 3 + [3e-4] * 3 + [math.radians(0.02)] * 3)
+    assert not retained[:6, 6:].any()
 
 
 def test_free_raw_navigation_follows_the_orbit():

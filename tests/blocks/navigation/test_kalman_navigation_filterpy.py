@@ -115,10 +115,10 @@ def test_the_fmu_steps_as_the_plain_object_and_its_state_can_be_put_back(tmp_pat
         each.begin()
     assert fmu.fly(1, 30) == object_.fly(1, 30)
     state = fmu.slave.getFMUState()
-    kept = object_.component.get_state()
+    retained = object_.component.get_state()
     ahead = fmu.fly(30, 60)
     fmu.slave.setFMUState(state)
-    object_.component.set_state(kept)
+    object_.component.set_state(retained)
     assert fmu.fly(30, 60) == ahead == object_.fly(30, 60)
     instance.free()
 

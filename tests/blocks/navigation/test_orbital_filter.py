@@ -101,17 +101,17 @@ def test_it_is_the_filter_of_filterpy():
 @pytest.mark.parametrize(("time", "degrees"), [(20.0, 0.81), (60.0, 0.20), (100.0, 0.13)])
 def test_yaw_is_known_as_well_as_it_can_be(time, degrees):
     """sigma^2 = (12 T sigma_h^2/t^3 + T sigma_w^2/t + sigma_b^2)/w0^2, a line through t/T samples: within 5 %."""
-    least = math.sqrt(
+    minimum = math.sqrt(
         12.0 * TICK * NOISY["vertical_sigma"] ** 2 / time**3
         + TICK * NOISY["gyro_sigma"] ** 2 / time
         + NOISY["gyro_bias_sigma"] ** 2
     )
-    assert least / ORBITAL_RATE / DEGREE == pytest.approx(degrees, abs=0.006)
+    assert minimum / ORBITAL_RATE / DEGREE == pytest.approx(degrees, abs=0.006)
     still = (0.0, 0.0, (0.0, 0.0, -ORBITAL_RATE))
     run = Run("orbital_filter", still, **NOISY)
     for _ in range(round(time / TICK)):
         run.step(still)
-    assert run.block.yaw_sigma == pytest.approx(least / ORBITAL_RATE, rel=0.05)
+    assert run.block.yaw_sigma == pytest.approx(minimum / ORBITAL_RATE, rel=0.05)
 
 
 def test_a_bias_of_the_roll_gyro_is_taken_for_yaw():

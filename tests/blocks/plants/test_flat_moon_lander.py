@@ -139,10 +139,10 @@ def test_latch_holds_when_thrust_ends_at_a_communication_point(step):
 def test_latch_holds_when_the_thrust_command_goes_to_zero():
     plant = thrusting(lander(latch_at_burn_end=True))
     plant.step(0.0, 1.0)
-    kept = state(plant)
+    retained = state(plant)
     thrusting(plant, thrust=0.0)
     plant.step(1.0, 1.0)
-    assert state(plant).tolist() == kept.tolist()
+    assert state(plant).tolist() == retained.tolist()
     assert plant.specific_force == [0.0, 0.0, 0.0]
 
 

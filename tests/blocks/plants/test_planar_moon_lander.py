@@ -176,9 +176,9 @@ def test_ground_contact_is_kept():
     assert plant.ground_contact
     assert -2.0 < plant.altitude <= 0.0
     assert plant.speed == pytest.approx(math.sqrt(100.0 + 2.0 * G0 * 50.0), rel=0.02)
-    kept = state(plant)
+    retained = state(plant)
     fly(plant, 1.0, THRUST, 0.0)
-    assert state(plant).tolist() == kept.tolist()
+    assert state(plant).tolist() == retained.tolist()
     assert plant.ground_contact
 
 

@@ -393,10 +393,10 @@ def test_a_start_on_the_ground_stays_there():
 def test_thrust_ends_where_the_mass_does():
     plant = fly(command(lander(initial_mass=1.0), 4000.0), 0.0, 2.0)
     assert 0.0 < plant.mass < 0.2
-    kept = list(plant.sensed_velocity)
+    retained = list(plant.sensed_velocity)
     fly(plant, 2.0, 3.0)
     assert plant.delivered_thrust == 0.0
-    assert plant.sensed_velocity == kept
+    assert plant.sensed_velocity == retained
 
 
 def test_direction_need_not_be_a_unit_vector_nor_be_there():

@@ -66,8 +66,8 @@ def test_biases():
     assert vertical_errors(5, bias=[0.1, -0.2]) - vertical_errors(5) == pytest.approx(
         np.array([[100.0, -200.0]] * 5), rel=1e-9
     )
-    drawn = np.array([gyro_errors(1, bias_limit=0.5, stream=stream)[1] for stream in range(400)])
-    for column in drawn.T:
+    sampled = np.array([gyro_errors(1, bias_limit=0.5, stream=stream)[1] for stream in range(400)])
+    for column in sampled.T:
         assert stats.kstest(column, stats.uniform(-0.5, 1.0).cdf).pvalue > 1e-3
     errors, bias = gyro_errors(3, sigma=0.0, bias=[0.1, 0.2, 0.3], bias_limit=0.5)
     assert errors * SIGMA == pytest.approx(np.array([bias] * 3), rel=1e-12)

@@ -70,10 +70,10 @@ def test_a_whole_flight_of_hovers():
 
 @pytest.mark.parametrize(("phase", "reach"), [(5, 2990.0), (7, 100.0)])
 def test_a_redesignation_is_shortened_to_its_reach(phase, reach):
-    for share, status in ((0.999, 0), (1.001, 1)):
-        flown = Flown(phase, **{f"redesignation_{phase // 2 - 1}": [0.6 * share * reach, -0.8 * share * reach]})
+    for fraction, status in ((0.999, 0), (1.001, 1)):
+        flown = Flown(phase, **{f"redesignation_{phase // 2 - 1}": [0.6 * fraction * reach, -0.8 * fraction * reach]})
         moved = np.array(flown.block.site)[:2]
-        assert moved == pytest.approx(min(share, 1.0) * reach * np.array([0.6, -0.8]), abs=0.01)
+        assert moved == pytest.approx(min(fraction, 1.0) * reach * np.array([0.6, -0.8]), abs=0.01)
         assert flown.block.status == status
 
 

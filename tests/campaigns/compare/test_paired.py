@@ -25,8 +25,8 @@ def outcomes(both, only_a, only_b, neither):
 
 def coin(k, n):
     """Probability of at least so uneven a split of n tosses of a fair coin, either way."""
-    least = min(k, n - k)
-    tail = sum(math.comb(n, i) for i in range(least + 1)) / 2**n
+    minimum = min(k, n - k)
+    tail = sum(math.comb(n, i) for i in range(minimum + 1)) / 2**n
     return min(1.0, 2.0 * tail)
 
 

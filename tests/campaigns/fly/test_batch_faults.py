@@ -158,8 +158,8 @@ def test_every_trial_is_the_flight_of_faults_made_by_hand(result, ssp):
 @pytest.mark.parametrize(("flavour", "workers"), [("native", 3), ("python", 1)])
 def test_the_same_bits_whatever_flies_it(result, ssp, campaign, flavour, workers):
     batch, _ = result
-    again = perilune.batch(ssp[flavour], campaign, workers=workers)
-    assert repr(again.table().to_pydict()) == repr(batch.table().to_pydict())  # of every digit, and nan is nan
+    repeated = perilune.batch(ssp[flavour], campaign, workers=workers)
+    assert repr(repeated.table().to_pydict()) == repr(batch.table().to_pydict())  # of every digit, and nan is nan
 
 
 def test_the_same_bits_whatever_is_recorded(result, ssp, tmp_path):

@@ -61,12 +61,12 @@ def write(path, **columns):
 @pytest.mark.usefixtures("fmus")
 def test_the_draws_of_a_batch_are_that_batch(tmp_path):
     first = perilune.batch(SYSTEM, "noisy", trials=4, compare=ONE, workers=1, output=tmp_path / "first")
-    again = perilune.batch(
+    repeated = perilune.batch(
         SYSTEM, "noisy", draws=tmp_path / "first" / "draws.parquet", compare=ONE, workers=1, output=tmp_path / "again"
     )
-    assert again.table().drop_columns([]).to_pylist() == first.table().to_pylist()
+    assert repeated.table().drop_columns([]).to_pylist() == first.table().to_pylist()
     assert (tmp_path / "again" / "draws.parquet").read_bytes() == (tmp_path / "first" / "draws.parquet").read_bytes()
-    assert again.provenance["draws_sha256"]
+    assert repeated.provenance["draws_sha256"]
     draws = pyarrow.parquet.read_table(tmp_path / "first" / "draws.parquet").slice(2, 1)
     third = draws.append_column("streams_of", pyarrow.array([2]))
     pyarrow.parquet.write_table(third, tmp_path / "third.parquet")

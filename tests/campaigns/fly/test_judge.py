@@ -60,18 +60,18 @@ def judged(request):
     head = 'system = "s"\ntrials = 40\nseed = 1\n'
     campaign = parse_campaign(Table(tomllib.loads(head + TEXT.format(traces=request.param)), "test.toml"))
     bias = np.random.default_rng(3).uniform(size=COUNT)
-    drawn = DrawnTrials(campaign, None, [], range(100, 100 + COUNT), DrawTable(COUNT, {"bias": bias}), [])
+    sampled = DrawnTrials(campaign, None, [], range(100, 100 + COUNT), DrawTable(COUNT, {"bias": bias}), [])
     names = VariantNames([], ["p.x", "p.y"], ["p.status"], {"p.gain": 2.5})
-    return campaign, names, drawn, bias
+    return campaign, names, sampled, bias
 
 
 def test_together_or_one_by_one_to_the_bit(judged):
-    campaign, names, drawn, bias = judged
+    campaign, names, sampled, bias = judged
     together, alone = Judge(campaign, names), Judge(campaign, names)
     singles = []
     for number in range(COUNT):
-        together.add(flight(number), 100 + number, drawn)
-        alone.add(flight(number), 100 + number, drawn)
+        together.add(flight(number), 100 + number, sampled)
+        alone.add(flight(number), 100 + number, sampled)
         singles.append(alone.trials())
     actual = together.trials()
     assert actual.trial.tolist() == list(range(100, 100 + COUNT))
@@ -90,8 +90,10 @@ def test_together_or_one_by_one_to_the_bit(judged):
         np.testing.assert_array_equal(
             [actual.final["p.y"][number], actual.end_time[number]], [last, one.time[-1] if one.time.size else math.nan]
         )
-        kept = campaign.record.traces == "all" or (campaign.record.traces == "failures" and not actual.success[number])
-        assert (100 + number in actual.traces) == kept
+        retained = campaign.record.traces == "all" or (
+            campaign.record.traces == "failures" and not actual.success[number]
+        )
+        assert (100 + number in actual.traces) == retained
         assert (100 + number in actual.messages) == (not one.complete)
     for trial, traces in actual.traces.items():
         assert traces["p.x"].tobytes() == flight(trial - 100).signals["p.x"].tobytes()

@@ -96,8 +96,8 @@ def test_summary_counts_what_the_table_holds(result, folder):
 
 def test_a_trial_is_the_flight_of_its_draws(result):
     for row in result.table().to_pylist()[::5]:
-        drawn = {name.removeprefix("draw."): value for name, value in row.items() if name.startswith("draw.")}
-        settings = {name: value for name, value in drawn.items() if "." in name}
+        sampled = {name.removeprefix("draw."): value for name, value in row.items() if name.startswith("draw.")}
+        settings = {name: value for name, value in sampled.items() if "." in name}
         flight = perilune.simulate(SYSTEM, use={"guidance": row["variant"]}, set=settings)
         miss = [flight[f"plant.position[{i}]"][-1] - (0.0, 0.0, 2000.0)[i - 1] for i in (1, 2, 3)]
         speed = [flight[f"plant.velocity[{i}]"][-1] for i in (1, 2, 3)]

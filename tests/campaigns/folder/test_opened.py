@@ -86,12 +86,12 @@ def test_batches_are_all_of_it_in_little_memory(tmp_path):
     write_large(tmp_path, 150_000)
     results = perilune.open_results(tmp_path)
     size = results.arrow().nbytes
-    before, most, actual = pyarrow.total_allocated_bytes(), 0, []
+    before, maximum, actual = pyarrow.total_allocated_bytes(), 0, []
     for part in results.batches():
         actual += part.column("trial").to_pylist()
-        most = max(most, pyarrow.total_allocated_bytes() - before)
+        maximum = max(maximum, pyarrow.total_allocated_bytes() - before)
     assert actual == list(range(150_000))
-    assert most < size / 2
+    assert maximum < size / 2
 
 
 @pytest.mark.parametrize("share", [0.0, 0.05, 0.5, 0.99, 0.999, 1.0])

@@ -118,6 +118,6 @@ def test_traces(shown, place):
 def test_the_figure(shown, place, columns):
     panel = shown["figure"].axes[0]
     values = np.sort(columns["metric.velocity_error"][0])
-    drawn = panel.lines[0].get_xdata()[1:-1]
-    np.testing.assert_array_equal(drawn, np.clip(values, drawn[0], None))
+    sampled = panel.lines[0].get_xdata()[1:-1]
+    np.testing.assert_array_equal(sampled, np.clip(values, sampled[0], None))
     assert (place / "both.svg").is_file()

@@ -103,14 +103,14 @@ def test_the_users_come_after_the_campaigns(plan):
 
 def test_columns_of_the_table_of_trials(plan):
     end = 'end = "where(jet == 2, 100, repair_time)"'
-    (drawn,) = (
+    (sampled,) = (
         plan(fault("override", '"failure_time"', f'value = "size"\n{end}\nwhen = "jet < 3"'))
         .values_of(range(12))
         .faults
     )
     row = plan(DRAWS).draws.columns
     flies = row["jet"] < 3
-    columns = drawn.columns()
+    columns = sampled.columns()
     assert list(columns) == ["fault.x", "fault.x.value", "fault.x.start", "fault.x.end"]
     assert columns["fault.x"].tolist() == flies.tolist()
     np.testing.assert_array_equal(columns["fault.x.value"], np.where(flies, row["size"], np.nan))

@@ -43,8 +43,8 @@ def value(text, **values):
 
 @pytest.mark.parametrize("name", sorted(FUNCTIONS))
 def test_functions_are_those_of_math(name):
-    _, fewest, most = FUNCTIONS[name]
-    arguments = [0.7, -0.3, 0.2, 0.9][: most or 4]
+    _, fewest, maximum = FUNCTIONS[name]
+    arguments = [0.7, -0.3, 0.2, 0.9][: maximum or 4]
     assert len(arguments) >= fewest
     text = f"{name}({', '.join(map(str, arguments))})"
     assert value(text) == pytest.approx(MATH[name](*arguments), rel=1e-15)

@@ -85,7 +85,7 @@ def test_names_are_looked_up_in_record_draws_and_parameters():
     metrics = [Metric("a", Expression("p.x + q.k + d + time"), "final"), Metric("b", Expression("p.x"), "min")]
     times = np.array([0.0, 1.0])
     values = {"time": times, "p.x": np.array([1.0, 2.0]), "q.k": 10, "d": 100}
-    assert [evaluate_metric(asked, times, values) for asked in metrics] == [113.0, 1.0]
+    assert [evaluate_metric(requested, times, values) for requested in metrics] == [113.0, 1.0]
     assert names_needed(metrics, ["d"]) == {"p.x", "q.k"}
 
 

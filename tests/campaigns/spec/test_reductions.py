@@ -32,8 +32,8 @@ def value(reduction, rows, window=None, **options):
     times = 0.1 * np.arange(len(rows))
     truths, values = (np.array(column) for column in zip(*rows, strict=True))
     ends = None if window is None else tuple(map(float, window))
-    asked = metric(reduction, window=ends, **options)
-    return evaluate_metric(asked, times, {"time": times, "p.ok": truths, "p.x": values})
+    requested = metric(reduction, window=ends, **options)
+    return evaluate_metric(requested, times, {"time": times, "p.ok": truths, "p.x": values})
 
 
 def inside(rows, window):
@@ -45,22 +45,22 @@ def inside(rows, window):
 
 @given(ROWS, WINDOWS)
 def test_settled_by_its_definition(rows, window):
-    kept, start = inside(rows, window)
-    expected = math.inf if kept else math.nan
-    for k in reversed(range(len(kept))):
-        if not kept[k][1]:
+    retained, start = inside(rows, window)
+    expected = math.inf if retained else math.nan
+    for k in reversed(range(len(retained))):
+        if not retained[k][1]:
             break
-        expected = float(kept[k][0] - start) if k else 0.0
+        expected = float(retained[k][0] - start) if k else 0.0
     assert value("settled", rows, window) == pytest.approx(expected, abs=1e-12, nan_ok=True)
 
 
 @given(ROWS, WINDOWS, st.integers(0, 30).map(lambda halves: halves * STEP / 2))
 def test_first_by_its_definition(rows, window, delay):
-    kept, _ = inside(rows, window)
+    retained, _ = inside(rows, window)
     expected = math.nan
-    holding = [time for time, truth, _ in kept if truth]
+    holding = [time for time, truth, _ in retained if truth]
     if holding:
-        expected = next((x for time, _, x in kept if time >= holding[0] + delay), math.nan)
+        expected = next((x for time, _, x in retained if time >= holding[0] + delay), math.nan)
     assert value("first", rows, window, delay=float(delay)) == pytest.approx(expected, nan_ok=True, rel=0, abs=0)
 
 
@@ -119,11 +119,11 @@ def test_settled_of_a_flight_that_does_not_begin_at_zero():
 
 def test_constants_are_conditions_and_values_too():
     times = np.arange(3.0)
-    asked = Metric("m", Expression("time"), "first", condition=Expression("case == 2"))
-    actual = [evaluate_metric(asked, times, {"time": times, "case": case}) for case in (1.0, 2.0)]
+    requested = Metric("m", Expression("time"), "first", condition=Expression("case == 2"))
+    actual = [evaluate_metric(requested, times, {"time": times, "case": case}) for case in (1.0, 2.0)]
     assert actual == [pytest.approx(math.nan, nan_ok=True), 0.0]
 
 
 def test_the_conditions_names_are_needed_too():
-    asked = Metric("m", Expression("p.x + time"), "first", condition=Expression("p.ok and case > 1"))
-    assert names_needed([asked], ["case"]) == {"p.x", "p.ok"}
+    requested = Metric("m", Expression("p.x + time"), "first", condition=Expression("p.ok and case > 1"))
+    assert names_needed([requested], ["case"]) == {"p.x", "p.ok"}

@@ -52,7 +52,11 @@ def test_everything_is_read(campaign):
 )
 def test_what_is_wrong_is_said(campaign, line, words):
     key = line.split(" = ")[0]
-    lines = [kept for kept in KEPT.split("[requirement.lands]")[0].splitlines() if not kept.startswith(f"{key} =")]
+    lines = [
+        retained
+        for retained in KEPT.split("[requirement.lands]")[0].splitlines()
+        if not retained.startswith(f"{key} =")
+    ]
     with pytest.raises(InputError) as error:
         campaign(METRICS + "\n".join([*lines, line]))
     assert str(error.value).startswith(f"test.toml: requirement.{words}")
@@ -60,7 +64,11 @@ def test_what_is_wrong_is_said(campaign, line, words):
 
 @pytest.mark.parametrize("key", ["expression", "share", "confidence", "metric", "bound"])
 def test_what_is_missing_is_said(campaign, key):
-    lines = [kept for kept in KEPT.split("[requirement.lands]")[0].splitlines() if not kept.startswith(f"{key} =")]
+    lines = [
+        retained
+        for retained in KEPT.split("[requirement.lands]")[0].splitlines()
+        if not retained.startswith(f"{key} =")
+    ]
     with pytest.raises(InputError, match=rf"requirement\.pinpoint\.{key}: missing"):
         campaign(METRICS + "\n".join(lines))
 

@@ -54,10 +54,10 @@ def _campaign(trials=12, **others):
 
 
 def test_which_texts_are_sweeps():
-    asked = {"a.b": " 1:5:0.5 ", "a.c": "1", "a.d": 2.0, "a.e": "file:a:b", "a.f": "1:5", "a.g": [1, 2]}
-    options, sweeps = part_sweeps(SystemOptions(set=asked))
+    requested = {"a.b": " 1:5:0.5 ", "a.c": "1", "a.d": 2.0, "a.e": "file:a:b", "a.f": "1:5", "a.g": [1, 2]}
+    options, sweeps = part_sweeps(SystemOptions(set=requested))
     assert sweeps == {"a.b": "1:5:0.5"}
-    assert dict(options.set) == {name: value for name, value in asked.items() if name != "a.b"}
+    assert dict(options.set) == {name: value for name, value in requested.items() if name != "a.b"}
 
 
 def test_several_sweeps_are_every_combination_beside_the_campaigns_own_grid(campaign):
@@ -162,8 +162,8 @@ def test_a_trial_of_a_sweep_flies_again(folder, tmp_path, capsys):
     assert main(["replay", SYSTEM, "7", "--campaign", "paper", *words, "--json", str(replayed)]) == 0
     row = perilune.merge(folder).table().to_pylist()[7]
     assert row[f"draw.{MASS}"] == 950
-    again = json.loads(replayed.read_text())["metrics"]
-    assert again["position_error"] == row["metric.position_error"]
+    repeated = json.loads(replayed.read_text())["metrics"]
+    assert repeated["position_error"] == row["metric.position_error"]
     stored = perilune.replay(folder, 7)
     assert stored.metrics["position_error"] == row["metric.position_error"]
     assert stored.differences == ()

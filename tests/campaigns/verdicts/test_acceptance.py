@@ -53,8 +53,8 @@ def test_half_of_3_sigma():
 
 
 def test_risks_are_binomial_sums():
-    share, flights = Fraction(997, 1000), 40
-    terms = [math.comb(flights, k) * (1 - share) ** k * share ** (flights - k) for k in range(flights + 1)]
+    fraction, flights = Fraction(997, 1000), 40
+    terms = [math.comb(flights, k) * (1 - fraction) ** k * fraction ** (flights - k) for k in range(flights + 1)]
     for failures in (0, 1, 3, 40):
         assert consumer_risk(flights, failures, 0.997) == pytest.approx(float(sum(terms[: failures + 1])), rel=1e-10)
         assert producer_risk(flights, failures, 0.997) == pytest.approx(float(sum(terms[failures:])), rel=1e-10)
@@ -75,9 +75,9 @@ def test_verdicts_are_those_of_clopper_and_pearsons_bounds(flights, data, share,
 
 @given(st.integers(1, 5000), SHARES, CONFIDENCES)
 def test_permitted_failures_are_the_most_that_meet_it(flights, share, confidence):
-    most = acceptance_number(flights, share, confidence)
-    assert most < 0 or decide_by_size(flights, most, share, confidence) is Verdict.MET
-    assert decide_by_size(flights, most + 1, share, confidence) is not Verdict.MET
+    maximum = acceptance_number(flights, share, confidence)
+    assert maximum < 0 or decide_by_size(flights, maximum, share, confidence) is Verdict.MET
+    assert decide_by_size(flights, maximum + 1, share, confidence) is not Verdict.MET
 
 
 @given(st.integers(0, 30), st.floats(0.5, 0.9999), CONFIDENCES)

@@ -64,14 +64,14 @@ def test_looking_at_figures_of_one_size_is_wrong():
         step = flights - last
         alive = {
             count: sum(
-                share * comb(step, count - before) * rate ** (count - before) * (1 - rate) ** (step - count + before)
-                for before, share in alive.items()
+                fraction * comb(step, count - before) * rate ** (count - before) * (1 - rate) ** (step - count + before)
+                for before, fraction in alive.items()
                 if before <= count
             )
             for count in range(4)
         }
-        accepted += float(sum(share for count, share in alive.items() if count <= permitted))
-        alive = {count: share for count, share in alive.items() if count > permitted}
+        accepted += float(sum(fraction for count, fraction in alive.items() if count <= permitted))
+        alive = {count: fraction for count, fraction in alive.items() if count > permitted}
         last = flights
     assert accepted == pytest.approx(0.1777, abs=5e-5)
 
@@ -110,23 +110,23 @@ def test_the_recursion_in_rational_numbers():
         step = flights - last
         alive = {
             count: sum(
-                share * comb(step, count - before) * rate ** (count - before) * (1 - rate) ** (step - count + before)
-                for before, share in alive.items()
+                fraction * comb(step, count - before) * rate ** (count - before) * (1 - rate) ** (step - count + before)
+                for before, fraction in alive.items()
                 if 0 <= count - before <= step
             )
             for count in range(flights + 1)
         }
         budget = Fraction(spending(flights, 0.25, half)) - spent
-        most = -1
-        while sum(share for count, share in alive.items() if count <= most + 1) <= budget:
-            most += 1
-        assert rule.acceptance_number(flights) == most
-        kept = np.arange(flights) >= 1
-        spent += sum(share for count, share in alive.items() if count <= most)
-        alive = {count: share for count, share in alive.items() if count > most}
+        maximum = -1
+        while sum(fraction for count, fraction in alive.items() if count <= maximum + 1) <= budget:
+            maximum += 1
+        assert rule.acceptance_number(flights) == maximum
+        retained = np.arange(flights) >= 1
+        spent += sum(fraction for count, fraction in alive.items() if count <= maximum)
+        alive = {count: fraction for count, fraction in alive.items() if count > maximum}
         last = flights
         if rule.decide(flights, 1) is Verdict.UNDECIDED:
-            assert rule.decision(kept).flights == flights
+            assert rule.decision(retained).flights == flights
     assert rule.decision(np.ones(30, dtype=bool)).consumer_risk <= 0.25
 
 
@@ -138,12 +138,12 @@ def test_ten_thousand_campaigns_are_wrong_in_a_tenth_at_most(share, confidence, 
     At the limit itself both verdicts are held against the rule, each by itself. 10.9 % is three deviations above 10.
     """
     rule = stopping_rule(share, confidence)
-    looks = rule.looks(20 * flights_needed(0, share, confidence))
-    steps = np.diff([0, *looks])
+    analyses = rule.looks(20 * flights_needed(0, share, confidence))
+    steps = np.diff([0, *analyses])
     failures = np.random.default_rng(18).binomial(steps, (1.0 - share) * beside, (10_000, len(steps))).cumsum(axis=1)
-    low = np.array([rule.acceptance_number(flights) for flights in looks])
-    high = np.array([rule.rejection_number(flights) for flights in looks])
-    end = len(looks)
+    low = np.array([rule.acceptance_number(flights) for flights in analyses])
+    high = np.array([rule.rejection_number(flights) for flights in analyses])
+    end = len(analyses)
 
     def first(stops):
         return np.where(stops.any(axis=1), stops.argmax(axis=1), end)
@@ -196,22 +196,22 @@ def test_a_verdict_is_a_function_of_the_flights_in_order(kept, look, data):
 @given(st.floats(0.02, 0.999), st.floats(0.5, 0.999))
 def test_no_look_has_both_verdicts(share, confidence):
     rule = StoppingRule(share, confidence)
-    looks = rule.looks(64 * rule.look)
-    assert len(looks) == 48  # 32 at one distance, 16 at twice that
-    assert all(flights % rule.look == 0 for flights in looks)
-    for flights in looks:
+    analyses = rule.looks(64 * rule.look)
+    assert len(analyses) == 48  # 32 at one distance, 16 at twice that
+    assert all(flights % rule.look == 0 for flights in analyses)
+    for flights in analyses:
         assert rule.acceptance_number(flights) < rule.rejection_number(flights)
         fixed = FixedSize(share, confidence).count_permitted(flights)[1]
         assert rule.acceptance_number(flights) <= fixed
 
 
 def test_consumer_risk_is_that_of_stopping_so_early():
-    kept = np.ones(2300, dtype=bool)
-    assert RULE.decision(kept).verdict is Verdict.MET
-    assert RULE.decision(kept).consumer_risk == pytest.approx(0.9987**2300, rel=1e-9)
-    assert RULE.decision(kept[:99]).consumer_risk == 1.0
-    kept[5] = False
-    decision = RULE.decision(np.concatenate([kept, np.ones(1700, dtype=bool)]))
+    retained = np.ones(2300, dtype=bool)
+    assert RULE.decision(retained).verdict is Verdict.MET
+    assert RULE.decision(retained).consumer_risk == pytest.approx(0.9987**2300, rel=1e-9)
+    assert RULE.decision(retained[:99]).consumer_risk == 1.0
+    retained[5] = False
+    decision = RULE.decision(np.concatenate([retained, np.ones(1700, dtype=bool)]))
     assert (decision.verdict, decision.flights) == (Verdict.MET, 4000)
     risk = 0.9987**2300 + binom.pmf(1, 2300, 0.0013) * 0.9987**1700
     assert decision.consumer_risk == pytest.approx(risk, rel=1e-6)

@@ -34,8 +34,8 @@ def test_the_order_statistic_has_the_confidence_and_the_next_has_not(flights, sh
 
 @pytest.mark.parametrize("upper", [True, False])
 def test_ten_thousand_campaigns_bound_the_quantile(upper):
-    flights, share, confidence = 93, 0.95, 0.95
-    permitted = acceptance_number(flights, share, confidence)
+    flights, fraction, confidence = 93, 0.95, 0.95
+    permitted = acceptance_number(flights, fraction, confidence)
     assert permitted == 1
     values = np.random.default_rng(3).standard_normal((10_000, flights))
     bounds = np.array([tolerance_bound(row, permitted, upper) for row in values])
@@ -47,10 +47,10 @@ def test_ten_thousand_campaigns_bound_the_quantile(upper):
 def test_bounds_hold_however_often_they_are_looked_at():
     """The bound of every look of a campaign at once covers the quantile with the confidence."""
     rule = StoppingRule(0.9, 0.9)
-    looks = rule.looks(400)
+    analyses = rule.looks(400)
     values = np.random.default_rng(4).uniform(size=(4000, 400))
     missed = np.zeros(4000, dtype=bool)
-    for flights in looks:
+    for flights in analyses:
         permitted = rule.acceptance_number(flights)
         if permitted >= 0:
             missed |= np.sort(values[:, :flights], axis=1)[:, -1 - permitted] < 0.9
@@ -59,9 +59,9 @@ def test_bounds_hold_however_often_they_are_looked_at():
 
 def test_agrees_with_scipys_quantile_test():
     values = np.random.default_rng(5).exponential(size=200)
-    share, confidence = 0.95, 0.9
-    bound = tolerance_bound(values, acceptance_number(200, share, confidence), upper=True)
-    interval = quantile_test(values, p=share, alternative="less").confidence_interval(confidence)
+    fraction, confidence = 0.95, 0.9
+    bound = tolerance_bound(values, acceptance_number(200, fraction, confidence), upper=True)
+    interval = quantile_test(values, p=fraction, alternative="less").confidence_interval(confidence)
     assert bound == interval.high
 
 

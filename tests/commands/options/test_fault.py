@@ -76,8 +76,8 @@ def test_provenance_can_be_flown_again(folder, capsys):
     command = ["run", str(folder / "s.ssp"), "--json", "-"]
     assert main([*command, "--fault", "gain.u = bias:5e-1@.25..75e-2", "--fault", "ramp.y=freeze@0.1"]) == 0
     first = json.loads(capsys.readouterr().out)
-    again = [word for text in first["faults"] for word in ("--fault", text)]
-    assert main([*command, *again]) == 0
+    repeated = [token for text in first["faults"] for token in ("--fault", text)]
+    assert main([*command, *repeated]) == 0
     assert json.loads(capsys.readouterr().out) == first
     fault = perilune.Fault("gain.u", "bias", 0.5, 0.25, 0.75)
     flown = perilune.simulate(folder / "s.ssp", faults=[fault, perilune.Fault("ramp.y", "freeze", start=0.1)])
@@ -173,8 +173,8 @@ def test_comparisons_say_which_faults_flew(folder, batch, tmp_path, capsys):
     assert capsys.readouterr().out.splitlines()[-2] == says["biased"]
     assert f"W{says['biased'][1:]}." in text_of(page.read_text())
     assert main(["compare", str(tmp_path / "bare"), "--report", str(page)]) == 0
-    told = capsys.readouterr().out + text_of(page.read_text())
-    assert not re.search("[Ww]ith(out)? faults", told)
+    reported = capsys.readouterr().out + text_of(page.read_text())
+    assert not re.search("[Ww]ith(out)? faults", reported)
 
 
 def test_help_has_the_form(capsys):

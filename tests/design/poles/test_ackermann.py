@@ -54,8 +54,8 @@ def test_the_set_contains_every_gain(states: int, inputs: int) -> None:
     random = np.random.default_rng(states)
     for a, b, _, _ in random_systems(either(50, 3), states, inputs, seed=2):
         gain = random.normal(size=(inputs, states))
-        again = ackermann_of(a, b, coefficients_of(a, b, gain))
-        assert np.max(np.abs(again.gain - gain)) < 1e-12 * again.condition_u * np.max(np.abs(gain))
+        repeated = ackermann_of(a, b, coefficients_of(a, b, gain))
+        assert np.max(np.abs(repeated.gain - gain)) < 1e-12 * repeated.condition_u * np.max(np.abs(gain))
 
 
 @pytest.mark.parametrize(("blocks", "inputs"), [(1, 3), (2, 2), (3, 2), (2, 3), (4, 1)])

@@ -102,9 +102,9 @@ def test_least_gain_is_below_the_others(states: int, inputs: int, count: int) ->
         norms.append((actual.norm, diagonal.norm, np.linalg.norm(yang_and_tits(a, b, poles.real), 2)))
         assert actual.norm <= min(norms[-1][1:])
     if LONG:
-        least, diagonal, yang = np.median(norms, axis=0)
-        assert least < 0.5 * diagonal
-        assert least < 0.55 * yang
+        minimum, diagonal, yang = np.median(norms, axis=0)
+        assert minimum < 0.5 * diagonal
+        assert minimum < 0.55 * yang
 
 
 @pytest.mark.parametrize("search", [least_condition, least_norm])

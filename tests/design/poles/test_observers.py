@@ -30,20 +30,20 @@ def test_full_order(method: str | None, choice: str) -> None:
 def test_reduced_order(states: int, outputs: int) -> None:
     random = np.random.default_rng(states)
     for a, b, c, _ in random_systems(either(50, 6), states, 2, outputs, seed=23):
-        rest = states - outputs
-        poles = random_spectrum(random, rest, int(random.integers(rest // 2 + 1)))
+        remainder = states - outputs
+        poles = random_spectrum(random, remainder, int(random.integers(remainder // 2 + 1)))
         actual = modal.reduced_observer(a, c, poles, b=b)
         assert_placed(actual.closed_loop, poles)
         # plant, observer and constant inputs together
         joint = np.block(
             [
-                [a, np.zeros((states, rest)), b],
+                [a, np.zeros((states, remainder)), b],
                 [actual.from_y @ c, actual.closed_loop, actual.from_u],
-                [np.zeros((2, states + rest + 2))],
+                [np.zeros((2, states + remainder + 2))],
             ]
         )
         estimate = np.hstack([actual.of_y @ c, actual.of_zeta, np.zeros((states, 2))])
-        start = random.normal(size=states + rest + 2)
+        start = random.normal(size=states + remainder + 2)
         end = expm(0.7 * joint) @ start
         size = np.linalg.norm(expm(0.7 * joint), 2) * np.linalg.norm(estimate, 2) * np.linalg.norm(start)
         # every measurement is met at once, and the rest of the error decays as the matrix says

@@ -82,8 +82,8 @@ def test_the_set_of_all_gains() -> None:
     actual = modal.place(a, b, poles)
     coefficients = modal.polynomial_of_gain(a, b, actual.gain)
     assert coefficients.shape == (3, 2, 2)
-    again = modal.place_polynomial(a, b, coefficients)
-    np.testing.assert_allclose(again.gain, actual.gain, atol=1e-10 * actual.norm)
+    repeated = modal.place_polynomial(a, b, coefficients)
+    np.testing.assert_allclose(repeated.gain, actual.gain, atol=1e-10 * actual.norm)
 
 
 SYSTEM = ([[0.0, 1.0], [0.0, 0.0]], [[0.0], [1.0]], [-1.0, -2.0])
@@ -154,13 +154,13 @@ def test_wrong_levels_are_one_line() -> None:
 def test_refusals_say_a_number_and_survive_pickling() -> None:
     with pytest.raises(modal.PlacementError, match="the largest singular value left out is") as refused:
         modal.place(np.diag([1.0, 2.0, 3.0]), [[1.0], [1.0], [0.0]], [-1.0, -2.0, -3.0])
-    again = pickle.loads(pickle.dumps(refused.value))
-    assert (again.reason, again.number, str(again)) == (
+    repeated = pickle.loads(pickle.dumps(refused.value))
+    assert (repeated.reason, repeated.number, str(repeated)) == (
         modal.Reason.NOT_CONTROLLABLE,
         refused.value.number,
         str(refused.value),
     )
-    assert "\n" not in str(again)
+    assert "\n" not in str(repeated)
 
 
 def test_the_result_in_a_line() -> None:

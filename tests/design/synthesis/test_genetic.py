@@ -120,11 +120,11 @@ def test_a_renewal_takes_the_chosen_law_as_basis_and_keeps_the_elites():
     assert len(state.bases) == 2
     fresh = [member for member in state.population if member.genes.basis == 1]
     assert actual.law(fresh[0]) == chosen
-    kept = [member for member in state.population if member in before]
-    assert len(kept) >= SMALL.elites
+    retained = [member for member in state.population if member in before]
+    assert len(retained) >= SMALL.elites
     assert len(fresh) == SMALL.population - SMALL.elites
     points = [member.evaluation.objectives for member in before]
-    for member in kept[: SMALL.elites]:
+    for member in retained[: SMALL.elites]:
         worse = sum(dominates(point, member.evaluation.objectives) for point in points)
         assert worse <= sorted(sum(dominates(a, b) for a in points) for b in points)[SMALL.elites - 1]
 

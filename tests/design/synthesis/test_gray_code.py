@@ -50,8 +50,8 @@ def test_codes_are_all_the_numbers_of_their_width(coding, data):
 
 @given(CODINGS, st.data())
 def test_a_value_is_coded_to_the_nearest_step(coding, data):
-    most = 2**coding.integer - 2.0**-coding.fraction
-    values = data.draw(st.lists(st.floats(0.0, most), min_size=coding.count, max_size=coding.count))
+    maximum = 2**coding.integer - 2.0**-coding.fraction
+    values = data.draw(st.lists(st.floats(0.0, maximum), min_size=coding.count, max_size=coding.count))
     for value, actual in zip(values, coding.decode(coding.encode(values)), strict=True):
         assert abs(Fraction(value) - Fraction(actual)) <= Fraction(1, 2 ** (coding.fraction + 1))
 

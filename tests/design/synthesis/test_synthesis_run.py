@@ -111,8 +111,8 @@ def test_a_search_in_pieces_finds_the_same(whole, tmp_path):
     assert content(out).keys() == content(whole[1]).keys()
     for name in ("law.json", "law.ssv", "log.csv", "checkpoint.json"):
         assert content(out)[name] == content(whole[1])[name], name
-    again = run_synthesis(search, workers=1, output=out, resume=True)  # over already: nothing flies
-    assert again.search.state.evaluations == result.search.state.evaluations
+    repeated = run_synthesis(search, workers=1, output=out, resume=True)  # over already: nothing flies
+    assert repeated.search.state.evaluations == result.search.state.evaluations
 
 
 def test_an_interrupted_search_goes_on(whole, tmp_path, monkeypatch):

@@ -134,7 +134,7 @@ def test_what_leads_nowhere_is_pruned_and_nothing_else(matrix, seed, sources):
     reach = depends(actual)
     for row in range(SIZE - 2):
         assert not np.array(actual)[row].any() or reach[row, SIZE - 2 :].any()
-    kept = np.array(actual) == np.array(matrix)
+    retained = np.array(actual) == np.array(matrix)
     leads = depends(matrix)[:, SIZE - 2 :].any(axis=1)
     leads[SIZE - 2 :] = True
-    assert kept[np.ix_(leads, leads)].all()
+    assert retained[np.ix_(leads, leads)].all()

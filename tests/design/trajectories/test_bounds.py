@@ -71,8 +71,8 @@ def test_landing(landing):
 
 def test_the_engines_least_thrust_costs_grams():
     burning, free = (
-        solve_fixed_time(landing_problem(replace(LANDER, minimum_thrust=least), LANDING), 292.65, INTERVALS)
-        for least in (340.0, 0.0)
+        solve_fixed_time(landing_problem(replace(LANDER, minimum_thrust=minimum), LANDING), 292.65, INTERVALS)
+        for minimum in (340.0, 0.0)
     )
     assert burning.looseness <= TIGHT
     more = LANDER.mass * (burning.propellant_fraction - free.propellant_fraction)

@@ -103,8 +103,8 @@ def test_nearly_a_line_beyond_700_m(best):
 def test_least_where_it_is_said_to_be(best):
     durations, fractions = over_duration(best)
     assert np.nanargmin(fractions) == np.flatnonzero(durations == best.duration)[0]
-    slopes = np.diff(fractions) / np.diff(durations)
-    assert np.all(np.diff(slopes[np.isfinite(slopes)]) > 0.0)  # convex about its least
+    derivatives = np.diff(fractions) / np.diff(durations)
+    assert np.all(np.diff(derivatives[np.isfinite(derivatives)]) > 0.0)  # convex about its least
 
 
 def test_a_path_is_its_motion(best):

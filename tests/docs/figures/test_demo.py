@@ -73,6 +73,8 @@ def test_figure_of_the_readme_is_reproduced(fmus, tmp_path):
         draw_readme_figure(tmp_path / "b.svg")
         assert first == (tmp_path / "b.svg").read_bytes()
     assert b"<dc:date>" not in first
-    kept, drawn = (etree.parse(path).getroot() for path in (ROOT / "docs/images/landing.svg", tmp_path / "a.svg"))
-    assert kept.get("viewBox") == drawn.get("viewBox")
-    assert [element.get("id") for element in kept.iter("{*}g")] == [element.get("id") for element in drawn.iter("{*}g")]
+    retained, sampled = (etree.parse(path).getroot() for path in (ROOT / "docs/images/landing.svg", tmp_path / "a.svg"))
+    assert retained.get("viewBox") == sampled.get("viewBox")
+    assert [element.get("id") for element in retained.iter("{*}g")] == [
+        element.get("id") for element in sampled.iter("{*}g")
+    ]

@@ -36,14 +36,14 @@ def test_bytes_repeat(flight, drawn_once, tmp_path):
 def test_labels_are_there_and_the_kept_ones_are_these(drawn_once):
     assert {path.stem for path in drawn_once} == set(LABELS)
     for first in drawn_once:
-        drawn = first.read_bytes()
-        assert len(drawn) < 100_000
-        assert b"<dc:date>" not in drawn
-        root, kept = etree.fromstring(drawn), etree.parse(ROOT / "docs" / "images" / first.name).getroot()
+        sampled = first.read_bytes()
+        assert len(sampled) < 100_000
+        assert b"<dc:date>" not in sampled
+        root, retained = etree.fromstring(sampled), etree.parse(ROOT / "docs" / "images" / first.name).getroot()
         texts = {comment.text.strip() for comment in root.iter(etree.Comment)}  # text is drawn as paths
         assert texts >= LABELS[first.stem]
-        assert kept.get("viewBox") == root.get("viewBox")
-        assert [group.get("id") for group in kept.iter("{*}g")] == [group.get("id") for group in root.iter("{*}g")]
+        assert retained.get("viewBox") == root.get("viewBox")
+        assert [group.get("id") for group in retained.iter("{*}g")] == [group.get("id") for group in root.iter("{*}g")]
 
 
 def test_the_text_shows_each_figure_once():
@@ -54,6 +54,6 @@ def test_the_text_shows_each_figure_once():
 def test_gimbals_are_drawn_from_the_isotropic_angles_and_back(flight):
     isotropic = np.degrees(np.arccos(np.sqrt(2.0 / 3.0)))  # docs/systems/robot_rendezvous.md, Gyros
     expected = np.array([isotropic, -isotropic, 180.0 + isotropic, 180.0 - isotropic])
-    drawn = [line.get_ydata() for line in gyros_figure(flight).axes[0].get_lines() if len(line.get_ydata()) > 2]
-    assert [angles[0] for angles in drawn] == pytest.approx(expected, abs=1e-9)
-    assert [angles[-1] for angles in drawn] == pytest.approx(expected, abs=0.01)
+    sampled = [line.get_ydata() for line in gyros_figure(flight).axes[0].get_lines() if len(line.get_ydata()) > 2]
+    assert [angles[0] for angles in sampled] == pytest.approx(expected, abs=1e-9)
+    assert [angles[-1] for angles in sampled] == pytest.approx(expected, abs=0.01)

@@ -147,16 +147,16 @@ def c_results(name: str, portable: bool, columns: list[list]) -> list[Result]:
 def test_c_has_cpythons_bits_and_errors(name: str, portable: bool) -> None:
     random = samples.generator(name)
     _, kinds, _, function = CASES[name]
-    drawn = [floats(random, SAMPLES) if kind == "float" else ints(random, SAMPLES) for kind in kinds]
+    sampled = [floats(random, SAMPLES) if kind == "float" else ints(random, SAMPLES) for kind in kinds]
     if len(kinds) == 2:  # every edge with every edge too
         edges = FLOATS if kinds[0] == "float" else INTS
-        drawn[0] += [a for a in edges for _ in edges]
-        drawn[1] += [b for _ in edges for b in edges]
+        sampled[0] += [a for a in edges for _ in edges]
+        sampled[1] += [b for _ in edges for b in edges]
     try:
-        native = c_results(name, portable, drawn)
+        native = c_results(name, portable, sampled)
     except CompilerMissing:
         pytest.skip("ziglang is not installed")
-    for arguments, actual in zip(zip(*drawn, strict=True), native, strict=True):
+    for arguments, actual in zip(zip(*sampled, strict=True), native, strict=True):
         expected = python_result(function, *arguments)
         assert actual == expected, f"{name}{arguments}: Python {expected}, C {actual}"
 

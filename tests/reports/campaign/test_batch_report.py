@@ -57,8 +57,8 @@ def test_every_name_is_there(result, page):
 def test_requirements_have_verdicts_in_words_and_colour(tmp_path):
     """Truth: the summary; a requirement that every trial keeps, one that too few show, one that too many fail."""
     text = "".join(
-        f'[requirement.{name}]\nexpression = "{expression}"\nshare = {share}\nconfidence = "90 %"\n{more}'
-        for name, expression, share, more in (
+        f'[requirement.{name}]\nexpression = "{expression}"\nshare = {fraction}\nconfidence = "90 %"\n{more}'
+        for name, expression, fraction, more in (
             ("easy", "tilt < 1e9", 0.5, 'description = "one can do it"\n'),
             ("strict", "tilt < 1e9", 0.9987, 'metric = "tilt"\nbound = "upper"\n'),
             ("steep", "tilt > 1e9", 0.5, 'metric = "tilt"\nbound = "lower"\n'),
@@ -70,14 +70,14 @@ def test_requirements_have_verdicts_in_words_and_colour(tmp_path):
     cells = section.xpath(".//td[contains(@class, 'verdict')]")
     words = [("met", "verdict pass"), ("undecided", "verdict not-applicable"), ("not met", "verdict fail")]
     assert [(cell.text, cell.get("class")) for cell in cells] == [pair for pair in words for _ in range(2)]
-    shown = text_of(page)
-    assert "1731, 2951, 4053" in shown
+    displayed = text_of(page)
+    assert "1731, 2951, 4053" in displayed
     assert (
         "no upper bound of tilt with 99.87 % probability at 90 % confidence: 1731 more trials are needed for a bound"
-        in shown
+        in displayed
     )
-    assert "tilt >= 5.73 deg with 50 % probability at 90 % confidence: 16th worst of 40" in shown  # 0.1 rad
-    assert "one can do it" in shown
+    assert "tilt >= 5.73 deg with 50 % probability at 90 % confidence: 16th worst of 40" in displayed  # 0.1 rad
+    assert "one can do it" in displayed
     assert "Requirements" not in text_of(write(mixed_batch(), tmp_path / "without.html"))
 
 

@@ -76,8 +76,8 @@ def test_the_circle_is_round_and_to_scale():
 
 
 def test_angles_are_in_degrees():
-    asked = PLANE.format("rad", "rad", f"circle = {math.pi / 6}")
-    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + asked))
+    requested = PLANE.format("rad", "rad", f"circle = {math.pi / 6}")
+    (actual,) = scatter_figures(batch_result({"near": NEAR}, DRAWS + requested))
     assert actual.title == "north vs. east"
     assert ">30</data> deg around the origin." in actual.notes[0]
     assert "east, deg" in actual.panels[0].figure

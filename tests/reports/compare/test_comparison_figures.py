@@ -260,8 +260,8 @@ def test_ends_are_about_the_target(comparison):
 
 
 def test_a_target_that_is_drawn_differs_from_trial_to_trial(batch):
-    drawn = replace(batch, draws=batch.draws | {"pilot.target_position[2]": np.arange(40.0)})
-    target = target_of(Contender("beta", drawn, "beta", 0, 1), "position").values
+    plotted = replace(batch, draws=batch.draws | {"pilot.target_position[2]": np.arange(40.0)})
+    target = target_of(Contender("beta", plotted, "beta", 0, 1), "position").values
     assert target[:, 1].tolist() == list(range(40))
     assert np.all(target[:, [0, 2]] == TARGET[[0, 2]])
 
@@ -278,9 +278,9 @@ def test_ellipses_are_so_many_deviations_away(count, seed, sigma):
 
 def test_ellipses_hold_what_the_page_says_of_normal_errors():
     good = np.random.default_rng(1).normal(size=(200_000, 3)) @ np.array([[2.0, 0.7, 0], [0, 0.5, 0], [0, 0, 1]])
-    for sigma, share in ((1, 0.393), (2, 0.865), (3, 0.989)):  # test_comparison_page.py: that the page says so
+    for sigma, fraction in ((1, 0.393), (2, 0.865), (3, 0.989)):  # test_comparison_page.py: that the page says so
         inside = Path(ellipse(good, sigma).T).contains_points(good[:, :2])
-        assert np.mean(inside) == pytest.approx(share, abs=0.004)
+        assert np.mean(inside) == pytest.approx(fraction, abs=0.004)
 
 
 def test_dispersion_of_few_trials():

@@ -183,8 +183,8 @@ def test_errors_over_sigma(page, trials):
     expected = []
     for variant in VARIANTS:
         values = trials[variant]["metric.x_error_over_sigma"]
-        shares = [np.mean(np.abs(values) <= limit) for limit in (1, 2, 3)]
-        expected.append([values.mean(), values.std(ddof=1), *shares, 40])
+        fractions = [np.mean(np.abs(values) <= limit) for limit in (1, 2, 3)]
+        expected.append([values.mean(), values.std(ddof=1), *fractions, 40])
     actual = table_rows(section(page, "Normalised estimation errors"), 6)
     np.testing.assert_allclose(actual, expected, rtol=1e-9)
     assert "normal: 68.3" in text_of(page)
@@ -221,9 +221,9 @@ def test_every_variant_has_one_colour_everywhere(folder, page):
         label = figure.xpath("figcaption")[0].text_content().strip()
         if label in colours:
             seen.append(label)
-            drawn = set(re.findall(r"#[0-9a-f]{6}", " ".join(figure.xpath(".//@style")).lower()))
-            assert colours[label].lower() in drawn
-            assert not drawn & {colour.lower() for other, colour in colours.items() if other != label}
+            plotted = set(re.findall(r"#[0-9a-f]{6}", " ".join(figure.xpath(".//@style")).lower()))
+            assert colours[label].lower() in plotted
+            assert not plotted & {colour.lower() for other, colour in colours.items() if other != label}
     assert len(seen) == 3 * 11  # paths from the side and in plan, two ends, seven quantities
     assert set(seen) == set(colours)
 
@@ -255,8 +255,8 @@ def test_groups(tmp_path):
             for variant in VARIANTS:
                 for case in (1.0, 2.0):
                     mine = [row for row in rows if (row["variant"], row["draw.case"]) == (variant, case)]
-                    kept = [row[f"metric.{metric}"] for row in mine if row["success"] or not good_only]
-                    metrics.append(statistics_of(np.array(kept)))
+                    retained = [row[f"metric.{metric}"] for row in mine if row["success"] or not good_only]
+                    metrics.append(statistics_of(np.array(retained)))
     tree = section(page, "By case")
     np.testing.assert_allclose(table_rows(tree, 5), rates, rtol=1e-9)
     np.testing.assert_allclose(table_rows(tree, 10), metrics, rtol=1e-12)
@@ -286,9 +286,9 @@ def test_a_batch_that_says_how_to_group_is_enough(tmp_path):
 def test_several_folders(folder, tmp_path):
     write_sample(tmp_path / "loud", noise=2.0)
     comparison = compare([folder, tmp_path / "loud"])
-    looks = looks_of(comparison)
-    assert looks["quiet: beta"].colour == looks["loud: beta"].colour != looks["loud: alpha"].colour
-    assert looks["quiet: beta"].dashes != looks["loud: beta"].dashes == looks["loud: alpha"].dashes
+    analyses = looks_of(comparison)
+    assert analyses["quiet: beta"].colour == analyses["loud: beta"].colour != analyses["loud: alpha"].colour
+    assert analyses["quiet: beta"].dashes != analyses["loud: beta"].dashes == analyses["loud: alpha"].dashes
     page = write([folder, tmp_path / "loud"], tmp_path / "page.html")
     assert_self_contained(page)
     assert "6 variants" in text_of(page)
@@ -393,8 +393,8 @@ def test_metrics_that_are_not_finite(tmp_path):
             values[::5] = np.nan
         trials.metrics["tilt"][1::5] = np.inf
         trials.success[::5] = False
-    again = type(result)(result.plan, result.trials, result.provenance)
-    again.write(tmp_path / "out")
+    repeated = type(result)(result.plan, result.trials, result.provenance)
+    repeated.write(tmp_path / "out")
     page = write([tmp_path / "out"], tmp_path / "page.html")
     assert_self_contained(page)
     assert "without an end" in page

@@ -60,8 +60,8 @@ def read(folder, loaded, inside):
 
 
 def test_nothing_is_asked_for(folder, loaded):
-    asked = re.compile(r'<ssc:Annotation type="org.perilune.report">.*?</ssc:Annotation>', re.DOTALL)
-    (folder / "SystemStructure.ssd").write_text(asked.sub("", SSD), encoding="utf-8")
+    requested = re.compile(r'<ssc:Annotation type="org.perilune.report">.*?</ssc:Annotation>', re.DOTALL)
+    (folder / "SystemStructure.ssd").write_text(requested.sub("", SSD), encoding="utf-8")
     assert read_figures(prepare_system(folder, SystemOptions(), loaded)) == []
 
 

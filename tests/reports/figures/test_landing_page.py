@@ -48,8 +48,8 @@ def test_phases_are_those_that_the_sequencer_tells(figures, result):
         ends = [final[f"sequencer.phase_time[{number}]"] for number in (value, value + 1)]
         before, after = np.interp(ends, result.time, result["plant.mass"])
         assert sum(span.spent for span in own) == pytest.approx(before - after, abs=1e-9)
-    told = [final[f"sequencer.status_time[{status}]"] for status in range(1, 10)]
-    assert dict(statuses_of(phases, result)) == {status: time for status, time in enumerate(told, 1) if time >= 0.0}
+    reported = [final[f"sequencer.status_time[{status}]"] for status in range(1, 10)]
+    assert dict(statuses_of(phases, result)) == {status: time for status, time in enumerate(reported, 1) if time >= 0.0}
 
 
 def test_the_budget_is_what_was_flown_over_its_bound(figures, result):

@@ -161,8 +161,8 @@ def test_a_bar_for_each_pulse():
     """81 ticks: x fires up in 8 and down in 8 of them, y in the first 4; the last row's tick never acts."""
     actual = one(PULSES, flown(**pulses()))
     assert findings(actual) == ["Total 20 pulses, 2.4 s (x 16 pulses, 1.6 s; y 4 pulses, 0.8 s)."]
-    drawn = bars(actual.plot.wide)
-    (x_up, y_up), (x_down,) = drawn["#0072b2"], drawn["#d55e00"]
+    plotted = bars(actual.plot.wide)
+    (x_up, y_up), (x_down,) = plotted["#0072b2"], plotted["#d55e00"]
     assert [len(part) for part in (x_up, x_down, y_up)] == [8, 8, 4]
     heights = {name: part[:, 0, 1] - part[:, 1, 1] for name, part in (("+", x_up), ("-", x_down), ("y", y_up))}
     scale = heights["y"][0] / 0.2  # points to the second, the same in all lanes
@@ -265,8 +265,8 @@ def test_a_flight_of_the_orbital_attitude(use, parameters):
     result = perilune.simulate("orbital_attitude", use=use, parameters=parameters)
     figures = read_figures(prepare_system("orbital_attitude"))
     sections = figure_sections(figures, result)
-    shown = [*joint_findings(figures, result), *(words for section in sections for words in section.findings)]
-    time, values = result.time, values_in(*shown)
+    displayed = [*joint_findings(figures, result), *(words for section in sections for words in section.findings)]
+    time, values = result.time, values_in(*displayed)
     angles = [np.abs(result[f"plant.angles[{k}]"]) <= 0.5 * DEGREE for k in (1, 2, 3)]
     rates = [result[f"plant.angular_velocity[{k}]"] + (0.0011 if k == 3 else 0.0) for k in (1, 2, 3)]
     rates = [np.abs(rate) <= 0.05 * DEGREE for rate in rates]
@@ -275,8 +275,8 @@ def test_a_flight_of_the_orbital_attitude(use, parameters):
     fired = np.array([result[f"pulses.pulse_lengths[{k}]"] for k in (1, 2, 3)])[:, :-1]
     fired[:, 1:] *= np.diff(result["pulses.pulse_count"])[:-1] != 0
     assert count_of(sections[2].plot.wide) == np.count_nonzero(fired) > 20
-    (told,) = re.findall(r'pulses, <data value="([^"]+)">[^<]+</data> s ', sections[2].findings[0])
-    assert float(told) == pytest.approx(result["plant.jet_seconds"][-1], abs=1e-9)  # what is drawn was fired
+    (reported,) = re.findall(r'pulses, <data value="([^"]+)">[^<]+</data> s ', sections[2].findings[0])
+    assert float(reported) == pytest.approx(result["plant.jet_seconds"][-1], abs=1e-9)  # what is drawn was fired
     later = (time >= 60.0) & (result["observer.yaw_sigma"] > 0.0)
     off = np.abs(result["observer.estimated_angles[2]"] - result["plant.angles[2]"])
     assert len(sections[3].findings) == later.any()

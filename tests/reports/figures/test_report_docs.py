@@ -18,8 +18,8 @@ def test_every_element_and_attribute_is_documented():
 
 
 def test_what_our_systems_ask_for_is_documented():
-    asked = "".join(path.read_text(encoding="utf-8") for path in SYSTEMS.glob("*/SystemStructure.ssd"))
-    reports = " ".join(re.findall(r"<Report .*?</Report>", asked, re.DOTALL))
+    requested = "".join(path.read_text(encoding="utf-8") for path in SYSTEMS.glob("*/SystemStructure.ssd"))
+    reports = " ".join(re.findall(r"<Report .*?</Report>", requested, re.DOTALL))
     names = {*re.findall(r"<([A-Z]\w+)", reports), *re.findall(r"\s(\w+)=\"", reports)} - {"Report", "xmlns"}
     assert len(names) > 20
     assert names <= WORDS

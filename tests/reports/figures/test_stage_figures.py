@@ -104,9 +104,9 @@ def test_statuses_where_they_rise():
 
 def test_statuses_with_times_of_their_own():
     """Of three statuses the second was first, and the third never."""
-    asked = replace(PHASES, status=None, status_times=vector("ship.times", 3, SECOND))
+    requested = replace(PHASES, status=None, status_times=vector("ship.times", 3, SECOND))
     times = np.stack([np.where(TIME < 60.0, -1.0, 60.0), np.where(TIME < 30.0, -1.0, 30.0), np.full(TIME.size, -1.0)])
-    assert statuses_of(asked, mission(times=times)) == [(2, 30.0), (1, 60.0)]
+    assert statuses_of(requested, mission(times=times)) == [(2, 30.0), (1, 60.0)]
 
 
 def test_the_table_of_phases():
@@ -191,15 +191,15 @@ def test_limits_at_the_end():
 )
 def test_limits_that_are_not_evaluated(changed, ended, why):
     """What stands in the last row of a flight without the event, or without an end, is held against nothing."""
-    asked = replace(LIMITS, when=scalar("ship.done"))
+    requested = replace(LIMITS, when=scalar("ship.done"))
     flight = replace(mission(**changed), status=ended)
-    section = one(asked, flight)
+    section = one(requested, flight)
     assert findings(section) == [f"Not evaluated: {why}."]
     assert [(row[1], row[4]) for row in cells(section)] == [("\N{EN DASH}", "not evaluated")] * 3
-    assert limit_lines(asked, flight)[0] == f"tilt (at most 5 deg): not evaluated, {why}"
-    facts = limit_entries(asked, flight)
+    assert limit_lines(requested, flight)[0] == f"tilt (at most 5 deg): not evaluated, {why}"
+    facts = limit_entries(requested, flight)
     assert [(fact["value"], fact["verdict"], fact["reason"]) for fact in facts] == [(None, "not evaluated", why)] * 3
-    landed = one(asked, mission(done=TIME > 1.0))
+    landed = one(requested, mission(done=TIME > 1.0))
     assert findings(landed) == ["1 of 3 limits met; violated: tilt, mass."]
 
 
@@ -251,9 +251,9 @@ def test_a_range_goes_on_beyond_half_the_circumference():
     radius = 1000.0
     for across in (0.0, 1e-4):
         place = np.stack([radius * np.sin(angle), np.full(TIME.size, radius * across), radius * (np.cos(angle) - 1.0)])
-        shown = Arc(vector("ship.place", 3, METRE), radius).plot_values(mission(place=place))[0]
-        np.testing.assert_allclose(shown, radius * angle, atol=2.0 * radius * across)
-        assert np.all(np.diff(shown) < 0.0)
+        displayed = Arc(vector("ship.place", 3, METRE), radius).plot_values(mission(place=place))[0]
+        np.testing.assert_allclose(displayed, radius * angle, atol=2.0 * radius * across)
+        assert np.all(np.diff(displayed) < 0.0)
     section = one(replace(PATH, x=Arc(vector("ship.place", 3, METRE), radius), rows=None, points=(), equal=False),
                   mission(place=place))  # fmt: skip
     assert notes(section)[0].endswith("along the great circle of the track beyond a quarter of the circumference.")

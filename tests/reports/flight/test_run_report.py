@@ -121,8 +121,8 @@ def test_no_position_no_trajectory(page, tmp_path):
 @pytest.mark.parametrize("many", [False, True])
 def test_a_system_without_any_of_what_one_looks_at_first(many, tmp_path):
     result = run_result()
-    kept = {"ship.tilt", "ship.mass"}
-    for name in set(result.signals) - kept:
+    retained = {"ship.tilt", "ship.mass"}
+    for name in set(result.signals) - retained:
         del result.signals[name]
     for place in range(20 if many else 0):
         name = f"ship.extra_{place}"
@@ -134,7 +134,7 @@ def test_a_system_without_any_of_what_one_looks_at_first(many, tmp_path):
     assert ("ship.tilt" in words) != many
     assert ("No position, velocity or status" in words) == many
     if not many:
-        assert {repr(float(result[name][-1])) for name in kept} <= set(section.xpath(".//data/@value"))
+        assert {repr(float(result[name][-1])) for name in retained} <= set(section.xpath(".//data/@value"))
 
 
 def sections_and_folds(page):
@@ -148,11 +148,11 @@ def sections_and_folds(page):
 
 def test_states_and_commands_come_first_and_the_rest_is_folded(page):
     """What moves and what it is told by name; everything else is in the page, without a script."""
-    shown, folded = sections_and_folds(page)
-    assert "ship.position over time" in shown
-    assert "ship.tilt over time" in shown
+    displayed, folded = sections_and_folds(page)
+    assert "ship.position over time" in displayed
+    assert "ship.tilt over time" in displayed
     assert {"crew.cook.spike over time", "crew.cook.awake over time", "finished over time"} <= set(folded)
-    assert "ship.mass" not in " ".join(shown)  # constant: said, not drawn
+    assert "ship.mass" not in " ".join(displayed)  # constant: said, not drawn
     assert "<script" not in page
     headings = [heading.text for heading in parse(page).xpath("//h2")]
     assert headings[:4] == ["Final values", "Trajectory", "States and commands", "All signals"]
@@ -165,8 +165,8 @@ def test_where_no_name_says_what_is_a_state_the_first_panels_are_open(tmp_path):
     for place in range(20):
         name = f"ship.extra_{place}"
         result.signals[name], result.units[name], result.types[name] = result.time + place, None, "Real"
-    shown, folded = sections_and_folds(write(result, tmp_path / "run.html"))
-    assert [len(shown), len(folded)] == [12, 8]
+    displayed, folded = sections_and_folds(write(result, tmp_path / "run.html"))
+    assert [len(displayed), len(folded)] == [12, 8]
 
 
 def over_the_moon(way):

@@ -80,8 +80,8 @@ def test_landing(landing, pages):
     assert repr(landing.propellant) in values
     assert repr(landing.direct.propellant_fraction * LANDER.mass) in values
     assert all(repr(time) in values for burn in landing.bound.burns() for time in burn)
-    drawn = parse(text).xpath("//*[local-name()='svg' and starts-with(@class, 'figure')]/@class")
-    assert sorted(drawn) == ["figure", "figure", "figure slim", "figure wide"]
+    plotted = parse(text).xpath("//*[local-name()='svg' and starts-with(@class, 'figure')]/@class")
+    assert sorted(plotted) == ["figure", "figure", "figure slim", "figure wide"]
 
 
 def test_the_same_bytes_again(hover, landing, pages, tmp_path):

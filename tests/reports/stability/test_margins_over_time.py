@@ -51,8 +51,8 @@ def test_what_is_drawn_is_python_controls(report):
         axes = Figure().subplots()
         draw_over_time([same, other], quantity, axes)
         exact = [crossings(late_double_integrator(derivative=GAINS[time]).loop)[place] for time in same.times]
-        shown = [DECIBEL * np.log(values) if place == 0 else np.degrees(values) for values in exact]
-        upper = [min(values[values >= 0.0]) for values in shown]
+        displayed = [DECIBEL * np.log(values) if place == 0 else np.degrees(values) for values in exact]
+        upper = [min(values[values >= 0.0]) for values in displayed]
         np.testing.assert_allclose(axes.lines[0].get_ydata(), upper, rtol=1e-6)
         limit = 6.0 if place == 0 else 30.0
         assert any(np.allclose(line.get_ydata(), limit) for line in axes.lines if line.get_color() == VERMILION)

@@ -166,8 +166,8 @@ def test_unstable_trials_are_worse_than_any_number(studies, page):
     for quantity, head in ((Quantity.GAIN, "gain margin, dB"), (Quantity.PHASE, "phase margin, deg")):
         sizes = sorted(item.size(quantity) for item in spread.margins)
         assert sizes[:3] == [UNSTABLE] * 3 != sizes[3]
-        least, low, median, worst = rows[head]
-        assert (least, low, worst) == ("unstable",) * 3
+        minimum, low, median, worst = rows[head]
+        assert (minimum, low, worst) == ("unstable",) * 3
         assert float(median) == pytest.approx(sizes[TRIALS // 2 - 1], rel=1e-3)
     assert f"3 of {TRIALS} trials are unstable" in text_of(page)
     actual = {item.quantity: item for item in spread.requirements}
@@ -272,8 +272,8 @@ def test_provenance(report, page):
     provenance = report.provenance
     hashes = [provenance["system_sha256"], *(fmu["sha256"] for fmu in provenance["fmus"].values())]
     assert len(hashes) == 4
-    for word in (*hashes, *provenance["parameters"], provenance["perilune"], "gain_margin_db = 6"):
-        assert word in text
+    for token in (*hashes, *provenance["parameters"], provenance["perilune"], "gain_margin_db = 6"):
+        assert token in text
     for value in provenance["parameters"].values():
         assert repr(value) in data_values(page)
 
@@ -439,8 +439,8 @@ def test_nichols_zone_is_made_of_the_limits(report):
     points = 10.0 ** (oval.get_ydata() / 20.0) * np.exp(1j * np.radians(oval.get_xdata()))
     np.testing.assert_allclose(np.abs(1.0 + points), 0.5)
     curve = axes.lines[1]
-    drawn = 10.0 ** (curve.get_ydata() / 20.0) * np.exp(1j * np.radians(curve.get_xdata()))
-    np.testing.assert_allclose(drawn[np.isfinite(drawn)], loop.curve.value, rtol=1e-9, atol=2e-12)
+    plotted = 10.0 ** (curve.get_ydata() / 20.0) * np.exp(1j * np.radians(curve.get_xdata()))
+    np.testing.assert_allclose(plotted[np.isfinite(plotted)], loop.curve.value, rtol=1e-9, atol=2e-12)
 
 
 def test_sensitivities_meet_their_peaks(report):
@@ -465,10 +465,10 @@ def test_harmonic_balance_meets_where_the_gain_margin_is(studies):
 def test_clouds_are_thinned_without_losing_their_outline():
     generator = np.random.default_rng(1)
     poles = generator.normal(size=200_000) * 0.2 + 1j * generator.normal(size=200_000) * 0.2
-    kept = thin(poles, 1.12)
-    assert kept.size < 5000
-    assert set(kept) <= set(poles)
-    assert np.max(kept.real) == pytest.approx(np.max(poles.real), abs=0.05)
+    retained = thin(poles, 1.12)
+    assert retained.size < 5000
+    assert set(retained) <= set(poles)
+    assert np.max(retained.real) == pytest.approx(np.max(poles.real), abs=0.05)
 
 
 def test_words():

@@ -62,9 +62,9 @@ def test_noise_of_one_trial_stands_in_every_section(rare_result, tmp_path):
 def test_random_noise_is_no_condition(rare_result, tmp_path):
     flown = rare_result.flown
     number = len(flown.values)
-    drawn = {**flown.draws, "streams_of.imu": np.arange(number)}
+    plotted = {**flown.draws, "streams_of.imu": np.arange(number)}
     flown = type(flown)()
-    flown.add(rare_result.flown.points, drawn, rare_result.flown.metrics, rare_result.flown.values)
+    flown.add(rare_result.flown.points, plotted, rare_result.flown.metrics, rare_result.flown.values)
     random = replace(rare_result, noise=Noise(("imu",), None, 7), flown=flown.whole())
     words = text_of(page_of(random, tmp_path))
     assert "Noise of imu: random." in words
@@ -125,11 +125,11 @@ def test_design_points_lie_behind_the_plane_of_the_failure(rare_result):
 def test_monte_carlo_equivalents(rare_result):
     study, as_many, same = equivalents(rare_result)
     assert (study.low, study.high) == rare_result.interval
-    share, trials = rare_result.probability, same.simulations
+    fraction, trials = rare_result.probability, same.simulations
     variation = rare_result.simulation.interval.variation
-    assert np.sqrt((1.0 - share) / (share * trials)) == pytest.approx(variation, rel=1e-3)
+    assert np.sqrt((1.0 - fraction) / (fraction * trials)) == pytest.approx(variation, rel=1e-3)
     for row in (as_many, same):
-        ends = stats.binomtest(round(share * row.simulations), row.simulations).proportion_ci(0.95, method="exact")
+        ends = stats.binomtest(round(fraction * row.simulations), row.simulations).proportion_ci(0.95, method="exact")
         assert (row.low, row.high) == pytest.approx((ends.low, ends.high), rel=1e-9)
 
 

@@ -84,9 +84,12 @@ def noisy(result, matters):
     flown = Flown()
     later = 3 if matters else 1
     count = 30 + later * ((result.flown.values.size - 30 - 9) // later) + 9
-    drawn = {**{name: column[:count] for name, column in result.flown.draws.items()}, "streams_of.imu": np.zeros(count)}
+    plotted = {
+        **{name: column[:count] for name, column in result.flown.draws.items()},
+        "streams_of.imu": np.zeros(count),
+    }
     metrics = {name: column[:count] for name, column in result.flown.metrics.items()}
-    flown.add(result.flown.points[:count], drawn, metrics, result.flown.values[:count])
+    flown.add(result.flown.points[:count], plotted, metrics, result.flown.values[:count])
     fresh = Fresh(result.flown.values[count - 9 : count], 0.5)
     return replace(
         result, flown=flown.whole(), over=Realisations(3, 0.5), fresh=fresh, noise_matters=matters, random_trials=10,
@@ -100,8 +103,8 @@ def test_a_point_has_the_median_of_its_realisations(worst_result, matters, tmp_p
     flown = result.flown.values
     actual = point_values(result)
     np.testing.assert_array_equal(actual[:10], np.median(flown[:30].reshape(10, 3), axis=1))
-    rest = flown[30:-9]
-    np.testing.assert_array_equal(actual[10:], np.median(rest.reshape(-1, 3), axis=1) if matters else rest)
+    remainder = flown[30:-9]
+    np.testing.assert_array_equal(actual[10:], np.median(remainder.reshape(-1, 3), axis=1) if matters else remainder)
     assert objective_of(result).random == int(np.argmax(actual[:10]))
     axes = Figure().subplots()
     draw_fresh(axes, result)

@@ -25,10 +25,10 @@ def fly(path, given, faults=(), **options):
     prepared = prepare_system(path, SystemOptions(**options), series=None if given is None else read_series(given))
     with Simulation(prepared, faults=faults) as simulation:
         first = {name: values.copy() for name, values in simulation.fly().signals.items()}
-        again = simulation.fly()  # the instances are reset: the same comes again
+        repeated = simulation.fly()  # the instances are reset: the same comes again
         for name, values in first.items():
-            assert np.array_equal(values, again.signals[name])
-        return again
+            assert np.array_equal(values, repeated.signals[name])
+        return repeated
 
 
 def gains(tiny, tmp_path, name="gains.ssp"):

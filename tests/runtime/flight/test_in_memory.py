@@ -62,7 +62,7 @@ def test_a_flight_is_that_of_fmis_calls(monkeypatch, system, options, faults):
 def test_an_instance_that_takes_anothers_place_has_memory_of_its_own():
     with Simulation(prepared("lunar_terminal_guidance", stop_time=10.0)) as simulation:
         before = simulation.fly({})
-        kept = {name: values.copy() for name, values in before.signals.items()}
+        retained = {name: values.copy() for name, values in before.signals.items()}
         placed = simulation.program.instructions[:, codes.ADDRESS].copy()
         instance = simulation.instances["guidance"]
         spare = instance.slave.component  # so that the new one lies elsewhere
@@ -71,7 +71,7 @@ def test_an_instance_that_takes_anothers_place_has_memory_of_its_own():
         after = simulation.fly({})
         moved = simulation.program.instructions[:, codes.ADDRESS] != placed
         assert np.isin(simulation.program.instructions[moved, codes.CODE], codes.IN_MEMORY).any()
-        for name, values in kept.items():
+        for name, values in retained.items():
             assert values.tobytes() == after.signals[name].tobytes(), name
         instance.slave.fmi2FreeInstance(spare)
 

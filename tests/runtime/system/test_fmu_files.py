@@ -36,8 +36,8 @@ def large(tiny, tmp_path):
 
 
 def test_of_our_own_what_a_flight_here_reads(large):
-    kept = ("modelDescription.xml", f"binaries/{fmpy.platform}/", "resources/")
-    expected = {name: content for name, content in contents(large).items() if name.startswith(kept)}
+    retained = ("modelDescription.xml", f"binaries/{fmpy.platform}/", "resources/")
+    expected = {name: content for name, content in contents(large).items() if name.startswith(retained)}
     assert "resources/deep/table.csv" in expected
     assert f"binaries/{fmpy.platform}/ramp{fmpy.sharedLibraryExtension}" in expected
     assert unpacked(load(large)) == expected

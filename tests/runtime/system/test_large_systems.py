@@ -28,21 +28,21 @@ def test_a_ring_computes_its_recursion(mixers, tmp_path, algorithm):
     with Simulation(prepare_system(system, options)) as simulation:
         result = simulation.fly()
     kinds = np.arange(COUNT) % KINDS
-    direct, shares = kinds % 2 == 1, 0.05 + 0.01 * kinds
+    direct, fractions = kinds % 2 == 1, 0.05 + 0.01 * kinds
     now = np.zeros(COUNT)
     if algorithm == "jacobi":  # all at once, with outputs of the point before; the start is settled in order
         for n in [n for n in range(COUNT) if not direct[n]] + [n for n in range(COUNT) if direct[n]]:
-            now[n] = kinds[n] + shares[n] * (now[n - 1] if direct[n] else 0.0)
+            now[n] = kinds[n] + fractions[n] * (now[n - 1] if direct[n] else 0.0)
     expected = []
     for step in range(STEPS + 1):
         before = now.copy()
         if step or algorithm == "sequential":
             for n in range(COUNT):
                 if not direct[n]:
-                    now[n] = kinds[n] + shares[n] * (before[n - 1] if step else 0.0)
+                    now[n] = kinds[n] + fractions[n] * (before[n - 1] if step else 0.0)
             for n in range(COUNT):
                 if direct[n]:
-                    now[n] = kinds[n] + shares[n] * (before if algorithm == "jacobi" else now)[n - 1]
+                    now[n] = kinds[n] + fractions[n] * (before if algorithm == "jacobi" else now)[n - 1]
         expected.append(now.copy())
     for n in (0, 1, 2, COUNT - 2, COUNT - 1):
         np.testing.assert_allclose(result[f"c{n}.y"][:, 3], np.array(expected)[:, n], rtol=1e-14)

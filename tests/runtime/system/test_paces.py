@@ -54,8 +54,8 @@ def test_step_and_algorithm_are_those_of_the_annotation(tiny, tmp_path, text):
     actual = fly(path)
     assert (actual.provenance["step"], actual.provenance["algorithm"]) == (0.125, "jacobi")
     np.testing.assert_array_equal(actual["gain.y"], fly(plain, step=0.125, algorithm="jacobi")["gain.y"])
-    asked = fly(path, step=0.25, algorithm="sequential")
-    np.testing.assert_array_equal(asked["gain.y"], fly(plain)["gain.y"])
+    requested = fly(path, step=0.25, algorithm="sequential")
+    np.testing.assert_array_equal(requested["gain.y"], fly(plain)["gain.y"])
 
 
 def test_ours_goes_before_theirs(tiny, tmp_path):

@@ -86,32 +86,32 @@ def test_a_touch_of_the_unit_circle_is_not_missed() -> None:
 
 
 def test_a_remembered_response_is_asked_for_each_frequency_once() -> None:
-    asked: list[float] = []
+    requested: list[float] = []
 
     def loops(frequency: np.ndarray) -> np.ndarray:
-        asked.extend(frequency)
+        requested.extend(frequency)
         return frequency[:, None, None] * np.array([[1.0, 2.0j], [3.0, 4.0]])
 
     response = cache_response(loops)
     assert cache_response(response) is response
     first = np.array([3.0, 1.0, 3.0])
     np.testing.assert_array_equal(response(first), loops(first))
-    del asked[:]
-    again = np.array([2.0, 1.0])
-    np.testing.assert_array_equal(response(again)[:, 1, 1], [8.0, 4.0])
-    assert asked == [2.0]
+    del requested[:]
+    repeated = np.array([2.0, 1.0])
+    np.testing.assert_array_equal(response(repeated)[:, 1, 1], [8.0, 4.0])
+    assert requested == [2.0]
 
 
 def test_margins_ask_for_each_frequency_once() -> None:
-    asked: list[float] = []
+    requested: list[float] = []
     exact = response_of(LOOP.system)
 
     def response(frequency: np.ndarray) -> np.ndarray:
-        asked.extend(frequency.tolist())
+        requested.extend(frequency.tolist())
         return exact(frequency)
 
     classical(response, 1e-2, np.pi / LOOP.period, LOOP.period, 0)
-    assert len(set(asked)) == len(asked)
+    assert len(set(requested)) == len(requested)
 
 
 def test_refuses_what_it_cannot_resolve() -> None:

@@ -359,8 +359,8 @@ def test_pulse_width_flown_pulse_by_pulse():
 
     def modulator(x):
         if held["tick"] % parts == 0:
-            share = min(abs(x) / 0.5, 1.0)
-            held["width"] = round(parts * share) if abs(x) >= 0.05 else 0
+            fraction = min(abs(x) / 0.5, 1.0)
+            held["width"] = round(parts * fraction) if abs(x) >= 0.05 else 0
             held["level"] = math.copysign(0.5, x)
         on = held["tick"] % parts < held["width"]
         held["tick"] += 1

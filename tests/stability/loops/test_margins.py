@@ -155,8 +155,8 @@ def test_scaling_the_loop_divides_the_gain_margins(system: control.StateSpace, s
     low, high = 1e-5 / system.dt, np.pi / system.dt
     before = classical(response_of(system), low, high, system.dt, None)
     after = classical(response_of(scaled), low, high, system.dt, None)
-    kept = [crossing.value / scale for crossing in before.gain]
-    np.testing.assert_allclose([crossing.value for crossing in after.gain], kept, rtol=1e-7)
+    retained = [crossing.value / scale for crossing in before.gain]
+    np.testing.assert_allclose([crossing.value for crossing in after.gain], retained, rtol=1e-7)
 
 
 @given(random_loops())

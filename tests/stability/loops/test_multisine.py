@@ -73,9 +73,9 @@ def test_nonlinearity_shows_on_lines_of_its_parity(power: int, parity: int) -> N
     signal = multisine(1024, 1.0, 200, 2)
     record = signal.signal + 1e-3 * signal.signal**power
     stray = np.abs(line_spectrum(record, 1024, signal.unexcited))
-    shown = signal.unexcited % 2 == parity
-    assert np.min(stray[shown]) > 1e-4
-    assert np.max(stray[~shown]) < 1e-12
+    displayed = signal.unexcited % 2 == parity
+    assert np.min(stray[displayed]) > 1e-4
+    assert np.max(stray[~displayed]) < 1e-12
     assert fraction_unexcited(record, signal) == pytest.approx(np.max(stray), rel=0.3)
     assert fraction_unexcited(signal.signal, signal) < 1e-12
 

@@ -71,10 +71,10 @@ def test_failures_fly_again_with_the_stream_of_each_component(actual):
     table = pyarrow.parquet.read_table(folder / "failures.parquet")
     assert {"streams_of.navigation", "streams_of.allocation"} <= set(table.column_names)
     assert "streams_of" not in table.column_names
-    again = perilune.batch(
+    repeated = perilune.batch(
         *CAMPAIGN, compare={"guidance": ["analytic_guidance"]}, draws=folder / "failures.parquet", workers=1
     )
-    (flown,) = again.trials.values()
+    (flown,) = repeated.trials.values()
     for entry in result.failures:
         assert entry["streams"] == {
             name: int(table[f"streams_of.{name}"][entry["trial"]].as_py()) for name in ("navigation", "allocation")

@@ -55,12 +55,12 @@ def test_the_likeliest_failure_is_the_nearest_point_of_the_plane(actual):
 
 def test_failures_fly_again_to_the_last_bit(actual, linear):
     folder, result = actual
-    again = perilune.batch(*linear, draws=folder / "failures.parquet", workers=1)
-    assert again.plan.campaign.trials == len(result.failures)
+    repeated = perilune.batch(*linear, draws=folder / "failures.parquet", workers=1)
+    assert repeated.plan.campaign.trials == len(result.failures)
     for entry in result.failures:
         for name, value in entry["metrics"].items():
-            assert again.trials["default"].metrics[name][entry["trial"]] == value
-        assert not again.trials["default"].success[entry["trial"]]
+            assert repeated.trials["default"].metrics[name][entry["trial"]] == value
+        assert not repeated.trials["default"].success[entry["trial"]]
 
 
 def test_workers_do_not_matter(actual, linear):

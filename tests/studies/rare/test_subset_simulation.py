@@ -59,8 +59,8 @@ def test_intervals_cover_what_is_true(case, probability):
     estimates = np.array([result.probability for result in actual])
     assert covered >= COVERED
     assert abs(estimates.mean() / probability - 1.0) < 4.0 * estimates.std() / probability / np.sqrt(len(actual))
-    told = np.mean([result.interval.variation for result in actual])
-    assert told == pytest.approx(estimates.std() / probability, rel=either(0.15, 0.4))
+    reported = np.mean([result.interval.variation for result in actual])
+    assert reported == pytest.approx(estimates.std() / probability, rel=either(0.15, 0.4))
 
 
 def test_a_probability_that_is_not_small_is_counted():
@@ -75,9 +75,9 @@ def test_a_probability_that_is_not_small_is_counted():
 
 
 def test_the_same_seed_gives_the_same_bits():
-    first, again, other = (subset_simulation(lambda at: plane(at.draws) - 3.0, 3, seed=seed) for seed in (5, 5, 6))
-    assert first.failures.draws.tobytes() == again.failures.draws.tobytes()
-    assert (first.probability, first.interval) == (again.probability, again.interval)
+    first, repeated, other = (subset_simulation(lambda at: plane(at.draws) - 3.0, 3, seed=seed) for seed in (5, 5, 6))
+    assert first.failures.draws.tobytes() == repeated.failures.draws.tobytes()
+    assert (first.probability, first.interval) == (repeated.probability, repeated.interval)
     assert first.probability != other.probability
 
 
@@ -127,12 +127,12 @@ def test_wrong_numbers(options):
 
 def test_correlation_of_chains():
     """Of two-state Markov chains: their correlation at lag k is rho^k."""
-    random, rho, share, length = np.random.default_rng(1), 0.6, 0.3, 12
-    state = random.random(100_000) < share
+    random, rho, fraction, length = np.random.default_rng(1), 0.6, 0.3, 12
+    state = random.random(100_000) < fraction
     states = [state]
     for _ in range(length - 1):
         stays = random.random(state.size) < rho
-        state = np.where(stays, state, random.random(state.size) < share)
+        state = np.where(stays, state, random.random(state.size) < fraction)
         states.append(state)
     expected = 2.0 * sum((1.0 - lag / length) * rho**lag for lag in range(1, length))
     assert chain_correlation(np.array(states).T) == pytest.approx(expected, rel=0.02)

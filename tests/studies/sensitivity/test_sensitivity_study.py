@@ -55,9 +55,9 @@ def test_the_shares_of_a_sum(linear, tmp_path):
     total = result.of("total")
     for order in ("first", "total"):
         np.testing.assert_allclose([total[f"{name}.gain"][order] for name in "abc"], SHARES, atol=0.06)
-        for name, share in zip("abc", SHARES, strict=True):
+        for name, fraction in zip("abc", SHARES, strict=True):
             low, high = total[f"{name}.gain"][f"{order}_interval"]
-            assert low < share < high
+            assert low < fraction < high
     assert result.untold == {"same": "-1 in all flights", "success": "1 in all flights"}
     assert result.flights == 256 * 5
     assert json.loads((tmp_path / "out" / "sensitivity.json").read_text()) == result.document(tmp_path / "out")

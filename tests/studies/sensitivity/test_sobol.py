@@ -74,8 +74,8 @@ def test_one_number_of_one_input_is_all_its_variance():
 
 
 def test_the_same_random_numbers_give_the_same_intervals():
-    first, again = actual(64, 3), actual(64, 3)
-    assert first.total_interval.tobytes() == again.total_interval.tobytes()
+    first, repeated = actual(64, 3), actual(64, 3)
+    assert first.total_interval.tobytes() == repeated.total_interval.tobytes()
 
 
 @pytest.mark.parametrize("r", [-0.9, 0.0, 0.5])

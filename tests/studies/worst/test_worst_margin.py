@@ -91,9 +91,9 @@ def test_a_gain_margin_in_closed_form(late, written):
     gain, _, _ = crossings(late_double_integrator().loop)
     assert gain[np.argmin(abs(np.log(gain)))] > 1.0
     result = perilune.worst(late, written(GAIN), loop="loop", margin="gain", flights=FLIGHTS, workers=1)
-    most = 1.0 + 3.0 * SIGMA
-    assert result.worst["draws"]["gain"] == pytest.approx(most, rel=1e-6)
-    assert result.worst["value"] == pytest.approx(DECIBEL * np.log(np.min(gain) / most), abs=1e-3)
+    maximum = 1.0 + 3.0 * SIGMA
+    assert result.worst["draws"]["gain"] == pytest.approx(maximum, rel=1e-6)
+    assert result.worst["value"] == pytest.approx(DECIBEL * np.log(np.min(gain) / maximum), abs=1e-3)
     assert result.worst["value"] == result.values()["worst"] == result.worst["metrics"]["loop.gain_margin_db"]
     assert result.worst_random["value"] > result.worst["value"]
     assert result.random_trials == FLIGHTS // 5
@@ -170,8 +170,8 @@ def test_of_several_channels_the_least_counts(exact_fmus, written, tmp_path):
     result = perilune.worst(pair, campaign, loop="loop", flights=FLIGHTS, workers=1, output=tmp_path / "out")
     table = pyarrow.parquet.read_table(tmp_path / "out" / "flights.parquet")
     channels = [table[f"metric.loop[{place}].disk_margin"].to_numpy() for place in (1, 2)]
-    least = np.minimum(*channels)
-    assert result.worst["value"] == least.min() == -table["value"].to_numpy().max()
+    minimum = np.minimum(*channels)
+    assert result.worst["value"] == minimum.min() == -table["value"].to_numpy().max()
     assert np.ptp(channels[0]) > 0.01
 
 
@@ -207,8 +207,8 @@ def test_what_is_worse_than_what():
     values = badness(margin_columns(["loop"], rows), np.array([row is not None for row in rows]))
     assert (np.diff(values) < 0.0).all()
     assert np.isfinite(values[1:]).all()
-    told = [badness.fact(badness.size(value)) for value in values]
-    assert told == [None, "unstable", "unstable", 0.0, 0.5, 40.0, "unlimited"]
+    reported = [badness.fact(badness.size(value)) for value in values]
+    assert reported == [None, "unstable", "unstable", 0.0, 0.5, 40.0, "unlimited"]
 
 
 @pytest.mark.parametrize(

@@ -58,8 +58,8 @@ def test_fresh_flights_are_those_of_the_worst_draws(actual, tmp_path):
     pyarrow.parquet.write_table(worst, tmp_path / "worst.parquet")
 
     def error(path):
-        again = perilune.batch(*CAMPAIGN, compare={"guidance": ["analytic_guidance"]}, draws=path, workers=1)
-        return next(iter(again.trials.values())).metrics["position_error"].item()
+        repeated = perilune.batch(*CAMPAIGN, compare={"guidance": ["analytic_guidance"]}, draws=path, workers=1)
+        return next(iter(repeated.trials.values())).metrics["position_error"].item()
 
     assert error(tmp_path / "worst.parquet") == result.value
     assert error(tmp_path / "fresh.parquet") == result.flown.metrics["position_error"][-10 * COUNT]

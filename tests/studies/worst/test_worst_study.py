@@ -47,8 +47,8 @@ def test_the_worst_is_the_corner(actual):
 
 def test_it_flies_again_to_the_last_bit(actual, linear):
     folder, result = actual
-    again = perilune.batch(*linear, draws=folder / "worst.parquet", workers=1).trials["default"].metrics["total"]
-    assert again.tolist() == [result.worst["value"], result.worst_random["value"]]
+    repeated = perilune.batch(*linear, draws=folder / "worst.parquet", workers=1).trials["default"].metrics["total"]
+    assert repeated.tolist() == [result.worst["value"], result.worst_random["value"]]
     document = json.loads((folder / "worst.json").read_text())
     assert document["worst"]["metrics"]["total"] == result.value
     assert document == result.document(folder)
@@ -79,8 +79,8 @@ def test_a_failed_flight_is_the_worst(tmp_path):
     assert result.worst["value"] is None
     assert result.worst["draws"]["odd.gain"] < 0.0
     assert result.flights < 300
-    again = perilune.batch(system, campaign, draws=tmp_path / "out" / "worst.parquet")
-    assert again.trials["default"].statuses[0] == "failed"
+    repeated = perilune.batch(system, campaign, draws=tmp_path / "out" / "worst.parquet")
+    assert repeated.trials["default"].statuses[0] == "failed"
 
 
 def test_the_command(linear, tmp_path, capsys):
@@ -144,11 +144,11 @@ def test_no_random_trial_of_the_box_is_worse(case):
     plan = read_plan(system, campaign, SystemOptions(**options), compare=chosen)
     space, expression = DrawSpace(plan.campaign), Expression(metric)
     random = np.random.default_rng(9)
-    most = -np.inf
+    maximum = -np.inf
     with SampleFlights(plan, space.from_box(np.full((1, space.size), 0.5), 3.0), workers=either(None, 1)) as flights:
         still = flights.noise.same(np.zeros(1000, dtype=int))  # noise that changes nothing in these campaigns
         for _ in range(trials // 1000):
             flown, _ = flights.fly(space.from_box(random.random((1000, space.size)), 3.0), still)
-            most = max(most, float(np.max(expression.evaluate(flown.metrics))))
-    print(f"{case}: worst {result.value}, of {trials} random trials {most}")
-    assert result.value >= most
+            maximum = max(maximum, float(np.max(expression.evaluate(flown.metrics))))
+    print(f"{case}: worst {result.value}, of {trials} random trials {maximum}")
+    assert result.value >= maximum

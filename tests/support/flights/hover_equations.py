@@ -18,7 +18,7 @@ def flown(p, vehicle, until=None):
     Pitch is a state, driven by the switched angular acceleration; the first burn is where pitch is below its share of
     the largest deviation. ``vehicle`` is a list as in `mathlib.hover_motion`.
     """
-    full, least, exhaust, gravity, acceleration = vehicle
+    full, minimum, exhaust, gravity, acceleration = vehicle
     t2, t5, _, tp, t7 = p
     t1, t6 = 0.5 * t2, 0.5 * (t5 + t7)
     # the rates gained by both turns are equal: (t3 - t2) = (t5 - t4) = d, and the angles add up to 0
@@ -53,7 +53,7 @@ def flown(p, vehicle, until=None):
         turning = acceleration * signs[np.searchsorted(corners, 0.5 * (start + end)) - 1]
         now = start
         while now < end and (until is None or now < until):
-            thrust = full if now >= t7 - tp or inside else least
+            thrust = full if now >= t7 - tp or inside else minimum
             stop = end if until is None else min(end, until)
             run = fly(now, stop, state, turning, thrust)
             collected = [t for t in run.t_events[0] if t > now + 1e-7]

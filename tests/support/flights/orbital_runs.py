@@ -22,7 +22,7 @@ OBSERVERS = [
 def block_class(name, kind="navigation"):
     """The class of a block by its FMU's name."""
     module = import_module(f"perilune.fmus_src.{kind}.{name}")
-    return getattr(module, "".join(word.capitalize() for word in name.split("_")))
+    return getattr(module, "".join(token.capitalize() for token in name.split("_")))
 
 
 SPLIT = "_split"  # of an observer's name: with split, it follows each pulse

@@ -21,8 +21,8 @@ def crossings(loop: control.StateSpace) -> tuple[np.ndarray, np.ndarray, np.ndar
     response = control.FRD(response_of(loop)(frequency), frequency, smooth=True)
     gain, phase, _, _, at, _ = control.stability_margins(response, returnall=True)
     gains = [value for value in (_end(loop, 1.0), *gain, _end(loop, -1.0)) if value is not None]
-    kept = [value for value in gains if LEAST < value < MOST]
-    return np.array(kept), np.radians((phase + 180.0) % 360.0 - 180.0), at
+    retained = [value for value in gains if LEAST < value < MOST]
+    return np.array(retained), np.radians((phase + 180.0) % 360.0 - 180.0), at
 
 
 def disk_margin(loop: control.StateSpace, lowest: float = 1e-3) -> float:

@@ -118,5 +118,5 @@ def flown_response(axis: int, cycles: int, samples: int) -> complex:
         if point % every == 0:
             v.append(state[6 + axis, 0] / wave)
             u.append(state[8 + axis, 0] / wave)
-    kept = slice(-window // every, None)
-    return -np.sum(v[kept]) / np.sum(u[kept])
+    retained = slice(-window // every, None)
+    return -np.sum(v[retained]) / np.sum(u[retained])

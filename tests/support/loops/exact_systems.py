@@ -127,8 +127,8 @@ def late_double_integrator(
         "late": ("late", "u", "y", f"samples=Integer:{samples}"),
         "plant": ("held_mass", "u", "position", ""),
     }
-    whole, rest = divmod(samples, every)
-    plant = held_late(control.ss(control.tf(1.0, [1.0, 0.0, 0.0])), period, rest * step)
+    whole, remainder = divmod(samples, every)
+    plant = held_late(control.ss(control.tf(1.0, [1.0, 0.0, 0.0])), period, remainder * step)
     loop = difference(kp, kd, period) * plant
     if whole:
         loop = loop * delay(whole, period)

@@ -25,13 +25,13 @@ def random_systems(
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]:
     """A, B, C with normal elements, and poles with any number of pairs up to ``most_pairs``."""
     random = np.random.default_rng([states, inputs, outputs, seed])
-    most = states // 2 if most_pairs is None else min(most_pairs, states // 2)
+    maximum = states // 2 if most_pairs is None else min(most_pairs, states // 2)
     for _ in range(count):
         yield (
             random.normal(size=(states, states)),
             random.normal(size=(states, inputs)),
             random.normal(size=(outputs, states)),
-            random_spectrum(random, states, int(random.integers(most + 1))),
+            random_spectrum(random, states, int(random.integers(maximum + 1))),
         )
 
 

@@ -95,18 +95,18 @@ def facts(campaign, variants, targets=True):
 def flight(source, end, mass):
     """Signals of a flight from 1 km before its target to ``end``, rows every 0.5 s, thinned as [record] every = 2."""
     time = np.arange(0.0, END + 0.25, 0.5)
-    share = time / END
+    fraction = time / END
     start = np.array([-1000.0 + 30.0 * source.normal(), 40.0 * source.normal(), 500.0])
     collected = {"time": time}
     for k, name in enumerate(POSITION):
-        collected[name] = start[k] + (end[k] - start[k]) * share
+        collected[name] = start[k] + (end[k] - start[k]) * fraction
     for k, name in enumerate(VELOCITY):
         collected[name] = np.full(time.size, (end[k] - start[k]) / END)
-    collected["ship.mass"] = 100.0 + (mass - 100.0) * share
-    collected["pilot.thrust"] = 50.0 + 5.0 * source.normal() + 10.0 * share
-    angle = 0.3 + 0.1 * source.normal() + 0.5 * share
+    collected["ship.mass"] = 100.0 + (mass - 100.0) * fraction
+    collected["pilot.thrust"] = 50.0 + 5.0 * source.normal() + 10.0 * fraction
+    angle = 0.3 + 0.1 * source.normal() + 0.5 * fraction
     collected |= dict(zip(DIRECTION, (np.cos(angle), np.zeros(time.size), np.sin(angle)), strict=True))
-    collected["pilot.status"] = np.where(share > 0.9, 1.0, 0.0)
+    collected["pilot.status"] = np.where(fraction > 0.9, 1.0, 0.0)
     collected["checker.x_error_ratio"] = source.normal(size=time.size)
     return {name: values[::2] for name, values in collected.items()}
 
@@ -171,8 +171,8 @@ def sample_batch(
         "seed": seed, "step": 0.5, "algorithm": "sequential", "perilune": "0.0.1",
         "fmus": {variant: {"ship": DIGEST, "pilot": variant.ljust(64, "0")} for variant in variants},
     } | facts(campaign, variants, targets)  # fmt: skip
-    drawn = plan.draws.columns
-    return BatchResult(plan, {name: replace(rows, draws=drawn) for name, rows in collected.items()}, provenance)
+    sampled = plan.draws.columns
+    return BatchResult(plan, {name: replace(rows, draws=sampled) for name, rows in collected.items()}, provenance)
 
 
 def write_sample(folder: Path, **options) -> BatchResult:

@@ -93,5 +93,5 @@ def pulses():
 def errors():
     """From 50 s on an error of 0.3, 1.5, 2.5, 3.5 sigma in turn; sigma is 0 before 10 s."""
     sigma = np.where(TIME < 10.0, 0.0, 0.1 * DEGREE)
-    share = np.array([0.3, -1.5, 2.5, -3.5])[np.arange(ROWS) % 4]
-    return {"truth": 1.0 + 0.0 * TIME, "estimate": 1.0 + np.where(TIME < 50.0, 0.2, share * sigma), "sigma": sigma}
+    fraction = np.array([0.3, -1.5, 2.5, -3.5])[np.arange(ROWS) % 4]
+    return {"truth": 1.0 + 0.0 * TIME, "estimate": 1.0 + np.where(TIME < 50.0, 0.2, fraction * sigma), "sigma": sigma}

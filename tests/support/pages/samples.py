@@ -128,8 +128,8 @@ def batch_result(outcomes: dict[str, list[tuple[bool, float, float]]], text: str
         "perilune": "0.0.1",
     }
     plan = BatchPlan("ship", campaign, SystemOptions())
-    drawn = plan.draws.columns
-    return BatchResult(plan, {name: replace(rows, draws=drawn) for name, rows in collected.items()}, provenance)
+    sampled = plan.draws.columns
+    return BatchResult(plan, {name: replace(rows, draws=sampled) for name, rows in collected.items()}, provenance)
 
 
 def grouped_batch(trials: int = 60) -> BatchResult:

@@ -50,7 +50,7 @@ class Cluster:
         variants = [variant.name for variant in campaign.plan.campaign.variants()]
         parts = Parts(campaign.numbering, variants)
         portions = Portions(campaign.numbering, shards, variants)
-        again = Again()
+        repeated = Again()
         sent = make_sent(campaign)
         here = client.submit(_itself, sent, pure=False)  # the workers pass it on, and make it again where all lose it
         under_way: dict[Any, Task] = {}
@@ -58,7 +58,7 @@ class Cluster:
             while True:
                 threads = self._threads()
                 for _ in range(WAITING * max(threads, 1) - len(under_way)):
-                    task = tuple(portions.next(max(threads, 1))) or again.next()
+                    task = tuple(portions.next(max(threads, 1))) or repeated.next()
                     if task:
                         under_way[client.submit(work.fly, here, task, pure=False)] = task
                 if not under_way:
@@ -70,8 +70,8 @@ class Cluster:
                     except KilledWorker as error:
                         if error.task == here.key:
                             here = client.submit(_itself, sent, pure=False)
-                        again.add(task)
-                        left = [] if portions.trials else again.hopeless(under_way.values())
+                        repeated.add(task)
+                        left = [] if portions.trials else repeated.hopeless(under_way.values())
                         if left:
                             raise WorkersDiedError(_what_ends_them(left)) from error
                         continue

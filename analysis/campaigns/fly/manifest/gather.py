@@ -43,7 +43,9 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
     with chdir(plan.options.folder):  # from which paths are meant
         files = {name: keep(archive.read(name, name), name) for name in {**archive.files, **_read_besides(systems)}}
         elsewhere = {
-            asked: keep(read(), asked) for prepared in systems.values() for asked, read in prepared.elsewhere.items()
+            requested: keep(read(), requested)
+            for prepared in systems.values()
+            for requested, read in prepared.elsewhere.items()
         }
     series = None
     if plan.series is not None:

@@ -84,7 +84,7 @@ def _archive(contents: Path, manifest: Manifest) -> SystemArchive:
         path=contents if system["fmu"] is None else files[system["fmu"]],
         files=files,
         description=system["description"],
-        elsewhere={asked: store_content(contents, content) for asked, content in manifest.elsewhere.items()},
+        elsewhere={requested: store_content(contents, content) for requested, content in manifest.elsewhere.items()},
         known_digest=system["sha256"],  # without the files that were read in addition to its list of files
     )
 

@@ -92,7 +92,7 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
     """
     variants = list(trials.values())
     numbers = variants[0].trial
-    drawn = plan.values_of(range(int(numbers[0]), int(numbers[-1]) + 1))
+    sampled = plan.values_of(range(int(numbers[0]), int(numbers[-1]) + 1))
     columns: dict[str, Any] = {
         "variant": texts_of(name for name, part in trials.items() for _ in part.trial),
         "trial": _join_tables(variants, lambda part: part.trial),
@@ -101,9 +101,9 @@ def trial_table(plan: BatchPlan, trials: Mapping[str, Trials]) -> pyarrow.Table:
         "message": texts_of(part.messages.get(int(trial), "") for part in variants for trial in part.trial),
         "end_time": _join_tables(variants, lambda part: part.end_time),
     }
-    for name, values in drawn.table.columns.items():
+    for name, values in sampled.table.columns.items():
         columns[f"draw.{name}"] = np.tile(values, len(variants))
-    for fault in drawn.faults:
+    for fault in sampled.faults:
         columns |= {name: np.tile(values, len(variants)) for name, values in fault.columns().items()}
     for name in variants[0].final:
         columns[f"final.{name}"] = _join_tables(variants, lambda part, name=name: part.final[name])

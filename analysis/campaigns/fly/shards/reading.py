@@ -48,8 +48,8 @@ def trials_of(table: pyarrow.Table, metrics: Iterable[str], path: Path) -> dict[
     labels = np.array(table["variant"].to_pylist(), dtype=str)
     statuses = np.array(table["status"].to_pylist(), dtype=object)
     messages = np.array(table["message"].to_pylist(), dtype=object) if "message" in table.column_names else None
-    kept = [name for name in table.column_names if name in COLUMNS[1:] or name.startswith(("metric.", "final."))]
-    columns = {name: numbers(table, name, path) for name in kept if name != "status"}
+    retained = [name for name in table.column_names if name in COLUMNS[1:] or name.startswith(("metric.", "final."))]
+    columns = {name: numbers(table, name, path) for name in retained if name != "status"}
     by_variant = {}
     for variant in dict.fromkeys(labels.tolist()):
         rows = labels == variant

@@ -31,11 +31,11 @@ class Judge:
         self._at_end = [metric for metric in campaign.metrics if is_of_the_end(metric)]
         self._over_time = [metric for metric in campaign.metrics if not is_of_the_end(metric)]
         ends = {name for metric in self._at_end for name in metric.names}
-        drawn = set(campaign.input_names())
+        sampled = set(campaign.input_names())
         self._signals = sorted(ends & set(names.signals))
         self._last_of = sorted({*self._signals, *campaign.record.final})
-        self._drawn = sorted((ends & drawn) - set(names.signals))
-        self._needs_draws = any(drawn & metric.names for metric in self._over_time)
+        self._drawn = sorted((ends & sampled) - set(names.signals))
+        self._needs_draws = any(sampled & metric.names for metric in self._over_time)
         self._begin()
 
     def _begin(self) -> None:

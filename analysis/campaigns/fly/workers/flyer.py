@@ -117,13 +117,13 @@ class Flyer:
         prepared = self.plan.prepare(self.variants[variant])
         names = variant_names(self.plan, prepared)
         faults, log = self.plan.list_faults(), self._log_of(variant)
-        drawn = self.values_for(trial)
+        sampled = self.values_for(trial)
         with Simulation(prepared, varied=names.varied, faults=faults, log=log) as simulation:
-            simulation.set_faults(drawn.faults_of(trial))
-            simulation.set(drawn.parameters(prepared, trial))
+            simulation.set_faults(sampled.faults_of(trial))
+            simulation.set(sampled.parameters(prepared, trial))
             result = fly(simulation, self.plan.watch.timeout)
         judge = Judge(self.plan.campaign, names)
-        judge.add(result, trial, drawn)
+        judge.add(result, trial, sampled)
         return result, _result(judge.trials())
 
     def _judge(self, variant: str) -> Judge:
@@ -134,10 +134,10 @@ class Flyer:
         simulation, _ = self.simulation(variant)
         if variant in self._logs:
             self._logs[variant].place = f"{variant}: trial {trial}: "
-        drawn = self.values_for(trial)
-        simulation.set_faults(drawn.faults_of(trial))
-        parameters = {**drawn.parameters(simulation.prepared, trial), **(overlay or {})}
-        words = self._words if drawn.campaign is self.plan.campaign and overlay is None else None
+        sampled = self.values_for(trial)
+        simulation.set_faults(sampled.faults_of(trial))
+        parameters = {**sampled.parameters(simulation.prepared, trial), **(overlay or {})}
+        words = self._words if sampled.campaign is self.plan.campaign and overlay is None else None
         if words is not None and (variant, trial) in words.hung:
             return nothing_flown(simulation, words.hung[variant, trial])
         if words is not None:

@@ -84,9 +84,9 @@ def output_feedback_set(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> OutputFeedb
     # [N] V C^perp = -T A^p C^perp, each row of [N] by itself
     seen = stack @ hidden
     row = -power @ hidden @ np.linalg.pinv(seen)
-    kept = null_space(seen.T).T
-    directions = np.zeros((size, len(kept), size, len(state)))
+    retained = null_space(seen.T).T
+    directions = np.zeros((size, len(retained), size, len(state)))
     for i in range(size):
-        directions[i, :, i] = kept
+        directions[i, :, i] = retained
     blocks = [split(side_by_side, size) for side_by_side in directions.reshape(-1, size, len(state))]
     return OutputFeedbackSet(state, inputs, outputs, split(row, size), np.array(blocks), condition)

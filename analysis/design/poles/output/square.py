@@ -34,10 +34,10 @@ def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, se
         return np.poly(np.linalg.solve(x.T, y.T) / radius).real[1:] - wanted
 
     random = np.random.default_rng(seed)
-    least = np.inf
+    minimum = np.inf
     for _ in range(starts):
         solution = least_squares(residual, random.normal(size=family.parameters), max_nfev=_STEPS)
-        least = min(least, size := float(np.max(np.abs(solution.fun))))
+        minimum = min(minimum, size := float(np.max(np.abs(solution.fun))))
         if size < _SOLVED:
             first = on_levels(levels, family, solution.x)
             inverse, x, y = level.lower_matrices(-first.gain)
@@ -47,7 +47,7 @@ def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, se
     raise PlacementError(
         "output feedback",
         Reason.RESIDUAL,
-        f"m + p = n, and of {starts} starts the nearest leaves {least:.2g} of the polynomial",
-        least,
+        f"m + p = n, and of {starts} starts the nearest leaves {minimum:.2g} of the polynomial",
+        minimum,
         "give more starts, spread the poles in another way, or measure more",
     )

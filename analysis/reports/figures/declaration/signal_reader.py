@@ -70,7 +70,9 @@ class SignalReader(AnnotationReader):
     def words(self, element: etree._Element, attribute: str) -> tuple[str, ...]:
         """Names of an attribute, separated by commas, none of them empty or repeated."""
         names = (
-            tuple(word.strip() for word in element.get(attribute, "").split(",")) if attribute in element.attrib else ()
+            tuple(token.strip() for token in element.get(attribute, "").split(","))
+            if attribute in element.attrib
+            else ()
         )
         if "" in names or len(set(names)) < len(names):
             raise self.refuse(
@@ -80,10 +82,10 @@ class SignalReader(AnnotationReader):
 
     def limits(self, element: etree._Element, low: str, high: str) -> tuple[float | None, float | None]:
         """Two attributes that bound something, of which either may be missing."""
-        least, most = self.number(element, low), self.number(element, high)
-        if least is not None and most is not None and not least < most:
-            raise self.refuse(element, f"{low} {least:g} is not below {high} {most:g}", "swap them")
-        return least, most
+        minimum, maximum = self.number(element, low), self.number(element, high)
+        if minimum is not None and maximum is not None and not minimum < maximum:
+            raise self.refuse(element, f"{low} {minimum:g} is not below {high} {maximum:g}", "swap them")
+        return minimum, maximum
 
     def rows(self, element: etree._Element) -> Rows | None:
         """The samples of a figure, from the attributes `ROWS`; None for all."""

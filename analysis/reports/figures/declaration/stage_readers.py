@@ -99,8 +99,8 @@ def _limit(reader: SignalReader, element: etree._Element) -> Limit:
     measure = attributes.get("measure")
     if measure is not None and measure not in MEASURES:
         raise reader.refuse(element, f"measure {measure} is unknown", suggestion(measure, MEASURES))
-    least, most = reader.limits(element, "least", "most")
-    if least is None and most is None:
+    minimum, maximum = reader.limits(element, "least", "most")
+    if minimum is None and maximum is None:
         raise reader.refuse(element, "neither least nor most", "give one of them, or both")
     unit = reader.unit(element, attributes["unit"], attributes["signal"]) if "unit" in attributes else None
     signal = reader.signal(element, "signal", unit=unit)
@@ -111,7 +111,7 @@ def _limit(reader: SignalReader, element: etree._Element) -> Limit:
         raise reader.refuse(element, "about and less", "give one of them")
     signal = reader.about(element, signal)
     signal, less = reader.less(element, signal)
-    return Limit(signal, attributes.get("name") or signal.label, least, most, less, measure)
+    return Limit(signal, attributes.get("name") or signal.label, minimum, maximum, less, measure)
 
 
 def read_budget(reader: SignalReader, element: etree._Element, before: Sequence[Figure]) -> Budget:

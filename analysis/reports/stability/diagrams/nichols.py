@@ -92,8 +92,8 @@ def _modulus_words(loop: LoopReport) -> str:
     if loop.margins.unstable:
         return "unstable: no margins"
     modulus, limit = loop.robust.modulus_margin, limits_of(loop).modulus
-    least = f", required {number(limit, 3)}" if limit is not None else ""
-    return f"modulus margin {number(modulus, 3)}{least}"
+    minimum = f", required {number(limit, 3)}" if limit is not None else ""
+    return f"modulus margin {number(modulus, 3)}{minimum}"
 
 
 def _wrap_phase(value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

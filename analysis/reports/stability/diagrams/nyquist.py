@@ -77,8 +77,8 @@ def draw_nyquist(loop: LoopReport, axes: Axes) -> None:
 def draw_harmonic_balance(loop: LoopReport, element: Nonlinearity, axes: Axes) -> None:
     """L and -1/N(a): a limit cycle is predicted where they meet."""
     value = loop.curve.value
-    kept = np.abs(element.gain) > 0.0
-    inverse = -1.0 / element.gain[kept]
+    retained = np.abs(element.gain) > 0.0
+    inverse = -1.0 / element.gain[retained]
     meets = [np.interp(2.0 * math.pi / cycle.period, loop.curve.frequency, value) for cycle in element.cycles]
     furthest = max([1.0, *(-point.real for point in meets), *([-float(np.max(inverse.real))] if inverse.size else [])])
     left = -2.2 * min(furthest, 1e6)

@@ -133,7 +133,7 @@ def _draw_course(course: Course, quantity: Quantity, style: Look, top: float, ax
         nearer = np.isclose(abs(values), sizes)
         axes.plot(course.times[nearer], values[nearer], **{**line, "linestyle": "", "markerfacecolor": colour})
     at_edge: Any = {"linestyle": "", "clip_on": False, "zorder": 5, "markersize": 7, "markeredgewidth": 1.8}
-    for kind, mark, height, shown in ((UNSTABLE, "x", 0.0, VERMILION), (UNLIMITED, "^", top, colour)):
+    for kind, mark, height, displayed in ((UNSTABLE, "x", 0.0, VERMILION), (UNLIMITED, "^", top, colour)):
         here = course.times[sizes == kind]
         if here.size:
-            axes.plot(here, np.full(here.size, height), **{**at_edge, "marker": mark, "color": shown})
+            axes.plot(here, np.full(here.size, height), **{**at_edge, "marker": mark, "color": displayed})

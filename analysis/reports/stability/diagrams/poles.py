@@ -65,13 +65,13 @@ def draw_poles(loop: LoopReport, axes: Axes, *, near: bool) -> None:
     """All poles, or those near z = 1: crosses where the cut moves and sees the mode, orange where unstable."""
     poles = poles_of(loop)
     _grid(axes, named=not near)
-    drawn: list[tuple[str, np.ndarray]] = []
+    plotted: list[tuple[str, np.ndarray]] = []
     if loop.modes:
         for kind, marker in KINDS.items():
-            drawn.append((marker, np.array([mode.z for mode in loop.modes if mode.kind == kind], dtype=complex)))
+            plotted.append((marker, np.array([mode.z for mode in loop.modes if mode.kind == kind], dtype=complex)))
     else:
-        drawn.append(("x", poles))
-    for marker, members in drawn:
+        plotted.append(("x", poles))
+    for marker, members in plotted:
         for colour, some in ((BLUE, members[np.abs(members) < 1.0]), (VERMILION, members[np.abs(members) >= 1.0])):
             axes.plot(
                 some.real, some.imag, linestyle="", marker=marker, color=colour, markersize=5.5,
@@ -106,10 +106,10 @@ def draw_cloud(loop: LoopReport, axes: Axes) -> None:
         centre, half = _near_one(np.concatenate([poles, nominal]), 1.7 * NEAR, LOW_SHAPE)
     else:
         centre, half = 0.0, max(1.12, min(2.0, 1.1 * float(np.max(np.abs(poles)))))
-    shown = thin(poles[np.abs(poles - centre) < 3.0 * half], half)
+    displayed = thin(poles[np.abs(poles - centre) < 3.0 * half], half)
     _grid(axes, named=not near)
-    outside = np.abs(shown) >= 1.0
-    for some, colour in ((shown[~outside], BLUE), (shown[outside], VERMILION)):
+    outside = np.abs(displayed) >= 1.0
+    for some, colour in ((displayed[~outside], BLUE), (displayed[outside], VERMILION)):
         axes.plot(some.real, some.imag, linestyle="", marker=".", markersize=2.6, color=colour, alpha=0.5, zorder=2)
     axes.plot(nominal.real, nominal.imag, linestyle="", marker="x", markersize=5.5, color=INK, zorder=4)
     _frame(axes, centre, half, LOW_SHAPE)

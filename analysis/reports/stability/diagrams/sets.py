@@ -41,14 +41,14 @@ def draw_step(loop: LoopReport, axes: Axes) -> None:
 def draw_histogram(sizes: np.ndarray, axes: Axes, what: str, limit: float | None, worst: int) -> None:
     """Trials by a margin's size; unstable ones as a hatched bar left of all, the limit dashed, the worst marked."""
     unstable, finite = sizes == UNSTABLE, np.isfinite(sizes)
-    kept = sizes[finite]
-    low, high = (float(kept.min()), float(kept.max())) if kept.size else (0.0, 1.0)
+    retained = sizes[finite]
+    low, high = (float(retained.min()), float(retained.max())) if retained.size else (0.0, 1.0)
     if limit is not None:
         low, high = min(low, limit), max(high, limit)
     margin = 0.04 * (high - low) or 0.04 * abs(high) or 1.0
     edges = np.linspace(low - margin, high + margin, BINS + 1)
     width = edges[1] - edges[0]
-    axes.hist(kept, bins=edges.tolist(), color=BLUE, alpha=0.75)
+    axes.hist(retained, bins=edges.tolist(), color=BLUE, alpha=0.75)
     left = edges[0]
     if np.any(unstable):
         left = edges[0] - 3.0 * width
@@ -122,12 +122,12 @@ def draw_sweep(sweep: SweepReport, limits: Limits, gain_axes: Axes, phase_axes: 
     unstable = np.array([item.unstable for item in sweep.margins])
     gain = np.array([math.nan if item.unstable else decibels(item.gain) for item in sweep.margins])
     phase = np.array([math.nan if item.unstable else math.degrees(item.phase) for item in sweep.margins])
-    shown: list[tuple[Axes, np.ndarray, float | None, str]] = [
+    displayed: list[tuple[Axes, np.ndarray, float | None, str]] = [
         (gain_axes, gain, limits.gain, "gain margin, dB"),
         (phase_axes, phase, limits.phase, "phase margin, deg"),
     ]
     edges = [crossing.value for crossing in sweep.crossings if crossing.quantity is Quantity.STABILITY]
-    for axes, y, limit, title in shown:
+    for axes, y, limit, title in displayed:
         axes.plot(x, np.where(np.isfinite(y), y, np.nan), color=BLUE, marker="o", markersize=2.5)
         if limit is not None:
             axes.axhline(limit, **LIMIT)

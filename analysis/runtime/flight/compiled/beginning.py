@@ -60,15 +60,17 @@ def _begin(instruction, program, given, read_back, span, outcome):  # type: igno
         return status
     for p in range(first, first + count):
         if code == READ_BACK:
-            asked, stored = given.real[p], read_back.real[p]
-            taken = (
-                stored == asked or abs(stored - asked) <= KEPT * abs(asked) or (np.isnan(stored) and np.isnan(asked))
+            requested, stored = given.real[p], read_back.real[p]
+            selected = (
+                stored == requested
+                or abs(stored - requested) <= KEPT * abs(requested)
+                or (np.isnan(stored) and np.isnan(requested))
             )
         elif code == WHOLE_READ_BACK:
-            taken = read_back.whole[p] == given.whole[p]
+            selected = read_back.whole[p] == given.whole[p]
         else:
-            taken = read_back.text[p] != 0 and compare_texts(read_back.text[p], given.text[p]) == 0
-        if not taken:
+            selected = read_back.text[p] != 0 and compare_texts(read_back.text[p], given.text[p]) == 0
+        if not selected:
             outcome[0] = NOT_TAKEN
             outcome[1] = p
             return status

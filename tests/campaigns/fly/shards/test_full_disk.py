@@ -23,7 +23,7 @@ def can_mount():
 
 @pytest.mark.skipif(sys.platform != "linux" or not can_mount(), reason="this machine lets nobody mount a tmpfs")
 def test_a_full_disk_ends_it_and_room_goes_on_with_it(tmp_path):
-    disk, kept = tmp_path / "disk", tmp_path / "kept"
+    disk, retained = tmp_path / "disk", tmp_path / "kept"
     disk.mkdir()
     command = shlex.join([sys.executable, "-m", "perilune", *CAMPAIGN, "--output", str(disk / "out")])
     script = f"""
@@ -33,7 +33,7 @@ def test_a_full_disk_ends_it_and_room_goes_on_with_it(tmp_path):
         find {disk}/out -name '.*' -type f
         rm {disk}/filler
         {command} --resume || exit 1
-        cp -r {disk}/out {kept}
+        cp -r {disk}/out {retained}
     """
     done = subprocess.run(["unshare", "-rm", "sh", "-c", script], capture_output=True, text=True, check=True)
     assert "status 2" in done.stdout.splitlines()
@@ -43,4 +43,4 @@ def test_a_full_disk_ends_it_and_room_goes_on_with_it(tmp_path):
     assert "resume with the same command and --resume, or with shard" in said[0]
     assert not [line for line in done.stdout.splitlines() if line.startswith(f"{disk}/out/")]
     assert main([*CAMPAIGN, "--output", str(tmp_path / "whole")]) == 0
-    assert bytes_of(kept) == bytes_of(tmp_path / "whole")
+    assert bytes_of(retained) == bytes_of(tmp_path / "whole")

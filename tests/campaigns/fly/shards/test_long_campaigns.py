@@ -102,9 +102,9 @@ def test_draws_by_a_counter_fly_in_any_part(counted, tmp_path):
     assert bytes_of(tmp_path / "parts") == whole
     assert main([*line, "--trials", "100", "--output", str(tmp_path / "whole"), "--resume"]) == 0
     actual = read_batch(tmp_path / "whole")
-    drawn = open_folder(tmp_path / "whole").plan.draws
+    sampled = open_folder(tmp_path / "whole").plan.draws
     for trial in (0, 59, 60, 99):
-        assert drawn.of_part(range(trial, trial + 1)).row(0) == {
+        assert sampled.of_part(range(trial, trial + 1)).row(0) == {
             name: values[trial] for name, values in actual.draws.items()
         }
     assert [group.label for group in actual.groups] == ["1", "2"]
@@ -122,8 +122,8 @@ def test_more_trials_than_a_table_has(counted, tmp_path, capsys):
     assert main(["shard", str(out), "200"]) == 0
     table = pyarrow.parquet.read_table(out / "trials" / "000200.parquet")
     assert table["trial"].to_pylist() == [1_000_000, 1_000_001]
-    drawn = open_folder(out).plan.draws.of_part(range(1_000_000, 1_000_002)).columns
-    for name, values in drawn.items():
+    sampled = open_folder(out).plan.draws.of_part(range(1_000_000, 1_000_002)).columns
+    for name, values in sampled.items():
         assert table[f"draw.{name}"].to_numpy().tolist() == values.tolist()
     assert table["fault.stuck"].to_pylist() == [False, True]
     plain = counted.read_text().replace('draw_scheme = "counter"\n', "")

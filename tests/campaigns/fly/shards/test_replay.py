@@ -32,7 +32,7 @@ def folder(fmus, tmp_path_factory):
 
     System, campaign and parameter set were in another folder, which is gone.
     """
-    made, kept = tmp_path_factory.mktemp("made"), tmp_path_factory.mktemp("kept")
+    made, retained = tmp_path_factory.mktemp("made"), tmp_path_factory.mktemp("kept")
     shutil.copytree(SYSTEMS / SYSTEM, made / SYSTEM)
     (campaign,) = (made / SYSTEM).rglob("noisy.toml")
     fault = (
@@ -54,9 +54,9 @@ def folder(fmus, tmp_path_factory):
         step=0.2,
         output=made / "out",
     )
-    (made / "out").rename(kept / "campaign")
+    (made / "out").rename(retained / "campaign")
     shutil.rmtree(made)
-    return kept / "campaign"
+    return retained / "campaign"
 
 
 def stored(folder, variant):

@@ -191,11 +191,11 @@ def test_what_flies_is_what_the_folder_holds(begun, tmp_path, capsys):
     perilune.batch(SYSTEM, "paper", trials=30, stop_time=5.0, output=copy)
     (copy / "trials" / "000000.parquet").unlink()
     fmu = next((copy / "files").glob("*.fmu"))
-    kept = fmu.read_bytes()
-    fmu.write_bytes(kept[:-1])
+    retained = fmu.read_bytes()
+    fmu.write_bytes(retained[:-1])
     assert main(["shard", str(copy), "0"]) == 2
     assert f"{fmu.name}: its content is not the one that it is named by" in capsys.readouterr().err
-    fmu.write_bytes(kept)
+    fmu.write_bytes(retained)
     assert main(["shard", str(copy), "0"]) == 0
     assert bytes_of(copy / "trials") == bytes_of(folder / "trials")
     assert main(["shard", str(copy), "2"]) == 2
@@ -207,13 +207,13 @@ def test_a_damaged_shard_is_named_and_flown_again_once_removed(begun, tmp_path, 
     copy = shutil.copytree(folder, tmp_path / "copy")
     shard = copy / "trials" / "000001.parquet"
     shard.write_bytes(shard.read_bytes()[:-60])
-    again = [*command[:-1], str(copy), "--resume"]
-    assert main(again) == 2
+    repeated = [*command[:-1], str(copy), "--resume"]
+    assert main(repeated) == 2
     said = capsys.readouterr().err
     assert f"{shard}: cannot be read as parquet" in said
     assert "remove it: the batch's command with --resume flies what is missing" in said
     shard.unlink()
-    assert main(again) == 0
+    assert main(repeated) == 0
     assert bytes_of(copy) == bytes_of(folder)
 
 

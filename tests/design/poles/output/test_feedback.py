@@ -23,8 +23,8 @@ DIMENSIONS = [(4, 2, 3), (4, 3, 2), (5, 3, 3), (5, 2, 4), (6, 3, 4), (6, 4, 3)]
 def test_places_every_draw(states: int, inputs: int, outputs: int, method: str) -> None:
     """Pairs as many as split over the levels: all, but for one real pole on each of two levels of odd size."""
     upper = states - (inputs if method == "direct" else outputs)
-    most = (upper // 2) + ((states - upper) // 2)
-    for a, b, c, poles in random_systems(COUNT, states, inputs, outputs, most_pairs=most, seed=25):
+    maximum = (upper // 2) + ((states - upper) // 2)
+    for a, b, c, poles in random_systems(COUNT, states, inputs, outputs, most_pairs=maximum, seed=25):
         actual = modal.output_feedback(a, b, c, poles, method=method)
         assert (actual.method, actual.gain.shape, len(actual.upper)) == (method, (inputs, outputs), upper)
         assert_placed(a + b @ actual.gain @ c, poles, actual.condition_x)

@@ -27,14 +27,14 @@ def test_coefficients_and_their_derivatives() -> None:
 def test_has_the_poles_and_is_smaller() -> None:
     norms = []
     for a, b, c, poles in random_systems(either(20, 1), 6, 3, 4, most_pairs=2, seed=36):
-        least = modal.output_feedback(a, b, c, poles, choice="least_norm")
+        minimum = modal.output_feedback(a, b, c, poles, choice="least_norm")
         actual = modal.output_feedback(a, b, c, poles, choice="smallest")
         assert_placed(a + b @ actual.gain @ c, poles)
-        norms.append((actual.norm, least.norm))
+        norms.append((actual.norm, minimum.norm))
         assert norms[-1][0] <= norms[-1][1]
     if LONG:
-        smallest, least = np.median(norms, axis=0)
-        assert smallest < 0.5 * least
+        smallest, minimum = np.median(norms, axis=0)
+        assert smallest < 0.5 * minimum
 
 
 def test_no_way_down_remains() -> None:

@@ -30,9 +30,9 @@ def test_a_function_is_kept_and_found_again(tmp_path, monkeypatch):
     assert compiler.compile_cached(doubled)(21) == 42
     assert list((tmp_path / "numba").rglob("*doubled*.nbc"))
     assert config.CACHE_DIR == ""
-    again = compiler.compile_cached(doubled)
-    assert again(21) == 42
-    assert sum(again.stats.cache_hits.values()) == 1
+    repeated = compiler.compile_cached(doubled)
+    assert repeated(21) == 42
+    assert sum(repeated.stats.cache_hits.values()) == 1
 
 
 def test_the_folder_that_numba_is_told_of_wins(tmp_path, monkeypatch):

@@ -84,8 +84,8 @@ def test_what_may_be_called_after_a_failure(tmp_path, calls, answer, letters):
     result = fly(odd_system(tmp_path, ANSWERS=answer, AT=0.5))
     assert (result.status, result.time.tolist()) == ("failed", [0.0, 0.25, 0.5])
     known = answer in (2, 3, 4)
-    word = {2: "discard, which is no wish to end", 3: "error", 4: "fatal"}.get(answer, f"{answer}, a status that FMI")
-    assert f"odd: fmi2DoStep returned {word}" in result.message
+    token = {2: "discard, which is no wish to end", 3: "error", 4: "fatal"}.get(answer, f"{answer}, a status that FMI")
+    assert f"odd: fmi2DoStep returned {token}" in result.message
     assert known or "a status that FMI does not have" in result.message
     assert calls() == letters
 

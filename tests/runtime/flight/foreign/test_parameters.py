@@ -135,5 +135,5 @@ def test_not_a_number_is_taken_as_it_is(tmp_path):
 def test_strings_vary_from_flight_to_flight(tmp_path):
     prepared = prepare_system(odd_system(tmp_path), SystemOptions(set={"odd.word": "a"}))
     with Simulation(prepared, varied=["odd.word"]) as simulation:
-        for word in ("to be", "or not", "", "\N{GREEK SMALL LETTER ALPHA}"):
-            assert set(simulation.fly({"odd.word": word})["odd.length"]) == {float(len(word.encode()))}
+        for token in ("to be", "or not", "", "\N{GREEK SMALL LETTER ALPHA}"):
+            assert set(simulation.fly({"odd.word": token})["odd.length"]) == {float(len(token.encode()))}

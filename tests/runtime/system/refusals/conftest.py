@@ -21,8 +21,8 @@ def refused(tmp_path, capfd, monkeypatch):
         assert match, output.err
         assert status == 1 or "Traceback" not in output.err  # a run that fails shows the FMU's own log
         said = output.err.replace(str(tmp_path), "")  # whose name is that of the test
-        for word in words:
-            assert word in said, said
+        for token in words:
+            assert token in said, said
         if status == 2:
             assert output.out == ""
             assert sorted(tmp_path.rglob("*")) == before
