@@ -117,6 +117,6 @@ def _members(block_class: type[Block]) -> dict[str, dict[str, str]]:
     """By variable, the member of the struct by the name of its FMI variable: ``position[1]`` is ``position.x[0]``."""
     members: dict[str, dict[str, str]] = {}
     for name, variable in block_class.variables.items():
-        places = [member(variable, place) for place in range(variable.size)]
+        places = [member(variable, index) for index in range(variable.size)]
         members[name] = dict(zip(variable.element_names(), places, strict=True))
     return members

@@ -52,7 +52,7 @@ class _Writer:
 
     def text(self) -> str:
         names = self.course.names
-        rows = [f"    row[{place}] = {self._member(name)};\n" for place, name in enumerate(names)]
+        rows = [f"    row[{index}] = {self._member(name)};\n" for index, name in enumerate(names)]
         return "".join(
             [
                 START.format(system=self.prepared.archive.name),

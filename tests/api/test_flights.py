@@ -124,7 +124,7 @@ class Coasting(TerminalGuidance):
 def test_a_vector_is_set_as_a_whole(fmus, tmp_path):
     """As a list, an array or a text: the same flight as by elements."""
     target = [10.0, -5.0, 2100.0]
-    by_element = {f"guidance.target_position[{place}]": value for place, value in enumerate(target, 1)}
+    by_element = {f"guidance.target_position[{index}]": value for index, value in enumerate(target, 1)}
     expected = perilune.simulate(SYSTEM, stop_time=2.0, set=by_element)
     for value in (target, tuple(target), np.array(target), "10, -5, 2100"):
         actual = perilune.simulate(SYSTEM, stop_time=2.0, set={"guidance.target_position": value})

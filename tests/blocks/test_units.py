@@ -72,8 +72,8 @@ def test_temperatures(scale, value):
 def test_products_multiply(parts):
     """Factors multiply and exponents add, whatever the order of the symbols."""
     name = "".join(
-        f"{sign if place else ('' if sign == '.' else '1/')}{symbol}{power}"
-        for place, (symbol, power, sign) in enumerate(parts)
+        f"{sign if index else ('' if sign == '.' else '1/')}{symbol}{power}"
+        for index, (symbol, power, sign) in enumerate(parts)
     )
     factor, exponents = 1.0, dict.fromkeys(BASE_UNITS, 0)
     for symbol, power, sign in parts:

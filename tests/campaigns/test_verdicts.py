@@ -174,7 +174,7 @@ def test_lines_name_variant_requirement_and_figures(summary):
 
 def test_text(summary):
     lines = summary_text(summary).splitlines()
-    start = next(place for place, line in enumerate(lines) if line.startswith("requirement"))
+    start = next(index for index, line in enumerate(lines) if line.startswith("requirement"))
     cells = [line.split("at 90 % confidence")[1].split() for line in lines[start + 1 : start + 4]]
     assert cells == [
         ["good", "2000", "0", "7.41", "met", "-,", "-,", "-"],

@@ -88,14 +88,14 @@ def test_poles_and_encirclements(studied, name):
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_the_routes_agree(studied, name):
     exact, report = studied(name)
-    for place, loop in enumerate(report.loops):
+    for index, loop in enumerate(report.loops):
         assert loop.agreement.agrees
         assert DECIBEL * np.log(loop.agreement.gain) < 1e-3
         assert np.degrees(loop.agreement.phase) < 1e-2
         assert loop.linearised.plateau < 1e-6
         assert loop.linearised.periodicity < 1e-9
         assert loop.measured_response.half_amplitude_change < 1e-9
-        truth = response_of(exact.loop if len(report.loops) == 1 else opened(exact.loop, place))
+        truth = response_of(exact.loop if len(report.loops) == 1 else opened(exact.loop, index))
         exactly = truth(loop.curve.frequency)
         assert (abs(loop.curve.value - exactly) < 1e-6 * abs(exactly) + 1e-9).all()
         low = loop.measured_response.curve.frequency < 0.5 * np.pi / exact.period
@@ -107,13 +107,13 @@ def test_the_routes_agree(studied, name):
 def test_two_coupled_loops(studied, name):
     exact, report = studied(name)
     assert [loop.cut for loop in report.loops] == ["control.y[1]", "control.y[2]"]
-    for place, loop in enumerate(report.loops):
-        alone = opened(exact.loop, place)
+    for index, loop in enumerate(report.loops):
+        alone = opened(exact.loop, index)
         assert_classical(loop.classical, alone)
         assert_poles(loop, exact)
         assert loop.robust.disk_margin == pytest.approx(disk_margin(alone), rel=1e-5)
         assert loop.unstable_open == outside(alone, 0.0) == loop.classical.encirclements
-        assert loop.closed == (report.loops[1 - place].name,)
+        assert loop.closed == (report.loops[1 - index].name,)
     (joint,) = report.joint
     assert joint.channels == tuple(loop.name for loop in report.loops)
     assert joint.disk_margin == pytest.approx(disk_margin(exact.loop), rel=1e-3)

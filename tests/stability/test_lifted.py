@@ -28,7 +28,7 @@ def lifted(loop, samples):
     back = np.linalg.solve(np.eye(loop.ninputs) + loop.D, np.hstack([-loop.C, -loop.D]))
     c, d = back[:, : loop.nstates], back[:, loop.nstates :]  # v = c x + d (what is added)
     a, b = loop.A + loop.B @ c, loop.B @ (np.eye(loop.ninputs) + d)
-    powers = [np.linalg.matrix_power(a, place) for place in range(samples + 1)]
+    powers = [np.linalg.matrix_power(a, index) for index in range(samples + 1)]
     cv = np.vstack([c @ power for power in powers[:-1]])
     dv = np.block(
         [

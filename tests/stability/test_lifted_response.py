@@ -27,7 +27,7 @@ def test_equals_dense_solves(states: int) -> None:
     frequency = np.geomspace(1e-2, np.pi / 0.4, 150)
     for chosen in (ports, ports[:1], (ports[2], ports[0])):
         u, v = model.closed_response(chosen, frequency)
-        for place, w in enumerate(frequency):
+        for index, w in enumerate(frequency):
             wave = np.zeros((rows, len(chosen)), dtype=complex)
             mean = np.zeros((len(chosen), rows), dtype=complex)
             for column, one in enumerate(chosen):
@@ -36,8 +36,8 @@ def test_equals_dense_solves(states: int) -> None:
             x = np.linalg.solve(np.exp(0.4j * w) * np.eye(states) - a, b @ wave)
             expected_u, expected_v = mean @ (cu @ x + du @ wave), mean @ (cv @ x + dv @ wave)
             scale = max(1.0, float(np.max(np.abs(x), initial=0.0)))
-            np.testing.assert_allclose(u[place], expected_u, rtol=1e-12, atol=1e-12 * scale)
-            np.testing.assert_allclose(v[place], expected_v, rtol=1e-12, atol=1e-12 * scale)
+            np.testing.assert_allclose(u[index], expected_u, rtol=1e-12, atol=1e-12 * scale)
+            np.testing.assert_allclose(v[index], expected_v, rtol=1e-12, atol=1e-12 * scale)
         expected = -np.linalg.solve(u.swapaxes(1, 2), v.swapaxes(1, 2)).swapaxes(1, 2)
         np.testing.assert_allclose(model.response(chosen, frequency), expected, rtol=1e-12)
 

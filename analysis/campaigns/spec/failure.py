@@ -79,9 +79,9 @@ def _margin(node: ast.expr, negated: bool, where: Where) -> Margin:
         case ast.Compare(left=left, ops=operators, comparators=comparators):
             sides = [left, *comparators]
             links = []
-            for place, operator in enumerate(operators):
+            for index, operator in enumerate(operators):
                 kind = OPPOSITE[type(operator)] if negated else type(operator)
-                links.append(_difference(sides[place], kind, sides[place + 1], where))
+                links.append(_difference(sides[index], kind, sides[index + 1], where))
             return _join_limit_states(links, negated)
     nothing = ast.Constant(0)
     return _difference(node, ast.Eq if negated else ast.NotEq, nothing, where)

@@ -66,11 +66,11 @@ def formula(law: Law) -> dict[str, str]:
 def formula_text(law: Law) -> str:
     """The formula for a terminal, the values of its parameters below it."""
     lines = formula(law)
-    outputs = {f"z{number}": f"u{place}" for place, number in enumerate(OUTPUT_NUMBERS, 1)}
+    outputs = {f"z{number}": f"u{index}" for index, number in enumerate(OUTPUT_NUMBERS, 1)}
     text = [
         f"{outputs.get(name, '')}{' = ' if name in outputs else ''}{name} = {right}" for name, right in lines.items()
     ]
-    values = [f"q{place} = {value:.10g}" for place, value in enumerate(law.q, 1)]
+    values = [f"q{index} = {value:.10g}" for index, value in enumerate(law.q, 1)]
     return "\n".join([*text, "", ", ".join(values) + f"; exp saturates {law.exp_saturation}"])
 
 

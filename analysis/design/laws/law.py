@@ -154,10 +154,10 @@ def _wrong(row: int, column: int, entry: Any) -> tuple[str, str] | None:
 def _parameters(values: Any, file: str) -> tuple[float, ...]:
     if not isinstance(values, list) or len(values) != PARAMETERS:
         raise InputError(file, "q", f"{values!r} is not a list of {PARAMETERS} numbers", f"give {PARAMETERS} numbers")
-    for place, value in enumerate(values, 1):
+    for index, value in enumerate(values, 1):
         number = isinstance(value, int | float) and not isinstance(value, bool)
         if not number or not abs(value) <= 1e308 or not math.isfinite(value):
-            raise InputError(file, f"q[{place}]", f"{value!r} is not a finite number", "give a finite number")
+            raise InputError(file, f"q[{index}]", f"{value!r} is not a finite number", "give a finite number")
     return tuple(float(value) for value in values)
 
 

@@ -44,8 +44,8 @@ def polynomial_of_solvents(solvents: Sequence[ArrayLike]) -> np.ndarray:
     """
     size = len(np.atleast_2d(solvents[0]))
     coefficients = np.eye(size)[None]
-    for place, solvent in enumerate(solvents):
-        factor = real_matrix(f"solvents[{place}]", solvent, (size, size))
+    for index, solvent in enumerate(solvents):
+        factor = real_matrix(f"solvents[{index}]", solvent, (size, size))
         zero = np.zeros((1, size, size))
         coefficients = np.concatenate([zero, coefficients]) - np.concatenate([factor @ coefficients, zero])
     return coefficients[:-1]

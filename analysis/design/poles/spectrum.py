@@ -122,10 +122,10 @@ class Spectrum:
         for pole in sorted([*self.real, *self.pairs], key=abs, reverse=True):
             size = 1 if isinstance(pole, float) else 2
             left -= size == 2
-            for place in range(len(room)):
-                after = [free - size * (i == place) for i, free in enumerate(room)]
-                if after[place] >= 0 and sum(free // 2 for free in after) >= left:
-                    (real if size == 1 else pairs)[place].append(pole)
+            for index in range(len(room)):
+                after = [free - size * (i == index) for i, free in enumerate(room)]
+                if after[index] >= 0 and sum(free // 2 for free in after) >= left:
+                    (real if size == 1 else pairs)[index].append(pole)
                     room = after
                     break
         return [Spectrum.sorted(*part) for part in zip(real, pairs, strict=True)]

@@ -197,7 +197,7 @@ class Search:
                 "flights": state.flights,
                 "front": len(state.front),
                 "successes": state.champion.evaluation.successes,
-                **{f"least_{place + 1}": value for place, value in enumerate(minimum.tolist())},
+                **{f"least_{index + 1}": value for index, value in enumerate(minimum.tolist())},
             }
         )
 

@@ -132,7 +132,7 @@ class SynthesisResult:
 
 def write_log(path: Path, synthesis: Synthesis, search: Search) -> None:
     """Write the history, a line per generation, with the least sum of every objective so far."""
-    names = {f"least_{place}": f"least_sum_of_{name}" for place, name in enumerate(synthesis.objectives, 1)}
+    names = {f"least_{index}": f"least_sum_of_{name}" for index, name in enumerate(synthesis.objectives, 1)}
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     history = search.state.history

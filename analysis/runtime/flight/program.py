@@ -242,7 +242,7 @@ def _columns(drive: Drive | None, names: Sequence[str]) -> np.ndarray:
     """The table of inputs over time with its columns in the order of ``names``."""
     if drive is None:
         return np.zeros((0, 0))
-    places = {name: place for place, name in enumerate(drive.names)}
+    places = {name: index for index, name in enumerate(drive.names)}
     return np.ascontiguousarray(drive.table[:, [places[name] for name in names]])
 
 

@@ -55,14 +55,14 @@ def linearise(
         cells = sorted(lasting.union(np.flatnonzero(_in_between(screened, driven)).tolist()))
     remembered = [plateau(partial(jacobian.cell_column, cell), steps) for cell in cells]
     matrices, models = [], []
-    for place in range(2):
+    for index in range(2):
         matrix = np.zeros((count + 2 * len(driven), count))
         for cell, column in zip(cells, remembered, strict=True):
-            matrix[:, cell] = column[place]
+            matrix[:, cell] = column[index]
         matrices.append(matrix)
         # the first matrix says which cells, so that both models have the same
         inside = np.flatnonzero(_in_between(matrices[0], driven))
-        models.append(_model(jacobian, inside, matrix, np.column_stack([column[place] for column in driven])))
+        models.append(_model(jacobian, inside, matrix, np.column_stack([column[index] for column in driven])))
     change = jacobian.end - jacobian.start
     order = sorted(inside, key=lambda cell: -abs(change[cell]) / jacobian.scale[cell])
     memory = operating_point.memory.cells

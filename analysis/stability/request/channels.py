@@ -77,7 +77,7 @@ class Channel:
         """The signal that comes back; ``excitation`` [r, connectors] is what was added to get ``signals``."""
         if self.returned is not None:
             return signals[self.returned]
-        before = {name: signals[name] - excitation[:, place] for place, name in enumerate(self.connectors)}
+        before = {name: signals[name] - excitation[:, index] for index, name in enumerate(self.connectors)}
         return self.injection_for({**signals, **before})
 
 
@@ -107,7 +107,7 @@ def channels_of(loop: Loop, network: Network, step: float) -> list[Channel]:
     elif len(cut) == 1:
         named = [base]
     else:
-        named = [replace(base, name=f"{loop.name}[{place}]", connectors=(name,)) for place, name in enumerate(cut, 1)]
+        named = [replace(base, name=f"{loop.name}[{index}]", connectors=(name,)) for index, name in enumerate(cut, 1)]
     if not returned:
         return named
     if len(returned) != len(named):

@@ -69,10 +69,10 @@ class SensitivityResult:
         rows: dict[str, dict[str, Any]] = {name: {"rank": self.ranks[number].get(name)} for name in self.inputs}
         if self.indices is not None and number in self.told:
             row = self.told.index(number)
-            for place, name in enumerate(self.inputs):
+            for index, name in enumerate(self.inputs):
                 for order in ("first", "total"):
-                    rows[name][order] = float(getattr(self.indices, order)[row, place])
-                    ends = getattr(self.indices, f"{order}_interval")[:, row, place]
+                    rows[name][order] = float(getattr(self.indices, order)[row, index])
+                    ends = getattr(self.indices, f"{order}_interval")[:, row, index]
                     rows[name][f"{order}_interval"] = [strict(end) for end in ends]
         return rows
 

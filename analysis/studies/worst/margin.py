@@ -28,11 +28,11 @@ def margin_columns(channels: Sequence[str], studied: Sequence[Sequence[Margins] 
     A margin of an unstable loop is `UNSTABLE`, one without a crossing inf; a row of None is nan.
     """
     columns: dict[str, np.ndarray] = {}
-    for place, channel in enumerate(channels):
+    for index, channel in enumerate(channels):
         for key, quantity in SIZES.values():
-            columns[f"{channel}.{key}"] = np.array([row[place].size(quantity) if row else np.nan for row in studied])
+            columns[f"{channel}.{key}"] = np.array([row[index].size(quantity) if row else np.nan for row in studied])
         columns[f"{channel}.{LARGEST}"] = np.array(
-            [row[place].largest if row else np.nan for row in studied], dtype=float
+            [row[index].largest if row else np.nan for row in studied], dtype=float
         )
     return columns
 

@@ -124,9 +124,9 @@ def test_a_system_without_any_of_what_one_looks_at_first(many, tmp_path):
     retained = {"ship.tilt", "ship.mass"}
     for name in set(result.signals) - retained:
         del result.signals[name]
-    for place in range(20 if many else 0):
-        name = f"ship.extra_{place}"
-        result.signals[name], result.units[name], result.types[name] = result.time + place, None, "Real"
+    for index in range(20 if many else 0):
+        name = f"ship.extra_{index}"
+        result.signals[name], result.units[name], result.types[name] = result.time + index, None, "Real"
     page = write(result, tmp_path / "run.html")
     (section,) = parse(page).xpath("//section[h2='Final values']")
     words = " ".join(section.text_content().split())
@@ -162,9 +162,9 @@ def test_where_no_name_says_what_is_a_state_the_first_panels_are_open(tmp_path):
     result = run_result()
     for name in list(result.signals):
         del result.signals[name]
-    for place in range(20):
-        name = f"ship.extra_{place}"
-        result.signals[name], result.units[name], result.types[name] = result.time + place, None, "Real"
+    for index in range(20):
+        name = f"ship.extra_{index}"
+        result.signals[name], result.units[name], result.types[name] = result.time + index, None, "Real"
     displayed, folded = sections_and_folds(write(result, tmp_path / "run.html"))
     assert [len(displayed), len(folded)] == [12, 8]
 

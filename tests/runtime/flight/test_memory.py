@@ -89,7 +89,7 @@ def test_cells_are_all_real_numbers_but_parameters_and_random_generators(simulat
     assert len(set(names)) == len(names)
     of_noise = [name for name in names if name.startswith("noise.") and "exchanged" not in name]
     assert sorted(of_noise) == ["noise.mean[1]", "noise.mean[2]", "noise.u", "noise.y"]
-    assert {f"late.line[{place}]" for place in range(1, 33)} < set(names)
+    assert {f"late.line[{index}]" for index in range(1, 33)} < set(names)
     assert {"plant.position", "plant.velocity", "plant.u", "control.last", "control.y"} < set(names)
     assert not any("sigma" in name or "sample_period" in name or "samples" in name for name in names)
     assert {name for name in names if "exchanged" in name} == {"noise.y as exchanged", "control.y as exchanged"}
@@ -118,7 +118,7 @@ def test_one_cell_is_changed_and_nothing_else(simulation):
 def test_a_changed_cell_acts_as_the_equations_say(simulation):
     """Velocity moves the position by a step of it; the delay's line comes out in its order."""
     memory, snapshot = saved(simulation)
-    places = {cell.name: place for place, cell in enumerate(memory.cells)}
+    places = {cell.name: index for index, cell in enumerate(memory.cells)}
     before, expected = memory.read().copy(), {}
     memory.put_back(snapshot)
     base = fly(simulation, SAVED, SAVED + 3)

@@ -133,9 +133,9 @@ def test_an_enumeration_is_set_by_name_or_value(tiny, tmp_path):
     declared = "input n Enumeration Mode; output m Enumeration Mode"
     enumeration = "".join(f'<ssc:Item name="{name}" value="{value}"/>' for name, value in MODES.items())
     more = f'<ssd:Enumerations><ssc:Enumeration name="Mode">{enumeration}</ssc:Enumeration></ssd:Enumerations>'
-    for place, given in enumerate(("n=Enumeration:hover", "n=Enumeration:7", "n=Integer:7", "n=String:hover")):
+    for index, given in enumerate(("n=Enumeration:hover", "n=Enumeration:7", "n=Integer:7", "n=String:hover")):
         mode = component("mode", "mode", declared, inline(given))
-        path = pack(tmp_path / f"{place}.ssp", tiny, document(system(mode), more=more))
+        path = pack(tmp_path / f"{index}.ssp", tiny, document(system(mode), more=more))
         assert set(fly(path)["mode.m"]) == {7.0}
         assert [set(fly(path, set={"mode.n": item})["mode.m"]) for item in ("brake", "2", 2)] == [{2.0}] * 3
         with pytest.raises(InputError, match=r"mode\.n: no item 3 in the enumeration; use one of brake, hover, idle"):

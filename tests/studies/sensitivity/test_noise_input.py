@@ -52,9 +52,9 @@ def test_rows_differ_in_one_input_only():
     points, streams = with_noise(saltelli_points(64, 3, np.random.Generator(np.random.Philox(1))), 64)
     first, second, *mixes = np.split(np.column_stack([points, streams]), 6)
     assert not np.any(first == second)
-    for place, mix in enumerate(mixes):
-        assert np.array_equal(np.flatnonzero(np.all(mix == second, axis=0)), [place])
-        assert np.array_equal(np.flatnonzero(~np.all(mix == first, axis=0)), [place])
+    for index, mix in enumerate(mixes):
+        assert np.array_equal(np.flatnonzero(np.all(mix == second, axis=0)), [index])
+        assert np.array_equal(np.flatnonzero(~np.all(mix == first, axis=0)), [index])
 
 
 @pytest.mark.usefixtures("fmus")

@@ -87,7 +87,7 @@ def ring(
     parts: dict[str, tuple[str, str, str, str]], step: float, stop: float, stability: str = "", width: int = 1
 ) -> str:
     """A description of components in a ring: name -> (fmu, input, output, parameters), vectors of ``width``."""
-    marks = [""] if width == 1 else [f"[{place}]" for place in range(1, width + 1)]
+    marks = [""] if width == 1 else [f"[{index}]" for index in range(1, width + 1)]
     components = [
         component(
             name,

@@ -33,8 +33,8 @@ def shard_size(trials: int) -> int:
 
 def spans(shards: Sequence[int]) -> str:
     """Rising numbers of shards as `perilune shard` takes them: 0-3 7."""
-    starts = [shard for place, shard in enumerate(shards) if place == 0 or shards[place - 1] != shard - 1]
-    ends = [shard for place, shard in enumerate(shards) if place == len(shards) - 1 or shards[place + 1] != shard + 1]
+    starts = [shard for index, shard in enumerate(shards) if index == 0 or shards[index - 1] != shard - 1]
+    ends = [shard for index, shard in enumerate(shards) if index == len(shards) - 1 or shards[index + 1] != shard + 1]
     pairs = zip(starts, ends, strict=True)
     return " ".join(str(first) if first == last else f"{first}-{last}" for first, last in pairs)
 

@@ -95,11 +95,11 @@ class FlyerPool:
         """
         if self._executor is None:
             assert self._flyer is not None
-            for place, task in enumerate(tasks):
+            for index, task in enumerate(tasks):
                 outcome = wait(partial(function, self._flyer, *task), self._flyer.interrupt)
                 if self._flyer.halted:
                     raise KeyboardInterrupt
-                yield place, outcome
+                yield index, outcome
             return
         fresh = enumerate(tasks)
         held: dict[int, tuple] = {}  # handed out, and not done

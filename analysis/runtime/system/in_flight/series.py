@@ -93,7 +93,7 @@ def _of_file(path: str) -> InputSeries:
     except (UnicodeDecodeError, csv.Error) as error:
         raise InputError(path, "", f"not a CSV file: {error}", FORM) from error
     table = np.array(numbers).reshape(-1, len(names))
-    columns = {name: np.ascontiguousarray(table[:, place]) for place, name in enumerate(names)}
+    columns = {name: np.ascontiguousarray(table[:, index]) for index, name in enumerate(names)}
     return InputSeries(path, hashlib.sha256(content).hexdigest(), columns.pop(TIME), columns, lines)
 
 
