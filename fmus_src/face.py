@@ -17,6 +17,10 @@ HOMES = {
     "interfaces.navigation": ("Navigation",),
     "interfaces.orbital_control": ("OrbitalControl",),
     "interfaces.terminal_guidance": ("CLAMPED", "GOOD", "NOT_CONVERGED", "NO_SOLUTION", "TerminalGuidance"),
+    "kernel.functions": (
+        *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "exp2", "expm1"),
+        *("log", "log2", "log10", "log1p", "pow", "sinh", "cosh", "tanh", "cbrt", "fmod"),
+    ),
     "mathlib.vectors": ("Vector", "Vector2", "Vector3", "Vector4", "cross", "dot", "norm", "vector"),
 }
 HOME_OF = {name: home for home, names in HOMES.items() for name in names}

@@ -93,6 +93,66 @@ from .fmus_src.interfaces.terminal_guidance import (
 from .fmus_src.interfaces.terminal_guidance import (
     TerminalGuidance as TerminalGuidance,
 )
+from .fmus_src.kernel.functions import (
+    acos as acos,
+)
+from .fmus_src.kernel.functions import (
+    asin as asin,
+)
+from .fmus_src.kernel.functions import (
+    atan as atan,
+)
+from .fmus_src.kernel.functions import (
+    atan2 as atan2,
+)
+from .fmus_src.kernel.functions import (
+    cbrt as cbrt,
+)
+from .fmus_src.kernel.functions import (
+    cos as cos,
+)
+from .fmus_src.kernel.functions import (
+    cosh as cosh,
+)
+from .fmus_src.kernel.functions import (
+    exp as exp,
+)
+from .fmus_src.kernel.functions import (
+    exp2 as exp2,
+)
+from .fmus_src.kernel.functions import (
+    expm1 as expm1,
+)
+from .fmus_src.kernel.functions import (
+    fmod as fmod,
+)
+from .fmus_src.kernel.functions import (
+    log as log,
+)
+from .fmus_src.kernel.functions import (
+    log1p as log1p,
+)
+from .fmus_src.kernel.functions import (
+    log2 as log2,
+)
+from .fmus_src.kernel.functions import (
+    log10 as log10,
+)
+from .fmus_src.kernel.functions import (
+    pow as pow,
+)
+from .fmus_src.kernel.functions import (
+    sin as sin,
+)
+from .fmus_src.kernel.functions import (
+    sinh as sinh,
+)
+from .fmus_src.kernel.functions import (
+    tan as tan,
+)
+from .fmus_src.kernel.functions import (
+    tanh as tanh,
+)
 from .fmus_src.mathlib.vectors import (
     Vector as Vector,
 )

@@ -1,9 +1,8 @@
 """Allocation to one engine fixed to the body: throttle and attitude with their limits."""
 
-import math
-
 from ..block import Parameter, State
 from ..interfaces.allocation import Allocation
+from ..kernel.functions import exp
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.rotation import turn_towards
 from ..mathlib.vectors import clip, dot, norm, vector
@@ -112,7 +111,7 @@ class ThrustAllocation(Allocation):
         self.command_thrust()
         self.thrust = self.commanded_thrust
         if self.thrust_lag > 0.0:
-            self.thrust = held + (lagged - held) * math.exp(-h / self.thrust_lag)
+            self.thrust = held + (lagged - held) * exp(-h / self.thrust_lag)
         if self.slew_rate_limit > 0.0:
             self.slew(t + h, h)
         else:

@@ -1,9 +1,8 @@
 """Bank, roll rate and yaw rate of the capsule fed back by a constant or scheduled gain that places the poles."""
 
-import math
-
 from ..block import Parameter
 from ..interfaces.entry_control import EntryControl
+from ..kernel.functions import cos, log, sin
 from ..mathlib.orbital import apply_matrix
 from ..mathlib.vectors import Vector3, vector
 
@@ -32,8 +31,8 @@ class OutputFeedback(EntryControl):
     )
 
     def regulate(self) -> Vector3:
-        c0 = math.cos(self.trim_attack)
-        s0 = math.sin(self.trim_attack)
+        c0 = cos(self.trim_attack)
+        s0 = sin(self.trim_attack)
         e = self.bank_error()
         wx = self.measured_angular_velocity.x - self.reference_bank_rate * c0
         wy = self.measured_angular_velocity.y + self.reference_bank_rate * s0
@@ -43,7 +42,7 @@ class OutputFeedback(EntryControl):
         if p >= self.pressures.y and self.pressures.z > self.pressures.y:
             k = 1
         if p > self.pressures[k] and self.pressures[k + 1] > self.pressures[k]:
-            fraction = math.log(p / self.pressures[k]) / math.log(self.pressures[k + 1] / self.pressures[k])
+            fraction = log(p / self.pressures[k]) / log(self.pressures[k + 1] / self.pressures[k])
         if fraction > 1.0:
             fraction = 1.0
         gain = [0.0] * 6

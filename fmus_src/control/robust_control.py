@@ -1,9 +1,8 @@
 """Trim and bank held without knowing speed or pressure."""
 
-import math
-
 from ..block import Parameter
 from ..interfaces.entry_control import EntryControl
+from ..kernel.functions import cos, sin
 from ..mathlib.orbital import apply_matrix
 from ..mathlib.vectors import Vector3, clip, vector
 
@@ -27,8 +26,8 @@ class RobustControl(EntryControl):
 
     def regulate(self) -> Vector3:
         w = self.measured_angular_velocity
-        c0 = math.cos(self.trim_attack)
-        s0 = math.sin(self.trim_attack)
+        c0 = cos(self.trim_attack)
+        s0 = sin(self.trim_attack)
         along = w.x * c0 - w.y * s0
         across = w.x * s0 + w.y * c0
         wanted = (

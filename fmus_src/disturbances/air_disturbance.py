@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Output, Parameter, State
+from ..kernel.functions import cos
 
 
 class AirDisturbance(Block):
@@ -32,7 +33,7 @@ class AirDisturbance(Block):
         since = time - self.gust_time
         fraction = 0.0
         if since > 0.0 and since < self.gust_duration:
-            fraction = 0.5 * (1.0 - math.cos(2.0 * math.pi * since / self.gust_duration))
+            fraction = 0.5 * (1.0 - cos(2.0 * math.pi * since / self.gust_duration))
         self.air_velocity = self.wind + fraction * self.gust
         self.density_factor = self.density
         if time >= self.density_time:

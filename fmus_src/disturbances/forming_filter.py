@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Output, Parameter, State
+from ..kernel.functions import cos, cosh, exp, sin, sinh
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import Vector4, vector
 
@@ -43,21 +44,21 @@ class FormingFilter(Block):
         w = self.natural_frequency
         decay = self.damping * w
         square = self.damping * self.damping - 1.0
-        e = math.exp(-decay * h)
+        e = exp(-decay * h)
         c = e
         s = e * h
         if square < 0.0:
             wd = w * math.sqrt(-square)
-            c = e * math.cos(wd * h)
-            s = e * math.sin(wd * h) / wd
+            c = e * cos(wd * h)
+            s = e * sin(wd * h) / wd
         if square > 0.0:
             wd = w * math.sqrt(square)
             if wd * h < 20.0:
-                c = e * math.cosh(wd * h)
-                s = e * math.sinh(wd * h) / wd
+                c = e * cosh(wd * h)
+                s = e * sinh(wd * h) / wd
             else:
                 # cosh and sinh are equal here, and overflow further on
-                c = 0.5 * math.exp((wd - decay) * h)
+                c = 0.5 * exp((wd - decay) * h)
                 s = c / wd
         return vector(c + decay * s, s, -w * w * s, c - decay * s)
 

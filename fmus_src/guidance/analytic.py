@@ -3,6 +3,7 @@
 import math
 
 from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, TerminalGuidance
+from ..kernel.functions import atan, atan2, cos, sin
 from ..mathlib.terminal import impulse_and_miss, quadratic_time
 from ..mathlib.vectors import norm, vector
 
@@ -26,16 +27,16 @@ class AnalyticGuidance(TerminalGuidance):
             horizontal = p.x * p.x + p.y * p.y
             if horizontal > 0.0:
                 forward = math.sqrt(horizontal)
-                yaw = math.atan2(p.y, p.x)
+                yaw = atan2(p.y, p.x)
                 yaw_rate = -3.0 * (a.x * b.y - a.y * b.x) / horizontal
                 # the published cos(yaw)/p.x is 1/forward, which holds across p.x = 0 too
-                pitch = math.atan(p.z / forward)
+                pitch = atan(p.z / forward)
                 pitch_rate = 3.0 / time * (a.z * time - 2.0 * b.z) / forward
                 self.thrust_acceleration = norm(a) / time
-                cp = math.cos(pitch)
-                sp = math.sin(pitch)
-                cy = math.cos(yaw)
-                sy = math.sin(yaw)
+                cp = cos(pitch)
+                sp = sin(pitch)
+                cy = cos(yaw)
+                sy = sin(yaw)
                 self.thrust_direction = vector(cp * cy, cp * sy, sp)
                 self.thrust_direction_rate = vector(
                     -sp * cy * pitch_rate - cp * sy * yaw_rate,

@@ -1,9 +1,8 @@
 """The angle programme that the three guidances of method A* share."""
 
-import math
-
 from ..block import Output
 from ..interfaces.terminal_guidance import CLAMPED, GOOD, TerminalGuidance
+from ..kernel.functions import asin, cos, sin
 from ..mathlib.vectors import Vector3, clip, norm, vector
 
 
@@ -27,12 +26,12 @@ class AstarProgramme(TerminalGuidance, interface=True):
         if abs(sine) > 1.000000000001:
             self.clamp_count = self.clamp_count + 1
             self.status = CLAMPED
-        return math.asin(clip(sine, -1.0, 1.0))
+        return asin(clip(sine, -1.0, 1.0))
 
     def apply_weights(self, weight: float, theta: float, psi: float) -> Vector3:
         """Weight times the unit vector of the angles, landing-site frame."""
-        forward = weight * math.cos(theta) * math.cos(psi)
-        return vector(forward, weight * math.sin(psi), weight * math.sin(theta) * math.cos(psi))
+        forward = weight * cos(theta) * cos(psi)
+        return vector(forward, weight * sin(psi), weight * sin(theta) * cos(psi))
 
     def point(self, a: Vector3, b: Vector3, time: float, acceleration: float) -> None:
         """Set the command from A, B (landing-site frame), time-to-go (s) and acceleration (m/s2)."""
@@ -43,12 +42,12 @@ class AstarProgramme(TerminalGuidance, interface=True):
         w = acceleration
         self.status = GOOD
         psi = self.angle((2.0 * az / time - 6.0 * bz / (time * time)) / w)
-        cpsi = math.cos(psi)
-        spsi = math.sin(psi)
+        cpsi = cos(psi)
+        spsi = sin(psi)
         psi_rate = (-6.0 * az / (time * time) + 12.0 * bz / (time * time * time)) / (w * cpsi)
         theta = self.angle((-2.0 * ay / time + 6.0 * by / (time * time)) / (w * cpsi))
-        ct = math.cos(theta)
-        st = math.sin(theta)
+        ct = cos(theta)
+        st = sin(theta)
         climb = 6.0 * ay / (time * time) - 12.0 * by / (time * time * time)
         theta_rate = (climb + w * psi_rate * st * spsi) / (w * ct * cpsi)
         self.thrust_acceleration = w

@@ -1,8 +1,7 @@
 """Guidance from hover to hover: plans, and the law that tracks them."""
 
-import math
-
 from ..block import Input, Output, Parameter, State
+from ..kernel.functions import expm1, tan
 from ..mathlib.gravity import STANDARD_GRAVITY
 from ..mathlib.lagged_thrust import lagged_thrust
 from ..mathlib.vectors import Vector3, across, clip, dot, limit_length, norm, vector
@@ -265,12 +264,12 @@ class HoverGuidance(HoverPlan):
         if lever < LEAST_LEVER:
             lever = LEAST_LEVER
         lateral = across(push, direction) / lever
-        reach = math.tan(self.largest_tilt)
+        reach = tan(self.largest_tilt)
         self.saturated = norm(error) > self.largest_error or norm(lateral) > reach
         lateral = limit_length(lateral, reach)
         fraction = 1.0
         if self.tilt_filter > 0.0:
-            fraction = -math.expm1(-self.elapsed / self.tilt_filter)
+            fraction = -expm1(-self.elapsed / self.tilt_filter)
         self.tilt = self.tilt + fraction * (lateral - self.tilt)
         if wanted < LEAST_THRUST:
             wanted = LEAST_THRUST

@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Input, Output, Parameter, State
+from ..kernel.functions import cos, expm1, sin
 from ..mathlib.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.hover_motion import EXHAUST, FULL, GRAVITY, LEAST, SWING, VEHICLE, motion, propellant, thrust_impulse
 from ..mathlib.hover_programme import programme
@@ -222,7 +223,7 @@ class HoverPlan(Block, interface=True):
             self.plan_kind = POLYNOMIAL
             self.duration = duration
             exhaust = STANDARD_GRAVITY * self.specific_impulse
-            self.predicted_propellant = -self.mass * math.expm1(-spent / exhaust)
+            self.predicted_propellant = -self.mass * expm1(-spent / exhaust)
         else:
             self.give_up()
 
@@ -254,8 +255,8 @@ class HoverPlan(Block, interface=True):
             _, direction, rate, _ = thrust_along(self.coefficients, t, self.duration, self.lift())
             return direction, rate
         angle, speed = pitch(self.times, self.vehicle[SWING], t)
-        sine = math.sin(angle)
-        cosine = math.cos(angle)
+        sine = sin(angle)
+        cosine = cos(angle)
         direction = cosine * self.up - sine * self.along
         return direction, -speed * (sine * self.up + cosine * self.along)
 

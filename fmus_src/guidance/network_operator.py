@@ -1,10 +1,9 @@
 """Descent in space by a network operator."""
 
-import math
-
 from ..block import Parameter, State
 from ..interfaces.network_operator_law import NetworkOperatorLaw
 from ..interfaces.terminal_guidance import GOOD, NO_SOLUTION, UNLIMITED, TerminalGuidance
+from ..kernel.functions import atan2, cos, expm1, sin
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, from_centre
 from ..mathlib.vectors import Vector3, dot, norm, vector
 
@@ -65,9 +64,9 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
         horizontal_speed = norm(horizontal)
         if horizontal_speed >= LEAST_HORIZONTAL_SPEED:
             self.forward = horizontal / horizontal_speed
-        self.evaluate_law(-math.atan2(horizontal_speed, vertical_speed), self.altitude, self.final_altitude)
+        self.evaluate_law(-atan2(horizontal_speed, vertical_speed), self.altitude, self.final_altitude)
         angle = self.law_angle()
-        direction = math.cos(angle) * up - math.sin(angle) * self.forward
+        direction = cos(angle) * up - sin(angle) * self.forward
         self.thrust_direction = direction / norm(direction)
         self.thrust_acceleration = self.law_thrust() / self.mass
         self.estimate_time()
@@ -80,7 +79,7 @@ class NetworkOperatorGuidance(NetworkOperatorLaw, TerminalGuidance):
         if excess > 0.0:
             self.time_to_go = UNLIMITED
             if self.thrust_acceleration > 0.0:
-                self.time_to_go = -math.expm1(-excess / exhaust_speed) * exhaust_speed / self.thrust_acceleration
+                self.time_to_go = -expm1(-excess / exhaust_speed) * exhaust_speed / self.thrust_acceleration
 
     def forget(self) -> None:
         self.forward = vector(1.0, 0.0, 0.0)

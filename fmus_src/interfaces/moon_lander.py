@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Input, Output, Parameter, State
+from ..kernel.functions import log1p
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity
 from ..mathlib.lagged_thrust import lagged_thrust
 from ..mathlib.vectors import Vector3, norm, vector
@@ -99,7 +100,7 @@ class MoonLander(Block, interface=True):
         middle = thrust[1] / (self.mass - middle_impulse / exhaust)
         self.delivered_thrust = thrust[2]
         self.mass = self.mass - used
-        return vector(first, middle, thrust[2] / self.mass), exhaust * math.log1p(used / self.mass)
+        return vector(first, middle, thrust[2] / self.mass), exhaust * log1p(used / self.mass)
 
     def advance(self, t: float, h: float, commanded: float) -> Vector3:
         """Move by h (s) under one command (N); returns the velocity that thrust gives (m/s)."""

@@ -5,13 +5,14 @@ Frame: landing site, z up, not rotating; the Moon's centre is ``radius`` (m) bel
 
 import math
 
+from ..kernel.functions import atan2, cos, sin
 from .gravity import from_centre, vertical_at
 from .vectors import Vector3, across, dot, norm, vector
 
 
 def central_angle(position: Vector3, radius: float) -> float:
     """Angle (rad, 0 to 2 pi) at the Moon's centre from the site's vertical towards +x, in the plane of x and z."""
-    angle = math.atan2(position.x, position.z + radius)
+    angle = atan2(position.x, position.z + radius)
     if angle < 0.0:
         angle = angle + 2.0 * math.pi
     return angle
@@ -20,7 +21,7 @@ def central_angle(position: Vector3, radius: float) -> float:
 def ground_range(position: Vector3, radius: float) -> float:
     """Way (m) on the sphere of ``radius`` from below ``position`` to the origin."""
     centred = from_centre(position, radius)
-    return radius * math.atan2(math.sqrt(centred.x * centred.x + centred.y * centred.y), centred.z)
+    return radius * atan2(math.sqrt(centred.x * centred.x + centred.y * centred.y), centred.z)
 
 
 def against_horizontal(position: Vector3, velocity: Vector3, radius: float) -> tuple[Vector3, Vector3]:
@@ -78,10 +79,10 @@ def lowest_altitude(position: Vector3, velocity: Vector3, angle: float, radius: 
     b = 1.0 / distance - a
     c = dot(velocity, up) / momentum
     inverse = 1.0 / distance
-    end = a + b * math.cos(angle) - c * math.sin(angle)
+    end = a + b * cos(angle) - c * sin(angle)
     if end > inverse:
         inverse = end
-    pericentre = math.atan2(-c, b)
+    pericentre = atan2(-c, b)
     if pericentre < 0.0:
         pericentre = pericentre + 2.0 * math.pi
     if pericentre < angle:

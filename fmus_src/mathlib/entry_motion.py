@@ -6,19 +6,18 @@ through it, z = x x y. attitude: bank, sideslip, attack (rad), turns about veloc
 `body_axes`. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
 """
 
-import math
-
+from ..kernel.functions import cos, sin, tan
 from .vectors import Vector3, vector
 
 
 def body_axes(attitude: Vector3) -> tuple[Vector3, Vector3, Vector3]:
     """The body's axes x, y, z in velocity axes."""
-    sg = math.sin(attitude.x)
-    cg = math.cos(attitude.x)
-    sb = math.sin(attitude.y)
-    cb = math.cos(attitude.y)
-    sa = math.sin(attitude.z)
-    ca = math.cos(attitude.z)
+    sg = sin(attitude.x)
+    cg = cos(attitude.x)
+    sb = sin(attitude.y)
+    cb = cos(attitude.y)
+    sa = sin(attitude.z)
+    ca = cos(attitude.z)
     x = vector(ca * cb, sa * cg + ca * sb * sg, sa * sg - ca * sb * cg)
     y = vector(-sa * cb, ca * cg - sa * sb * sg, ca * sg + sa * sb * cg)
     return x, y, vector(sb, -cb * sg, cb * cg)
@@ -26,12 +25,12 @@ def body_axes(attitude: Vector3) -> tuple[Vector3, Vector3, Vector3]:
 
 def earth_forces(place: Vector3, path: Vector3, gravitational_parameter: float, earth_rate: float) -> Vector3:
     """Gravity and what the Earth's turn adds to it (m/s2, velocity axes)."""
-    sin_path = math.sin(path.y)
-    cos_path = math.cos(path.y)
-    sin_course = math.sin(path.z)
-    cos_course = math.cos(path.z)
-    sin_latitude = math.sin(place.z)
-    cos_latitude = math.cos(place.z)
+    sin_path = sin(path.y)
+    cos_path = cos(path.y)
+    sin_course = sin(path.z)
+    cos_course = cos(path.z)
+    sin_latitude = sin(place.z)
+    cos_latitude = cos(place.z)
     gravity = gravitational_parameter / (place.x * place.x)
     coriolis = 2.0 * path.x * earth_rate
     transport = earth_rate * earth_rate * place.x * cos_latitude
@@ -47,28 +46,28 @@ def earth_forces(place: Vector3, path: Vector3, gravitational_parameter: float, 
 
 def path_rates(place: Vector3, path: Vector3, push: Vector3) -> tuple[Vector3, Vector3]:
     """Rates of place and path under an acceleration (m/s2, velocity axes)."""
-    cos_path = math.cos(path.y)
-    cos_course = math.cos(path.z)
+    cos_path = cos(path.y)
+    cos_course = cos(path.z)
     over = path.x * cos_path / place.x
-    moved = vector(path.x * math.sin(path.y), over * cos_course / math.cos(place.z), over * math.sin(path.z))
+    moved = vector(path.x * sin(path.y), over * cos_course / cos(place.z), over * sin(path.z))
     turned = vector(
         push.x,
         over + push.y / path.x,
-        -over * cos_course * math.tan(place.z) - push.z / (path.x * cos_path),
+        -over * cos_course * tan(place.z) - push.z / (path.x * cos_path),
     )
     return moved, turned
 
 
 def velocity_axes_rate(place: Vector3, path: Vector3, turned: Vector3, earth_rate: float) -> Vector3:
     """Absolute angular velocity (rad/s) of the velocity axes, in themselves, at the rates ``turned`` of the path."""
-    sin_path = math.sin(path.y)
-    cos_path = math.cos(path.y)
-    sin_course = math.sin(path.z)
-    cos_course = math.cos(path.z)
-    sin_latitude = math.sin(place.z)
-    cos_latitude = math.cos(place.z)
+    sin_path = sin(path.y)
+    cos_path = cos(path.y)
+    sin_course = sin(path.z)
+    cos_course = cos(path.z)
+    sin_latitude = sin(place.z)
+    cos_latitude = cos(place.z)
     over = path.x * cos_path / place.x
-    u = turned.z + over * cos_course * math.tan(place.z)
+    u = turned.z + over * cos_course * tan(place.z)
     return vector(
         sin_path * u + earth_rate * (sin_path * sin_latitude + cos_path * cos_latitude * sin_course),
         cos_path * u + earth_rate * (cos_path * sin_latitude - sin_path * cos_latitude * sin_course),
@@ -78,7 +77,7 @@ def velocity_axes_rate(place: Vector3, path: Vector3, turned: Vector3, earth_rat
 
 def attitude_rates(attitude: Vector3, n: Vector3) -> Vector3:
     """Rates of bank, sideslip and attack for an angular velocity n (rad/s, body) against the velocity axes."""
-    sa = math.sin(attitude.z)
-    ca = math.cos(attitude.z)
+    sa = sin(attitude.z)
+    ca = cos(attitude.z)
     along = n.x * ca - n.y * sa
-    return vector(along / math.cos(attitude.y), n.x * sa + n.y * ca, n.z - math.tan(attitude.y) * along)
+    return vector(along / cos(attitude.y), n.x * sa + n.y * ca, n.z - tan(attitude.y) * along)

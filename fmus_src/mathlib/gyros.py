@@ -10,6 +10,7 @@ Derivations: docs/systems/robot_rendezvous.md. Source: Somov 2013; Somov, Platon
 
 import math
 
+from ..kernel.functions import acos, atan2, cos, sin
 from .vectors import Vector2, Vector3, Vector4, vector
 
 ISOTROPIC_RHO = 0.9797958971132712  # 2 sqrt(6)/5: the three axes are alike where the momentum is 0
@@ -22,21 +23,21 @@ def cluster_momentum(angles: Vector4) -> Vector3:
     """Momentum of the cluster over that of one rotor."""
     first, second, third, fourth = angles
     return vector(
-        math.cos(first) + math.cos(second) + math.cos(third) + math.cos(fourth),
-        math.sin(first) + math.sin(second),
-        math.sin(third) + math.sin(fourth),
+        cos(first) + cos(second) + cos(third) + cos(fourth),
+        sin(first) + sin(second),
+        sin(third) + sin(fourth),
     )
 
 
 def cluster_jacobian(angles: Vector4, jacobian: list) -> None:
     """jacobian[3 x 4] = derivative of the momentum by the gimbal angles, row order."""
     for i in range(4):
-        jacobian[i] = -math.sin(angles[i])
+        jacobian[i] = -sin(angles[i])
     for i in range(2):
-        jacobian[4 + i] = math.cos(angles[i])
+        jacobian[4 + i] = cos(angles[i])
         jacobian[6 + i] = 0.0
         jacobian[8 + i] = 0.0
-        jacobian[10 + i] = math.cos(angles[2 + i])
+        jacobian[10 + i] = cos(angles[2 + i])
 
 
 def nearest_turn(angle: float, reference: float) -> float:
@@ -75,8 +76,8 @@ def pair_angles(along: float, across: float, near: Vector2) -> Vector2:
     half = 0.5 * math.sqrt(along * along + across * across)
     if half > 1.0:
         half = 1.0  # by a rounding error
-    direction = math.atan2(across, along)
-    opening = math.acos(half)
+    direction = atan2(across, along)
+    opening = acos(half)
     return vector(nearest_turn(direction + opening, near.x), nearest_turn(direction - opening, near.y))
 
 
@@ -91,10 +92,10 @@ def distribute_rates(
     """
     first, second, third, fourth = angles
     none = vector(0.0, 0.0, 0.0, 0.0)
-    x1 = math.cos(first) + math.cos(second)
-    x2 = math.cos(third) + math.cos(fourth)
-    y = math.sin(first) + math.sin(second)
-    z = math.sin(third) + math.sin(fourth)
+    x1 = cos(first) + cos(second)
+    x2 = cos(third) + cos(fourth)
+    y = sin(first) + sin(second)
+    z = sin(third) + sin(fourth)
     a_square = 4.0 - y * y
     b_square = 4.0 - z * z
     if not (a_square > LEAST_SQUARE and b_square > LEAST_SQUARE):
@@ -107,8 +108,8 @@ def distribute_rates(
     p = 1.0 + rho * v
     q = 1.0 - rho * u
     common = a * q + b * p
-    sine_1 = math.sin(second - first)
-    sine_2 = math.sin(fourth - third)
+    sine_1 = sin(second - first)
+    sine_2 = sin(fourth - third)
     if not (abs(sine_1) >= least and abs(sine_2) >= least and abs(common) >= least and least > 0.0):
         return False, none
     # what is left to x1 and x2 where y and z change at constant u and v
@@ -118,10 +119,10 @@ def distribute_rates(
     x1_rate = a * u_rate - fall_1
     x2_rate = momentum_rate.x - x1_rate
     return True, vector(
-        (math.cos(second) * x1_rate + math.sin(second) * momentum_rate.y) / sine_1,
-        -(math.cos(first) * x1_rate + math.sin(first) * momentum_rate.y) / sine_1,
-        (math.cos(fourth) * x2_rate + math.sin(fourth) * momentum_rate.z) / sine_2,
-        -(math.cos(third) * x2_rate + math.sin(third) * momentum_rate.z) / sine_2,
+        (cos(second) * x1_rate + sin(second) * momentum_rate.y) / sine_1,
+        -(cos(first) * x1_rate + sin(first) * momentum_rate.y) / sine_1,
+        (cos(fourth) * x2_rate + sin(fourth) * momentum_rate.z) / sine_2,
+        -(cos(third) * x2_rate + sin(third) * momentum_rate.z) / sine_2,
     )
 
 
@@ -192,7 +193,7 @@ def robust_rates(
     if k > 0.0:
         for i in range(3):
             gram[i] = gram[i] + k
-            gram[3 + i] = gram[3 + i] + k * swing * math.sin(0.5 * math.pi * (time + float(i)))
+            gram[3 + i] = gram[3 + i] + k * swing * sin(0.5 * math.pi * (time + float(i)))
     determinant = determinant_of(gram)
     if not determinant > 0.0:
         return vector(0.0, 0.0, 0.0, 0.0), measure

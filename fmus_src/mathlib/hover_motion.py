@@ -8,8 +8,7 @@ start (m/s2); EXHAUST, exhaust speed (m/s); GRAVITY (m/s2), uniform; SWING, the 
 Source: Huang 2017; Gauss-Legendre quadrature: Abramowitz and Stegun 1964, table 25.4.
 """
 
-import math
-
+from ..kernel.functions import cos, log, sin
 from .hover_shape import burnt, full_thrust, pitch_piece
 
 FULL = 0
@@ -33,7 +32,7 @@ def thrust_impulse(s: list, vehicle: list, begin: float, end: float) -> float:
     after = 1.0 - propellant(s, vehicle, end)
     if not (before > 0.0 and after > 0.0):
         return 0.0
-    return vehicle[EXHAUST] * math.log(before / after)
+    return vehicle[EXHAUST] * log(before / after)
 
 
 def motion(s: list, vehicle: list, until: float, state: list) -> bool:
@@ -66,8 +65,8 @@ def motion(s: list, vehicle: list, until: float, state: list) -> bool:
                     since = since_begin + part
                     deviation = value + since * (rate + since * half)
                     push = scale * weight[k] / (mass - flow * part)
-                    side = push * math.sin(deviation)
-                    lift = push * math.cos(deviation)
+                    side = push * sin(deviation)
+                    lift = push * cos(deviation)
                     vx = vx - side
                     x = x - (left - part) * side
                     vy = vy + lift

@@ -10,6 +10,7 @@ Source: Somov, Butyrin, Somov and Somova (docs/systems/robot_rendezvous.md), who
 
 import math
 
+from ..kernel.functions import cos, sin
 from .vectors import Vector3, vector
 
 JETS = 8
@@ -33,9 +34,9 @@ def jet_strengths(tilt: float, azimuth: float, arm: Vector3, strength: list) -> 
 
     Angles in rad, arm = (bx, by, bz) in m. What a geometry cannot give is 0.
     """
-    x = math.cos(tilt) * math.cos(azimuth)
-    y = math.cos(tilt) * math.sin(azimuth)
-    z = math.sin(tilt)
+    x = cos(tilt) * cos(azimuth)
+    y = cos(tilt) * sin(azimuth)
+    z = sin(tilt)
     strength[0] = -x
     strength[1] = -y
     strength[2] = -z

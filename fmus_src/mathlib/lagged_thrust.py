@@ -1,7 +1,6 @@
 """Thrust that follows a command with a first-order lag, exactly. Kernel functions."""
 
-import math
-
+from ..kernel.functions import expm1
 from .vectors import Vector3, vector
 
 
@@ -14,7 +13,7 @@ def lagged_thrust(delivered: float, commanded: float, lag: float, h: float) -> t
     half = 1.0
     if lag > 0.0:
         excess = delivered - commanded
-        half = -math.expm1(-0.5 * h / lag)
+        half = -expm1(-0.5 * h / lag)
     middle_impulse = 0.5 * commanded * h + excess * lag * half
     impulse = commanded * h + excess * lag * half * (2.0 - half)
     middle = commanded + excess * (1.0 - half)

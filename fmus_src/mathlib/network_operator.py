@@ -23,6 +23,7 @@ Sofronova 2013 (size, sources and the numbers in use). The numbers of maximum an
 
 import math
 
+from ..kernel.functions import atan, cbrt, cos, exp, expm1, log, log1p, sin, tanh
 from .vectors import clip
 
 SIZE = 16
@@ -69,11 +70,11 @@ def unary(operation: int, z: float, exp_saturation: float) -> float:
     if operation == 6:
         if z > LOG_LARGEST:
             return exp_saturation
-        return math.exp(z)
+        return exp(z)
     if operation == 7:
-        return math.log(clip(abs(z), EPSILON, math.inf))
+        return log(clip(abs(z), EPSILON, math.inf))
     if operation == 8:
-        return math.tanh(0.5 * z)
+        return tanh(0.5 * z)
     if operation == 9:
         if z >= 0.0:
             return 1.0
@@ -81,25 +82,25 @@ def unary(operation: int, z: float, exp_saturation: float) -> float:
     if operation == 10:
         return sign(z)
     if operation == 11:
-        return math.cos(z)
+        return cos(z)
     if operation == 12:
-        return math.sin(z)
+        return sin(z)
     if operation == 13:
-        return math.atan(z)
+        return atan(z)
     if operation == 14:
         return clip(z * z * z, -LARGEST, LARGEST)
     if operation == 15:
-        return math.cbrt(z)
+        return cbrt(z)
     if operation == 16:
         return clip(z, -1.0, 1.0)
     if operation == 17:
-        return sign(z) * math.log1p(abs(z))
+        return sign(z) * log1p(abs(z))
     if operation == 18:
         if abs(z) > LOG_LARGEST:
             return sign(z) * LARGEST
-        return sign(z) * math.expm1(abs(z))
+        return sign(z) * expm1(abs(z))
     if operation == 19:
-        return sign(z) * math.exp(-abs(z))
+        return sign(z) * exp(-abs(z))
     if operation == 20:
         return 0.5 * z
     if operation == 21:

@@ -10,6 +10,8 @@ Source: Anderson 2006, sections 3.2 and 3.3.
 
 import math
 
+from ..kernel.functions import cos, sin
+
 HEAT_RATIO = 1.4
 
 
@@ -32,7 +34,7 @@ def cap_tables(
     for mach in machs:
         peak = stagnation_coefficient(mach)
         for degree in degrees:
-            c, s = math.cos(math.radians(degree)), math.sin(math.radians(degree))
+            c, s = cos(math.radians(degree)), sin(math.radians(degree))
             axial.append(round(peak * (c * c * (2.0 - k) / 2.0 + s * s * k / 4.0), 6))
             normal.append(round(peak * k / 2.0 * s * c, 6))
     return axial, normal

@@ -6,8 +6,7 @@ velocities are absolute, in body axes. Pitch within 90 deg. Equations: docs/syst
 Source: Lapin, thesis, chapter 1.1.
 """
 
-import math
-
+from ..kernel.functions import cos, sin, tan
 from .matrices import multiply
 from .vectors import Vector3, cross, vector
 
@@ -21,35 +20,35 @@ def index_of_measured(j: int) -> int:
 
 def radial_direction(angles: Vector3) -> Vector3:
     """The orbital frame's y axis, radially up, in body axes; angles in rad."""
-    cos_pitch = math.cos(angles.z)
-    return vector(math.sin(angles.z), math.cos(angles.x) * cos_pitch, -math.sin(angles.x) * cos_pitch)
+    cos_pitch = cos(angles.z)
+    return vector(sin(angles.z), cos(angles.x) * cos_pitch, -sin(angles.x) * cos_pitch)
 
 
 def angle_rates(angles: Vector3, w: Vector3, w0: float) -> Vector3:
     """Rates (rad/s) of angles (rad) at the angular velocity w (rad/s, body) and the orbital rate w0 (rad/s)."""
-    sin_roll = math.sin(angles.x)
-    cos_roll = math.cos(angles.x)
-    sin_yaw = math.sin(angles.y)
-    cos_pitch = math.cos(angles.z)
-    tan_pitch = math.tan(angles.z)
+    sin_roll = sin(angles.x)
+    cos_roll = cos(angles.x)
+    sin_yaw = sin(angles.y)
+    cos_pitch = cos(angles.z)
+    tan_pitch = tan(angles.z)
     q = w.y * cos_roll - w.z * sin_roll
     r = w.y * sin_roll + w.z * cos_roll
     return vector(
         w.x - tan_pitch * q - w0 * sin_yaw / cos_pitch,
         q / cos_pitch + w0 * sin_yaw * tan_pitch,
-        r + w0 * math.cos(angles.y),
+        r + w0 * cos(angles.y),
     )
 
 
 def angle_rate_derivatives(angles: Vector3, w: Vector3, w0: float, by_angles: list, by_rates: list) -> None:
     """by_angles = d(angle_rates)/d(angles), by_rates = d(angle_rates)/dw; 3 x 3 in row order."""
-    sin_roll = math.sin(angles.x)
-    cos_roll = math.cos(angles.x)
-    sin_yaw = math.sin(angles.y)
-    cos_yaw = math.cos(angles.y)
-    sin_pitch = math.sin(angles.z)
-    cos_pitch = math.cos(angles.z)
-    tan_pitch = math.tan(angles.z)
+    sin_roll = sin(angles.x)
+    cos_roll = cos(angles.x)
+    sin_yaw = sin(angles.y)
+    cos_yaw = cos(angles.y)
+    sin_pitch = sin(angles.z)
+    cos_pitch = cos(angles.z)
+    tan_pitch = tan(angles.z)
     q = w.y * cos_roll - w.z * sin_roll
     r = w.y * sin_roll + w.z * cos_roll
     square = cos_pitch * cos_pitch

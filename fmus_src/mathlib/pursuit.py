@@ -6,8 +6,7 @@ limit of 0 does not count; without response the direction turns at the limit unt
 the goal. No frame implied.
 """
 
-import math
-
+from ..kernel.functions import atan2
 from .rotation import turn_towards
 from .vectors import Vector3, add_along, dot, norm, smallest_component
 
@@ -31,7 +30,7 @@ def turning(direction: Vector3, goal: Vector3, response: float, limit: float) ->
     cosine = dot(direction, goal) / length
     slope = goal - cosine * direction / length
     sine = norm(slope)
-    angle = math.atan2(sine, cosine)
+    angle = atan2(sine, cosine)
     if cosine < 0.0 and sine < 1e-6:
         k, smallest = smallest_component(direction)
         slope = add_along(-smallest * direction, k, length * length)

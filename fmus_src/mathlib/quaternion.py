@@ -7,6 +7,7 @@ order of factors is that of Hamilton.
 
 import math
 
+from ..kernel.functions import atan2, cos, sin
 from .vectors import Vector3, Vector4, cross, norm, vector
 
 
@@ -64,8 +65,8 @@ def from_rotation_vector(rotation: Vector3) -> Vector4:
     angle = norm(rotation)
     scale = 0.5
     if angle > 0.0:
-        scale = math.sin(0.5 * angle) / angle
-    return quaternion(math.cos(0.5 * angle), scale * rotation)
+        scale = sin(0.5 * angle) / angle
+    return quaternion(cos(0.5 * angle), scale * rotation)
 
 
 def to_rotation_vector(q: Vector4) -> Vector3:
@@ -76,7 +77,7 @@ def to_rotation_vector(q: Vector4) -> Vector3:
         sign = -1.0
     scale = 2.0 * sign
     if sine > 0.0:
-        scale = 2.0 * sign * math.atan2(sine, sign * q.w) / sine
+        scale = 2.0 * sign * atan2(sine, sign * q.w) / sine
     return scale * q[1:4]
 
 

@@ -9,6 +9,7 @@ are those of the 2002 package: streams 2^127 apart, substreams 2^76.
 
 import math
 
+from ..kernel.functions import cos, log
 from .vectors import Vector3, vector
 
 M1 = 4294967087.0
@@ -178,7 +179,7 @@ def normal(state: list) -> float:
     """The next standard normal number (Box and Muller 1958, cosine branch; uses two uniform ones)."""
     radius = uniform(state)
     angle = uniform(state)
-    return math.sqrt(-2.0 * math.log(radius)) * math.cos(6.283185307179586 * angle)
+    return math.sqrt(-2.0 * log(radius)) * cos(6.283185307179586 * angle)
 
 
 def normals(state: list) -> Vector3:

@@ -1,7 +1,6 @@
 """Rotations from one direction to another. Kernel functions; no frame implied."""
 
-import math
-
+from ..kernel.functions import atan2, cos, sin
 from .vectors import Vector3, add_along, clip, cross, dot, norm, smallest_component
 
 ALIGNED = 1e-12  # sine below which two directions count as parallel
@@ -15,14 +14,14 @@ def turn_towards(direction: Vector3, goal: Vector3, largest: float) -> tuple[Vec
     cosine = clip(dot(direction, goal), -1.0, 1.0)
     side = goal - cosine * direction
     sine = norm(side)
-    angle = math.atan2(sine, cosine)
+    angle = atan2(sine, cosine)
     if angle <= largest:
         return goal, 0.0
     if cosine < 0.0 and sine < 1e-6:
         k, smallest = smallest_component(direction)
         side = add_along(-smallest * direction, k, 1.0)
         sine = norm(side)
-    turned = math.cos(largest) * direction + math.sin(largest) * side / sine
+    turned = cos(largest) * direction + sin(largest) * side / sine
     return turned / norm(turned), angle - largest
 
 
@@ -34,7 +33,7 @@ def rotation_between(start: Vector3, goal: Vector3) -> tuple[Vector3, float]:
     size = norm(start) * norm(goal)
     axis = cross(start, goal)
     sine = norm(axis) / size
-    angle = math.atan2(sine, dot(start, goal) / size)
+    angle = atan2(sine, dot(start, goal) / size)
     if sine < ALIGNED:
         k, smallest = smallest_component(start)
         axis = add_along(-(smallest / dot(start, start)) * start, k, 1.0)

@@ -7,6 +7,8 @@ equations 23 and 33 and table IV.
 
 import math
 
+from ..kernel.functions import exp, log, pow
+
 EARTH_RADIUS = 6356766.0  # m, for geopotential heights
 GRAVITY = 9.80665  # m/s2
 GAS_CONSTANT = 287.053  # J/(kg K), of air
@@ -25,7 +27,7 @@ def thin_density(h: float) -> float:
     while k < 7 and h >= height[k + 1]:
         k = k + 1
     fraction = (h - height[k]) / (height[k + 1] - height[k])
-    return density[k] * math.exp(fraction * math.log(density[k + 1] / density[k]))
+    return density[k] * exp(fraction * log(density[k + 1] / density[k]))
 
 
 def air(h: float) -> tuple[float, float]:
@@ -44,9 +46,9 @@ def air(h: float) -> tuple[float, float]:
         risen = top - base[k]
         warmer = temperature + lapse[k] * risen
         if lapse[k] == 0.0:
-            pressure = pressure * math.exp(-GRAVITY * risen / (GAS_CONSTANT * temperature))
+            pressure = pressure * exp(-GRAVITY * risen / (GAS_CONSTANT * temperature))
         else:
-            pressure = pressure * math.pow(temperature / warmer, GRAVITY / (GAS_CONSTANT * lapse[k]))
+            pressure = pressure * pow(temperature / warmer, GRAVITY / (GAS_CONSTANT * lapse[k]))
         temperature = warmer
         if geopotential <= base[k + 1]:
             break

@@ -7,6 +7,7 @@ over the transfer. Frame: any that does not rotate. Equations: docs/systems/hove
 
 import math
 
+from ..kernel.functions import exp
 from .vectors import Vector3, clip, cross, dot, norm, vector
 
 TRANSFER = 24
@@ -122,7 +123,7 @@ def expense(c: list, duration: float, lift: Vector3, mass: float, limits: list, 
             if swing > excess:
                 excess = swing
         before = size
-        force = mass * math.exp(-clip(spent / limits[EXHAUST_SPEED], 0.0, 700.0)) * size
+        force = mass * exp(-clip(spent / limits[EXHAUST_SPEED], 0.0, 700.0)) * size
         over = force / limits[LARGEST_THRUST] - 1.0
         if over > excess:
             excess = over

@@ -4,6 +4,7 @@ import math
 
 from ..block import Parameter, State
 from ..interfaces.navigation import Navigation
+from ..kernel.functions import exp, expm1
 from ..mathlib.rng import normal, seed_streams
 from ..mathlib.vectors import vector
 
@@ -57,8 +58,8 @@ class ColouredNavigation(Navigation):
         self.sample_count = self.sample_count + 1
 
     def step(self, t: float, h: float) -> None:
-        retained = math.exp(-h / self.correlation_time)
-        fresh = math.sqrt(-math.expm1(-2.0 * h / self.correlation_time))
+        retained = exp(-h / self.correlation_time)
+        fresh = math.sqrt(-expm1(-2.0 * h / self.correlation_time))
         for i in range(6):
             error = normal(self.generator)
             self.wandering[i] = retained * self.wandering[i] + fresh * error

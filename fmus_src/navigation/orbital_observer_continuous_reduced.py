@@ -1,9 +1,8 @@
 """Orbital attitude by a continuous observer of yaw alone."""
 
-import math
-
 from ..block import State
 from ..interfaces.attitude_observer import AttitudeObserver
+from ..kernel.functions import cos, exp, sin, tan
 
 
 class OrbitalObserverContinuousReduced(AttitudeObserver):
@@ -27,15 +26,15 @@ class OrbitalObserverContinuousReduced(AttitudeObserver):
         roll = 0.5 * (self.last_roll + self.measured_roll)
         pitch = 0.5 * (self.last_pitch + self.measured_pitch)
         w = 0.5 * (self.last_rates + self.measured_angular_velocity)
-        sin_yaw = math.sin(self.angles_now.y)
-        cos_pitch = math.cos(pitch)
-        tan_pitch = math.tan(pitch)
-        q = w.y * math.cos(roll) - w.z * math.sin(roll)
+        sin_yaw = sin(self.angles_now.y)
+        cos_pitch = cos(pitch)
+        tan_pitch = tan(pitch)
+        q = w.y * cos(roll) - w.z * sin(roll)
         yaw_rate = q / cos_pitch + w0 * sin_yaw * tan_pitch
         roll_rate = w.x - tan_pitch * q
         bent = sin_yaw / cos_pitch - self.angles_now.y
         f = yaw_rate - fraction * roll_rate + fraction * w0 * bent + fraction * fraction * w0 * roll
-        retained = math.exp(-pole * self.sample_period)
+        retained = exp(-pole * self.sample_period)
         self.z = retained * self.z + (1.0 - retained) * f / pole
         self.take_measured(self.z + fraction * self.measured_roll)
 

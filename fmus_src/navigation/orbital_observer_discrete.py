@@ -1,9 +1,8 @@
 """Orbital attitude by a discrete observer of the whole state."""
 
-import math
-
 from ..block import Parameter
 from ..interfaces.full_attitude_observer import FullAttitudeObserver
+from ..kernel.functions import exp
 from ..mathlib.matrices import exponential
 from ..mathlib.orbital import index_of_measured, linear_model
 
@@ -35,8 +34,8 @@ class OrbitalObserverDiscrete(FullAttitudeObserver):
         if not square > 0.0:
             return False
         for j in range(5):
-            row[j] = (ahead[7] - math.exp(-self.yaw_pole * period)) * row[j] / square
-        forgotten = math.exp(-self.measured_pole * period)
+            row[j] = (ahead[7] - exp(-self.yaw_pole * period)) * row[j] / square
+        forgotten = exp(-self.measured_pole * period)
         for i in range(36):
             back[i] = -forgotten * back[i]
         for i in range(6):

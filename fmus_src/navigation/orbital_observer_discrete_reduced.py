@@ -1,9 +1,8 @@
 """Orbital attitude by a discrete observer of yaw alone."""
 
-import math
-
 from ..block import Parameter
 from ..interfaces.attitude_observer import AttitudeObserver
+from ..kernel.functions import exp
 
 
 class OrbitalObserverDiscreteReduced(AttitudeObserver):
@@ -20,5 +19,5 @@ class OrbitalObserverDiscreteReduced(AttitudeObserver):
     def observe(self) -> None:
         angles, _ = self.carry(self.angles_now, self.rates_now, self.split)
         turn = self.orbital_rate * self.sample_period
-        gain = (1.0 - math.exp(-self.reduced_yaw_pole * self.sample_period)) / turn
+        gain = (1.0 - exp(-self.reduced_yaw_pole * self.sample_period)) / turn
         self.take_measured(angles.y - gain * (self.measured_roll - angles.x))

@@ -1,9 +1,8 @@
 """A lander over the Moon whose thrust axis is turned by commanded angular accelerations."""
 
-import math
-
 from ..block import Input, Output, Parameter
 from ..interfaces.moon_lander import MoonLander
+from ..kernel.functions import atan2
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity, vertical_at
 from ..mathlib.lagged_thrust import lagged_thrust
 from ..mathlib.thrust_axis import turn_axis
@@ -156,7 +155,7 @@ class AttitudeMoonLander(MoonLander):
     def look(self) -> None:
         """Set tilt and the speeds along and across the local vertical."""
         up = self.vertical()
-        self.tilt = math.atan2(norm(cross(self.attitude, up)), dot(self.attitude, up))
+        self.tilt = atan2(norm(cross(self.attitude, up)), dot(self.attitude, up))
         self.vertical_speed = dot(self.velocity, up)
         self.horizontal_speed = norm(self.velocity - self.vertical_speed * up)
 

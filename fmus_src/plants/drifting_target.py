@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Output, Parameter, State
+from ..kernel.functions import cos, fmod, sin
 from ..mathlib.quaternion import from_rotation_vector
 from ..mathlib.vectors import norm, vector
 
@@ -19,7 +20,7 @@ class DriftingTarget(Block):
     default_step = 0.125
 
     initial_position = Parameter(
-        [500.0 * math.cos(math.pi / 9.0), 500.0 * math.sin(math.pi / 9.0), 0.0],
+        [500.0 * cos(math.pi / 9.0), 500.0 * sin(math.pi / 9.0), 0.0],
         unit="m",
         frame="inertial",
         description="centre of mass at the start",
@@ -43,7 +44,7 @@ class DriftingTarget(Block):
         """State ``time`` (s) after the start."""
         rotation = vector(0.0, 0.0, 0.0)
         length = norm(self.spin_axis)
-        angle = math.fmod(self.spin_rate * time, math.tau)
+        angle = fmod(self.spin_rate * time, math.tau)
         if length > 0.0:
             rotation = angle * self.spin_axis / length
         self.position = self.initial_position + time * self.constant_velocity

@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Input, Output, Parameter, State
+from ..kernel.functions import atan2
 from ..mathlib.cubic_spline import cubic_value, curvatures
 from ..mathlib.entry_motion import attitude_rates, body_axes, earth_forces, path_rates, velocity_axes_rate
 from ..mathlib.matrices import inverse
@@ -143,7 +144,7 @@ class EntryCapsule(Block):
 
     def spatial_angle(self, v: Vector3) -> float:
         """Angle (rad) between the axis of symmetry and the velocity v against the air (body)."""
-        return math.atan2(math.sqrt(v.y * v.y + v.z * v.z), v.x)
+        return atan2(math.sqrt(v.y * v.y + v.z * v.z), v.x)
 
     def air_force(self, v: Vector3, density: float, sound: float) -> Vector3:
         """Force of the air (N, body) at the velocity v (m/s, body) against it."""

@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Input, Output, Parameter, State
+from ..kernel.functions import atan2, cos, sin
 from ..mathlib.gravity import STANDARD_GRAVITY
 from ..mathlib.vectors import Vector4, vector
 
@@ -47,8 +48,8 @@ class PlanarMoonLander(Block):
 
     def initialize(self) -> None:
         self.motion = vector(
-            self.initial_speed * math.cos(self.initial_path_angle),
-            self.initial_speed * math.sin(self.initial_path_angle),
+            self.initial_speed * cos(self.initial_path_angle),
+            self.initial_speed * sin(self.initial_path_angle),
             self.initial_altitude,
             self.initial_central_angle,
         )
@@ -62,8 +63,8 @@ class PlanarMoonLander(Block):
         radius = self.moon_radius + altitude
         ratio = self.moon_radius / radius
         turning = horizontal / radius
-        climb = acceleration * math.cos(self.thrust_angle) - self.surface_gravity * ratio * ratio
-        push = acceleration * math.sin(self.thrust_angle)
+        climb = acceleration * cos(self.thrust_angle) - self.surface_gravity * ratio * ratio
+        push = acceleration * sin(self.thrust_angle)
         if self.curvature:
             climb = climb + horizontal * turning
             push = push - vertical * turning
@@ -89,7 +90,7 @@ class PlanarMoonLander(Block):
         vertical, horizontal, self.altitude, self.central_angle = self.motion
         self.speed = math.sqrt(vertical * vertical + horizontal * horizontal)
         if self.speed > 0.0:
-            angle = math.atan2(horizontal, vertical)
+            angle = atan2(horizontal, vertical)
             turns = math.floor((self.path_angle - angle) / math.tau + 0.5)
             self.path_angle = angle + math.tau * float(turns)
         self.ground_contact = self.altitude <= 0.0

@@ -3,6 +3,7 @@
 import math
 
 from ..block import Block, Input, Output, Parameter, State
+from ..kernel.functions import exp
 from ..mathlib.rng import normals, seed_streams
 from ..mathlib.vectors import vector
 
@@ -49,5 +50,5 @@ class InfraredVertical(Block):
             period = self.sample_period
             if period <= 0.0:
                 period = h
-            retained = math.exp(-period / self.correlation_time)
+            retained = exp(-period / self.correlation_time)
         self.measure(retained)

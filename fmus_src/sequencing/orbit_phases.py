@@ -3,6 +3,7 @@
 import math
 
 from ..block import Parameter, State
+from ..kernel.functions import cos
 from ..mathlib.deorbit import against_horizontal, central_angle, deorbit_burn, ground_range, lowest_altitude
 from ..mathlib.gravity import altitude_of, from_centre
 from ..mathlib.vectors import dot, norm
@@ -143,7 +144,7 @@ class OrbitPhases(LandingSequence, interface=True):
 
     def ignite(self, answered: bool, ahead: float) -> None:
         """Turn the engine on once the axis is on the guidance's direction, or after a while in any case."""
-        minimum = math.cos(self.pointing_tolerance) * norm(self.sampled_attitude) * norm(self.sampled_direction)
+        minimum = cos(self.pointing_tolerance) * norm(self.sampled_attitude) * norm(self.sampled_direction)
         if answered and dot(self.sampled_attitude, self.sampled_direction) >= minimum:
             self.engine_on = True
         elif self.since_start(ahead) >= self.pointing_patience - ROUNDING:

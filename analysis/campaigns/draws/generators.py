@@ -8,6 +8,9 @@ import numpy as np
 
 from .declared import Columns, Draw, Independent
 
+TAIL = 3.6541528853610088  # from here on numpy's ziggurat (Marsaglia and Tsang 2000) computes by the C library's log1p
+STEP = 2.0**-30
+
 
 def generator(seed: int, name: str) -> np.random.Generator:
     """The random stream of the draw that fills ``name``: counter-based (Philox), independent of all other names."""
@@ -18,6 +21,15 @@ def generator_at(seed: int, name: str, block: int) -> np.random.Generator:
     """The stream of a block of trials: that of `generator`, its 256-bit counter begun at ``block`` times 2^192."""
     key = _sequence(seed, name).generate_state(2, np.uint64)
     return np.random.Generator(np.random.Philox(key=key, counter=np.array([0, 0, 0, block], dtype=np.uint64)))
+
+
+def standard_normals(source: np.random.Generator, shape: int | tuple[int, ...]) -> np.ndarray:
+    """Standard normal values, the same on every processor: those beyond ``TAIL`` are rounded to multiples of ``STEP``.
+
+    The C library's log1p has other last bits on another processor.
+    """
+    values = source.standard_normal(shape)
+    return np.where(np.abs(values) > TAIL, np.rint(values / STEP) * STEP, values)
 
 
 def stream_of(draw: Draw) -> str:

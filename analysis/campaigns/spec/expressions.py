@@ -2,7 +2,8 @@
 
 The text is parsed as Python, every node is checked against a list of what is allowed and
 translated into a function of the names it uses. Nothing else is reachable from it: no
-attributes of objects, no builtins. All numbers are doubles with IEEE arithmetic (1/0 is inf,
+attributes of objects, no builtins. The functions are those of kernels, with the same bits on
+every processor. All numbers are doubles with IEEE arithmetic (1/0 is inf,
 sqrt(-1) is nan), elementwise on arrays; true is 1, false is 0, and anything but 0 is true.
 """
 
@@ -17,6 +18,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from ...common.elementary import elementary
 from ...common.errors import InputError, suggestion
 
 Where = tuple[str, str]  # file and element, as in InputError
@@ -31,17 +33,17 @@ def _over(function: Callable) -> Callable:
 
 # name: (function, fewest arguments, most arguments or None for any number)
 FUNCTIONS: dict[str, tuple[Callable, int, int | None]] = {
-    "sin": (np.sin, 1, 1),
-    "cos": (np.cos, 1, 1),
-    "tan": (np.tan, 1, 1),
-    "asin": (np.arcsin, 1, 1),
-    "acos": (np.arccos, 1, 1),
-    "atan": (np.arctan, 1, 1),
-    "atan2": (np.arctan2, 2, 2),
+    "sin": (elementary("sin"), 1, 1),
+    "cos": (elementary("cos"), 1, 1),
+    "tan": (elementary("tan"), 1, 1),
+    "asin": (elementary("asin"), 1, 1),
+    "acos": (elementary("acos"), 1, 1),
+    "atan": (elementary("atan"), 1, 1),
+    "atan2": (elementary("atan2"), 2, 2),
     "sqrt": (np.sqrt, 1, 1),
-    "exp": (np.exp, 1, 1),
-    "log": (np.log, 1, 1),
-    "log10": (np.log10, 1, 1),
+    "exp": (elementary("exp"), 1, 1),
+    "log": (elementary("log"), 1, 1),
+    "log10": (elementary("log10"), 1, 1),
     "abs": (np.abs, 1, 1),
     "min": (_over(np.minimum), 2, None),
     "max": (_over(np.maximum), 2, None),
@@ -49,14 +51,14 @@ FUNCTIONS: dict[str, tuple[Callable, int, int | None]] = {
     "ceil": (np.ceil, 1, 1),
     "radians": (np.radians, 1, 1),
     "degrees": (np.degrees, 1, 1),
-    "hypot": (np.hypot, 2, 2),
+    "hypot": (elementary("hypot"), 2, 2),
     "sign": (np.sign, 1, 1),
     "where": (np.where, 3, 3),
-    "norm": (_over(np.hypot), 2, None),
+    "norm": (_over(elementary("hypot")), 2, None),
 }
 RESERVED = frozenset(CONSTANTS) | frozenset(FUNCTIONS)
 
-ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod, ast.Pow)
+ARITHMETIC = (ast.Add, ast.Sub, ast.Mult, ast.Div, ast.FloorDiv, ast.Mod)
 COMPARISONS: dict[type[ast.cmpop], Callable] = {
     ast.Lt: np.less,
     ast.LtE: np.less_equal,
@@ -85,7 +87,8 @@ def _chain(operators: list[Callable]) -> Callable:
     return compare
 
 
-LOGIC: dict[str, Callable] = {
+OPERATIONS: dict[str, Callable] = {
+    "Power": elementary("pow"),
     "And": lambda *values: _truth(functools.reduce(np.logical_and, values)),
     "Or": lambda *values: _truth(functools.reduce(np.logical_or, values)),
     "Not": lambda value: _truth(np.logical_not(value)),
@@ -129,7 +132,7 @@ class _Translator:
         self.text = text
         self.where = where
         self.slots: dict[str, str] = {}
-        self.namespace: dict[str, Any] = {"__builtins__": {}, **LOGIC}
+        self.namespace: dict[str, Any] = {"__builtins__": {}, **OPERATIONS}
 
     def refuse(self, problem: str, remedy: str = f"use {ALLOWED}") -> NoReturn:
         raise InputError(*self.where, f"{problem} in {textwrap.shorten(self.text, 100)!r}", remedy)
@@ -182,6 +185,8 @@ class _Translator:
                 return self.number(value)
             case ast.Name() | ast.Attribute() | ast.Subscript():
                 return self.variable(node)
+            case ast.BinOp(left=left, op=ast.Pow(), right=right):
+                return self.call("Power", self.translate(left), self.translate(right))
             case ast.BinOp(left=left, op=operator, right=right) if isinstance(operator, ARITHMETIC):
                 return ast.BinOp(self.translate(left), operator, self.translate(right))
             case ast.UnaryOp(op=ast.UAdd() | ast.USub() as sign, operand=operand):

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...campaigns.draws.generators import standard_normals
+from ...common.elementary import elementary
 from .points import FreshStreams, MarginOf, Points
 
 ACCEPTED = 0.44  # the acceptance rate of draws that is aimed at (ibid., section 4.3)
@@ -127,7 +129,7 @@ def grow_chains(
             if noise_moves.any:
                 whole = rates[-1] if rates and spread == 1.0 else None
                 noise = noise_moves.choose(group, step, whole) if dimensions else ~noise
-            moved = np.sqrt(1.0 - spread**2) * here.draws + spread * random[0].standard_normal(here.draws.shape)
+            moved = np.sqrt(1.0 - spread**2) * here.draws + spread * standard_normals(random[0], here.draws.shape)
             renewed, chosen = noise_moves.candidates(here.streams, noise)
             candidates = Points(np.where(noise[:, np.newaxis], here.draws, moved), renewed)
             proposed = margin(candidates)
@@ -142,6 +144,6 @@ def grow_chains(
         noise_moves.adapt()
         if steps:
             rates.append(float(np.mean(steps)))
-            spread = min(1.0, float(np.exp(np.log(spread) + (rates[-1] - ACCEPTED) / np.sqrt(number + 1.0))))
+            spread = min(1.0, float(spread * elementary("exp")((rates[-1] - ACCEPTED) / np.sqrt(number + 1.0))))
     acceptance = float(np.mean(rates)) if rates else None
     return Chains(draws, streams, values, acceptance, noise_moves.moves, noise_moves.accepted, spread)

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ...campaigns.draws.generators import standard_normals
 from .conditional_sampling import FIRST_SPREAD, Chains, grow_chains
 from .points import FreshStreams, MarginOf, Points
 from .uncertainty import (
@@ -125,7 +126,7 @@ def subset_simulation(
         evaluations += len(points)
         return margin(points)
 
-    normals = random.standard_normal((samples, dimensions))
+    normals = standard_normals(random, (samples, dimensions))
     points = Points(normals, np.repeat(fresh.take(samples)[:, np.newaxis], sources, axis=1))
     population = _Population(points, count_calls(points), np.arange(samples)[:, np.newaxis], np.arange(samples))
     spread, reached = FIRST_SPREAD, 1.0

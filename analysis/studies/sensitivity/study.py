@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from scipy.special import ndtri
 
 from ...campaigns.spec.draw_space import DrawSpace
 from ...campaigns.spec.plan import BatchPlan
+from ...common.elementary import elementary
 from ...common.errors import InputError
 from ..evaluation.flights import SampleFlights
 from ..evaluation.flown import Flown
@@ -56,7 +56,7 @@ def sensitivity(
         points, streams = saltelli_points(base, space.size, random), np.zeros(0, dtype=np.int64)
         if noise.sources:
             points, streams = with_noise(points, base)
-        columns = space.from_normals(ndtri(np.clip(points, EDGE, 1.0 - EDGE)))
+        columns = space.from_normals(elementary("normal_quantile")(np.clip(points, EDGE, 1.0 - EDGE)))
         trials, draws = flights.fly(columns, noise.same(streams))
         metrics = {**trials.metrics, SUCCESS: trials.success.astype(float)}
         reported = [name for name, values in metrics.items() if np.all(np.isfinite(values)) and np.ptp(values) > 0.0]

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ...campaigns.draws.declared import Columns, input_names
+from ...campaigns.draws.generators import standard_normals
 from ...campaigns.draws.given import Streams
 from ...campaigns.spec.draw_space import DrawSpace
 from ...campaigns.spec.plan import BatchPlan
@@ -129,7 +130,7 @@ class _Box:
         points = _Points(flights_of, badness, over if flights_of.noise.sources else None)
         budget = self._budget(points)
         random = np.random.Generator(np.random.Philox(np.random.SeedSequence(self._seed)))
-        own = space.from_normals(random.standard_normal((int(RANDOM * budget) // points.realisations, space.size)))
+        own = space.from_normals(standard_normals(random, (int(RANDOM * budget) // points.realisations, space.size)))
         places = space.to_box(own, sigmas)
         values = points.fly(places, own)
         inside = np.all((places >= 0.0) & (places <= 1.0), axis=1)

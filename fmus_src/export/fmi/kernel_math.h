@@ -13,6 +13,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* What ended a call, and the Python line that raises in the Python flavour. */
 typedef struct Fault {
@@ -67,6 +68,7 @@ static const double MATH_PI = 3.141592653589793;
 static const double MATH_TAU = 6.283185307179586;
 static const double MATH_E = 2.718281828459045;
 static const double MATH_INF = INFINITY;
+static const double MATH_NAN = NAN;
 
 static COLD void set_fault(Fault *fault, const char *file, int line, const char *what)
 {
@@ -145,26 +147,20 @@ static inline double checked_result(
     return result;
 }
 
-#define CHECKED_FUNCTION(name, if_infinite) \
+/* py_sin and the like, after the function that computes; used or not. */
+#define CHECKED_FUNCTION(name, computed, if_infinite) \
     static inline double py_##name(Fault *fault, const char *file, int line, double x) \
     { \
-        return checked_result(fault, file, line, name(x), isnan(x), isfinite(x), if_infinite); \
+        return checked_result(fault, file, line, computed(x), isnan(x), isfinite(x), if_infinite); \
     }
 
-CHECKED_FUNCTION(sin, DOMAIN_ERROR)
-CHECKED_FUNCTION(cos, DOMAIN_ERROR)
-CHECKED_FUNCTION(tan, DOMAIN_ERROR)
-CHECKED_FUNCTION(asin, DOMAIN_ERROR)
-CHECKED_FUNCTION(acos, DOMAIN_ERROR)
-CHECKED_FUNCTION(log, DOMAIN_ERROR)
-CHECKED_FUNCTION(log2, DOMAIN_ERROR)
-CHECKED_FUNCTION(log10, DOMAIN_ERROR)
-CHECKED_FUNCTION(log1p, DOMAIN_ERROR)
-CHECKED_FUNCTION(exp, RANGE_ERROR)
-CHECKED_FUNCTION(exp2, RANGE_ERROR)
-CHECKED_FUNCTION(expm1, RANGE_ERROR)
-CHECKED_FUNCTION(sinh, RANGE_ERROR)
-CHECKED_FUNCTION(cosh, RANGE_ERROR)
+#define CHECKED_POWER(name, computed) \
+    static inline double py_##name(Fault *fault, const char *file, int line, double x, double y) \
+    { \
+        const bool from_finite = isfinite(x) && isfinite(y); \
+        const char *if_infinite = x == 0.0 ? DOMAIN_ERROR : RANGE_ERROR; \
+        return checked_result(fault, file, line, computed(x, y), !from_finite, from_finite, if_infinite); \
+    }
 
 static inline double py_sqrt(Fault *fault, const char *file, int line, double x)
 {
@@ -175,11 +171,55 @@ static inline double py_sqrt(Fault *fault, const char *file, int line, double x)
     return EXACT_SQRT(x);
 }
 
-static inline double py_pow(Fault *fault, const char *file, int line, double x, double y)
+/* 2^n, for n from -1022 to 1023. */
+static inline double power_of_two(int64_t n)
 {
-    const bool from_finite = isfinite(x) && isfinite(y);
-    const char *if_infinite = x == 0.0 ? DOMAIN_ERROR : RANGE_ERROR;
-    return checked_result(fault, file, line, pow(x, y), !from_finite, from_finite, if_infinite);
+    const uint64_t bits = (uint64_t)(n + 1023) << 52;
+    double power;
+    memcpy(&power, &bits, sizeof power);
+    return power;
+}
+
+/* x 2^n, rounded once. */
+static inline double exact_ldexp(double x, int64_t n)
+{
+    for (int k = 0; n > 1023 && k < 3; k++) {
+        x *= power_of_two(1023);
+        n -= 1023;
+    }
+    for (int k = 0; n < -1022 && k < 3; k++) { /* 53 bits stay above the last step, which rounds */
+        x *= power_of_two(-969);
+        n += 969;
+    }
+    return x * power_of_two(n > 1023 ? 1023 : n < -1022 ? -1022 : n);
+}
+
+static inline double py_ldexp(Fault *fault, const char *file, int line, double x, int64_t n)
+{
+    return checked_result(fault, file, line, exact_ldexp(x, n), isnan(x), isfinite(x), RANGE_ERROR);
+}
+
+/* Two values of a function. */
+typedef struct DoubleInt64 {
+    double part0;
+    int64_t part1;
+} DoubleInt64;
+
+/* m from 1/2 to 1 and n of x = m 2^n. */
+static inline DoubleInt64 exact_frexp(double x)
+{
+    uint64_t bits;
+    int64_t n = -1022;
+    if (x == 0.0 || !isfinite(x)) return (DoubleInt64){x, 0};
+    if (fabs(x) < 2.2250738585072014e-308) {
+        x *= 18014398509481984.0; /* 2^54 */
+        n -= 54;
+    }
+    memcpy(&bits, &x, sizeof bits);
+    n += (int64_t)(bits >> 52 & 0x7ff);
+    bits = (bits & UINT64_C(0x800fffffffffffff)) | UINT64_C(0x3fe0000000000000);
+    memcpy(&x, &bits, sizeof x);
+    return (DoubleInt64){x, n};
 }
 
 static inline double py_fmod(Fault *fault, const char *file, int line, double x, double y)

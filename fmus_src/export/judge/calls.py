@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable
 from types import FunctionType
 
+from ...kernel.functions import FAULTS
 from ...mathlib.vector_types import vector
 from .expressions import ExpressionTypes
 from .kernel import (
@@ -27,7 +28,15 @@ from .kernel import (
     is_self_attribute,
 )
 from .source import find_global, find_method
-from .subset_table import BUILTIN_FUNCTIONS, MATH_FUNCTIONS, OTHER_FUNCTION, REFUSED_FUNCTIONS, RULES
+from .subset_table import (
+    BUILTIN_FUNCTIONS,
+    ELEMENTARY_FUNCTIONS,
+    MATH_FUNCTIONS,
+    OTHER_FUNCTION,
+    REFUSED_FUNCTIONS,
+    REFUSED_MATH,
+    RULES,
+)
 
 # Gives the Function for a callee and the types of its arguments; None after a violation in its declaration.
 Resolver = Callable[[FunctionType, type | None, ast.Call, list[Type]], Function | None]
@@ -63,7 +72,7 @@ class CallTypes(ExpressionTypes):
             self.report(node, "number", name="the value", got=f"{returned.name}, which returns None")
         return returned.returns
 
-    def call(self, node: ast.Call) -> Function | Type | None:
+    def call(self, node: ast.Call) -> Function | Type | Several | None:
         """Resolve a call; the callee for a kernel function, else the type of its value."""
         if self._callee(node.func)[0] is vector:
             return self.make_vector(node)
@@ -77,6 +86,13 @@ class CallTypes(ExpressionTypes):
             types = [self.function.types[argument] for argument in node.args]
             if node.keywords or None in types:
                 return None
+            computing = getattr(callee, "__wrapped__", None)
+            if computing in FAULTS:
+                function = self.resolve(computing, None, node, types)  # type: ignore[arg-type]
+                if function is not None:
+                    known = ELEMENTARY_FUNCTIONS[callee.__name__]
+                    self.function.calls[node] = MathCall(callee.__name__, known, function)
+                return FLOAT
             function = self.resolve(callee, owner, node, types)  # type: ignore[arg-type]
             if function is not None:
                 self.function.calls[node] = KernelCall(function)
@@ -84,16 +100,12 @@ class CallTypes(ExpressionTypes):
         if callee in BUILTIN_FUNCTIONS:
             return self._builtin(node, name)
         if isinstance(callee, str) and callee in MATH_FUNCTIONS:
-            self.function.calls[node] = MathCall(callee, MATH_FUNCTIONS[callee])
-            self._count(node, name, MATH_FUNCTIONS[callee].arguments)
-            to_int = MATH_FUNCTIONS[callee].returns == "int"
-            for argument in node.args:
-                got = self.function.types[argument]
-                if got not in (FLOAT, None) and (got is not INT or to_int):
-                    self.report(argument, "number", name=name, got=got)
-            return Scalar(MATH_FUNCTIONS[callee].returns)
+            return self._math(node, name, callee)
         if self.report_missing(node.func):
             return None
+        if isinstance(callee, str) and callee in ELEMENTARY_FUNCTIONS:
+            self.report(node, RULES["function"], name=name, remedy=REFUSED_MATH.format(name=callee))
+            return FLOAT
         short = name.split(".")[-1]
         self.report(node, RULES["function"], name=name, remedy=REFUSED_FUNCTIONS.get(short, OTHER_FUNCTION))
         return None
@@ -120,6 +132,20 @@ class CallTypes(ExpressionTypes):
             return node.attr, None
         value = getattr(module, node.attr, None) if module else None
         return (value if isinstance(value, FunctionType) else None), None
+
+    def _math(self, node: ast.Call, name: str, callee: str) -> Type | Several:
+        """A function of `math`."""
+        function = MATH_FUNCTIONS[callee]
+        self.function.calls[node] = MathCall(callee, function)
+        self._count(node, name, len(function.takes))
+        to_int = function.returns == ("int",)
+        for argument, takes in zip(node.args, function.takes, strict=False):
+            got = self.function.types[argument]
+            widened = takes == "float" and got is INT and not to_int
+            if got not in (Scalar(takes), None) and not widened:
+                self.report(argument, "number", name=name, got=got)
+        returns = tuple(Scalar(kind) for kind in function.returns)
+        return returns[0] if len(returns) == 1 else Several(returns)
 
     def _builtin(self, node: ast.Call, name: str) -> Type | None:
         self.function.calls[node] = BuiltinCall(name)

@@ -50,6 +50,8 @@ def is_nonzero_constant(function: Function, node: ast.expr) -> bool:
 def own_outcome(function: Function, node: ast.expr) -> Outcomes:
     """How an expression can end the call by itself, its operands left aside."""
     line = node.lineno
+    if function.is_total:
+        return NO_OUTCOME
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div | ast.FloorDiv | ast.Mod):
         if function.types[node] is INT:
             return frozenset({(line, id(node))}) if node in function.unproven else NO_OUTCOME

@@ -15,6 +15,7 @@ from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, Type, Ve
 from .source import find_global, origin_of_constant
 from .subset_table import (
     COMPARISONS,
+    ELEMENTARY_FUNCTIONS,
     EXPRESSIONS,
     MATH_CONSTANTS,
     MATH_FUNCTIONS,
@@ -119,7 +120,8 @@ class ExpressionTypes(VectorTypes):
         if find_global(self.function.source.function, name.id) is not None:
             return False
         if name is not node and name.id == "math":
-            words = "import math"
+            refused = node.attr in ELEMENTARY_FUNCTIONS  # type: ignore[attr-defined]
+            words = f"from perilune import {node.attr}" if refused else "import math"  # type: ignore[attr-defined]
         elif name is node and name.id in MATH_FUNCTIONS and not hasattr(builtins, name.id):
             words = f"import math, and math.{name.id} here,"
         elif name is node and name.id in HOME_OF:

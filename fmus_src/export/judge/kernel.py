@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ...block import Block
+from ...kernel import elementary
 from .source import Source
 from .subset_table import RULES, MathFunction, Rule
 
@@ -78,10 +79,11 @@ class Constant:
 
 @dataclass(frozen=True)
 class MathCall:
-    """Call of a function of `math`."""
+    """Call of a function of `math`, or of one that the kernel function ``computed_by`` takes the place of."""
 
     name: str
     function: MathFunction
+    computed_by: Function | None = None
 
 
 @dataclass(frozen=True)
@@ -159,6 +161,11 @@ class Function:
         return self.source.owner is not None
 
     @property
+    def is_total(self) -> bool:
+        """Whether it has a result for every argument, and so no checks: the elementary functions, as tests show."""
+        return self.source.module.startswith(f"{elementary.__name__}.")
+
+    @property
     def name(self) -> str:
         return self.source.qualified_name
 
@@ -168,7 +175,9 @@ class Function:
 
     def callees(self) -> list[Function]:
         """The kernel functions that this one calls."""
-        return [call.callee for call in self.calls.values() if isinstance(call, KernelCall)]
+        actual = [call.callee for call in self.calls.values() if isinstance(call, KernelCall)]
+        checked = [call.computed_by for call in self.calls.values() if isinstance(call, MathCall)]
+        return [*actual, *(function for function in checked if function is not None)]
 
 
 @dataclass

@@ -137,7 +137,7 @@ class _Ranges:
             if isinstance(node, ast.Subscript) and node not in function.parts:
                 self._judge_index(node)
             computed = kind is INT and isinstance(node, ast.BinOp | ast.UnaryOp | ast.Call)
-            if computed and not self.without_bounds(node).within(INT64):
+            if not function.is_total and computed and not self.without_bounds(node).within(INT64):
                 function.unproven.add(node)
             if isinstance(node, ast.Compare):
                 self._judge_mixed(node, "compared")
@@ -151,7 +151,7 @@ class _Ranges:
         container = self.function.types[node.value]
         assert isinstance(container, List | Vector)
         interval = self.of(node.slice)
-        if not interval.within(Interval(0, container.size - 1)):
+        if not self.function.is_total and not interval.within(Interval(0, container.size - 1)):
             self.function.unproven.add(node)
         if interval.high < -container.size or interval.low >= container.size:
             self.kernel.report(

@@ -22,53 +22,50 @@ class Rule:
 
 @dataclass(frozen=True)
 class MathFunction:
-    """A function of `math` whose CPython and C results have equal bits.
+    """A function of numbers whose Python and C results have equal bits.
 
-    ``faults`` are the exceptions that CPython raises on floats; without any, the C function is
-    called as it is, otherwise through its checked form in kernel_math.h. ``returns`` is a type
-    of the subset.
+    ``faults`` are the exceptions that Python raises; without any, the C function is called as it
+    is, otherwise through its checked form in kernel_math.h. ``takes`` and ``returns`` are types of
+    the subset; several are returned together.
     """
 
-    arguments: int
+    takes: tuple[str, ...] = ("float",)
     faults: tuple[str, ...] = ()
-    returns: str = "float"
+    returns: tuple[str, ...] = ("float",)
 
 
 DOMAIN = ("ValueError",)
 RANGE = ("OverflowError",)
 
-# hypot, gamma, lgamma, fsum, dist and erf are missing on purpose: CPython has its own, C libraries differ.
+TWO = ("float", "float")
+
+# Exact, or correctly rounded, in every C library.
 MATH_FUNCTIONS: dict[str, MathFunction] = {
-    "sin": MathFunction(1, DOMAIN),
-    "cos": MathFunction(1, DOMAIN),
-    "tan": MathFunction(1, DOMAIN),
-    "asin": MathFunction(1, DOMAIN),
-    "acos": MathFunction(1, DOMAIN),
-    "atan": MathFunction(1),
-    "atan2": MathFunction(2),
-    "sinh": MathFunction(1, RANGE),
-    "cosh": MathFunction(1, RANGE),
-    "tanh": MathFunction(1),
-    "exp": MathFunction(1, RANGE),
-    "exp2": MathFunction(1, RANGE),
-    "expm1": MathFunction(1, RANGE),
-    "log": MathFunction(1, DOMAIN),
-    "log2": MathFunction(1, DOMAIN),
-    "log10": MathFunction(1, DOMAIN),
-    "log1p": MathFunction(1, DOMAIN),
-    "pow": MathFunction(2, DOMAIN + RANGE),
-    "sqrt": MathFunction(1, DOMAIN),
-    "cbrt": MathFunction(1),
-    "fabs": MathFunction(1),
-    "fmod": MathFunction(2, DOMAIN),
-    "copysign": MathFunction(2),
-    "floor": MathFunction(1, DOMAIN + RANGE, returns="int"),
-    "ceil": MathFunction(1, DOMAIN + RANGE, returns="int"),
-    "isfinite": MathFunction(1, returns="bool"),
-    "isnan": MathFunction(1, returns="bool"),
+    "sqrt": MathFunction(faults=DOMAIN),
+    "fabs": MathFunction(),
+    "fmod": MathFunction(TWO, DOMAIN),
+    "copysign": MathFunction(TWO),
+    "ldexp": MathFunction(("float", "int"), RANGE),
+    "frexp": MathFunction(returns=("float", "int")),
+    "floor": MathFunction(faults=DOMAIN + RANGE, returns=("int",)),
+    "ceil": MathFunction(faults=DOMAIN + RANGE, returns=("int",)),
+    "isfinite": MathFunction(returns=("bool",)),
+    "isnan": MathFunction(returns=("bool",)),
 }
 
-MATH_CONSTANTS: dict[str, float] = {"pi": math.pi, "tau": math.tau, "e": math.e, "inf": math.inf}
+# Functions of `perilune` in place of those of `math`, with the same errors.
+ELEMENTARY_FUNCTIONS: dict[str, MathFunction] = {
+    name: MathFunction(TWO if name in ("atan2", "pow") else ("float",), faults)
+    for faults, names in {
+        (): ("atan", "atan2", "tanh", "cbrt"),
+        DOMAIN: ("sin", "cos", "tan", "asin", "acos", "log", "log2", "log10", "log1p"),
+        RANGE: ("exp", "exp2", "expm1", "sinh", "cosh"),
+        DOMAIN + RANGE: ("pow",),
+    }.items()
+    for name in names
+}
+
+MATH_CONSTANTS: dict[str, float] = {"pi": math.pi, "tau": math.tau, "e": math.e, "inf": math.inf, "nan": math.nan}
 
 BUILTIN_FUNCTIONS = ("abs", "float", "int", "len")  # and range, in a for statement
 
@@ -133,7 +130,7 @@ REFUSED_SYNTAX: dict[type[ast.AST], Rule] = {
     ast.NamedExpr: Rule("an assignment inside an expression", "assign in a statement of its own"),
     ast.Yield: Rule("yield", "keep what is to be remembered in a State"),
     ast.Await: Rule("await", "remove it"),
-    ast.Pow: Rule("the operator **", "write x * x, or math.pow(x, y)"),
+    ast.Pow: Rule("the operator **", "write x * x, or pow(x, y) of perilune"),
     ast.MatMult: Rule("the operator @", "take dot of perilune for vectors, and sums as for loops"),
     ast.LShift: Rule("a bit operator", "use *, // and % on ints"),
     ast.RShift: Rule("a bit operator", "use *, // and % on ints"),
@@ -159,7 +156,7 @@ REFUSED_FUNCTIONS: dict[str, str] = {
     "round": "write math.floor(x + 0.5)",
     "bool": "write x != 0.0 or n != 0",
     "divmod": "write // and % apart",
-    "pow": "write math.pow(x, y)",
+    "pow": "write from perilune import pow",
     "print": "put the value on an Output",
     "range": "use range in a for statement only",
     "list": "declare [0.0] * n and copy in a for loop",
@@ -169,6 +166,8 @@ REFUSED_FUNCTIONS: dict[str, str] = {
     "degrees": "stay in radians; multiply by 180.0 / math.pi where a table needs degrees",
     "radians": "stay in radians; multiply by math.pi / 180.0 where a table needs degrees",
 }
+
+REFUSED_MATH = "write from perilune import {name}: that of the C library has other bits on other processors"
 
 LANGUAGE_PAGE = "What a kernel may use"  # of the documentation site, derived from this file
 OTHER_FUNCTION = f'take one of the page "{LANGUAGE_PAGE}", write one in the file, or declare python_only = True'

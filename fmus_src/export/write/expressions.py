@@ -43,6 +43,7 @@ VECTOR_NAMES: dict[type[ast.AST], str] = {
     ast.Mult: "multiply",
     ast.Div: "divide",
 }
+EXACT = {"sqrt": "EXACT_SQRT", "ldexp": "exact_ldexp", "frexp": "exact_frexp"}
 WHOLE = {"floor": "whole_floor", "ceil": "whole_ceil", "int": "whole_trunc"}
 
 
@@ -212,10 +213,13 @@ class ExpressionWriter:
         if isinstance(call, MathCall):
             if call.name in WHOLE:
                 return self._whole(node, call.name, "py_whole_int")
-            arguments = [self.write_as_float(argument, CONDITIONAL) for argument in node.args]
-            if call.function.faults:
+            arguments = [
+                self.write_as_float(argument, CONDITIONAL) if takes == "float" else self.write(argument)
+                for argument, takes in zip(node.args, call.function.takes, strict=True)
+            ]
+            if own_outcome(self.function, node):
                 return self.write_checked(node, f"py_{call.name}", *arguments)
-            return self.call(call.name, *arguments), ATOM
+            return self.call(EXACT.get(call.name, call.name), *arguments), ATOM
         return self._builtin(node, call)
 
     def _kernel_call(self, node: ast.Call, callee: Function) -> str:
@@ -250,4 +254,7 @@ class ExpressionWriter:
 
     def _whole(self, node: ast.Call, name: str, checked: str) -> tuple[str, int]:
         """math.floor, math.ceil or int of a float, as int or as float."""
+        if self.function.is_total:
+            cast = "(int64_t)" if checked == "py_whole_int" else ""
+            return f"{cast}{self.call(WHOLE[name], self.write(node.args[0]))}", UNARY
         return self.write_checked(node, checked, self.call(WHOLE[name], self.write(node.args[0])))

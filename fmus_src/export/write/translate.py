@@ -6,10 +6,11 @@ import inspect
 from pathlib import Path
 
 from ...block import Block, Variable
+from ...kernel.functions import DOMAIN_ERROR, FAULTS, RANGE_ERROR
 from ...mathlib import vector_types
 from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
 from ..judge.expressions import SCALARS, type_of_variable
-from ..judge.kernel import Function, Kernel, List, Several, Vector
+from ..judge.kernel import FLOAT, INT, Function, Kernel, List, Several, Vector
 from ..judge.source import label
 from ..judge.subset import analyse_kernel
 from .functions import write_function
@@ -17,6 +18,8 @@ from .layout import Lines
 from .names import C_TYPES, Names, block_type_name, c_type, comment, identifier, literal, member, names_of
 
 KINDS = {float: "KIND_REAL", int: "KIND_INTEGER", bool: "KIND_BOOLEAN"}
+FREXP = Several((FLOAT, INT))
+C_ERRORS = {DOMAIN_ERROR: "DOMAIN_ERROR", RANGE_ERROR: "RANGE_ERROR"}
 ROLES = {"parameter": "ROLE_PARAMETER", "input": "ROLE_INPUT", "output": "ROLE_OUTPUT", "local": "ROLE_STATE"}
 
 HEADER = """\
@@ -103,6 +106,7 @@ def _constants(names: Names) -> list[str]:
 def _several(kernel: Kernel) -> list[str]:
     """A struct for each combination of types that functions return together."""
     kinds = {function.returns for function in kernel.functions if isinstance(function.returns, Several)}
+    kinds.discard(FREXP)  # in kernel_math.h
     lines = Lines()
     for kind in sorted(kinds, key=c_type):
         lines.open(f"typedef struct {c_type(kind)} {{")
@@ -124,7 +128,17 @@ def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
             parts.append(f'/* ---- {here} ---- */\n\n{undefine}#define AT(line) fault, "{here}", line\n')
             file = here
         parts.append("\n".join([*write_function(function, names, type_name), ""]))
+        if function.source.function in FAULTS:
+            parts.append(_checked(function, names.functions[function]))
     return parts
+
+
+def _checked(function: Function, c_name: str) -> str:
+    """The form of an elementary function that records a fault, ``py_sin``, at its caller's line."""
+    error = FAULTS[function.source.function]
+    if not error:
+        return f"CHECKED_POWER({function.source.name}, {c_name})\n"
+    return f"CHECKED_FUNCTION({function.source.name}, {c_name}, {C_ERRORS[error]})\n"
 
 
 def _by_file(functions: list[Function]) -> list[Function]:

@@ -136,7 +136,7 @@ OTHERS = [
     ("comparison", "self.flag = self.w == self.w  # here"),
     ("condition", "if self.w:  # here\n    self.y = 1.0"),
     ("number", "self.y = abs(self.w)  # here"),
-    ("number", "self.y = math.sin(self.w)  # here"),
+    ("number", "self.y = math.sqrt(self.w)  # here"),
     ("number", "self.w = +self.w  # here"),
     ("branches", "self.w = self.w if self.flag else self.pair  # here"),
     ("read-only", "self.given = self.w  # here"),

@@ -10,6 +10,7 @@ from random import Random
 
 from perilune.fmus_src.block import Block, Input, Parameter, Variable
 from perilune.fmus_src.export.judge.source import label
+from perilune.fmus_src.kernel import functions
 from perilune.fmus_src.mathlib import vector_types
 from perilune.fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
 from perilune.fmus_src.runtime import Component, StepError
@@ -21,6 +22,7 @@ STUCK = 3  # equal rows in a row after which the flight counts as latched
 # Spread of values around a start of zero, by unit; 1 where the unit is not here.
 SPREAD = {"m": 2e4, "m/s": 500.0, "m/s2": 5.0, "s": 20.0, "N": 2000.0, "rad/s": 0.1, "N.m": 10.0, "kg": 500.0}
 WILD = [0.0, -0.0, 1.0, -1.0, 1e-300, 1e200, -1e308, float("inf"), float("-inf"), float("nan")]
+LANGUAGE_FILES = (vector_types.__file__, functions.__file__)  # operators and functions, called at a kernel's line
 FAULT = re.compile(r'File "(?P<file>[^"]+)", line (?P<line>\d+): (?P<error>\w+):')
 
 
@@ -141,7 +143,7 @@ class Pair:
             assert message == f"StepError: {error}"
         else:
             frames = traceback.extract_tb(error.__traceback__)
-            frame = [each for each in frames if each.filename != vector_types.__file__][-1]  # operators of vectors
+            frame = [each for each in frames if each.filename not in LANGUAGE_FILES][-1]
             collected = FAULT.match(message)
             assert collected, message
             place = (label(Path(frame.filename)), frame.lineno)

@@ -4,6 +4,7 @@ import math
 from math import floor
 
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.kernel.functions import asin, exp, log, pow, sin
 from perilune.fmus_src.mathlib.vectors import Vector, Vector3, clip, cross, dot, norm, vector
 
 TABLE = (0.5, -1.25, 3.0, 8.0)
@@ -16,7 +17,7 @@ def power_sum(values: list, exponent: float) -> float:
     """Sum of powers, whatever the length of the list."""
     total = 0.0
     for i in range(len(values)):
-        total += math.pow(abs(values[i]), exponent)
+        total += pow(abs(values[i]), exponent)
     return total
 
 
@@ -180,10 +181,10 @@ class Language(LanguageBase):
         self.conditions()
         self.y[5] = self.remember(self.x)
         # a comment that C keeps
-        exp: float = self.x // 0.7 - (self.x % -0.3) + (-self.x) // self.double
-        if not math.isfinite(exp):
+        total: float = self.x // 0.7 - (self.x % -0.3) + (-self.x) // self.double
+        if not math.isfinite(total):
             return
-        self.y[6] = exp - -self.x - (self.x - (h - t)) / (3 * self.k + 1)
+        self.y[6] = total - -self.x - (self.x - (h - t)) / (3 * self.k + 1)
         self.y[7] = math.pi * float(math.floor(self.x)) + math.fmod(self.x, 2.5) + float(int(self.x))
 
 
@@ -365,13 +366,13 @@ class Faults(Block):
         elif case == 3:
             self.result = math.sqrt(-1.0 - abs(x)) + 1.0 / x
         elif case == 4:
-            self.values[1] = math.log(x)
+            self.values[1] = log(x)
         elif case == 5:
-            self.values[case % 2] = math.exp(710.0 + x)
+            self.values[case % 2] = exp(710.0 + x)
         elif case == 6:
-            self.result = math.asin(1.5 + x * x)
+            self.result = asin(1.5 + x * x)
         elif case == 7:
-            self.result = math.pow(x, -1.0) + math.pow(-2.0, 0.5)
+            self.result = pow(x, -1.0) + pow(-2.0, 0.5)
         elif case == 8:
             self.result = 1.0 / (x * x) + math.sqrt(
                 -1.0 - x * x,
@@ -413,4 +414,4 @@ class Faults(Block):
         elif case == 23:
             self.result = x if x > 1.0 else 1.0 / x
         else:
-            self.result = math.fmod(1.0, x) + math.sin(1e308 * 10.0)
+            self.result = math.fmod(1.0, x) + sin(1e308 * 10.0)

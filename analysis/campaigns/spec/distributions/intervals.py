@@ -8,12 +8,14 @@ from typing import ClassVar, Self
 
 import numpy as np
 import scipy
-from scipy.special import ndtr, ndtri
 
+from ....common.elementary import elementary
 from ....common.errors import InputError
 from ...draws.declared import Columns, Continuous, Design, Draw, Independent
 from ...draws.generators import generator
 from ..toml.table import Table, number
+
+normal_distribution, normal_quantile = elementary("normal_distribution"), elementary("normal_quantile")
 
 
 @dataclass(frozen=True)
@@ -37,13 +39,14 @@ class _Interval(Continuous):
     def from_normals(self, u: np.ndarray) -> list[np.ndarray]:
         width = self.high - self.low
         # from the nearer end, so that neither tail is rounded away
-        return [np.where(u < 0.0, self.low + width * ndtr(u), self.high - width * ndtr(-u))[:, 0]]
+        low, high = self.low + width * normal_distribution(u), self.high - width * normal_distribution(-u)
+        return [np.where(u < 0.0, low, high)[:, 0]]
 
     def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
         values, width = columns[0][:, np.newaxis], self.high - self.low
         low, high = (values - self.low) / width, (self.high - values) / width
         with np.errstate(invalid="ignore"):
-            return np.where(low < high, ndtri(low), -ndtri(high))
+            return np.where(low < high, normal_quantile(low), -normal_quantile(high))
 
     def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
         return [self.low + (self.high - self.low) * points[:, 0]]
@@ -61,7 +64,7 @@ class Uniform(_Interval, Independent):
     keyword = "uniform"
 
     def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
-        return [source.uniform(self.low, self.high, trials)]
+        return [self.low + (self.high - self.low) * source.random(trials)]
 
 
 class _UniformDesign(_Interval, Design):

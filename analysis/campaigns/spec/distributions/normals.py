@@ -14,6 +14,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from ...draws.declared import Continuous, Independent
+from ...draws.generators import standard_normals
 from ..toml.table import Table, names, number, numbers, sequence
 
 FLAT = 1e-12  # of the largest eigenvalue of a covariance, below which nothing varies
@@ -79,7 +80,7 @@ class Normal(_Jointly):
         return np.array([[self.sigma]])
 
     def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
-        return [source.normal(self.mean, self.sigma, trials)]
+        return [self.mean + self.sigma * standard_normals(source, trials)]
 
 
 @dataclass(frozen=True)
@@ -123,7 +124,7 @@ class CorrelatedNormal(_Jointly):
     def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
         values, vectors = np.linalg.eigh(np.array(self.covariance))
         factor = vectors * np.sqrt(np.maximum(values, 0.0))
-        return _combine(self.mean, factor, source.standard_normal((trials, len(self.mean))))
+        return _combine(self.mean, factor, standard_normals(source, (trials, len(self.mean))))
 
 
 def _combine(means: Sequence[float], factor: np.ndarray, u: np.ndarray) -> list[np.ndarray]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ....common.compiler import compile_cached
 from .codes import (
     ADDRESS,
     CODE,
@@ -21,7 +22,6 @@ from .codes import (
     WHOLE_PARAMETERS,
     WHOLE_READ_BACK,
 )
-from .compiler import compile_cached
 from .fmi_calls import change_mode, compare_texts, exchange, setup_experiment
 
 KEPT = 1e-6  # of a Real: what an FMU may lose of it, single precision or a unit of its own

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numba import typeof
 
+from ....common.compiler import compile_cached
 from .beginning import begin
 from .codes import (
     ADDRESS,
@@ -54,7 +55,6 @@ from .codes import (
     TRANSFORM,
     UNMAPPED,
 )
-from .compiler import compile_cached
 from .fmi_calls import boolean_at, do_step, exchange, put_real, real_at, whole_at
 from .strings import exchange_texts
 

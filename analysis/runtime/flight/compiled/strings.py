@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ....common.compiler import compile_cached
 from .codes import ADDRESS, CODE, COPY_TEXT, COUNT, FIRST, FMI_WARNING, INSTANCE, SET_TEXT, TOO_LONG
-from .compiler import compile_cached
 from .fmi_calls import copy_text, exchange
 
 

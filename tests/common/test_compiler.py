@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from numba import config
 
-from perilune.analysis.runtime.flight.compiled import compiler
+from perilune.analysis.common import compiler
 from perilune.analysis.runtime.flight.compiled.loop import fly_locked, fly_unlocked
 from perilune.fmus_src.paths import CACHE
 

@@ -1,0 +1,1 @@
+"""The language of kernels: its values and its elementary functions."""

@@ -1,0 +1,118 @@
+"""sin, cos, tan. Kernel functions.
+
+Polynomials on |r| <= pi/4 that carry the rest of the reduced angle (Ng, in the freely distributable mathematical
+library of Sun Microsystems, 1993).
+"""
+
+import math
+
+from .reduction import reduce_angle
+from .two_doubles import product_error, sum_error
+
+QUARTER_PI = 0.7853981633974483
+SMALL = 1.4901161193847656e-08  # 2^-26, below which sin x = tan x = x
+
+SIN_0 = -0.16666666666666632
+SIN_1 = 0.008333333333322425
+SIN_2 = -0.0001984126982981753
+SIN_3 = 2.75573136954211e-06
+SIN_4 = -2.505075868247664e-08
+SIN_5 = 1.589682955826977e-10
+
+COS_0 = 0.0416666666666666
+COS_1 = -0.001388888888887414
+COS_2 = 2.480158728949281e-05
+COS_3 = -2.7557314355514115e-07
+COS_4 = 2.0875723720580813e-09
+COS_5 = -1.135967171215903e-11
+
+
+def sin_reduced(r: float, rest: float) -> float:
+    """sin(r + rest) for |r| <= pi/4."""
+    z = r * r
+    v = z * r
+    w = z * z
+    p = (SIN_1 + z * SIN_2) + w * ((SIN_3 + z * SIN_4) + w * SIN_5)
+    return r + (v * SIN_0 + (z * (v * p - 0.5 * rest) + rest))
+
+
+def cos_reduced(r: float, rest: float) -> float:
+    """cos(r + rest) for |r| <= pi/4."""
+    z = r * r
+    w = z * z
+    half = 0.5 * z
+    s = 1.0 - half
+    p = (COS_0 + z * COS_1) + w * ((COS_2 + z * COS_3) + w * (COS_4 + z * COS_5))
+    return s + (((1.0 - s) - half) + (w * p - r * rest))
+
+
+def sin(x: float) -> float:
+    """Sine."""
+    if abs(x) <= QUARTER_PI:
+        if abs(x) < SMALL:
+            return x
+        return sin_reduced(x, 0.0)
+    if x - x != 0.0:
+        return math.nan
+    n, r, rest = reduce_angle(x)
+    if n == 0:
+        return sin_reduced(r, rest)
+    if n == 1:
+        return cos_reduced(r, rest)
+    if n == 2:
+        return -sin_reduced(r, rest)
+    return -cos_reduced(r, rest)
+
+
+def cos(x: float) -> float:
+    """Cosine."""
+    if abs(x) <= QUARTER_PI:
+        return cos_reduced(x, 0.0)
+    if x - x != 0.0:
+        return math.nan
+    n, r, rest = reduce_angle(x)
+    if n == 0:
+        return cos_reduced(r, rest)
+    if n == 1:
+        return -sin_reduced(r, rest)
+    if n == 2:
+        return -cos_reduced(r, rest)
+    return sin_reduced(r, rest)
+
+
+def tan(x: float) -> float:
+    """Tangent: the quotient of sine and cosine, each in two doubles."""
+    if abs(x) < SMALL:
+        return x
+    if x - x != 0.0:
+        return math.nan
+    n, r, rest = reduce_angle(x)
+    z = r * r
+    z_rest = product_error(r, r, z)
+    w = z * z
+    p = z * ((SIN_1 + z * SIN_2) + w * ((SIN_3 + z * SIN_4) + w * SIN_5))
+    q = SIN_0 + p
+    t = r * z
+    u = t * q
+    s = r + u
+    s_rest = sum_error(r, u, s) + (
+        product_error(t, q, u)
+        + t * sum_error(SIN_0, p, q)
+        + (product_error(r, z, t) + r * z_rest) * q
+        + rest * (1.0 - 0.5 * z)
+    )
+    half = 0.5 * z
+    a = 1.0 - half
+    b = w * ((COS_0 + z * COS_1) + w * ((COS_2 + z * COS_3) + w * (COS_4 + z * COS_5)))
+    c = a + b
+    c_rest = sum_error(a, b, c) + (((1.0 - a) - half) - 0.5 * z_rest - s * rest)
+    if n % 2 == 0:
+        return quotient(s, s_rest, c, c_rest)
+    return -quotient(c, c_rest, s, s_rest)
+
+
+def quotient(a: float, a_rest: float, b: float, b_rest: float) -> float:
+    """(a + a_rest)/(b + b_rest)."""
+    q = a / b
+    p = q * b
+    return q + (((a - p) - product_error(q, b, p)) + (a_rest - q * b_rest)) / b

@@ -1,0 +1,79 @@
+"""The elementary functions as kernels and users call them: those of `elementary`, with the errors of Python's `math`.
+
+A result that is NaN although no argument is raises ValueError, an infinite one of finite arguments OverflowError, or
+ValueError at a pole. Errors are below one unit in the last place, and the bits are those of every processor, in Python
+and in C.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable
+
+from .elementary import exponential, hyperbolic, inverse, logarithm, power, roots, trigonometric
+
+DOMAIN_ERROR, RANGE_ERROR = "math domain error", "math range error"
+
+VERSION = 1  # of the bits: counts up with every change of a result of a function
+
+
+# What an infinite result of finite arguments is, by the computing function; "" where the argument decides.
+FAULTS: dict[Callable, str] = {}
+
+
+def _refuse(y: float, if_infinite: str) -> None:
+    """Raise for a result that is not finite."""
+    if y == y and if_infinite == RANGE_ERROR:
+        raise OverflowError(RANGE_ERROR)
+    raise ValueError(DOMAIN_ERROR)
+
+
+def _checked(function: Callable[[float], float], if_infinite: str) -> Callable[[float], float]:
+    """A function of one argument that raises where its result is NaN, or infinite, of a finite argument."""
+
+    @functools.wraps(function)
+    def call(x: float) -> float:
+        y = function(x)
+        if y - y != 0.0 and (x - x == 0.0 or (x == x and y != y)):
+            _refuse(y, if_infinite)
+        return y
+
+    FAULTS[function] = if_infinite
+    return call
+
+
+def _checked_power(function: Callable[[float, float], float]) -> Callable[[float, float], float]:
+    """x^y, which raises where it is NaN, or infinite, of finite arguments."""
+
+    @functools.wraps(function)
+    def call(x: float, y: float) -> float:
+        z = function(x, y)
+        if z - z != 0.0 and x - x == 0.0 and y - y == 0.0:
+            _refuse(z, DOMAIN_ERROR if x == 0.0 else RANGE_ERROR)
+        return z
+
+    FAULTS[function] = ""
+    return call
+
+
+sin = _checked(trigonometric.sin, DOMAIN_ERROR)
+cos = _checked(trigonometric.cos, DOMAIN_ERROR)
+tan = _checked(trigonometric.tan, DOMAIN_ERROR)
+asin = _checked(inverse.asin, DOMAIN_ERROR)
+acos = _checked(inverse.acos, DOMAIN_ERROR)
+atan = inverse.atan
+atan2 = inverse.atan2
+exp = _checked(exponential.exp, RANGE_ERROR)
+exp2 = _checked(exponential.exp2, RANGE_ERROR)
+expm1 = _checked(exponential.expm1, RANGE_ERROR)
+log = _checked(logarithm.log, DOMAIN_ERROR)
+log2 = _checked(logarithm.log2, DOMAIN_ERROR)
+log10 = _checked(logarithm.log10, DOMAIN_ERROR)
+log1p = _checked(logarithm.log1p, DOMAIN_ERROR)
+pow = _checked_power(power.pow)
+sinh = _checked(hyperbolic.sinh, RANGE_ERROR)
+cosh = _checked(hyperbolic.cosh, RANGE_ERROR)
+tanh = hyperbolic.tanh
+cbrt = roots.cbrt
+fmod = math.fmod  # exact by definition
