@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import inspect
 import pkgutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from importlib import import_module
 from types import FunctionType
 
@@ -13,6 +13,7 @@ from perilune.fmus_src import mathlib
 from perilune.fmus_src.export.judge.subset_table import (
     BUILTIN_FUNCTIONS,
     COMPARISONS,
+    ELEMENTARY_FUNCTIONS,
     LANGUAGE_PAGE,
     MATH_CONSTANTS,
     MATH_FUNCTIONS,
@@ -20,6 +21,7 @@ from perilune.fmus_src.export.judge.subset_table import (
     REFUSED_FUNCTIONS,
     REFUSED_SYNTAX,
     RULES,
+    MathFunction,
 )
 
 from .markdown import escaped, table
@@ -43,10 +45,6 @@ def kernel_page() -> str:
     """Markdown of the page, to lie in reference."""
     operators = " ".join(f"`{SYMBOLS[kind]}`" for kind in (*OPERATORS, *COMPARISONS))
     constants = ", ".join(f"`math.{name}`" for name in MATH_CONSTANTS)
-    faults = [
-        [f"`math.{name}`", str(callables.arguments), _raises(callables.faults)]
-        for name, callables in MATH_FUNCTIONS.items()
-    ]
     parts = [
         f"# {LANGUAGE_PAGE}",
         "`initialize`, `step` and all that they call are a *kernel*: Python as it stands, which `perilune export` also "
@@ -58,9 +56,15 @@ def kernel_page() -> str:
         f"`float`, `int` of 64 bits and `bool`, with {operators}, and the functions "
         f"{', '.join(f'`{name}`' for name in BUILTIN_FUNCTIONS)}. Two to four floats are a vector: `vector(x, y, z)`, "
         "`v.x`, `v[0]`, `v[0:2]`, with `+` `-` `*` `/`. More are a list of a fixed size: `[0.0] * n`.",
+        "## Elementary functions",
+        f"Write `from perilune import {', '.join(list(ELEMENTARY_FUNCTIONS)[:3])}` at the top of the file. They have "
+        "the same bits on every processor, in Python and in C, which those of `math` do not; their errors are below "
+        "one unit in the last place.",
+        table(["function", "arguments", "ends the run with"], _rows(ELEMENTARY_FUNCTIONS, "")),
         "## math",
-        f"Write `import math` at the top of the file. Constants: {constants}.",
-        table(["function", "arguments", "ends the run with"], faults),
+        f"What is exact everywhere comes from `math`: write `import math` at the top of the file. Constants: "
+        f"{constants}.",
+        table(["function", "arguments", "ends the run with"], _rows(MATH_FUNCTIONS, "math.")),
         "## mathlib",
         "Functions of kernels that blocks here are written with; write "
         "`from perilune.fmus_src.mathlib.MODULE import NAME`. `cross`, `dot`, `norm` and `vector` come from "
@@ -90,6 +94,11 @@ def _helpers() -> Iterator[tuple[str, list[FunctionType]]]:
         ]
         if functions:
             yield module.name, functions
+
+
+def _rows(functions: Mapping[str, MathFunction], prefix: str) -> list[list[str]]:
+    """Name, number of arguments and errors of functions."""
+    return [[f"`{prefix}{name}`", str(len(one.takes)), _raises(one.faults)] for name, one in functions.items()]
 
 
 def _raises(faults: tuple[str, ...]) -> str:

@@ -83,11 +83,11 @@ def _square(function: Function) -> Function:
     return lambda z: function(mp.sqrt(z))
 
 
-def _exp_rest(r: mpf) -> mpf:
+def _exp_remainder(r: mpf) -> mpf:
     return mp.hyp1f1(1, 4, r) / 6  # (exp(r) - 1 - r - r^2/2)/r^3
 
 
-def _log_rest(s: mpf) -> mpf:
+def _log_remainder(s: mpf) -> mpf:
     return 2 * (mp.atanh(s) - s) / s**3
 
 
@@ -108,8 +108,8 @@ TINY = "1e-12"  # the end of an interval where a quotient would be 0/0
 APPROXIMATIONS = (
     Approximation("SIN", _square(lambda x: (mp.sin(x) - x) / x**3), (TINY, QUARTER_TURN), 6, lambda z: z),
     Approximation("COS", _square(lambda x: (mp.cos(x) - 1 + x**2 / 2) / x**4), (TINY, QUARTER_TURN), 6, lambda z: z**2),
-    Approximation("EXP", _exp_rest, (f"-{LN2_HALF}", LN2_HALF), 9, lambda r: abs(r**3) + mpf(10) ** -6),
-    Approximation("LOG", _square(_log_rest), (TINY, LOG_SPAN), 7, lambda z: z),
+    Approximation("EXP", _exp_remainder, (f"-{LN2_HALF}", LN2_HALF), 9, lambda r: abs(r**3) + mpf(10) ** -6),
+    Approximation("LOG", _square(_log_remainder), (TINY, LOG_SPAN), 7, lambda z: z),
     Approximation("LOG_TAIL", _square(_log_tail), (TINY, LOG_SPAN), 7, lambda z: z * z + mpf(10) ** -6),
     Approximation("ATAN", _square(lambda x: (mp.atan(x) - x) / x**3), (TINY, "0.19140625"), 11, lambda z: z),
     Approximation("ASIN", _square(lambda x: (mp.asin(x) - x) / x**3), (TINY, "0.25"), 12, lambda z: z),

@@ -119,18 +119,18 @@ def _several(kernel: Kernel) -> list[str]:
 
 def _functions(kernel: Kernel, names: Names, type_name: str) -> list[str]:
     """Every function, callees first, under the name of its Python file."""
-    parts = []
+    definitions = []
     file = ""
     for function in _by_file(kernel.functions):
         here = label(function.source.path)
         if here != file:
             undefine = "#undef AT\n" if file else ""
-            parts.append(f'/* ---- {here} ---- */\n\n{undefine}#define AT(line) fault, "{here}", line\n')
+            definitions.append(f'/* ---- {here} ---- */\n\n{undefine}#define AT(line) fault, "{here}", line\n')
             file = here
-        parts.append("\n".join([*write_function(function, names, type_name), ""]))
+        definitions.append("\n".join([*write_function(function, names, type_name), ""]))
         if function.source.function in FAULTS:
-            parts.append(_checked(function, names.functions[function]))
-    return parts
+            definitions.append(_checked(function, names.functions[function]))
+    return definitions
 
 
 def _checked(function: Function, c_name: str) -> str:

@@ -11,7 +11,7 @@ from .two_doubles import product_error, sum_error
 ROUND = 6755399441055744.0  # 1.5 2^52: added and taken away, it leaves the nearest whole number
 LOG2_E = 1.4426950408889634
 LN2 = 0.6931471805599453
-LN2_REST = 2.3190468138462996e-17
+LN2_TAIL = 2.3190468138462996e-17
 LN2_HIGH = 0.6931471803691238  # 32 bits: n LN2_HIGH is exact
 LN2_LOW = 1.9082149292705877e-10
 LN2_HALF = 0.34657359027997264
@@ -29,7 +29,7 @@ EXP_7 = 2.762538853771267e-07
 EXP_8 = 2.511504794193503e-08
 
 
-def exp_rest(r: float, z: float) -> float:
+def exp_polynomial(r: float, z: float) -> float:
     """q(r) = (exp(r) - 1 - r - r^2/2)/r^3 for |r| <= ln 2/2 and z = r^2."""
     return (EXP_0 + r * EXP_1) + z * (
         (EXP_2 + r * EXP_3) + z * ((EXP_4 + r * EXP_5) + z * ((EXP_6 + r * EXP_7) + z * EXP_8))
@@ -43,25 +43,25 @@ def scale(y: float, n: float) -> float:
     return math.ldexp(y, int(n))
 
 
-def expm1_two(r: float, rest: float) -> tuple[float, float]:
-    """exp(r + rest) - 1 as a sum of two doubles, for |r| <= ln 2/2 and a rest below r's last place."""
+def expm1_two(r: float, tail: float) -> tuple[float, float]:
+    """exp(r + tail) - 1 as a sum of two doubles, for |r| <= ln 2/2 and a tail below r's last place."""
     z = r * r
     half = 0.5 * z
     s = r + half
-    low = sum_error(r, half, s) + (0.5 * product_error(r, r, z) + (rest + rest * r + r * z * exp_rest(r, z)))
+    low = sum_error(r, half, s) + (0.5 * product_error(r, r, z) + (tail + tail * r + r * z * exp_polynomial(r, z)))
     high = s + low
     return high, (s - high) + low
 
 
-def exp_two(x: float, rest: float) -> tuple[float, float, float]:
-    """high, low and n of exp(x + rest) = (high + low) 2^n, for |x| below 800."""
+def exp_two(x: float, tail: float) -> tuple[float, float, float]:
+    """high, low and n of exp(x + tail) = (high + low) 2^n, for |x| below 800."""
     n = x * LOG2_E + ROUND - ROUND
     a = x - n * LN2_HIGH
     b = n * LN2_LOW
     c = a - b
-    rest = sum_error(a, -b, c) + rest
-    r = c + rest
-    high, low = expm1_two(r, (c - r) + rest)
+    tail = sum_error(a, -b, c) + tail
+    r = c + tail
+    high, low = expm1_two(r, (c - r) + tail)
     s = 1.0 + high
     return s, sum_error(1.0, high, s) + low, n
 
@@ -79,7 +79,7 @@ def exp(x: float) -> float:
     b = n * LN2_LOW
     r = a - b
     z = r * r
-    return scale(1.0 + (r + (0.5 * z + (r * z * exp_rest(r, z) + ((a - r) - b)))), n)
+    return scale(1.0 + (r + (0.5 * z + (r * z * exp_polynomial(r, z) + ((a - r) - b)))), n)
 
 
 def exp2(x: float) -> float:
@@ -93,7 +93,7 @@ def exp2(x: float) -> float:
     n = x + ROUND - ROUND
     f = x - n
     r = f * LN2
-    high, low = expm1_two(r, product_error(f, LN2, r) + f * LN2_REST)
+    high, low = expm1_two(r, product_error(f, LN2, r) + f * LN2_TAIL)
     return scale(1.0 + high + low, n)
 
 

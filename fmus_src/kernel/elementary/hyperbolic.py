@@ -73,14 +73,14 @@ def tanh(x: float) -> float:
     if a != a or a < 1e-9:
         return x
     if 2.0 * a <= LN2_HALF:
-        e, rest = expm1_two(2.0 * a, 0.0)
+        e, tail = expm1_two(2.0 * a, 0.0)
     else:
         high, low, n = exp_two(2.0 * a, 0.0)
         h = math.ldexp(high, int(n))
         e = h - 1.0
-        rest = sum_error(h, -1.0, e) + math.ldexp(low, int(n))
+        tail = sum_error(h, -1.0, e) + math.ldexp(low, int(n))
     d = e + 2.0
-    d_rest = sum_error(e, 2.0, d) + rest
+    d_tail = sum_error(e, 2.0, d) + tail
     q = e / d
     p = q * d
-    return math.copysign(q + ((e - p) - product_error(q, d, p) + (rest - q * d_rest)) / d, x)
+    return math.copysign(q + ((e - p) - product_error(q, d, p) + (tail - q * d_tail)) / d, x)

@@ -10,15 +10,15 @@ import math
 from .two_doubles import product_error, sum_error
 
 PI = 3.141592653589793
-PI_REST = 1.2246467991473532e-16
+PI_TAIL = 1.2246467991473532e-16
 HALF_PI = 1.5707963267948966
-HALF_PI_REST = 6.123233995736766e-17
+HALF_PI_TAIL = 6.123233995736766e-17
 QUARTER_PI = 0.7853981633974483
-QUARTER_PI_REST = 3.061616997868383e-17
+QUARTER_PI_TAIL = 3.061616997868383e-17
 ATAN_HALF = 0.4636476090008061
-ATAN_HALF_REST = 2.2698777452961687e-17
+ATAN_HALF_TAIL = 2.2698777452961687e-17
 ATAN_THREE_HALVES = 0.982793723247329
-ATAN_THREE_HALVES_REST = 1.3903311031230998e-17
+ATAN_THREE_HALVES_TAIL = 1.3903311031230998e-17
 SMALL = 7.450580596923828e-09  # 2^-27, below which asin x = atan x = x
 BIG = 1.152921504606847e18  # 2^60, from which on atan x = pi/2
 
@@ -48,7 +48,7 @@ ASIN_10 = -0.01629398655443354
 ASIN_11 = 0.031958908734616515
 
 
-def atan_rest(t: float) -> float:
+def atan_polynomial(t: float) -> float:
     """atan(t) - t for |t| <= 7/16."""
     z = t * t
     w = z * z
@@ -57,7 +57,7 @@ def atan_rest(t: float) -> float:
     return t * (even + odd)
 
 
-def asin_rest(x: float, z: float) -> float:
+def asin_polynomial(x: float, z: float) -> float:
     """asin(x) - x for |x| <= 1/2 and z = x^2."""
     w = z * z
     odd = w * (ASIN_1 + w * (ASIN_3 + w * (ASIN_5 + w * (ASIN_7 + w * (ASIN_9 + w * ASIN_11)))))
@@ -65,18 +65,18 @@ def asin_rest(x: float, z: float) -> float:
     return x * (even + odd)
 
 
-def nearest_angle(q: float, rest: float) -> tuple[float, float, float]:
-    """high, low and t of atan(q + rest) = high + low + atan(t), q >= 0, about the nearest tabled angle."""
-    low = rest / (1.0 + q * q)
+def nearest_angle(q: float, tail: float) -> tuple[float, float, float]:
+    """high, low and t of atan(q + tail) = high + low + atan(t), q >= 0, about the nearest tabled angle."""
+    low = tail / (1.0 + q * q)
     if q < 0.4375:
         return 0.0, low, q
     if q < 0.6875:
-        return ATAN_HALF, ATAN_HALF_REST + low, (2.0 * q - 1.0) / (2.0 + q)
+        return ATAN_HALF, ATAN_HALF_TAIL + low, (2.0 * q - 1.0) / (2.0 + q)
     if q < 1.1875:
-        return QUARTER_PI, QUARTER_PI_REST + low, (q - 1.0) / (q + 1.0)
+        return QUARTER_PI, QUARTER_PI_TAIL + low, (q - 1.0) / (q + 1.0)
     if q < 2.4375:
-        return ATAN_THREE_HALVES, ATAN_THREE_HALVES_REST + low, (q - 1.5) / (1.0 + 1.5 * q)
-    return HALF_PI, HALF_PI_REST + low, -1.0 / q
+        return ATAN_THREE_HALVES, ATAN_THREE_HALVES_TAIL + low, (q - 1.5) / (1.0 + 1.5 * q)
+    return HALF_PI, HALF_PI_TAIL + low, -1.0 / q
 
 
 def atan(x: float) -> float:
@@ -85,12 +85,12 @@ def atan(x: float) -> float:
     if a < SMALL or x != x:
         return x
     if a < 0.4375:
-        return x + atan_rest(x)
+        return x + atan_polynomial(x)
     if a > BIG:
         return math.copysign(HALF_PI, x)
     high, low, t = nearest_angle(a, 0.0)
     s = high + t
-    return math.copysign(s + (sum_error(high, t, s) + (atan_rest(t) + low)), x)
+    return math.copysign(s + (sum_error(high, t, s) + (atan_polynomial(t) + low)), x)
 
 
 def atan2(y: float, x: float) -> float:
@@ -117,14 +117,14 @@ def atan2(y: float, x: float) -> float:
     q = a / b
     p = q * b
     high, low, t = nearest_angle(q, ((a - p) - product_error(q, b, p)) / b)
-    rest = atan_rest(t) + low
+    tail = atan_polynomial(t) + low
     if x < 0.0:
         t = -t
         h = PI - high
-        rest = sum_error(PI, -high, h) + (PI_REST - rest)
+        tail = sum_error(PI, -high, h) + (PI_TAIL - tail)
         high = h
     s = high + t
-    return math.copysign(s + (sum_error(high, t, s) + rest), y)
+    return math.copysign(s + (sum_error(high, t, s) + tail), y)
 
 
 def angle_of_edge(a: float, b: float, x: float) -> float:
@@ -147,11 +147,11 @@ def asin(x: float) -> float:
     if a <= 0.5:
         if a < SMALL:
             return x
-        return x + asin_rest(x, x * x)
+        return x + asin_polynomial(x, x * x)
     z = 0.5 * (1.0 - a)
     s = math.sqrt(z)
     h = HALF_PI - 2.0 * s
-    low = sum_error(HALF_PI, -2.0 * s, h) + (HALF_PI_REST - 2.0 * (root_rest(z, s) + asin_rest(s, z)))
+    low = sum_error(HALF_PI, -2.0 * s, h) + (HALF_PI_TAIL - 2.0 * (root_error(z, s) + asin_polynomial(s, z)))
     return math.copysign(h + low, x)
 
 
@@ -162,17 +162,17 @@ def acos(x: float) -> float:
         return math.nan
     if a <= 0.5:
         h = HALF_PI - x
-        return h + (sum_error(HALF_PI, -x, h) + (HALF_PI_REST - asin_rest(x, x * x)))
+        return h + (sum_error(HALF_PI, -x, h) + (HALF_PI_TAIL - asin_polynomial(x, x * x)))
     z = 0.5 * (1.0 - a)
     s = math.sqrt(z)
-    rest = root_rest(z, s) + asin_rest(s, z)
+    tail = root_error(z, s) + asin_polynomial(s, z)
     if x > 0.0:
-        return 2.0 * (s + rest)
+        return 2.0 * (s + tail)
     h = PI - 2.0 * s
-    return h + (sum_error(PI, -2.0 * s, h) + (PI_REST - 2.0 * rest))
+    return h + (sum_error(PI, -2.0 * s, h) + (PI_TAIL - 2.0 * tail))
 
 
-def root_rest(z: float, s: float) -> float:
+def root_error(z: float, s: float) -> float:
     """sqrt(z) - s for the double s = sqrt(z)."""
     if s == 0.0:
         return 0.0

@@ -12,11 +12,11 @@ from .two_doubles import product_error, sum_error
 
 SQRT_HALF = 0.7071067811865476
 THIRD = 0.3333333333333333
-THIRD_REST = 1.850371707708594e-17
+THIRD_TAIL = 1.850371707708594e-17
 LOG2_E = 1.4426950408889634
-LOG2_E_REST = 2.0355273740931033e-17
+LOG2_E_TAIL = 2.0355273740931033e-17
 LOG10_E = 0.4342944819032518
-LOG10_E_REST = 1.098319650216765e-17
+LOG10_E_TAIL = 1.098319650216765e-17
 
 LOG_0 = 0.6666666666666734
 LOG_1 = 0.3999999999941471
@@ -52,14 +52,14 @@ def without_logarithm(x: float) -> float:
     return x
 
 
-def log_sum(f: float, k: float, rest: float) -> float:
-    """log(1 + f) + k ln 2 + rest."""
+def log_sum(f: float, k: float, tail: float) -> float:
+    """log(1 + f) + k ln 2 + tail."""
     s = f / (2.0 + f)
     z = s * s
     w = z * z
     r = z * (LOG_0 + w * (LOG_2 + w * (LOG_4 + w * LOG_6))) + w * (LOG_1 + w * (LOG_3 + w * LOG_5))
     half = 0.5 * f * f
-    return k * LN2_HIGH - ((half - (s * (half + r) + (k * LN2_LOW + rest))) - f)
+    return k * LN2_HIGH - ((half - (s * (half + r) + (k * LN2_LOW + tail))) - f)
 
 
 def log(x: float) -> float:
@@ -99,7 +99,7 @@ def log_two(x: float) -> tuple[float, float]:
         + z * (LOG_TAIL_1 + z * (LOG_TAIL_2 + z * (LOG_TAIL_3 + z * (LOG_TAIL_4 + z * (LOG_TAIL_5 + z * LOG_TAIL_6)))))
     )
     c = THIRD + tail
-    c_low = sum_error(THIRD, tail, c) + THIRD_REST
+    c_low = sum_error(THIRD, tail, c) + THIRD_TAIL
     t = z * c
     t_low = product_error(z, c, t) + (z * c_low + z_low * c)
     u = s * t
@@ -120,7 +120,7 @@ def log2(x: float) -> float:
         return without_logarithm(x)
     high, low = log_two(x)
     y = high * LOG2_E
-    return y + (product_error(high, LOG2_E, y) + (high * LOG2_E_REST + low * LOG2_E))
+    return y + (product_error(high, LOG2_E, y) + (high * LOG2_E_TAIL + low * LOG2_E))
 
 
 def log10(x: float) -> float:
@@ -129,4 +129,4 @@ def log10(x: float) -> float:
         return without_logarithm(x)
     high, low = log_two(x)
     y = high * LOG10_E
-    return y + (product_error(high, LOG10_E, y) + (high * LOG10_E_REST + low * LOG10_E))
+    return y + (product_error(high, LOG10_E, y) + (high * LOG10_E_TAIL + low * LOG10_E))

@@ -62,5 +62,5 @@ def pow(x: float, y: float) -> float:
         return sign * 0.0
     if abs(p) < 1e-17:
         return sign
-    h, rest, n = exp_two(p, product_error(y, high, p) + y * low)
-    return sign * scale(h + rest, n)
+    h, tail, n = exp_two(p, product_error(y, high, p) + y * low)
+    return sign * scale(h + tail, n)

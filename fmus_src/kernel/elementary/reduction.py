@@ -1,6 +1,6 @@
 """Angles less a multiple of pi/2. Kernel functions.
 
-Up to 2^16 by pi/2 in three parts of 33 bits and a rest (Cody and Waite 1980); beyond, by as many bits of 2/pi as the
+Up to 2^16 by pi/2 in three parts of 33 bits and a tail (Cody and Waite 1980); beyond, by as many bits of 2/pi as the
 angle's exponent demands (Payne and Hanek, "Radian reduction for trigonometric functions", SIGNUM Newsletter 18, 1983).
 """
 
@@ -12,12 +12,12 @@ ROUND = 6755399441055744.0  # 1.5 2^52
 LIMIT = 65536.0
 TWO_OVER_PI = 0.6366197723675814
 HALF_PI = 1.5707963267948966
-HALF_PI_REST = 6.123233995736766e-17
+HALF_PI_TAIL = 6.123233995736766e-17
 PART_1 = 1.5707963267341256  # of pi/2: 33 bits, so that whole numbers to 2^20 times it are exact
 PART_2 = 6.077100506303966e-11
 PART_3 = 2.0222662487111665e-21
 PART_4 = 8.4784276603689e-32
-REST_3 = 2.0222662487959506e-21  # PART_3 + PART_4
+TAIL_3 = 2.0222662487959506e-21  # PART_3 + PART_4
 DIGIT = 16777216.0  # 2^24
 DIGITS = 8  # of 24 bits in a product, so that 120 are left behind 60 that cancel
 
@@ -77,7 +77,7 @@ TWO_OVER_PI_DIGITS = (
 
 
 def reduce_angle(x: float) -> tuple[int, float, float]:
-    """n, r and rest of x = n pi/2 + r + rest, |r| <= pi/4 but for rounding; n modulo 4, 0 to 3; x finite."""
+    """n, r and tail of x = n pi/2 + r + tail, |r| <= pi/4 but for rounding; n modulo 4, 0 to 3; x finite."""
     if abs(x) >= LIMIT:
         return reduce_large(x)
     n = x * TWO_OVER_PI + ROUND - ROUND
@@ -85,7 +85,7 @@ def reduce_angle(x: float) -> tuple[int, float, float]:
     b = n * PART_2
     r = a - b
     if abs(r) > 0.001:
-        b = ((a - r) - b) - n * REST_3
+        b = ((a - r) - b) - n * TAIL_3
         s = r + b
         return int(n) % 4, s, (r - s) + b
     low = sum_error(a, -b, r)
@@ -132,7 +132,7 @@ def reduce_large(x: float) -> tuple[int, float, float]:
     s = high + low
     low = (high - s) + low
     r = s * HALF_PI
-    low = product_error(s, HALF_PI, r) + (s * HALF_PI_REST + low * HALF_PI)
+    low = product_error(s, HALF_PI, r) + (s * HALF_PI_TAIL + low * HALF_PI)
     if x < 0.0:
         return (4 - n) % 4, -r, -low
     return n % 4, r, low

@@ -5,6 +5,7 @@ Kernel functions.
 
 import math
 
+from .exponential import scale
 from .two_doubles import product_error, sum_error
 
 TWO_TO_THIRD = 1.2599210498948732
@@ -57,4 +58,4 @@ def hypot(x: float, y: float) -> float:
     h = math.sqrt(s)
     hh = h * h
     lost = sum_error(aa, bb, s) + (product_error(a, a, aa) + product_error(b, b, bb) - product_error(h, h, hh))
-    return math.ldexp(h + ((s - hh) + lost) / (2.0 * h), k)
+    return scale(h + ((s - hh) + lost) / (2.0 * h), float(k))

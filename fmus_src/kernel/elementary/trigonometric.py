@@ -1,6 +1,6 @@
 """sin, cos, tan. Kernel functions.
 
-Polynomials on |r| <= pi/4 that carry the rest of the reduced angle (Ng, in the freely distributable mathematical
+Polynomials on |r| <= pi/4 that carry the tail of the reduced angle (Ng, in the freely distributable mathematical
 library of Sun Microsystems, 1993).
 """
 
@@ -27,23 +27,23 @@ COS_4 = 2.0875723720580813e-09
 COS_5 = -1.135967171215903e-11
 
 
-def sin_reduced(r: float, rest: float) -> float:
-    """sin(r + rest) for |r| <= pi/4."""
+def sin_reduced(r: float, tail: float) -> float:
+    """sin(r + tail) for |r| <= pi/4."""
     z = r * r
     v = z * r
     w = z * z
     p = (SIN_1 + z * SIN_2) + w * ((SIN_3 + z * SIN_4) + w * SIN_5)
-    return r + (v * SIN_0 + (z * (v * p - 0.5 * rest) + rest))
+    return r + (v * SIN_0 + (z * (v * p - 0.5 * tail) + tail))
 
 
-def cos_reduced(r: float, rest: float) -> float:
-    """cos(r + rest) for |r| <= pi/4."""
+def cos_reduced(r: float, tail: float) -> float:
+    """cos(r + tail) for |r| <= pi/4."""
     z = r * r
     w = z * z
     half = 0.5 * z
     s = 1.0 - half
     p = (COS_0 + z * COS_1) + w * ((COS_2 + z * COS_3) + w * (COS_4 + z * COS_5))
-    return s + (((1.0 - s) - half) + (w * p - r * rest))
+    return s + (((1.0 - s) - half) + (w * p - r * tail))
 
 
 def sin(x: float) -> float:
@@ -54,14 +54,14 @@ def sin(x: float) -> float:
         return sin_reduced(x, 0.0)
     if x - x != 0.0:
         return math.nan
-    n, r, rest = reduce_angle(x)
+    n, r, tail = reduce_angle(x)
     if n == 0:
-        return sin_reduced(r, rest)
+        return sin_reduced(r, tail)
     if n == 1:
-        return cos_reduced(r, rest)
+        return cos_reduced(r, tail)
     if n == 2:
-        return -sin_reduced(r, rest)
-    return -cos_reduced(r, rest)
+        return -sin_reduced(r, tail)
+    return -cos_reduced(r, tail)
 
 
 def cos(x: float) -> float:
@@ -70,14 +70,14 @@ def cos(x: float) -> float:
         return cos_reduced(x, 0.0)
     if x - x != 0.0:
         return math.nan
-    n, r, rest = reduce_angle(x)
+    n, r, tail = reduce_angle(x)
     if n == 0:
-        return cos_reduced(r, rest)
+        return cos_reduced(r, tail)
     if n == 1:
-        return -sin_reduced(r, rest)
+        return -sin_reduced(r, tail)
     if n == 2:
-        return -cos_reduced(r, rest)
-    return sin_reduced(r, rest)
+        return -cos_reduced(r, tail)
+    return sin_reduced(r, tail)
 
 
 def tan(x: float) -> float:
@@ -86,33 +86,33 @@ def tan(x: float) -> float:
         return x
     if x - x != 0.0:
         return math.nan
-    n, r, rest = reduce_angle(x)
+    n, r, tail = reduce_angle(x)
     z = r * r
-    z_rest = product_error(r, r, z)
+    z_tail = product_error(r, r, z)
     w = z * z
     p = z * ((SIN_1 + z * SIN_2) + w * ((SIN_3 + z * SIN_4) + w * SIN_5))
     q = SIN_0 + p
     t = r * z
     u = t * q
     s = r + u
-    s_rest = sum_error(r, u, s) + (
+    s_tail = sum_error(r, u, s) + (
         product_error(t, q, u)
         + t * sum_error(SIN_0, p, q)
-        + (product_error(r, z, t) + r * z_rest) * q
-        + rest * (1.0 - 0.5 * z)
+        + (product_error(r, z, t) + r * z_tail) * q
+        + tail * (1.0 - 0.5 * z)
     )
     half = 0.5 * z
     a = 1.0 - half
     b = w * ((COS_0 + z * COS_1) + w * ((COS_2 + z * COS_3) + w * (COS_4 + z * COS_5)))
     c = a + b
-    c_rest = sum_error(a, b, c) + (((1.0 - a) - half) - 0.5 * z_rest - s * rest)
+    c_tail = sum_error(a, b, c) + (((1.0 - a) - half) - 0.5 * z_tail - s * tail)
     if n % 2 == 0:
-        return quotient(s, s_rest, c, c_rest)
-    return -quotient(c, c_rest, s, s_rest)
+        return quotient(s, s_tail, c, c_tail)
+    return -quotient(c, c_tail, s, s_tail)
 
 
-def quotient(a: float, a_rest: float, b: float, b_rest: float) -> float:
-    """(a + a_rest)/(b + b_rest)."""
+def quotient(a: float, a_tail: float, b: float, b_tail: float) -> float:
+    """(a + a_tail)/(b + b_tail)."""
     q = a / b
     p = q * b
-    return q + (((a - p) - product_error(q, b, p)) + (a_rest - q * b_rest)) / b
+    return q + (((a - p) - product_error(q, b, p)) + (a_tail - q * b_tail)) / b

@@ -18,7 +18,13 @@ from docs.reference.pages import derived_pages, reference_navigation
 from docs.reference.verbs import verb_parser
 from perilune.analysis.authoring.describe.fits import slots
 from perilune.analysis.verbs.options.verbs import VERBS
-from perilune.fmus_src.export.judge.subset_table import LANGUAGE_PAGE, MATH_FUNCTIONS, OTHER_FUNCTION, REFUSED_FUNCTIONS
+from perilune.fmus_src.export.judge.subset_table import (
+    ELEMENTARY_FUNCTIONS,
+    LANGUAGE_PAGE,
+    MATH_FUNCTIONS,
+    OTHER_FUNCTION,
+    REFUSED_FUNCTIONS,
+)
 from perilune.fmus_src.paths import ROOT
 
 
@@ -46,6 +52,7 @@ def test_what_a_kernel_may_use(pages):
     page = pages["reference/kernel.md"]
     assert page.startswith(f"# {LANGUAGE_PAGE}\n")
     assert set(re.findall(r"^\| `math\.(\w+)` \|", page, re.MULTILINE)) == set(MATH_FUNCTIONS)
+    assert set(re.findall(r"^\| `(\w+)` \| \d \|", page, re.MULTILINE)) == set(ELEMENTARY_FUNCTIONS)
     for name in ("quadratic_time", "impulse_and_miss", "clip", "norm"):
         (row,) = re.findall(rf"^\| `{name}\(.*$", page, re.MULTILINE)
         cells = re.split(r"(?<!\\)\|", row)

@@ -15,9 +15,7 @@ from perilune.fmus_src.export.own_blocks import build_own_blocks
 from tests.support.builders import component, connection, dedented, document, fly, pack, system
 
 BLOCK = """
-    import math
-
-    from perilune import Block, Input, Output, Parameter, State
+    from perilune import Block, Input, Output, Parameter, State, exp
 
 
     class Half(Block):
@@ -32,7 +30,7 @@ BLOCK = """
             self.y = self.start
 
         def step(self, t: float, h: float) -> None:
-            decay = math.exp(-h)
+            decay = exp(-h)
             self.y = decay * self.y + (1.0 - decay) * self.gain * self.u
 """
 HALVINGS = 4

@@ -13,6 +13,7 @@ BLOCKS = '''
 import math
 
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.kernel.functions import cos, cosh, exp, sin, sinh
 from perilune.fmus_src.mathlib.vectors import vector
 
 LONGEST = 32
@@ -49,8 +50,8 @@ class HeldPendulum(Block):
         self.position = self.start
 
     def step(self, t: float, h: float) -> None:
-        c = math.cosh(self.rate * h)
-        s = math.sinh(self.rate * h)
+        c = cosh(self.rate * h)
+        s = sinh(self.rate * h)
         rest = -self.u / (self.rate * self.rate)  # where it would stand still
         away = self.position - rest
         x = rest + c * away + s * self.velocity / self.rate
@@ -74,9 +75,9 @@ class HeldResonance(Block):
     def step(self, t: float, h: float) -> None:
         sigma = self.damping * self.rate
         w = self.rate * math.sqrt(1.0 - self.damping * self.damping)
-        e = math.exp(-sigma * h)
-        c = math.cos(w * h)
-        s = math.sin(w * h)
+        e = exp(-sigma * h)
+        c = cos(w * h)
+        s = sin(w * h)
         away = self.position - self.u
         sine = (self.velocity + sigma * away) / w
         x = self.u + e * (away * c + sine * s)
