@@ -1,4 +1,4 @@
-# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | figures | bench | sanitize | browser | lint | clean; each sets up .venv by itself.
+# make demo | test | quick | long | long-campaigns | build | docs | wheel | notebooks | explore | gains | figures | bench | sanitize | elementary | processors | browser | emulator | lint | clean; each sets up .venv by itself.
 PYTHON ?= python3
 BIN := .venv/bin
 # On a terminal pip shows what it does, in a log nothing.
@@ -13,7 +13,7 @@ demo: .venv/ready
 	$(BIN)/python -m docs.figures.demo
 
 test: .venv/ready lint build
-	-@[ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null || $(MAKE) --no-print-directory browser
+	-@[ "$$(id -u)" != 0 ] || ! command -v apt-get >/dev/null || $(MAKE) --no-print-directory browser emulator
 	$(BIN)/python -m pytest -n 2 --dist loadfile
 
 # What is proved without flights: the mathematics, the language, expressions, laws, the arrows between rooms.
@@ -78,6 +78,19 @@ large: build
 # The C of every block under the address and undefined-behaviour sanitizers, 10000 steps each.
 sanitize: .venv/ready
 	PERILUNE_LONG=1 PERILUNE_TEST_SAMPLES=50 $(BIN)/python -m pytest -n 2 tests/export/test_sanitizers.py
+
+# The elementary functions: errors of a million arguments each against mpmath, and the coefficients of their polynomials.
+elementary: .venv/ready
+	PERILUNE_ELEMENTARY_SAMPLES=1000000 $(BIN)/python -m pytest -n 2 -rP tests/kernel
+	$(BIN)/python -m tests.kernel.coefficients
+
+# The same bits everywhere: whole campaigns with less of the processor, the C of every block by every compiler.
+processors: build emulator
+	PERILUNE_LONG=1 $(BIN)/python -m pytest -n 2 tests/processors
+
+# What the tests of the C on aarch64 need, from Debian's packages (as root); without it they are left out.
+emulator:
+	@command -v qemu-aarch64-static >/dev/null || { apt-get update -qq && apt-get install -y -qq qemu-user-static >/dev/null; }
 
 # What the tests of the HTML pages need, from Debian's packages (as root). `make test` tries it where it can; without a
 # browser these tests are left out, which the last lines say.

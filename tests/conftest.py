@@ -18,6 +18,7 @@ from perilune.fmus_src.export.closure import closure_of
 from perilune.fmus_src.export.command import main as build_fmus
 from perilune.fmus_src.paths import BUILD, built_fmu
 from tests.support.built import native_are_current
+from tests.support.kernels.programs import NO_QEMU
 from tests.support.lengths import LONG, either
 from tests.support.locks import made_once, one_process_at_a_time
 from tests.support.pages.browser import NO_BROWSER, find_browser
@@ -66,14 +67,17 @@ def pytest_collection_finish() -> None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_terminal_summary(terminalreporter: Any) -> None:
-    """In the last lines: what was left out for want of a browser, and what to do."""
-    skipped = terminalreporter.stats.get("skipped", [])
-    missing = [report for report in skipped if NO_BROWSER in str(report.longrepr)]
-    if missing:
-        terminalreporter.write_line(
-            f"{len(missing)} tests of the HTML pages were left out: there is no chromium here. "
-            "Install it (Debian: `make browser` as root) and run `make test` again."
-        )
+    """In the last lines: what was left out for want of a browser or an emulator, and what to do."""
+    skipped = [str(report.longrepr) for report in terminalreporter.stats.get("skipped", [])]
+    for reason, tests, missing, target in (
+        (NO_BROWSER, "of the HTML pages", "chromium", "browser"),
+        (NO_QEMU, "of the C on aarch64", "qemu-aarch64", "emulator"),
+    ):
+        if count := sum(reason in each for each in skipped):
+            terminalreporter.write_line(
+                f"{count} tests {tests} were left out: there is no {missing} here. "
+                f"Install it (Debian: `make {target}` as root) and run `make test` again."
+            )
 
 
 def _is_current(name: str, package: str) -> bool:

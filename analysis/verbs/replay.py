@@ -105,7 +105,7 @@ class ReplayResult(Result):
         name, lines = f"{self.source}: trial {self.trial}", super().problems()
         if self.complete and not self.success:
             lines.append(f"{name}: no success: {self.replayed.plan.campaign.success.text} is not met")
-        remedy = "; the campaign ran on another machine, C library or version of Perilune"
+        remedy = "; the campaign ran with another version of Perilune, or foreign FMUs on another machine"
         return lines + [f"{name}: {each}{'' if self.replayed.is_cut_off else remedy}" for each in self.differences]
 
     def last_values(self) -> dict[str, float]:

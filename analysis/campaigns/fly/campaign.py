@@ -8,13 +8,14 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from ....fmus_src.kernel.functions import VERSION
 from ...common.errors import InputError
 from ...runtime.system.prepared import PreparedSystem
 from ..spec.checks import check_plan, prepare_variants
 from ..spec.plan import BatchPlan
 from .manifest.folder import begin, cut, resume_folder
 from .manifest.gather import gather
-from .manifest.manifest import Manifest, read_manifest
+from .manifest.manifest import FILE, Manifest, read_manifest
 from .manifest.restore import restore
 from .metadata import batch_digest, provenance
 from .shards.files import is_flown
@@ -79,7 +80,16 @@ class Campaign:
         return [shard for shard in shards if not is_flown(self.folder, self.batch, shard, self.numbering.of(shard))]
 
     def check_campaign(self, shards: Iterable[int]) -> list[int]:
-        """Those of some shards that its folder does not hold. Raises InputError for a number that is none's."""
+        """Those of some shards that its folder does not hold.
+
+        Raises InputError for a number that is none's, and where the elementary functions are not those of the campaign.
+        """
+        if self.manifest.elementary_functions != VERSION:
+            problem = (
+                f"{self.manifest.elementary_functions}, this perilune has {VERSION}: other last bits in one campaign"
+            )
+            remedy = f"simulate its shards with perilune {self.manifest.perilune}, which prepared it"
+            raise InputError(self.named or FILE, "elementary_functions", problem, remedy)
         wanted = set(shards)
         for shard in sorted(wanted):
             if not 0 <= shard < self.numbering.count:

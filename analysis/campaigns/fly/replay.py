@@ -27,7 +27,7 @@ class ReplayedTrial:
     """One trial of one ``configuration`` of a campaign: its ``flight`` with every signal, what it came to.
 
     ``faults`` flew in it. ``stored`` says whether the folder has the trial, ``differences`` how the flight differs from
-    it: nothing where the machine, its C library and this version of Perilune are those that flew the campaign, and the
+    it: nothing where this version of Perilune flew the campaign, foreign FMUs on this machine, and the
     flight was not cut off by ``timeout`` or Ctrl-C (``is_cut_off``), after which the rest is not compared.
     """
 

@@ -13,6 +13,7 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 
+from .....fmus_src.kernel.functions import VERSION
 from ....runtime.flight.instances.reset_check import reset_verdict
 from ....runtime.ssp.archive import SystemArchive
 from ....runtime.system.prepared import PreparedSystem
@@ -84,6 +85,7 @@ def gather(plan: BatchPlan, systems: Mapping[str, PreparedSystem]) -> tuple[Mani
         seed=campaign.seed,
         trials=campaign.trials,
         shard_size=shard_size(campaign.trials),
+        elementary_functions=VERSION,
     )
     return manifest, contents
 

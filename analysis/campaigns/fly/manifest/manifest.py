@@ -29,6 +29,8 @@ class Manifest:
     ``draws`` likewise those that are given instead of drawn, ``timeout`` is in s. ``fmus`` are hashes by variant and
     component, ``resets`` the verdicts of reset tests by hash. ``until_decided`` says that it ends with the shard at
     whose end its requirements are decided. ``shard_size`` is in trials, each of which every variant flies.
+    ``elementary_functions`` is their version: with another, results have other last bits. A campaign from before there
+    was one has None, and flew with those of the C library.
     """
 
     perilune: str
@@ -46,10 +48,13 @@ class Manifest:
     seed: int
     trials: int
     shard_size: int
+    elementary_functions: int | None = None
 
     def document(self) -> dict[str, Any]:
-        """As JSON has it."""
+        """As JSON has it; without a version of the elementary functions where it has none, so that its key remains."""
         content: dict[str, Any] = json.loads(json.dumps(asdict(self)))
+        if self.elementary_functions is None:
+            del content["elementary_functions"]
         return content
 
     @property
@@ -83,7 +88,7 @@ def read_manifest(folder: Path) -> Manifest:
     except (UnicodeDecodeError, json.JSONDecodeError) as error:
         raise InputError(path, "", f"not JSON: {error}", WRITE) from error
     names = {field.name for field in fields(Manifest)}
-    if not isinstance(document, dict) or set(document) != names:
+    if not isinstance(document, dict) or set(document) | {"elementary_functions"} != names:
         raise InputError(path, "", "not as this version of perilune writes it", "resume with the version that wrote it")
     return Manifest(**document)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import ClassVar, Self
 
 import numpy as np
@@ -40,7 +40,8 @@ class _Jointly(Continuous, Independent):
 
     def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
         offset = np.column_stack(columns) - np.array(self.means)
-        return np.linalg.lstsq(self.factor, offset.T, rcond=None)[0].T
+        inverse = self.factor / np.sum(self.factor**2, axis=0)  # its columns are orthogonal
+        return np.column_stack(_combine(np.zeros(self.size), inverse.T, offset))
 
     def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
         return self.from_normals(sigmas * (2.0 * points - 1.0))
@@ -105,7 +106,7 @@ class CorrelatedNormal(_Jointly):
         matrix = np.array(covariance)
         if not np.allclose(matrix, matrix.T, rtol=1e-12, atol=0.0):
             raise table.error("covariance", "not symmetric", "give the same value at [i][j] and [j][i]")
-        values = np.linalg.eigvalsh(matrix)
+        values, _ = principal_axes(covariance)
         if values[0] < -1e-12 * abs(values[-1]) or not values[-1] > 0.0:
             problem = f"not a covariance: its eigenvalues go from {values[0]:.3g} to {values[-1]:.3g}"
             raise table.error("covariance", problem, "give a matrix without negative eigenvalues that is not zero")
@@ -117,14 +118,27 @@ class CorrelatedNormal(_Jointly):
 
     @cached_property
     def factor(self) -> np.ndarray:
-        values, vectors = np.linalg.eigh(np.array(self.covariance))
+        values, vectors = principal_axes(self.covariance)
         varies = values > FLAT * values[-1]
         return vectors[:, varies] * np.sqrt(values[varies])
 
     def sample(self, trials: int, source: np.random.Generator) -> list[np.ndarray]:
-        values, vectors = np.linalg.eigh(np.array(self.covariance))
+        values, vectors = principal_axes(self.covariance)
         factor = vectors * np.sqrt(np.maximum(values, 0.0))
         return _combine(self.mean, factor, standard_normals(source, (trials, len(self.mean))))
+
+
+@cache
+def principal_axes(covariance: tuple[tuple[float, ...], ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues, the smallest first, and eigenvectors as columns of a symmetric matrix.
+
+    In 30 digits: LAPACK's last bits depend on the processor, and so would the draws.
+    """
+    from mpmath import mp
+
+    with mp.workdps(30):
+        values, vectors = mp.eigsy(mp.matrix(covariance))
+        return np.array(values.tolist(), dtype=float)[:, 0], np.array(vectors.tolist(), dtype=float)
 
 
 def _combine(means: Sequence[float], factor: np.ndarray, u: np.ndarray) -> list[np.ndarray]:
