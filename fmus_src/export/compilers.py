@@ -20,7 +20,7 @@ from .fat_binary import fat_binary
 
 # -O3 for what it does to calls and branches; vectors of doubles it makes of our loops, of three or nine passes, cost
 # more than they save.
-FLAGS = ("-O3", "-fno-tree-vectorize", "-std=c99", "-ffp-contract=off", "-fno-builtin", "-fPIC", "-shared", "-s")
+FLAGS = ("-O3", "-fno-tree-vectorize", "-std=c99", "-ffp-contract=off", "-fPIC", "-shared", "-s")
 
 
 class CompilerMissing(RuntimeError):  # noqa: N818

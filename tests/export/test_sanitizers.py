@@ -27,7 +27,7 @@ STEPS = samples.size(200)
 # Kernels divide and convert through checked helpers, so these two, allowed by IEEE 754 or left out of
 # `undefined`, would be faults of the translation.
 UNDEFINED = "undefined,float-divide-by-zero,float-cast-overflow"
-FLAGS = ["-std=c99", "-O1", "-g", "-ffp-contract=off", "-fno-builtin", "-fno-sanitize-recover=all"]
+FLAGS = ["-std=c99", "-O1", "-g", "-ffp-contract=off", "-fno-sanitize-recover=all"]
 
 
 @pytest.fixture(scope="session")

@@ -4,7 +4,8 @@
  * bit, or records the fault and returns 0; the kernel then returns at the end of the statement.
  * The first fault is kept. What Python's unbounded ints could still do beyond 64 bits is a fault.
  *
- * Compile with -ffp-contract=off -fno-builtin: contraction and folded calls change bits.
+ * Compile with -ffp-contract=off: a contracted a * b + c rounds once. Of the C library only what IEEE 754 defines to the
+ * last bit is called.
  */
 #ifndef KERNEL_MATH_H
 #define KERNEL_MATH_H
@@ -37,16 +38,7 @@ typedef struct Fault {
 #define COLD
 #endif
 
-/* Exact functions as one instruction each, where -fno-builtin would leave calls of the C library. */
-#if defined(__GNUC__)
-#undef fabs
-#define fabs(x) __builtin_fabs(x)
-#define EXACT_SQRT(x) __builtin_sqrt(x)
-#else
-#define EXACT_SQRT(x) sqrt(x)
-#endif
-
-/* floor, ceil and trunc likewise, but for the sign of a zero, which no int has. From 2^52 on every double is whole. */
+/* floor, ceil and trunc without a call, but for the sign of a zero, which no int has. From 2^52 on every double is whole. */
 static inline double whole_trunc(double x)
 {
     return fabs(x) < 4503599627370496.0 ? (double)(int64_t)x : x;
@@ -168,7 +160,7 @@ static inline double py_sqrt(Fault *fault, const char *file, int line, double x)
         set_fault(fault, file, line, DOMAIN_ERROR);
         return 0.0;
     }
-    return EXACT_SQRT(x);
+    return sqrt(x);
 }
 
 /* 2^n, for n from -1022 to 1023. */

@@ -43,7 +43,7 @@ VECTOR_NAMES: dict[type[ast.AST], str] = {
     ast.Mult: "multiply",
     ast.Div: "divide",
 }
-EXACT = {"sqrt": "EXACT_SQRT", "ldexp": "exact_ldexp", "frexp": "exact_frexp"}
+EXACT = {"ldexp": "exact_ldexp", "frexp": "exact_frexp"}
 WHOLE = {"floor": "whole_floor", "ceil": "whole_ceil", "int": "whole_trunc"}
 
 
