@@ -6,6 +6,7 @@ import ctypes
 import math
 import time
 from collections.abc import Callable
+from functools import partial
 from random import Random
 
 import numpy as np
@@ -57,16 +58,22 @@ def shortest(call: Callable[[], object]) -> float:
     return min(times)
 
 
+def call_each(function: Callable[..., float], rows: list[tuple[float, ...]]) -> None:
+    """Call a Python function with every row of arguments."""
+    for arguments in rows:
+        function(*arguments)
+
+
 def row(dll: ctypes.CDLL, name: str, random: Random) -> str:
     """One function's times: C and numba in ns, Python in us."""
     draw = [[random.uniform(*RANGES.get(name, USUAL)) for _ in range(COUNT)] for _ in range(2)]
     x, y, z = np.array(draw[0]), np.array(draw[1]), np.empty(COUNT)
     pointers = [ctypes.c_void_p(array.ctypes.data) for array in (x, y, z)]
     two = len(ELEMENTARY_FUNCTIONS[name].takes) == 2
-    in_c = [shortest(lambda: getattr(dll, f"{prefix}_{name}")(*pointers)) / COUNT * 1e9 for prefix in ("ours", "theirs")]
+    in_c = [shortest(partial(dll[f"{prefix}_{name}"], *pointers)) / COUNT * 1e9 for prefix in ("ours", "theirs")]
     few = list(zip(*[column[:2000] for column in draw[: 1 + two]], strict=True))
     in_python = [
-        shortest(lambda: [function(*each) for each in few]) / len(few) * 1e6
+        shortest(partial(call_each, function, few)) / len(few) * 1e6
         for function in (getattr(functions, name), getattr(math, name))
     ]
     try:
