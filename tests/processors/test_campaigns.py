@@ -13,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.processors.settings import PROCESSORS
 from tests.support.campaigns.folders import bytes_of
 from tests.support.lengths import LONG, either
-from tests.support.processors import PROCESSORS
 
 pytestmark = pytest.mark.usefixtures("fmus")
 

@@ -41,7 +41,7 @@ class _Jointly(Continuous, Independent):
     def to_normals(self, columns: Sequence[np.ndarray]) -> np.ndarray:
         offset = np.column_stack(columns) - np.array(self.means)
         inverse = self.factor / np.sum(self.factor**2, axis=0)  # its columns are orthogonal
-        return np.column_stack(_combine(np.zeros(self.size), inverse.T, offset))
+        return np.column_stack(_combine([0.0] * self.size, inverse.T, offset))
 
     def from_box(self, points: np.ndarray, sigmas: float) -> list[np.ndarray]:
         return self.from_normals(sigmas * (2.0 * points - 1.0))
