@@ -23,6 +23,8 @@ from ...fmus_src.kernel.elementary import (
     trigonometric,
 )
 
+FEW = 30_000  # values that Python computes in the time that numba takes to load a function
+
 FUNCTIONS: dict[str, Callable] = {
     "sin": trigonometric.sin,
     "cos": trigonometric.cos,
@@ -41,24 +43,36 @@ FUNCTIONS: dict[str, Callable] = {
 }
 
 
-def elementary(name: str) -> Callable[..., Any]:
-    """The function of `FUNCTIONS` of that name, for doubles and arrays of them (any shapes that broadcast)."""
+class Elementary:
+    """A function of `FUNCTIONS` for doubles and arrays of them, of any shapes that broadcast."""
 
-    def call(*arguments: Any) -> Any:
+    def __init__(self, name: str) -> None:
+        self._kernel = FUNCTIONS[name]
+        self._in_python = np.frompyfunc(self._kernel, self._kernel.__code__.co_argcount, 1)
+        self._left = FEW
+
+    def __call__(self, *arguments: Any) -> Any:
+        """The values, an array or a double."""
+        doubles = [np.asarray(argument, dtype=float) for argument in arguments]
+        self._left -= np.broadcast(*doubles).size
         with np.errstate(all="ignore"):
-            return _vectorised(name)(*arguments)
-
-    return call
+            if self._left >= 0:
+                return np.asarray(self._in_python(*doubles), dtype=float)[()]
+            return _vectorised(self._kernel)(*doubles)
 
 
 @cache
-def _vectorised(name: str) -> np.ufunc:
-    """Compiled at the first call: numba takes half a second to import."""
+def elementary(name: str) -> Elementary:
+    """The function of that name."""
+    return Elementary(name)
+
+
+@cache
+def _vectorised(function: Callable) -> np.ufunc:
     from numba import vectorize
 
     from .compiler import compile_cached
 
-    function = FUNCTIONS[name]
     signature = f"float64({','.join(['float64'] * function.__code__.co_argcount)})"
     compiled: Any = compile_cached(_with_compiled_callees(function), partial(vectorize, [signature]))
     return compiled
@@ -76,6 +90,6 @@ def _with_compiled_callees(function: FunctionType | Callable) -> FunctionType:
 
 @cache
 def _compiled(function: FunctionType) -> Any:
-    from .compiler import compile_cached
+    from numba import njit
 
-    return compile_cached(_with_compiled_callees(function))
+    return njit(_with_compiled_callees(function))  # kept as part of what calls it

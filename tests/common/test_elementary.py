@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from perilune.analysis.common.elementary import FUNCTIONS, elementary
+from perilune.analysis.common.elementary import FEW, FUNCTIONS, Elementary, elementary
 from tests.kernel.arguments import DRAWS, edges, samples
 from tests.support.kernels.samples import generator
 
@@ -26,7 +26,11 @@ def test_arrays_have_the_bits_of_numbers(name: str) -> None:
     assert arguments in DRAWS
     rows = samples(arguments, COUNT, generator(name)) + edges(arguments)
     columns = [np.array(column) for column in zip(*rows, strict=True)]
-    assert bits(elementary(name)(*columns)) == bits([FUNCTIONS[name](*row) for row in rows])
+    expected = bits([FUNCTIONS[name](*row) for row in rows])
+    function = Elementary(name)
+    assert bits(function(*columns)) == expected  # in Python
+    function(*(np.ones(FEW) for _ in columns))
+    assert bits(function(*columns)) == expected  # compiled
 
 
 def test_shapes_broadcast_and_whole_numbers_become_doubles() -> None:
