@@ -2,7 +2,7 @@
 
 Everything else about a component (modelDescription.xml, connectors, C struct, tables in the
 docs) is derived from these declarations. Values live on the instance under the same names: floats, ints
-and bools; vectors (`mathlib.vector_types`) for two to four Reals; lists for everything else.
+and bools; vectors (`kernel.vector_types`) for two to four Reals; lists for everything else.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from .data_files import DataFiles, data_problem
-from .mathlib.vector_types import VECTORS, vector
+from .kernel.records import Field, Record, count_numbers, flat_fields, replace
+from .kernel.vector_types import VECTORS, vector
 from .units import unit_definition
 
 Value = float | int | bool | list
@@ -60,7 +61,8 @@ class Variable:
         columns: int | None = None,
         vector: bool = True,
     ) -> None:
-        self.start: Value = list(start) if isinstance(start, list | tuple) else start
+        self.record: type[Record] | None = type(start) if isinstance(start, Record) else None
+        self.start: Value = list(start.elements() if self.record else start) if is_several(start) else start
         self.unit = unit
         self.description = description
         self.frame = frame
@@ -69,11 +71,16 @@ class Variable:
         self.nominal = nominal
         self.columns = columns
         self.is_vector = (
-            vector and columns is None and isinstance(self.start, list) and self.size in VECTORS and self.all_reals
+            vector
+            and columns is None
+            and self.record is None
+            and isinstance(self.start, list)
+            and self.size in VECTORS
+            and self.all_reals
         )
         self.name = ""
         if self.is_array:
-            storing = _StoresVector if self.is_vector else _StoresList
+            storing = _StoresRecord if self.record else _StoresVector if self.is_vector else _StoresList
             self.__class__ = _that_stores(type(self), storing)  # type: ignore[arg-type]
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -84,9 +91,11 @@ class Variable:
             raise DeclarationError(f"{where}: start must be one float, int or bool, or a list of one of these")
         if self.columns is not None and (not self.is_array or self.columns < 1 or self.size % self.columns):
             raise DeclarationError(f"{where}: {self.size} elements do not make rows of {self.columns}")
-        if self.unit is not None and unit_definition(self.unit) is None:
+        for unit in filter(None, self.units()):
+            if unit_definition(unit) is not None:
+                continue
             remedy = "write it of m, kg, s, rad, N, deg and the like, as N.m/rad or 1/s2"
-            raise DeclarationError(f"{where}: unit {self.unit!r} is not understood; {remedy}")
+            raise DeclarationError(f"{where}: unit {unit!r} is not understood; {remedy}")
         if not self.description:
             raise DeclarationError(f"{where}: give a description")
         for value in self.elements:
@@ -130,10 +139,24 @@ class Variable:
         """FMI names of the elements: ``name``; ``name[1]``, ``name[2]``, ...; or ``name[1,1]``, ``name[1,2]``, ..."""
         if not self.is_array:
             return [self.name]
+        if self.record is not None:
+            return [f"{self.name}.{name}" for name, _ in flat_fields(self.record)]
         if self.columns is not None:
             places = [divmod(index, self.columns) for index in range(self.size)]
             return [f"{self.name}[{row + 1},{column + 1}]" for row, column in places]
         return [f"{self.name}[{index + 1}]" for index in range(self.size)]
+
+    def units(self) -> list[str | None]:
+        """The unit of each element."""
+        if self.record is not None:
+            return [field.unit for _, field in flat_fields(self.record)]
+        return [self.unit] * self.size
+
+    def descriptions(self) -> list[str]:
+        """What each element is, with the frame of a vector's components."""
+        if self.record is not None:
+            return [f"{self.description}: {_about(field)}" for _, field in flat_fields(self.record)]
+        return [_about(self)] * self.size
 
     def with_start(self, start: Any) -> Any:
         """The same variable with another start value, for thin variants of a block."""
@@ -165,6 +188,16 @@ class _StoresVector(Variable):
         instance.__dict__[self.name] = value
 
 
+class _StoresRecord(Variable):
+    """A variable whose assignment stores a record."""
+
+    def __set__(self, instance: Any, value: Any) -> None:
+        if value.__class__ is not self.record:
+            assert self.record is not None
+            value = self.record.of_elements(self.check_start(instance, value))
+        instance.__dict__[self.name] = value
+
+
 class _StoresList(Variable):
     """A variable whose list is never another: assignment copies the elements."""
 
@@ -193,6 +226,9 @@ class Parameter(Variable):
 class State(Variable):
     """Internal, kept from step to step; readable from outside, never set.
 
+    ``start`` may be a record's class, with the starts of fields by name (others 0): ``State(Motion, speed=7620.0)`` has
+    the FMI variables ``motion.speed``, ``motion.attitude[1]`` and so on.
+
     ``frozen``: left as it is along the flight where a system is linearised: the memory of random number generators,
     and covariances, whose small changes act on estimates only through innovations.
     """
@@ -200,8 +236,18 @@ class State(Variable):
     causality = "local"
 
     def __init__(self, start: Any, *, frozen: bool = False, **declaration: Any) -> None:
+        if isinstance(start, type) and issubclass(start, Record):
+            starts = {name: declaration.pop(name) for name in start.fields if name in declaration}
+            declaration.setdefault("description", (start.__doc__ or "").partition("\n")[0].rstrip("."))
+            start = replace(start.of_elements([0.0] * count_numbers(start)), **starts)
         super().__init__(start, **declaration)
         self.frozen = frozen
+
+    def frozen_elements(self) -> list[bool]:
+        """Which elements are frozen."""
+        if self.record is not None:
+            return [self.frozen or field.frozen for _, field in flat_fields(self.record)]
+        return [self.frozen] * self.size
 
 
 class Output(Variable):
@@ -216,6 +262,16 @@ class Output(Variable):
     def __init__(self, start: Any, *, direct: bool | tuple[str, ...] = False, **declaration: Any) -> None:
         super().__init__(start, **declaration)
         self.direct = direct
+
+
+def is_several(start: Any) -> bool:
+    """Whether a start value has several elements."""
+    return isinstance(start, list | tuple | Record)
+
+
+def _about(declared: Variable | Field) -> str:
+    frame = f" ({declared.frame} frame)" if declared.frame else ""
+    return f"{declared.description}{frame}"
 
 
 def snake_case(name: str) -> str:

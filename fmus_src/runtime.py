@@ -8,14 +8,15 @@ from __future__ import annotations
 from typing import Any
 
 from .block import Block, Output, State
-from .mathlib.vector_types import vector
+from .kernel.records import Record
+from .kernel.vector_types import vector
 
 # How far a communication point may miss a sample instant: importers round t0 + n h, or add up h.
 SAMPLE_TOLERANCE = 1e-6  # of a sample period
 TIME_TOLERANCE = 1e-15  # of the time
 POINT_TOLERANCE = 1e-3  # of a step: communication points carry the rounding of whoever adds them up
 
-SCALAR, VECTOR, LIST = -1, -2, -3  # in place of an element's number: all of a variable
+SCALAR, VECTOR, LIST, RECORD = -1, -2, -3, -4  # in place of an element's number: all of a variable
 Access = tuple[str, int, int, int]  # variable, element or one of the above, place of its values and their end
 
 
@@ -70,7 +71,7 @@ class Component:
             end = position + variable.size
             whole = index == 0 and references[position:end] == tuple(range(first, first + variable.size))
             if whole:
-                index = VECTOR if variable.is_vector else LIST
+                index = RECORD if variable.record else VECTOR if variable.is_vector else LIST
             else:
                 end = position + 1
             accesses.append((name, index, position, end))
@@ -90,12 +91,13 @@ class Component:
         for name, index, _, _ in self.accesses(references):
             if index == SCALAR:
                 values.append(held[name])
-            elif index == VECTOR:
+            elif index in (VECTOR, RECORD):
                 values += held[name].elements()
             elif index == LIST:
                 values += held[name]
             else:
-                values.append(held[name][index])
+                value = held[name]
+                values.append((value.elements() if isinstance(value, Record) else value)[index])
         return values
 
     def values(self) -> list:
@@ -118,10 +120,13 @@ class Component:
                 held[name] = values[position]
             elif index == VECTOR:
                 held[name] = vector(*values[position:end])
+            elif index == RECORD:
+                held[name] = type(held[name]).of_elements(values[position:end])
             elif index == LIST:
                 held[name][:] = values[position:end]
             else:
-                changed = list(held[name])
+                value = held[name]
+                changed = list(value.elements() if isinstance(value, Record) else value)
                 changed[index] = values[position]
                 setattr(self.block, name, changed)
 

@@ -77,7 +77,7 @@ def model_description(
 
 
 def _unit_definitions(root: etree._Element, variables: list[Variable]) -> None:
-    used = sorted({variable.unit for variable in variables if variable.unit})
+    used = sorted({unit for variable in variables for unit in variable.units() if unit})
     if used:
         definitions = etree.SubElement(root, "UnitDefinitions")
         for name in used:
@@ -99,7 +99,7 @@ def _scalar_variable(
     attributes = {
         "name": name,
         "valueReference": str(reference),
-        "description": _description(variable),
+        "description": re.sub(r"\s+", " ", variable.descriptions()[position]),
         "causality": variable.causality,
         "variability": "continuous" if continuous else "discrete",
     }
@@ -111,8 +111,9 @@ def _scalar_variable(
     details: dict[str, str] = {}
     if not isinstance(variable, Output | State):
         details["start"] = literal(variable.elements[position])
-    if variable.type_name == "Real" and variable.unit:
-        details["unit"] = variable.unit
+    unit = variable.units()[position]
+    if variable.type_name == "Real" and unit:
+        details["unit"] = unit
     for key, bound in (("min", variable.minimum), ("max", variable.maximum)):
         if bound is not None:
             details[key] = literal(bound)
@@ -130,8 +131,8 @@ def _state_layout(root: etree._Element, variables: list[Variable], encoding: str
     frozen: list[int] = []
     reference = 0
     for variable in variables:
-        if isinstance(variable, State) and variable.frozen:
-            frozen += range(reference, reference + variable.size)
+        if isinstance(variable, State):
+            frozen += [reference + position for position, held in enumerate(variable.frozen_elements()) if held]
         reference += variable.size
     annotations = etree.SubElement(root, "VendorAnnotations")
     tool = etree.SubElement(annotations, "Tool", name=STATE_ANNOTATION)
@@ -162,13 +163,6 @@ def _unknown(parent: etree._Element, index: int, dependencies: list[int]) -> Non
         dependencies=" ".join(map(str, dependencies)),
         dependenciesKind=" ".join(["dependent"] * len(dependencies)),
     )
-
-
-def _description(variable: Variable) -> str:
-    text = variable.description
-    if variable.frame:
-        text += f" ({variable.frame} frame)"
-    return re.sub(r"\s+", " ", text)
 
 
 def _boolean(value: bool) -> str:

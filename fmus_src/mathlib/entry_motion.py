@@ -1,13 +1,37 @@
 """Flight over a turning, spherical Earth, and attitude against the velocity. Kernel functions.
 
-place: distance r from the centre (m), longitude, latitude (rad). path: speed over the Earth (m/s), path angle up,
-course from east, counter-clockwise from above (rad). Velocity axes: x along the velocity, y up in the vertical plane
-through it, z = x x y. attitude: bank, sideslip, attack (rad), turns about velocity x, then body -y and z as written in
-`body_axes`. Equations: docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
+Velocity axes: x along the velocity, y up in the vertical plane through it, z = x x y. Attitude: bank, sideslip and
+attack, turns about velocity x, then body -y and z as written in `body_axes`. Equations:
+docs/systems/entry_attitude.md. Source: Lapin, thesis, chapter 1.2.
 """
 
 from ..kernel.functions import cos, sin, tan
+from ..kernel.records import Field, Record
 from .vectors import Vector3, vector
+
+
+class EntryState(Record):
+    """Capsule over a turning, spherical Earth."""
+
+    radius = Field(unit="m", frozen=True, description="distance from the Earth's centre")
+    longitude = Field(unit="rad", frozen=True, description="longitude")
+    latitude = Field(unit="rad", frozen=True, description="latitude")
+    speed = Field(unit="m/s", frozen=True, description="over the turning Earth")
+    path_angle = Field(unit="rad", frozen=True, description="of the velocity over the horizon")
+    course = Field(unit="rad", frozen=True, description="of the velocity, from east, counter-clockwise from above")
+    attitude = Field(Vector3, unit="rad", description="bank, sideslip, attack")
+    angular_velocity = Field(Vector3, unit="rad/s", frame="body", description="absolute")
+
+
+class PathRate(Record):
+    """How fast place and velocity change."""
+
+    radius = Field(unit="m/s")
+    longitude = Field(unit="rad/s")
+    latitude = Field(unit="rad/s")
+    speed = Field(unit="m/s2")
+    path_angle = Field(unit="rad/s")
+    course = Field(unit="rad/s")
 
 
 def body_axes(attitude: Vector3) -> tuple[Vector3, Vector3, Vector3]:
@@ -23,17 +47,17 @@ def body_axes(attitude: Vector3) -> tuple[Vector3, Vector3, Vector3]:
     return x, y, vector(sb, -cb * sg, cb * cg)
 
 
-def earth_forces(place: Vector3, path: Vector3, gravitational_parameter: float, earth_rate: float) -> Vector3:
+def earth_forces(s: EntryState, gravitational_parameter: float, earth_rate: float) -> Vector3:
     """Gravity and what the Earth's turn adds to it (m/s2, velocity axes)."""
-    sin_path = sin(path.y)
-    cos_path = cos(path.y)
-    sin_course = sin(path.z)
-    cos_course = cos(path.z)
-    sin_latitude = sin(place.z)
-    cos_latitude = cos(place.z)
-    gravity = gravitational_parameter / (place.x * place.x)
-    coriolis = 2.0 * path.x * earth_rate
-    transport = earth_rate * earth_rate * place.x * cos_latitude
+    sin_path = sin(s.path_angle)
+    cos_path = cos(s.path_angle)
+    sin_course = sin(s.course)
+    cos_course = cos(s.course)
+    sin_latitude = sin(s.latitude)
+    cos_latitude = cos(s.latitude)
+    gravity = gravitational_parameter / (s.radius * s.radius)
+    coriolis = 2.0 * s.speed * earth_rate
+    transport = earth_rate * earth_rate * s.radius * cos_latitude
     return vector(
         -gravity * sin_path + transport * (cos_latitude * sin_path - sin_latitude * cos_path * sin_course),
         -gravity * cos_path
@@ -44,34 +68,35 @@ def earth_forces(place: Vector3, path: Vector3, gravitational_parameter: float, 
     )
 
 
-def path_rates(place: Vector3, path: Vector3, push: Vector3) -> tuple[Vector3, Vector3]:
-    """Rates of place and path under an acceleration (m/s2, velocity axes)."""
-    cos_path = cos(path.y)
-    cos_course = cos(path.z)
-    over = path.x * cos_path / place.x
-    moved = vector(path.x * sin(path.y), over * cos_course / cos(place.z), over * sin(path.z))
-    turned = vector(
-        push.x,
-        over + push.y / path.x,
-        -over * cos_course * tan(place.z) - push.z / (path.x * cos_path),
+def path_rate(s: EntryState, acceleration: Vector3) -> PathRate:
+    """How place and velocity change under an acceleration (m/s2, velocity axes)."""
+    cos_path = cos(s.path_angle)
+    cos_course = cos(s.course)
+    over = s.speed * cos_path / s.radius
+    return PathRate(
+        radius=s.speed * sin(s.path_angle),
+        longitude=over * cos_course / cos(s.latitude),
+        latitude=over * sin(s.course),
+        speed=acceleration.x,
+        path_angle=over + acceleration.y / s.speed,
+        course=-over * cos_course * tan(s.latitude) - acceleration.z / (s.speed * cos_path),
     )
-    return moved, turned
 
 
-def velocity_axes_rate(place: Vector3, path: Vector3, turned: Vector3, earth_rate: float) -> Vector3:
-    """Absolute angular velocity (rad/s) of the velocity axes, in themselves, at the rates ``turned`` of the path."""
-    sin_path = sin(path.y)
-    cos_path = cos(path.y)
-    sin_course = sin(path.z)
-    cos_course = cos(path.z)
-    sin_latitude = sin(place.z)
-    cos_latitude = cos(place.z)
-    over = path.x * cos_path / place.x
-    u = turned.z + over * cos_course * tan(place.z)
+def velocity_axes_rate(s: EntryState, rate: PathRate, earth_rate: float) -> Vector3:
+    """Absolute angular velocity (rad/s) of the velocity axes, in themselves."""
+    sin_path = sin(s.path_angle)
+    cos_path = cos(s.path_angle)
+    sin_course = sin(s.course)
+    cos_course = cos(s.course)
+    sin_latitude = sin(s.latitude)
+    cos_latitude = cos(s.latitude)
+    over = s.speed * cos_path / s.radius
+    u = rate.course + over * cos_course * tan(s.latitude)
     return vector(
         sin_path * u + earth_rate * (sin_path * sin_latitude + cos_path * cos_latitude * sin_course),
         cos_path * u + earth_rate * (cos_path * sin_latitude - sin_path * cos_latitude * sin_course),
-        turned.y - over - earth_rate * cos_latitude * cos_course,
+        rate.path_angle - over - earth_rate * cos_latitude * cos_course,
     )
 
 

@@ -2,7 +2,7 @@
 
 import math
 
-from .vector_types import Vector, Vector2, Vector3, Vector4, vector
+from ..kernel.vector_types import Vector, Vector2, Vector3, Vector4, vector
 
 __all__ = [
     "Vector",

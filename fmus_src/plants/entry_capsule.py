@@ -4,8 +4,9 @@ import math
 
 from ..block import Block, Input, Output, Parameter, State
 from ..kernel.functions import atan2
+from ..kernel.integrators import runge_kutta_4
 from ..mathlib.cubic_spline import cubic_value, curvatures
-from ..mathlib.entry_motion import attitude_rates, body_axes, earth_forces, path_rates, velocity_axes_rate
+from ..mathlib.entry_motion import EntryState, attitude_rates, body_axes, earth_forces, path_rate, velocity_axes_rate
 from ..mathlib.matrices import inverse
 from ..mathlib.newtonian_cap import cap_tables
 from ..mathlib.orbital import apply_matrix
@@ -106,9 +107,7 @@ class EntryCapsule(Block):
     total_jet_seconds = Output(0.0, unit="s", description="their sum: the propellant")
     finished = Output(False, description="below final_height")
     status = Output(GOOD, minimum=0, maximum=2, description="0 good, 1 beyond the tables, 2 inertia cannot be inverted")
-    place = State([6471000.0, 0.0, 0.0], frozen=True, description="distance (m), longitude, latitude (rad)")
-    path = State([7620.0, 0.0, 0.0], frozen=True, description="speed (m/s), path angle, course (rad)")
-    attitude = State([0.0, 0.0, 0.0], unit="rad", description="bank, sideslip, attack")
+    state = State(EntryState, radius=6471000.0, speed=7620.0)
     inverse_inertia = State([0.0] * 9, columns=3, description="inverse of inertia, 1/(kg m2)")
     axial_curvature = State([0.0] * 130, columns=KNOTS, description="second derivatives of the splines, 1/rad2")
     normal_curvature = State([0.0] * 130, columns=KNOTS, description="likewise")
@@ -122,10 +121,16 @@ class EntryCapsule(Block):
         for k in range(MACHS):
             curvatures(self.axial_coefficient, KNOTS * k, KNOTS, ANGLE_STEP, True, self.axial_curvature)
             curvatures(self.normal_coefficient, KNOTS * k, KNOTS, ANGLE_STEP, False, self.normal_curvature)
-        self.place = vector(self.earth_radius + self.initial_height, self.initial_longitude, self.initial_latitude)
-        self.path = vector(self.initial_speed, self.initial_path_angle, self.initial_course)
-        self.attitude = vector(self.initial_bank, self.initial_sideslip, self.initial_attack)
-        self.angular_velocity = self.initial_angular_velocity
+        self.state = EntryState(
+            radius=self.earth_radius + self.initial_height,
+            longitude=self.initial_longitude,
+            latitude=self.initial_latitude,
+            speed=self.initial_speed,
+            path_angle=self.initial_path_angle,
+            course=self.initial_course,
+            attitude=vector(self.initial_bank, self.initial_sideslip, self.initial_attack),
+            angular_velocity=self.initial_angular_velocity,
+        )
         self.publish()
 
     def coefficient(self, values: list, second: list, mach: float, angle: float) -> float:
@@ -159,56 +164,36 @@ class EntryCapsule(Block):
             return pushed * vector(-axial, normal, 0.0)
         return pushed * vector(-axial, -normal * v.y / across, -normal * v.z / across)
 
-    def slopes(
-        self, place: Vector3, path: Vector3, attitude: Vector3, w: Vector3, torque: Vector3
-    ) -> tuple[Vector3, Vector3, Vector3, Vector3]:
-        """Rates of place, path, attitude and angular velocity under a torque of the jets (N m, body)."""
-        x, y, z = body_axes(attitude)
-        moving = vector(path.x, 0.0, 0.0) - self.wind
-        v = vector(dot(x, moving), dot(y, moving), dot(z, moving))
-        density, sound = air(place.x - self.earth_radius)
+    def derivatives(self, t: float, s: EntryState, torque: Vector3) -> EntryState:
+        """Rates of the state under a torque of the jets (N m, body): docs/systems/entry_attitude.md, motion."""
+        x, y, z = body_axes(s.attitude)
+        v = self.in_body(x, y, z, vector(s.speed, 0.0, 0.0) - self.wind)
+        density, sound = air(s.radius - self.earth_radius)
         density = density * self.density_factor
         force = self.air_force(v, density, sound)
         speed = norm(v)
         length = self.reference_length
         damping = 0.5 * self.damping_coefficient * density * speed * self.reference_area * length * length
+        w = s.angular_velocity
         moment = cross(self.pressure_arm, force) + damping * w + torque
-        push = (force.x * x + force.y * y + force.z * z) / self.mass
-        push = push + earth_forces(place, path, self.gravitational_parameter, self.earth_rate)
-        moved, turned = path_rates(place, path, push)
-        relative = w - self.in_body(x, y, z, velocity_axes_rate(place, path, turned, self.earth_rate))
-        spun = apply_matrix(self.inverse_inertia, cross(apply_matrix(self.inertia, w), w) + moment)
-        return moved, turned, attitude_rates(attitude, relative), spun
+        acceleration = (force.x * x + force.y * y + force.z * z) / self.mass
+        acceleration = acceleration + earth_forces(s, self.gravitational_parameter, self.earth_rate)
+        path = path_rate(s, acceleration)
+        relative = w - self.in_body(x, y, z, velocity_axes_rate(s, path, self.earth_rate))
+        return EntryState(
+            radius=path.radius,
+            longitude=path.longitude,
+            latitude=path.latitude,
+            speed=path.speed,
+            path_angle=path.path_angle,
+            course=path.course,
+            attitude=attitude_rates(s.attitude, relative),
+            angular_velocity=apply_matrix(self.inverse_inertia, cross(apply_matrix(self.inertia, w), w) + moment),
+        )
 
     def in_body(self, x: Vector3, y: Vector3, z: Vector3, v: Vector3) -> Vector3:
         """A vector of velocity axes in the body, whose axes are given in velocity axes."""
         return vector(dot(x, v), dot(y, v), dot(z, v))
-
-    def move(self, torque: Vector3, h: float) -> None:
-        """Move by h (s) under a torque of the jets (N m, body)."""
-        p1, v1, a1, w1 = self.slopes(self.place, self.path, self.attitude, self.angular_velocity, torque)
-        half = 0.5 * h
-        p2, v2, a2, w2 = self.slopes(
-            self.place + half * p1,
-            self.path + half * v1,
-            self.attitude + half * a1,
-            self.angular_velocity + half * w1,
-            torque,
-        )
-        p3, v3, a3, w3 = self.slopes(
-            self.place + half * p2,
-            self.path + half * v2,
-            self.attitude + half * a2,
-            self.angular_velocity + half * w2,
-            torque,
-        )
-        p4, v4, a4, w4 = self.slopes(
-            self.place + h * p3, self.path + h * v3, self.attitude + h * a3, self.angular_velocity + h * w3, torque
-        )
-        self.place = self.place + h * (p1 + 2.0 * p2 + 2.0 * p3 + p4) / 6.0
-        self.path = self.path + h * (v1 + 2.0 * v2 + 2.0 * v3 + v4) / 6.0
-        self.attitude = self.attitude + h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0
-        self.angular_velocity = self.angular_velocity + h * (w1 + 2.0 * w2 + 2.0 * w3 + w4) / 6.0
 
     def jet(self, k: int, length: float, time: float) -> float:
         """Torque (N m) of the jets about axis k after ``time`` (s) of a pulse (s, with its sign)."""
@@ -218,7 +203,7 @@ class EntryCapsule(Block):
             return -self.jet_factor[2 * k + 1] * self.jet_torque[2 * k + 1]
         return 0.0
 
-    def fly(self, h: float) -> None:
+    def fly(self, t: float, h: float) -> None:
         """Move by h (s), cut where jets go off."""
         time = 0.0
         while time < h:
@@ -229,23 +214,23 @@ class EntryCapsule(Block):
             torque = vector(x, y, z) + self.mean_torque
             pieces = int((end - time) / self.internal_step - STEP_ROUNDING) + 1
             for _ in range(pieces):
-                self.move(torque, (end - time) / float(pieces))
+                self.state = runge_kutta_4(self.derivatives, t + time, self.state, (end - time) / float(pieces), torque)
             time = end
 
     def publish(self) -> None:
         """Put the state out."""
-        self.height = self.place.x - self.earth_radius
-        self.longitude = self.place.y
-        self.latitude = self.place.z
-        self.speed = self.path.x
-        self.path_angle = self.path.y
-        self.course = self.path.z
-        self.bank = self.attitude.x
-        self.sideslip = self.attitude.y
-        self.attack = self.attitude.z
+        s = self.state
+        self.height = s.radius - self.earth_radius
+        self.longitude = s.longitude
+        self.latitude = s.latitude
+        self.speed = s.speed
+        self.path_angle = s.path_angle
+        self.course = s.course
+        self.bank, self.sideslip, self.attack = s.attitude
+        self.angular_velocity = s.angular_velocity
         density, sound = air(self.height)
         self.dynamic_pressure = 0.5 * density * self.speed * self.speed
-        x, y, z = body_axes(self.attitude)
+        x, y, z = body_axes(s.attitude)
         v = self.in_body(x, y, z, vector(self.speed, 0.0, 0.0) - self.wind)
         self.mach = norm(v) / sound
         if self.status != NO_INERTIA:
@@ -261,7 +246,7 @@ class EntryCapsule(Block):
             self.left = self.pulse_lengths
             self.fired_pulses = self.pulse_lengths
         if self.status != NO_INERTIA:
-            self.fly(h)
+            self.fly(t, h)
         before = lengths_of(self.left)
         self.left = left_after(self.left, h)
         self.jet_seconds = self.jet_seconds + before - lengths_of(self.left)

@@ -12,6 +12,7 @@ import math
 import numpy as np
 from scipy.optimize import fsolve
 
+from ....fmus_src.kernel.records import replace
 from ....fmus_src.mathlib.standard_atmosphere import air
 from ....fmus_src.mathlib.vectors import vector
 from ....fmus_src.plants.entry_capsule import EntryCapsule
@@ -43,10 +44,11 @@ def whole_model() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
     def rates(state: np.ndarray) -> np.ndarray:
         attitude, w = vector(*state[:3].tolist()), vector(*state[3:].tolist())
-        _, _, turned, spun = capsule.slopes(capsule.place, capsule.path, attitude, w, vector(0.0, 0.0, 0.0))
-        return np.array([*turned, *spun])
+        here = replace(capsule.state, attitude=attitude, angular_velocity=w)
+        rate = capsule.derivatives(0.0, here, vector(0.0, 0.0, 0.0))
+        return np.array([*rate.attitude, *rate.angular_velocity])
 
-    attitude = [*capsule.attitude]
+    attitude = [*capsule.state.attitude]
     turning = fsolve(lambda w: rates(np.array([*attitude, *w]))[:3], np.zeros(3), xtol=1e-13)
     trim = np.array([*attitude, *turning])
     steps = DIFFERENCE * np.eye(6)

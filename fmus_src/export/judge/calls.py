@@ -9,12 +9,14 @@ from collections.abc import Callable
 from types import FunctionType
 
 from ...kernel.functions import FAULTS
-from ...mathlib.vector_types import vector
+from ...kernel.records import Record, replace
+from ...kernel.vector_types import vector
 from .expressions import ExpressionTypes
 from .kernel import (
     BOOL,
     FLOAT,
     INT,
+    Bound,
     BuiltinCall,
     Function,
     Kernel,
@@ -76,10 +78,13 @@ class CallTypes(ExpressionTypes):
         """Resolve a call; the callee for a kernel function, else the type of its value."""
         if self._callee(node.func)[0] is vector:
             return self.make_vector(node)
+        record = self._record(node.func)
+        if record is not None:
+            return self.make_record(node, record)
         if node.keywords:
             self.report(node, "keyword")
         for argument in node.args:
-            self.infer(argument)
+            self._infer_argument(argument)
         name = ast.unparse(node.func)
         callee, owner = self._callee(node.func)
         if isinstance(callee, FunctionType):
@@ -110,9 +115,36 @@ class CallTypes(ExpressionTypes):
         self.report(node, RULES["function"], name=name, remedy=REFUSED_FUNCTIONS.get(short, OTHER_FUNCTION))
         return None
 
+    def _infer_argument(self, node: ast.expr) -> None:
+        """Type of an argument, which may be a function or a method of the block to be called."""
+        if is_self_attribute(node) and self.function.source.owner is not None:
+            assert isinstance(node, ast.Attribute)
+            method = find_method(self.function.block_class, node.attr)
+            if method is not None:
+                self.function.types[node] = Bound(*method)
+                return
+        if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
+            value = find_global(self.function.source.function, node.id)
+            if isinstance(value, FunctionType):
+                self.function.types[node] = Bound(value, None)
+                return
+        self.infer(node)
+
+    def _record(self, node: ast.expr) -> type[Record] | FunctionType | None:
+        """The record's class that a call makes one of, or replace."""
+        if not isinstance(node, ast.Name) or node.id in self.bound or node.id in self.function.parameters:
+            return None
+        value = find_global(self.function.source.function, node.id)
+        if value is replace:
+            return replace  # type: ignore[return-value]
+        return value if isinstance(value, type) and issubclass(value, Record) else None
+
     def _callee(self, node: ast.expr) -> tuple[FunctionType | str | None, type | None]:
         """What a call means: a Python function with its class, or the name of an allowed built-in or math function."""
         source = self.function.source
+        bound = self.function.parameters.get(node.id) if isinstance(node, ast.Name) else None
+        if isinstance(bound, Bound):
+            return bound.function, bound.owner
         if isinstance(node, ast.Name) and node.id not in self.bound and node.id not in self.function.parameters:
             value = find_global(source.function, node.id)
             if isinstance(value, FunctionType):

@@ -13,6 +13,7 @@ from .expressions import is_read_only
 from .kernel import (
     FLOAT,
     INT,
+    Bound,
     BuiltinCall,
     Function,
     Kernel,
@@ -124,7 +125,9 @@ class _Effects:
             if not isinstance(part, ast.Call) or not isinstance(call, KernelCall):
                 continue
             callee = call.callee
-            if callee.changes_anything and part is not whole:
+            if callee.changes_anything and self._is_passed(part):
+                self.kernel.report(callee.source, callee.source.node, "derivatives", name=callee.name)
+            elif callee.changes_anything and part is not whole:
                 self.kernel.report(self.function.source, part, "changes inside expression", name=callee.name)
             self.function.changes_block |= callee.changes_block
             for name, argument in zip(callee.parameters, part.args, strict=True):
@@ -132,6 +135,11 @@ class _Effects:
                     if is_read_only(self.function, argument):
                         self.kernel.report(self.function.source, argument, "read-only", name=ast.unparse(argument))
                     self._changes(argument)
+
+    def _is_passed(self, call: ast.Call) -> bool:
+        """Whether a call is of a function that the function was given."""
+        name = call.func.id if isinstance(call.func, ast.Name) else ""
+        return isinstance(self.function.parameters.get(name), Bound)
 
     def visit(self, node: ast.expr, conditional: bool) -> Outcomes:
         """How an expression can end the call; marks what is to be hoisted in it."""
@@ -172,7 +180,8 @@ def operands(node: ast.expr) -> list[ast.expr]:
     if isinstance(node, ast.Compare):
         return [node.left, *node.comparators]
     if isinstance(node, ast.Call):
-        return [argument for argument in node.args if not isinstance(argument, ast.Starred)]
+        arguments = [argument for argument in node.args if not isinstance(argument, ast.Starred)]
+        return [*arguments, *(keyword.value for keyword in node.keywords)]
     if isinstance(node, ast.Subscript):
         return [node.value] if isinstance(node.slice, ast.Slice) else [node.value, node.slice]
     if isinstance(node, ast.Attribute) and not is_self_attribute(node):

@@ -10,8 +10,9 @@ from typing import Any
 
 from ...block import Input, Parameter, Variable
 from ...face import HOME_OF
-from ...mathlib import vector_types
-from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, Type, Vector, is_self_attribute
+from ...kernel import vector_types
+from .kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, RecordType, Type, Vector, is_self_attribute
+from .records import RecordTypes
 from .source import find_global, origin_of_constant
 from .subset_table import (
     COMPARISONS,
@@ -24,13 +25,12 @@ from .subset_table import (
     REFUSED_SYNTAX,
     Rule,
 )
-from .vectors import VectorTypes
 
 SCALARS = {float: FLOAT, int: INT, bool: BOOL}
 INT64_MAX = 2**63 - 1
 
 
-class ExpressionTypes(VectorTypes):
+class ExpressionTypes(RecordTypes):
     """Infers types bottom-up; a type of None means unknown because of a violation already reported."""
 
     def __init__(self, kernel: Kernel, function: Function, bound: set[str]) -> None:
@@ -106,6 +106,8 @@ class ExpressionTypes(VectorTypes):
             holder = self.infer(node.value)
             if isinstance(holder, Vector):
                 return self.component(node, holder)
+            if isinstance(holder, RecordType):
+                return self.field(node, holder)
             if holder is None:
                 return None
         if not self.report_missing(node):
@@ -183,6 +185,8 @@ class ExpressionTypes(VectorTypes):
         kinds = self.infer(left), self.infer(right)
         if kinds[0] is None or kinds[1] is None:
             return None
+        if isinstance(kinds[0], RecordType) or isinstance(kinds[1], RecordType):
+            return self.operate_on_records(node, operator, kinds[0], kinds[1])
         if isinstance(kinds[0], Vector) or isinstance(kinds[1], Vector):
             return self.operate_on_vectors(node, operator, kinds[0], kinds[1])
         for operand, kind in zip((left, right), kinds, strict=True):
@@ -203,8 +207,8 @@ class ExpressionTypes(VectorTypes):
             return BOOL
         if isinstance(node.op, ast.USub | ast.UAdd):
             kind = self.infer(node.operand)
-            minus_vector = isinstance(kind, Vector) and isinstance(node.op, ast.USub)
-            if kind in (FLOAT, INT) or minus_vector:
+            space = isinstance(kind, Vector) or (isinstance(kind, RecordType) and kind.is_space)
+            if kind in (FLOAT, INT) or (space and isinstance(node.op, ast.USub)):
                 return kind
             if kind is not None:
                 self.report(node.operand, "number", name="a sign", got=kind)
@@ -244,6 +248,8 @@ class ExpressionTypes(VectorTypes):
 
 def type_of_variable(variable: Variable) -> Type:
     """Type of a declared variable."""
+    if variable.record is not None:
+        return RecordType(variable.record)
     scalar = SCALARS[type(variable.elements[0])]
     if variable.is_vector:
         return Vector(variable.size)

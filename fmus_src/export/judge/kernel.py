@@ -11,10 +11,12 @@ import inspect
 from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 from ...block import Block
-from ...kernel import elementary
+from ...kernel import elementary, vector_types
+from ...kernel.records import Record, is_space
 from .source import Source
 from .subset_table import RULES, MathFunction, Rule
 
@@ -55,17 +57,55 @@ class Vector:
 
 
 @dataclass(frozen=True)
+class RecordType:
+    """Type of a record: a value with named fields."""
+
+    record: type[Record]
+
+    def __str__(self) -> str:
+        return self.record.__name__
+
+    @property
+    def is_space(self) -> bool:
+        """Whether values can be added and scaled."""
+        return is_space(self.record)
+
+    def field(self, name: str) -> Scalar | Vector | RecordType:
+        """The type of a field."""
+        return field_type(self.record.fields[name].kind)
+
+
+def field_type(kind: Any) -> Scalar | Vector | RecordType:
+    """The type that a field's Python type stands for."""
+    if kind in (float, int, bool):
+        return Scalar(kind.__name__)
+    return Vector(len(kind.names)) if issubclass(kind, vector_types.Vector) else RecordType(kind)
+
+
+@dataclass(frozen=True)
+class Bound:
+    """Type of a function or a method of the block that is passed on to be called; in C it has no value."""
+
+    function: FunctionType
+    owner: type | None
+
+    def __str__(self) -> str:
+        return f"the function {self.function.__name__}"
+
+
+@dataclass(frozen=True)
 class Several:
     """What a function with several return values gives; it can only be assigned to as many targets."""
 
-    parts: tuple[Scalar | Vector, ...]
+    parts: tuple[Scalar | Vector | RecordType, ...]
 
     def __str__(self) -> str:
         return f"{len(self.parts)} values ({', '.join(map(str, self.parts))})"
 
 
-Type = Scalar | List | Vector
-Returned = Scalar | Vector | Several
+Value = Scalar | Vector | RecordType
+Type = Value | List | Bound
+Returned = Value | Several
 
 
 @dataclass(frozen=True)
@@ -96,6 +136,13 @@ class BuiltinCall:
 @dataclass(frozen=True)
 class MakeVector:
     """Call of vector, with the components or with a starred list."""
+
+
+@dataclass(frozen=True)
+class MakeRecord:
+    """Call of a record's class with all its fields, or of replace with a record and some."""
+
+    kind: RecordType
 
 
 @dataclass(frozen=True)
@@ -142,7 +189,8 @@ class Function:
     returns: Returned | None
     locals: dict[str, Type] = field(default_factory=dict)
     types: dict[ast.expr, Type | Several | None] = field(default_factory=dict)
-    calls: dict[ast.Call, MathCall | BuiltinCall | MakeVector | KernelCall] = field(default_factory=dict)
+    calls: dict[ast.Call, MathCall | BuiltinCall | MakeVector | MakeRecord | KernelCall] = field(default_factory=dict)
+    fields: set[ast.expr] = field(default_factory=set)  # s.speed of a record s
     components: dict[ast.expr, int] = field(default_factory=dict)  # v.y, by number
     parts: dict[ast.expr, range] = field(default_factory=dict)  # v[1:4], by number
     constants: dict[ast.expr, Constant] = field(default_factory=dict)
@@ -159,6 +207,13 @@ class Function:
     @property
     def is_method(self) -> bool:
         return self.source.owner is not None
+
+    @property
+    def takes_block(self) -> bool:
+        """Whether it is given the block: a method, or a function that is given one to call."""
+        return self.is_method or any(
+            isinstance(kind, Bound) and kind.owner is not None for kind in self.parameters.values()
+        )
 
     @property
     def is_total(self) -> bool:

@@ -6,7 +6,7 @@ import ast
 import copy
 import io
 import tokenize
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -52,6 +52,36 @@ def source_of(function: FunctionType, owner: type | None) -> Source | None:
             if first_line == function.__code__.co_firstlineno:
                 return Source(function, owner, path, node)
     return None
+
+
+def with_plain_arguments(source: Source, count: int) -> Source:
+    """A function with ``*inputs`` written as one with that many more arguments, for ``count`` arguments in all."""
+    arguments = source.node.args
+    if arguments.vararg is None or arguments.kwonlyargs:
+        return source
+    names = [argument.arg for argument in arguments.args if argument.arg != "self" or source.owner is None]
+    return replace(source, node=_plain(source.node, max(0, count - len(names))))
+
+
+@cache
+def _plain(node: ast.FunctionDef, count: int) -> ast.FunctionDef:
+    plain = copy.deepcopy(node)
+    assert plain.args.vararg is not None
+    several, plain.args.vararg = plain.args.vararg, None
+    names = [f"{several.arg}_{number + 1}" for number in range(count)]
+    plain.args.args += [ast.copy_location(ast.arg(name, several.annotation), several) for name in names]
+    for call in ast.walk(plain):
+        if isinstance(call, ast.Call):
+            call.args = [part for argument in call.args for part in _unstarred(argument, several.arg, names)]
+    return plain
+
+
+def _unstarred(argument: ast.expr, several: str, names: list[str]) -> list[ast.expr]:
+    """The arguments that an argument stands for: ``*inputs`` for as many names."""
+    starred = isinstance(argument, ast.Starred) and isinstance(argument.value, ast.Name)
+    if starred and argument.value.id == several:  # type: ignore[attr-defined]
+        return [ast.copy_location(ast.Name(name, ast.Load()), argument) for name in names]
+    return [argument]
 
 
 def find_method(block_class: type, name: str, after: type | None = None) -> tuple[FunctionType, type] | None:

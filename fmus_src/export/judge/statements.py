@@ -6,7 +6,20 @@ import ast
 
 from .calls import CallTypes, Resolver
 from .expressions import is_read_only
-from .kernel import FLOAT, INT, Function, Kernel, List, Scalar, Several, Type, Vector, is_self_attribute
+from .kernel import (
+    FLOAT,
+    INT,
+    Function,
+    Kernel,
+    List,
+    RecordType,
+    Scalar,
+    Several,
+    Type,
+    Value,
+    Vector,
+    is_self_attribute,
+)
 from .subset_table import STATEMENTS
 
 UNUSED = "_"  # a target for what is not wanted of several values
@@ -84,7 +97,7 @@ class StatementTypes(CallTypes):
             return
         unpacked = self.infer_several(value)
         if isinstance(unpacked, Several):
-            kinds: list[Scalar | Vector] = list(unpacked.parts)
+            kinds: list[Value] = list(unpacked.parts)
         elif isinstance(unpacked, Vector):
             kinds = [FLOAT] * unpacked.size
         else:
@@ -109,7 +122,9 @@ class StatementTypes(CallTypes):
             if expected is None and kind is not None:
                 self.function.locals[target.id] = kind
         elif self._is_component(target):
-            self.report(target, "component assigned", name=ast.unparse(target.value))  # type: ignore[attr-defined]
+            holder = target.value  # type: ignore[attr-defined]
+            rule = "field assigned" if isinstance(self.infer(holder), RecordType) else "component assigned"
+            self.report(target, rule, name=ast.unparse(holder))
             return
         elif isinstance(target, ast.Subscript):
             expected = self.infer(target)
@@ -135,7 +150,7 @@ class StatementTypes(CallTypes):
             return False
         name = target.value.id if isinstance(target.value, ast.Name) else None
         known = name is None or name in self.bound or name in self.function.parameters
-        return known and isinstance(self.infer(target.value), Vector)
+        return known and isinstance(self.infer(target.value), Vector | RecordType)
 
     def bind_list(self, node: ast.stmt, target: ast.expr, value: ast.expr) -> None:
         """Check ``name = [0.0] * n`` or ``name = [a, b, c]``."""
@@ -201,7 +216,7 @@ class StatementTypes(CallTypes):
     def check_return(self, node: ast.Return) -> None:
         if isinstance(node.value, ast.Tuple):
             kinds = [self.infer(value) for value in node.value.elts]
-            if not all(isinstance(kind, Scalar | Vector) for kind in kinds):
+            if not all(isinstance(kind, Value) for kind in kinds):
                 if None not in kinds:
                     self.report(node, "return value", got="a list", expected=self.function.returns)
                 return

@@ -247,6 +247,20 @@ RULES: dict[str, Rule] = {
         "{name} is a vector, whose components cannot be assigned",
         "make a new one: {name} = vector(x, y, z); or declare it with vector=False, which makes it a list",
     ),
+    "record operator": Rule(
+        "operator {name} of {left} and {right}",
+        "records of floats and vectors take + - with their like, and * / with numbers",
+    ),
+    "record": Rule("{name} without each of its fields in their order", "write {name}({names})"),
+    "replace": Rule("replace of something else than a named record", "write replace(record, field=value)"),
+    "field": Rule("{kind} has no field {name}", "it has {names}"),
+    "field assigned": Rule(
+        "{name} is a record, whose fields cannot be assigned", "make a new one: {name} = replace({name}, field=value)"
+    ),
+    "derivatives": Rule(
+        "{name} is given to a function to be called, and changes its arguments or the block",
+        "return what it computes, and assign that where the state is",
+    ),
     "part": Rule("{part} is no part of two to four of its {size} elements", "write constants from 0 to {size}"),
     "part of a list": Rule("{part} is a list in Python", "write vector(*{part}), or a for loop over range"),
     "part of an expression": Rule("a part of {name}", "give it a name first"),

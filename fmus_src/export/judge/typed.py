@@ -4,14 +4,33 @@ from __future__ import annotations
 
 import ast
 from types import FunctionType
+from typing import TypeVar
 
 from ...block import Block
-from ...mathlib.vector_types import VECTORS
-from .kernel import BOOL, FLOAT, INT, Function, Kernel, List, Returned, Scalar, Several, Type, Vector, body_of
-from .source import Source, find_method, source_of
+from ...kernel.records import Record
+from ...kernel.vector_types import VECTORS
+from .kernel import (
+    BOOL,
+    FLOAT,
+    INT,
+    Bound,
+    Function,
+    Kernel,
+    List,
+    RecordType,
+    Returned,
+    Several,
+    Type,
+    Value,
+    Vector,
+    body_of,
+)
+from .source import Source, find_global, find_method, source_of, with_plain_arguments
 from .statements import ANY_VECTOR, StatementTypes
 
-ANNOTATIONS: dict[str, Scalar | Vector] = {"float": FLOAT, "int": INT, "bool": BOOL, "Vector": ANY_VECTOR}
+LIST, FUNCTION, ANY = OTHERS = "list", "function", "any value"
+ANNOTATIONS: dict[str, Value | str] = {"float": FLOAT, "int": INT, "bool": BOOL, "Vector": ANY_VECTOR}
+ANNOTATIONS |= {"list": LIST, "Derivatives": FUNCTION, "Any": ANY}
 ANNOTATIONS |= {kind.__name__: Vector(size) for size, kind in VECTORS.items()}
 
 
@@ -48,6 +67,8 @@ class _Finder:
     ) -> Function | None:
         """The Function for arguments of the given types; None after a violation."""
         source = source_of(function, owner)
+        if source is not None:
+            source = with_plain_arguments(source, len(types))
         if source is None:
             if caller is not None and call is not None:
                 self.kernel.report(caller.source, call, "no source", name=function.__name__)
@@ -55,14 +76,14 @@ class _Finder:
         parameters = self._parameters(source, caller, call, types)
         if parameters is None:
             return None
-        key = (function, owner, tuple(kind for kind in parameters.values() if isinstance(kind, List | Vector)))
+        key = (function, owner, tuple(parameters.values()))
         if key in self.under_way:
             self.kernel.report(source, source.node, "recursion", name=source.name)
             return None
         if key not in self.known:
             self.under_way.append(key)
             self.known[key] = self._analyse(
-                Function(source, self.kernel.block_class, parameters, self._returns(source))
+                Function(source, self.kernel.block_class, parameters, self._returns(source, parameters))
             )
             self.under_way.pop()
         return self.known[key]
@@ -97,9 +118,11 @@ class _Finder:
             return None
         parameters: dict[str, Type] = {}
         for argument, given in zip(names, types, strict=True):
-            declared = _annotation(argument.annotation)
+            declared = _annotation(source, argument.annotation)
             if declared is None:
-                detail = f"argument {argument.arg} is declared as none of float, int, bool, Vector3 (or 2, 4), list"
+                detail = (
+                    f"argument {argument.arg} is declared as none of float, int, bool, Vector3 (or 2, 4), list, record"
+                )
                 self.kernel.report(source, argument, "signature", name=source.name, detail=detail)
                 return None
             if not _fits(given, declared):
@@ -116,35 +139,49 @@ class _Finder:
             parameters[argument.arg] = given
         return parameters
 
-    def _returns(self, source: Source) -> Returned | None:
+    def _returns(self, source: Source, parameters: dict[str, Type]) -> Returned | None:
         annotation = source.node.returns
+        for argument in source.node.args.args:
+            if annotation is None or argument.annotation is None or argument.arg not in parameters:
+                continue
+            if _annotation(source, annotation) == ANY and ast.dump(annotation) == ast.dump(argument.annotation):
+                return parameters[argument.arg]  # type: ignore[return-value]
         if isinstance(annotation, ast.Constant) and annotation.value is None:
             return None
         if isinstance(annotation, ast.Subscript) and ast.unparse(annotation.value) == "tuple":
             several = annotation.slice.elts if isinstance(annotation.slice, ast.Tuple) else [annotation.slice]
-            parts = [_annotation(part) for part in several]
-            if len(parts) > 1 and all(isinstance(part, Scalar | Vector) and part != ANY_VECTOR for part in parts):
+            parts = [_annotation(source, part) for part in several]
+            if len(parts) > 1 and all(isinstance(part, Value) and part != ANY_VECTOR for part in parts):
                 return Several(tuple(parts))  # type: ignore[arg-type]
             returned = None
         else:
-            returned = _annotation(annotation)
-        if not isinstance(returned, Scalar | Vector):
+            returned = _annotation(source, annotation)
+        if not isinstance(returned, Value):
             self.kernel.report(source, source.node, "return type", name=source.name)
             return None
         return returned
 
 
-def _fits(given: Type, declared: Scalar | Vector | str) -> bool:
+def _fits(given: Type, declared: Value | str) -> bool:
     """Whether an argument is what is declared."""
     if declared == "list":
         return isinstance(given, List)
+    if declared == FUNCTION:
+        return isinstance(given, Bound)
+    if declared == ANY:
+        return isinstance(given, Value)
     return given == declared or (declared == ANY_VECTOR and isinstance(given, Vector))
 
 
-def _annotation(node: ast.expr | None) -> Scalar | Vector | str | None:
-    """``float``, ``int``, ``bool`` as Scalar, ``Vector3`` as Vector, ``list`` and ``list[...]`` as "list"."""
+def _annotation(source: Source, node: ast.expr | None) -> Value | str | None:
+    """``float`` as Scalar, ``Vector3`` as Vector, a record's class as RecordType; else one of the texts of `OTHERS`."""
     if isinstance(node, ast.Subscript):
         node = node.value
     if not isinstance(node, ast.Name):
         return None
-    return "list" if node.id == "list" else ANNOTATIONS.get(node.id)
+    if node.id in ANNOTATIONS:
+        return ANNOTATIONS[node.id]
+    value = find_global(source.function, node.id)
+    if isinstance(value, type) and issubclass(value, Record) and value.fields:
+        return RecordType(value)
+    return ANY if isinstance(value, TypeVar) else None

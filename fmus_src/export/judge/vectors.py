@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from abc import ABC, abstractmethod
 
-from ...mathlib.vector_types import VECTORS
+from ...kernel.vector_types import VECTORS
 from .kernel import FLOAT, INT, Function, List, MakeVector, Several, Type, Vector, is_self_attribute
 from .subset_table import Rule
 

@@ -9,12 +9,15 @@ from ..judge.effects import own_outcome
 from ..judge.kernel import (
     FLOAT,
     INT,
+    Bound,
     BuiltinCall,
     Function,
     KernelCall,
     List,
+    MakeRecord,
     MakeVector,
     MathCall,
+    RecordType,
     Scalar,
     Several,
     Vector,
@@ -88,6 +91,8 @@ class ExpressionWriter:
     def write_attribute(self, node: ast.Attribute) -> tuple[str, int]:
         if is_self_attribute(node):
             return f"self->{identifier(node.attr)}", ATOM
+        if node in self.function.fields:
+            return f"{self.write(node.value, ATOM)}.{identifier(node.attr)}", ATOM
         if node in self.function.components:
             return f"{self.write(node.value, ATOM)}.x[{self.function.components[node]}]", ATOM
         return self.names.constants[self.function.constants[node]], ATOM
@@ -132,6 +137,8 @@ class ExpressionWriter:
             return self._int_operation(node)
         if isinstance(self.function.types[node], Vector):
             return self._vector_operation(node)
+        if isinstance(self.function.types[node], RecordType):
+            return self._record_operation(node)
         operator, precedence = OPERATORS.get(type(node.op), ("", CONDITIONAL))
         fails = bool(own_outcome(self.function, node))
         if not operator:
@@ -164,6 +171,20 @@ class ExpressionWriter:
             return self.write_checked(node, f"py_{name}{kind.size}", *texts)
         return self.call(f"{name}{kind.size}", *texts), ATOM
 
+    def _record_operation(self, node: ast.BinOp) -> tuple[str, int]:
+        """An operator on two records, or on a record and a number."""
+        operands = [node.left, node.right]
+        kind = self.function.types[node]
+        assert isinstance(kind, RecordType)
+        name = VECTOR_NAMES[type(node.op)]
+        if isinstance(node.op, ast.Mult):
+            operands.sort(key=lambda operand: isinstance(self.function.types[operand], RecordType))  # the number first
+            name = "scale"
+        texts = [self.write_as_float(operand, CONDITIONAL) for operand in operands]
+        if own_outcome(self.function, node):
+            return self.write_checked(node, f"py_divide_{c_type(kind)}", *texts)
+        return self.call(f"{name}_{c_type(kind)}", *texts), ATOM
+
     def _int_operation(self, node: ast.BinOp) -> tuple[str, int]:
         unproven = node in self.function.unproven
         if isinstance(node.op, ast.FloorDiv | ast.Mod):
@@ -185,6 +206,8 @@ class ExpressionWriter:
         kind = self.function.types[node]
         if isinstance(kind, Vector):
             return self.call(f"negative{kind.size}", self.write(node.operand)), ATOM
+        if isinstance(kind, RecordType):
+            return self.call(f"negative_{c_type(kind)}", self.write(node.operand)), ATOM
         inner = self.write(node.operand, UNARY)
         return (f"-({inner})" if inner.startswith("-") else f"-{inner}"), UNARY
 
@@ -210,6 +233,8 @@ class ExpressionWriter:
         if isinstance(call, MakeVector):
             starred = node.args[0].value if isinstance(node.args[0], ast.Starred) else None
             return self.vector(self.elements(starred) if starred else [self.write(part) for part in node.args]), ATOM
+        if isinstance(call, MakeRecord):
+            return self._make_record(node, call.kind), ATOM
         if isinstance(call, MathCall):
             if call.name in WHOLE:
                 return self._whole(node, call.name, "py_whole_int")
@@ -223,10 +248,18 @@ class ExpressionWriter:
         return self._builtin(node, call)
 
     def _kernel_call(self, node: ast.Call, callee: Function) -> str:
-        arguments = ["self"] if callee.is_method else []
+        arguments = ["self"] if callee.takes_block else []
         if callee.can_fault:
             arguments.append("fault")
-        return self.call(self.names.functions[callee], *arguments, *[self.write(argument) for argument in node.args])
+        passed = [each for each in node.args if not isinstance(self.function.types[each], Bound)]
+        return self.call(self.names.functions[callee], *arguments, *[self.write(argument) for argument in passed])
+
+    def _make_record(self, node: ast.Call, kind: RecordType) -> str:
+        """A record of all its fields, or one with some of another's."""
+        given = {keyword.arg: self.write(keyword.value) for keyword in node.keywords}
+        holder = self.write(node.args[0], ATOM) if node.args else ""
+        values = [given.get(name, f"{holder}.{identifier(name)}") for name in kind.record.fields]
+        return f"(({c_type(kind)}){{{', '.join(values)}}})"
 
     def _builtin(self, node: ast.Call, call: BuiltinCall) -> tuple[str, int]:
         argument = node.args[0]

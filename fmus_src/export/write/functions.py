@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from ..judge.kernel import Function, Several, Vector, body_of
+from ..judge.kernel import Bound, Function, RecordType, Several, Vector, body_of
 from ..judge.source import label
 from .names import Names, c_type, declaration, identifier
 from .statements import StatementWriter
@@ -13,16 +13,18 @@ from .statements import StatementWriter
 def signature(function: Function, name: str, block_type: str) -> str:
     """``static double terminal_cubic_time(Fault *fault, const double *dr, double g)``."""
     arguments = []
-    if function.is_method:
+    if function.takes_block:
         arguments.append(f"{'' if function.changes_block else 'const '}{block_type} *self")
     if function.can_fault:
         arguments.append("Fault *fault")
     for parameter, kind in function.parameters.items():
+        if isinstance(kind, Bound):
+            continue
         arguments.append(declaration(kind, identifier(parameter), parameter not in function.changed_lists))
     returned = c_type(function.returns) if function.returns else "void"
     passed = [*function.parameters.values(), function.returns]
     # vectors that are not inlined go through memory
-    hint = "inline " if any(isinstance(kind, Vector | Several) for kind in passed) else ""
+    hint = "inline " if any(isinstance(kind, Vector | RecordType | Several) for kind in passed) else ""
     return f"static {hint}{returned} {name}({', '.join(arguments) or 'void'})"
 
 
@@ -46,8 +48,9 @@ def write_function(function: Function, names: Names, block_type: str) -> list[st
 def _find_unused(function: Function) -> list[str]:
     """C names of the arguments that the function does not use."""
     read = {part.id for part in ast.walk(function.source.node) if isinstance(part, ast.Name)}
-    unused = [identifier(name) for name in function.parameters if name not in read]
-    calls_methods = any(callee.is_method for callee in function.callees())
-    if function.is_method and "self" not in read and not calls_methods:
+    valued = [name for name, kind in function.parameters.items() if not isinstance(kind, Bound)]
+    unused = [identifier(name) for name in valued if name not in read]
+    calls_methods = any(callee.takes_block for callee in function.callees())
+    if function.takes_block and "self" not in read and not calls_methods:
         unused.append("self")
     return unused

@@ -7,8 +7,23 @@ import re
 from dataclasses import dataclass
 
 from ...block import Variable, snake_case
-from ...mathlib.vector_types import VECTORS
-from ..judge.kernel import BOOL, FLOAT, INT, Constant, Function, Kernel, List, Scalar, Several, Type, Vector
+from ...kernel.records import SCALARS, Record, count_numbers
+from ...kernel.vector_types import VECTORS
+from ..judge.kernel import (
+    BOOL,
+    FLOAT,
+    INT,
+    Bound,
+    Constant,
+    Function,
+    Kernel,
+    List,
+    RecordType,
+    Scalar,
+    Several,
+    Type,
+    Vector,
+)
 
 C_TYPES = {FLOAT: "double", INT: "int64_t", BOOL: "bool"}
 
@@ -83,12 +98,20 @@ def _function_names(functions: list[Function]) -> dict[Function, str]:
         if name in WRAPPER_NAMES:
             name += "_"
         if name in names.values():
-            sizes = [str(kind.size) for kind in function.parameters.values() if isinstance(kind, List | Vector)]
-            name = "_".join([name, *sizes])
+            name = "_".join([name, *filter(None, map(_distinction, function.parameters.values()))])
         while name in names.values():  # same sizes, other element types
             name += "_"
         names[function] = name
     return names
+
+
+def _distinction(kind: Type) -> str:
+    """What tells a function of these arguments from others of its name."""
+    if isinstance(kind, Bound):
+        return kind.function.__name__
+    if isinstance(kind, RecordType):
+        return kind.record.__name__
+    return str(kind.size) if isinstance(kind, List | Vector) else ""
 
 
 def block_type_name(name: str) -> str:
@@ -120,10 +143,12 @@ def literal(value: float | int | bool) -> str:
     return repr(value)
 
 
-def c_type(kind: Scalar | Vector | Several) -> str:
-    """``double``, ``Vector3``; ``DoubleVector3`` for a float and a vector."""
+def c_type(kind: Scalar | Vector | RecordType | Several) -> str:
+    """``double``, ``Vector3``, ``Motion``; ``DoubleVector3`` for a float and a vector."""
+    if isinstance(kind, RecordType):
+        return f"{kind.record.__name__}Record"
     if isinstance(kind, Several):
-        return "".join(c_type(part).removesuffix("_t").title() for part in kind.parts)
+        return "".join(name[0].upper() + name[1:] for name in (c_type(part).removesuffix("_t") for part in kind.parts))
     return VECTORS[kind.size].__name__ if isinstance(kind, Vector) else C_TYPES[kind]
 
 
@@ -132,15 +157,30 @@ def declaration(kind: Type, name: str, constant: bool = False) -> str:
     if isinstance(kind, List):
         qualifier = "const " if constant else ""
         return f"{qualifier}{C_TYPES[kind.element]} *{name}"
+    assert not isinstance(kind, Bound)  # which has no value
     return f"{c_type(kind)} {name}"
 
 
 def member(variable: Variable, position: int) -> str:
     """The place of a variable's element in the block's struct: ``mass``, ``position.x[0]``, ``thrust[7]``."""
     name = identifier(variable.name)
+    if variable.record is not None:
+        return f"{name}.{_field_path(variable.record, position)}"
     if variable.is_vector:
         return f"{name}.x[{position}]"
     return f"{name}[{position}]" if variable.is_array else name
+
+
+def _field_path(record: type[Record], position: int) -> str:
+    """The place of a record's number in its struct: ``attitude.x[1]``."""
+    for name, field in record.fields.items():
+        size = count_numbers(field.kind)
+        if position < size:
+            if isinstance(field.kind, type) and issubclass(field.kind, Record):
+                return f"{identifier(name)}.{_field_path(field.kind, position)}"
+            return identifier(name) if field.kind in SCALARS else f"{identifier(name)}.x[{position}]"
+        position -= size
+    raise IndexError(position)
 
 
 def comment(text: str) -> str:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import inspect
 from pathlib import Path
+from typing import Any
 
 from ...block import Block, Variable
+from ...kernel import vector_types
 from ...kernel.functions import DOMAIN_ERROR, FAULTS, RANGE_ERROR
-from ...mathlib import vector_types
+from ...kernel.records import Record
 from ...runtime import POINT_TOLERANCE, SAMPLE_TOLERANCE, TIME_TOLERANCE
 from ..judge.expressions import SCALARS, type_of_variable
 from ..judge.kernel import FLOAT, INT, Function, Kernel, List, Several, Vector
@@ -15,7 +17,8 @@ from ..judge.source import label
 from ..judge.subset import analyse_kernel
 from .functions import write_function
 from .layout import Lines
-from .names import C_TYPES, Names, block_type_name, c_type, comment, identifier, literal, member, names_of
+from .names import C_TYPES, Names, block_type_name, c_type, comment, declaration, identifier, literal, member, names_of
+from .records import write_records
 
 KINDS = {float: "KIND_REAL", int: "KIND_INTEGER", bool: "KIND_BOOLEAN"}
 FREXP = Several((FLOAT, INT))
@@ -50,6 +53,7 @@ def translate(block_class: type[Block], guid: str) -> str:
             summary=comment(block_class.summary()),
             file=label(Path(inspect.getfile(block_class))),
         ),
+        *write_records(kernel),
         _struct(block_class, type_name),
         *_constants(names),
         *_several(kernel),
@@ -71,7 +75,7 @@ def _struct(block_class: type[Block], type_name: str) -> str:
         if isinstance(kind, List):
             text = f"{C_TYPES[kind.element]} {identifier(name)}[{kind.size}]"
         else:
-            text = f"{c_type(kind)} {identifier(name)}"
+            text = declaration(kind, identifier(name))
         lines.member(f"{text};", _about(variable))
     lines.close(f"}} {type_name};")
     return "\n".join([*lines.text, ""])
@@ -163,7 +167,9 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
     element_names = []
     for name, variable in block_class.variables.items():
         values = ", ".join(map(literal, variable.elements))
-        if variable.is_array:
+        if variable.record is not None:
+            values = _braced(variable.record.of_elements(variable.elements))
+        elif variable.is_array:
             values = f"{{{{{values}}}}}" if variable.is_vector else f"{{{values}}}"
         starts.add(f".{identifier(name)} = {values},")
         kind, role = KINDS[type(variable.elements[0])], ROLES[variable.causality]
@@ -199,6 +205,15 @@ def _tables(block_class: type[Block], type_name: str, guid: str) -> str:
             "",
         ]
     )
+
+
+def _braced(value: Any) -> str:
+    """A number, vector or record as C initialises it."""
+    if isinstance(value, vector_types.Vector):
+        return f"{{{{{', '.join(map(literal, value))}}}}}"
+    if isinstance(value, Record):
+        return f"{{{', '.join(_braced(getattr(value, name)) for name in value.fields)}}}"
+    return literal(value)
 
 
 def _alike(traits: list[str]) -> list[int]:

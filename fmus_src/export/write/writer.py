@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from ..judge.effects import own_outcome
-from ..judge.kernel import BOOL, FLOAT, INT, Function, List, Scalar, Several, Vector
+from ..judge.kernel import BOOL, FLOAT, INT, Function, List, Scalar, Several, Value, Vector
 from ..judge.source import comments_of
 from .expressions import ExpressionWriter
 from .layout import Lines
@@ -56,7 +56,7 @@ class FunctionWriter:
     def keep(self, node: ast.expr, text: str, name: str) -> str:
         """Give the value of an expression a variable of its own, checked where it can fail."""
         kind = self.function.types[node]
-        assert isinstance(kind, Scalar | Vector | Several)
+        assert isinstance(kind, Value | Several)
         variable = self.fresh(name)
         self.add(f"const {c_type(kind)} {variable} = {text};")
         if self.can_fault(node) or node in self.function.hoisted:
@@ -77,6 +77,7 @@ class FunctionWriter:
     def declare(self, name: str) -> str:
         """A local variable with its type, as a declaration begins."""
         kind = self.function.locals[name]
+        assert isinstance(kind, Value | List)
         if isinstance(kind, List):
             return f"{C_TYPES[kind.element]} {identifier(name)}[{kind.size}]"
         return f"{c_type(kind)} {identifier(name)}"

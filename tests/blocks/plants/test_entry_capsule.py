@@ -35,20 +35,26 @@ def fly(block, seconds, step=0.2):
 
 
 def state_of(block):
-    return np.array([*block.place, *block.path, *block.attitude, *block.angular_velocity])
+    return np.array(block.state.elements())
+
+
+def begin(entry, block, w=(0.0, 0.0, 0.0)):
+    """The block's state in inertial axes."""
+    numbers = block.state.elements()
+    return entry.start(numbers[0:3], numbers[3:6], numbers[6:9], list(w))
 
 
 def independent(block, seconds, **options):
     """The same flight in inertial axes."""
     entry = Entry(COEFFICIENTS, **options)
-    begun = entry.start([*block.place], [*block.path], [*block.attitude], [*block.angular_velocity])
+    begun = begin(entry, block, block.angular_velocity)
     return np.concatenate(entry.read(entry.fly(begun, seconds), seconds))
 
 
 def inertial(block, time):
     """Position and velocity in inertial axes."""
     entry = Entry(COEFFICIENTS)
-    state = entry.start([*block.place], [*block.path], [*block.attitude], [0.0] * 3)
+    state = begin(entry, block)
     turn = Rotation.from_rotvec([0.0, 0.0, EARTH_RATE * time])
     return turn.apply(state[:3]), turn.apply(state[3:6])
 
@@ -56,13 +62,11 @@ def inertial(block, time):
 def test_derivatives():
     """Those of another program at 70 km, to the digits given."""
     block = capsule(initial_height=70000.0, initial_speed=7500.0, initial_bank=0.9, **TUMBLING)
-    _, path, attitude, w = block.slopes(
-        block.place, block.path, block.attitude, block.angular_velocity, vector(10.0, -20.0, 5.0)
-    )
-    assert path.x == pytest.approx(-4.132585, abs=6e-7)
-    assert [path.y, path.z] == pytest.approx([3.674721e-5, -1.1370604e-3], abs=6e-11)
-    assert [*attitude] == pytest.approx([0.010187065, -0.033536617, 0.039960007], abs=6e-9)
-    assert [*w] == pytest.approx([0.008517471, -0.136227984, -0.103223840], abs=6e-9)
+    rate = block.derivatives(0.0, block.state, vector(10.0, -20.0, 5.0))
+    assert rate.speed == pytest.approx(-4.132585, abs=6e-7)
+    assert [rate.path_angle, rate.course] == pytest.approx([3.674721e-5, -1.1370604e-3], abs=6e-11)
+    assert [*rate.attitude] == pytest.approx([0.010187065, -0.033536617, 0.039960007], abs=6e-9)
+    assert [*rate.angular_velocity] == pytest.approx([0.008517471, -0.136227984, -0.103223840], abs=6e-9)
 
 
 def kepler(position, velocity, time):
@@ -98,7 +102,7 @@ def test_without_moments_angular_momentum_stays():
     block.density_factor = 0.0
 
     def momentum(time):
-        state = Entry(COEFFICIENTS).start([*block.place], [*block.path], [*block.attitude], [0.0] * 3)
+        state = begin(Entry(COEFFICIENTS), block)
         body = Rotation.from_rotvec([0.0, 0.0, EARTH_RATE * time]) * Rotation.from_quat(state[6:10])
         return body.apply(INERTIA @ [*block.angular_velocity])
 
@@ -112,11 +116,11 @@ def test_energy_is_lost_to_the_air_alone():
     block = capsule(initial_height=80000.0, initial_path_angle=-3.0 * DEGREE, internal_step=0.0125)
 
     def energy():
-        around = EARTH_RATE * block.place.x * math.cos(block.place.z)
-        return 0.5 * block.speed**2 - MU / block.place.x - 0.5 * around**2
+        around = EARTH_RATE * block.state.radius * math.cos(block.state.latitude)
+        return 0.5 * block.speed**2 - MU / block.state.radius - 0.5 * around**2
 
     def power():
-        v = block.in_body(*body_axes(block.attitude), vector(block.speed, 0.0, 0.0))
+        v = block.in_body(*body_axes(block.state.attitude), vector(block.speed, 0.0, 0.0))
         density, sound = air(block.height)
         force = block.air_force(v, density, sound)
         return (force.x * v.x + force.y * v.y + force.z * v.z) / block.mass
@@ -182,7 +186,7 @@ def test_wind_moves_the_air():
     windy.wind = [-100.0, 0.0, 0.0]
     forces = []
     for block in (faster, windy):
-        axes = body_axes(block.attitude)
+        axes = body_axes(block.state.attitude)
         v = block.in_body(*axes, vector(block.speed, 0.0, 0.0) - block.wind)
         forces.append([*block.air_force(v, *air(block.height))])
     assert forces[1] == pytest.approx(forces[0], rel=1e-12)
@@ -200,7 +204,7 @@ def test_it_says_when_it_leaves_its_tables_and_when_it_is_low():
 def test_the_pressure_trims_at_twenty_degrees_with_lift():
     """Moment about z 0 at -20 deg; lift over drag 0.309."""
     block = capsule(initial_bank=0.0)
-    axes = body_axes(block.attitude)
+    axes = body_axes(block.state.attitude)
     v = block.in_body(*axes, vector(7000.0, 0.0, 0.0))
     force = np.array([*block.air_force(v, 1e-5, 290.0)])
     moment = np.cross([*block.pressure_arm], force)

@@ -10,8 +10,7 @@ from random import Random
 
 from perilune.fmus_src.block import Block, Input, Parameter, Variable
 from perilune.fmus_src.export.judge.source import label
-from perilune.fmus_src.kernel import functions
-from perilune.fmus_src.mathlib import vector_types
+from perilune.fmus_src.kernel import functions, vector_types
 from perilune.fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY_OPERATIONS
 from perilune.fmus_src.runtime import Component, StepError
 from tests.support.kernels.native_instance import ERROR, OK, NativeInstance

@@ -1,0 +1,93 @@
+"""The records of a kernel as C: a struct each, and its operations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..judge.kernel import FLOAT, Kernel, RecordType, Several, Vector
+from .layout import Lines
+from .names import c_type, declaration, identifier
+
+# name: arguments, what becomes of a float, and of a vector of the given size
+OPERATIONS: dict[str, tuple[str, str, str]] = {
+    "add": ("{type} a, {type} b", "a.{0} + b.{0}", "add{1}(a.{0}, b.{0})"),
+    "subtract": ("{type} a, {type} b", "a.{0} - b.{0}", "subtract{1}(a.{0}, b.{0})"),
+    "negative": ("{type} a", "-a.{0}", "negative{1}(a.{0})"),
+    "scale": ("double k, {type} a", "k * a.{0}", "scale{1}(k, a.{0})"),
+    "divide": ("{type} a, double k", "a.{0} / k", "divide{1}(a.{0}, k)"),
+}
+
+
+def write_records(kernel: Kernel) -> list[str]:
+    """Definitions of the records that a kernel has, each after those of its fields."""
+    return [_definition(kind) for kind in _records_of(kernel)]
+
+
+def _records_of(kernel: Kernel) -> list[RecordType]:
+    ordered: dict[RecordType, None] = {}
+
+    def add(kind: object) -> None:
+        for part in kind.parts if isinstance(kind, Several) else [kind]:
+            if isinstance(part, RecordType) and part not in ordered:
+                for name in part.record.fields:
+                    add(part.field(name))
+                ordered[part] = None
+
+    for function in kernel.functions:
+        for kind in (*function.parameters.values(), *function.locals.values(), *function.types.values()):
+            add(kind)
+        add(function.returns)
+    return list(ordered)
+
+
+def _definition(kind: RecordType) -> str:
+    lines = Lines()
+    lines.open(f"typedef struct {c_type(kind)} {{")
+    for name, field in kind.record.fields.items():
+        unit = f"{field.unit}: " if field.unit and field.unit != "1" else ""
+        frame = f" ({field.frame} frame)" if field.frame else ""
+        about = f"{unit}{field.description}{frame}" or name
+        lines.member(f"{declaration(kind.field(name), identifier(name))};", about)
+    lines.close(f"}} {c_type(kind)};")
+    lines.text.append("")
+    if kind.is_space:
+        for name, (arguments, of_float, of_vector) in OPERATIONS.items():
+            write = _field_writer(kind, of_float, of_vector)
+            _write_operation(lines, kind, f"{name}_{c_type(kind)}({arguments.format(type=c_type(kind))})", write)
+        _write_checked_division(lines, kind)
+    return "\n".join(lines.text)
+
+
+def _field_writer(kind: RecordType, of_float: str, of_vector: str) -> Callable[[str], str]:
+    """What writes an operation on a field."""
+
+    def write(name: str) -> str:
+        inner = kind.field(name)
+        if inner is FLOAT:
+            return of_float.format(identifier(name))
+        size = inner.size if isinstance(inner, Vector) else f"_{c_type(inner)}"
+        return of_vector.format(identifier(name), size)
+
+    return write
+
+
+def _write_operation(lines: Lines, kind: RecordType, head: str, write: Callable[[str], str]) -> None:
+    lines.open(f"static inline {c_type(kind)} {head}\n{{")
+    lines.add(f"return ({c_type(kind)}){{{', '.join(map(write, kind.record.fields))}}};")
+    lines.close("}")
+    lines.text.append("")
+
+
+def _write_checked_division(lines: Lines, kind: RecordType) -> None:
+    """Division by what may be zero."""
+    name = c_type(kind)
+    lines.open(
+        f"static inline {name} py_divide_{name}(Fault *fault, const char *file, int line, {name} a, double k)\n{{"
+    )
+    lines.open("if (k == 0.0) {")
+    lines.add("set_fault(fault, file, line, ZERO_DIVISION);")
+    lines.add("return a;")
+    lines.close("}")
+    lines.add(f"return divide_{name}(a, k);")
+    lines.close("}")
+    lines.text.append("")
