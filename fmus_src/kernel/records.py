@@ -170,7 +170,7 @@ def _write_operations(record: Any) -> None:
         lines += [f"    made.{field} = {expression.format(field)}" for field in record.fields]
         lines.append("    return made")
         namespace: dict[str, Any] = {"new": object.__new__, "Own": record}
-        exec("\n".join(lines), namespace)
+        exec(compile("\n".join(lines), __file__, "exec"), namespace)
         setattr(record, f"__{name}__", namespace[f"__{name}__"])
 
 

@@ -190,7 +190,7 @@ class CallTypes(ExpressionTypes):
                     node, "argument type", name=name, expected="a list or vector", argument="its argument", got=argument
                 )
             return INT
-        if argument is not None and (isinstance(argument, List | Vector) or (name == "abs" and argument is BOOL)):
+        if argument is not None and (not isinstance(argument, Scalar) or (name == "abs" and argument is BOOL)):
             self.report(node, "number", name=name, got=argument)
             return None
         if name == "abs" and isinstance(argument, Scalar):

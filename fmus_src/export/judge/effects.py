@@ -125,9 +125,10 @@ class _Effects:
             if not isinstance(part, ast.Call) or not isinstance(call, KernelCall):
                 continue
             callee = call.callee
-            if callee.changes_anything and self._is_passed(part):
-                self.kernel.report(callee.source, callee.source.node, "derivatives", name=callee.name)
-            elif callee.changes_anything and part is not whole:
+            for argument in part.args:
+                if self._changes_when_called(callee, argument):
+                    self.kernel.report(self.function.source, argument, "derivatives", name=ast.unparse(argument))
+            if callee.changes_anything and part is not whole:
                 self.kernel.report(self.function.source, part, "changes inside expression", name=callee.name)
             self.function.changes_block |= callee.changes_block
             for name, argument in zip(callee.parameters, part.args, strict=True):
@@ -136,10 +137,13 @@ class _Effects:
                         self.kernel.report(self.function.source, argument, "read-only", name=ast.unparse(argument))
                     self._changes(argument)
 
-    def _is_passed(self, call: ast.Call) -> bool:
-        """Whether a call is of a function that the function was given."""
-        name = call.func.id if isinstance(call.func, ast.Name) else ""
-        return isinstance(self.function.parameters.get(name), Bound)
+    def _changes_when_called(self, callee: Function, argument: ast.expr) -> bool:
+        """Whether an argument is a function that changes anything where the callee calls it."""
+        kind = self.function.types.get(argument)
+        given = [
+            inner for inner in callee.callees() if isinstance(kind, Bound) and inner.source.function is kind.function
+        ]
+        return any(inner.changes_anything for inner in given)
 
     def visit(self, node: ast.expr, conditional: bool) -> Outcomes:
         """How an expression can end the call; marks what is to be hoisted in it."""

@@ -71,7 +71,8 @@ class FunctionWriter:
         """Whether evaluating an expression can record a fault, hoisted parts left aside."""
         if node in self.function.hoisted:
             return False
-        parts = [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.expr)]
+        children = [child.value if isinstance(child, ast.keyword) else child for child in ast.iter_child_nodes(node)]
+        parts = [child for child in children if isinstance(child, ast.expr)]
         return bool(own_outcome(self.function, node)) or any(self.can_fault(part) for part in parts)
 
     def declare(self, name: str) -> str:

@@ -18,11 +18,22 @@ from tests.support.kernels import bad_kernels
 
 TEMPLATE = '''import math
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State
+from perilune.fmus_src.kernel.integrators import runge_kutta_4
+from perilune.fmus_src.kernel.records import Field, Record, replace
 from perilune.fmus_src.mathlib.vectors import Vector3, vector
+
+
+class Motion(Record):
+    height = Field()
+    count = Field(int)
 
 
 def helper(value: float) -> float:
     return 2.0 * value
+
+
+def still(height: float, count: int) -> Motion:
+    return Motion(height=height, count=count)
 
 
 def helper_of_vectors(value: Vector3) -> Vector3:
@@ -58,6 +69,10 @@ class Bad(Block):
     def bump(self) -> float:
         self.n = self.n + 1
         return 1.0
+
+    def drift(self, t: float, y: float) -> float:
+        self.n = self.n + 1
+        return y
 
     def step(self, t: float, h: float) -> None:
         {step}

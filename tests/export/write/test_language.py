@@ -8,6 +8,7 @@ from perilune.fmus_src.export.write.translate import translate
 from tests.support.kernels import samples
 from tests.support.kernels.comparison import Pair, fly
 from tests.support.kernels.language_blocks import Faults, Language, VectorFaults, VectorLanguage
+from tests.support.kernels.record_blocks import RecordFaults, RecordLanguage
 
 
 def test_blocks_are_in_the_subset() -> None:
@@ -15,6 +16,8 @@ def test_blocks_are_in_the_subset() -> None:
     assert check(Faults) == []
     assert check(VectorLanguage) == []
     assert check(VectorFaults) == []
+    assert check(RecordLanguage) == []
+    assert check(RecordFaults) == []
 
 
 def test_every_construct_is_bitwise_equal() -> None:
@@ -41,6 +44,27 @@ def test_every_fault_of_vectors_is_at_the_same_line_and_leaves_the_same_values()
     fly(pair, samples.size(3000))
     lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
     assert len(lines) >= 9, sorted(lines)
+
+
+def test_everything_that_records_can_do_is_bitwise_equal() -> None:
+    pair = Pair(RecordLanguage, samples.generator("records"))
+    rows, _ = fly(pair, samples.size(2000))
+    assert len(set(rows)) > 0.9 * len(rows)
+
+
+def test_every_fault_of_records_is_at_the_same_line_and_leaves_the_same_values() -> None:
+    pair = Pair(RecordFaults, samples.generator("record faults"))
+    pair.wild = True
+    fly(pair, samples.size(3000))
+    lines = {message.split(" line ")[1].split(",")[0] for message in pair.faults}
+    assert len(lines) >= 5, sorted(lines)
+
+
+def test_generated_integrators_are_readable() -> None:
+    text = translate(RecordLanguage, "{guid}")
+    assert "MotionRecord k2 = record_language_derivatives(self, " in text
+    assert "} MotionRecord;" in text
+    assert text.count("/* runge_kutta_4 (fmus_src/kernel/integrators.py:") == 3  # for a record, a vector, a float
 
 
 def test_generated_vectors_are_readable() -> None:

@@ -45,6 +45,12 @@ STEPS = {
     "list stored": "self.w = [0.0, 1.0, 2.0]  # here",
     "component": "self.y = self.w.w  # here",
     "component assigned": "self.w[0] = 1.0  # here",
+    "record operator": "m = still(1.0, 2)\nm = m + m  # here",
+    "record": "m = Motion(height=1.0)  # here",
+    "replace": "m = replace(still(1.0, 2), height=2.0)  # here",
+    "field": "m = still(1.0, 2)\nself.y = m.speed  # here",
+    "field assigned": "m = still(1.0, 2)\nm.height = 2.0  # here",
+    "derivatives": "self.y = runge_kutta_4(self.drift, t, self.y, h)  # here",
     "part": "self.w = self.w[0:4]  # here",
     "part of a list": "self.w = self.v[0:3]  # here",
     "part of an expression": "self.pair = (self.w + self.w)[0:2]  # here",
@@ -106,6 +112,14 @@ SYNTAX = {
 
 # More that is refused, by rule and in other words than above.
 OTHERS = [
+    ("record", "m = Motion(count=1, height=1.0)  # here"),
+    ("record", "m = Motion(1.0, 2)  # here"),
+    ("record operator", "m = still(1.0, 2)\nm = 2.0 * m  # here"),
+    ("field", "m = still(1.0, 2)\nm = replace(m, speed=2.0)  # here"),
+    ("argument type", "m = Motion(height=1.0, count=2.0)  # here"),
+    ("type change", "self.y = still(1.0, 2)  # here"),
+    ("number", "self.y = abs(still(1.0, 2))  # here"),
+    ("comparison", "self.flag = still(1.0, 2) == still(1.0, 2)  # here"),
     ("component assigned", "self.w.x = 1.0  # here"),
     ("component assigned", "a = vector(1.0, 2.0)\na[1] = 0.0  # here"),
     ("component assigned", "a = vector(1.0, 2.0)\na.y = 0.0  # here"),
