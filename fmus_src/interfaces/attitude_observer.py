@@ -3,6 +3,9 @@
 import math
 
 from ..block import Input, Output, Parameter, State
+from ..kernel.integrators import runge_kutta_4
+from ..kernel.records import replace
+from ..mathlib.orbital import AttitudeState
 from ..mathlib.vectors import Vector3, clip, is_finite, vector
 from .orbital_body import OrbitalBody
 
@@ -82,8 +85,7 @@ class AttitudeObserver(OrbitalBody, interface=True):
         direct=True,
         description="0 good, 1 no new sample, 2 not finite, 3 yaw at its bound, 4 no gain, 5 variance not positive",
     )
-    angles_now = State([0.0, 0.0, 0.0], unit="rad", description="estimated roll, yaw, pitch")
-    rates_now = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="estimated angular velocity, absolute")
+    estimate = State(AttitudeState, description="estimate of now")
     last_roll = State(0.0, unit="rad", description="roll measured at the tick before")
     last_pitch = State(0.0, unit="rad", description="pitch measured at the tick before")
     last_rates = State([0.0, 0.0, 0.0], unit="rad/s", frame="body", description="rates measured at the tick before")
@@ -97,24 +99,24 @@ class AttitudeObserver(OrbitalBody, interface=True):
         return True
 
     def observe(self) -> None:
-        """Set angles_now and rates_now for the present sample."""
+        """Set the estimate for the present sample."""
 
     def mean_torque(self, pulses: Vector3) -> Vector3:
         """Torque (N m, body) over the tick in the mean."""
         return self.jet_torque * pulses / self.sample_period + self.held_torque
 
-    def carry(self, angles: Vector3, w: Vector3, split: bool) -> tuple[Vector3, Vector3]:
-        """Angles and rates of a state a tick ago, under its pulses: each one as it was, or all in the mean."""
+    def carry(self, split: bool) -> AttitudeState:
+        """The estimate of a tick ago carried on, under its pulses: each one as it was, or all in the mean."""
         if split:
-            angles, w = self.fire(angles, w, self.fired_pulses, self.held_torque, self.sample_period, math.inf)
-        else:
-            angles, w = self.turn(angles, w, self.mean_torque(self.fired_pulses), self.sample_period)
-        return angles, w
+            return self.fire(self.estimate, self.fired_pulses, self.held_torque, self.sample_period, math.inf)
+        torque = self.mean_torque(self.fired_pulses)
+        return runge_kutta_4(self.derivatives, 0.0, self.estimate, self.sample_period, torque)
 
     def take_measured(self, yaw: float) -> None:
         """Roll, pitch and rates as measured, with an estimated yaw (rad)."""
-        self.angles_now = vector(self.measured_roll, yaw, self.measured_pitch)
-        self.rates_now = self.measured_angular_velocity
+        self.estimate = AttitudeState(
+            angles=vector(self.measured_roll, yaw, self.measured_pitch), angular_velocity=self.measured_angular_velocity
+        )
 
     def finite(self) -> bool:
         """Whether the sample is."""
@@ -140,21 +142,22 @@ class AttitudeObserver(OrbitalBody, interface=True):
         self.gyro_counted = self.gyro_count
 
     def coast(self) -> None:
-        """Set angles_now and rates_now without a sample."""
-        self.angles_now, self.rates_now = self.carry(self.angles_now, self.rates_now, True)
+        """Set the estimate without a sample."""
+        self.estimate = self.carry(True)
 
     def bound(self) -> None:
         """Keep yaw within largest_yaw."""
-        yaw = clip(self.angles_now.y, -self.largest_yaw, self.largest_yaw)
-        if yaw != self.angles_now.y:
+        angles = self.estimate.angles
+        yaw = clip(angles.y, -self.largest_yaw, self.largest_yaw)
+        if yaw != angles.y:
             self.status = YAW_LIMITED
-            self.angles_now = vector(self.angles_now.x, yaw, self.angles_now.z)
+            self.estimate = replace(self.estimate, angles=vector(angles.x, yaw, angles.z))
 
     def publish(self) -> None:
         """Put the estimate out."""
         self.bound()
-        self.estimated_angles = self.angles_now
-        self.estimated_angular_velocity = self.rates_now
+        self.estimated_angles = self.estimate.angles
+        self.estimated_angular_velocity = self.estimate.angular_velocity
 
     def initialize(self) -> None:
         self.usable = self.weigh()

@@ -1,7 +1,7 @@
 """What observers of the whole state have in common: one gain for angles and rates."""
 
 from ..block import State
-from ..mathlib.orbital import index_of_measured
+from ..mathlib.orbital import AttitudeState, index_of_measured
 from ..mathlib.vectors import Vector3, vector
 from .attitude_observer import AttitudeObserver
 
@@ -21,17 +21,15 @@ class FullAttitudeObserver(AttitudeObserver, interface=True):
             for j in range(5):
                 self.gain[5 * i + j] = m[6 * i + index_of_measured(j)] + m[6 * i + 1] * row[j]
 
-    def correction(
-        self, angles: Vector3, w: Vector3, roll: float, pitch: float, rates: Vector3
-    ) -> tuple[Vector3, Vector3]:
-        """gain (m - C x): what a sample m (roll, pitch, rates) gives to a state x, its angles and rates."""
+    def correction(self, s: AttitudeState, roll: float, pitch: float, rates: Vector3) -> AttitudeState:
+        """gain (m - C x): what a sample m (roll, pitch, rates) gives to a state x."""
         missing = [0.0] * 5
-        missing[0] = roll - angles.x
-        missing[1] = pitch - angles.z
+        missing[0] = roll - s.angles.x
+        missing[1] = pitch - s.angles.z
         for k in range(3):
-            missing[2 + k] = rates[k] - w[k]
+            missing[2 + k] = rates[k] - s.angular_velocity[k]
         change = [0.0] * 6
         for i in range(6):
             for j in range(5):
                 change[i] = change[i] + self.gain[5 * i + j] * missing[j]
-        return vector(*change[0:3]), vector(*change[3:6])
+        return AttitudeState(angles=vector(*change[0:3]), angular_velocity=vector(*change[3:6]))

@@ -7,8 +7,16 @@ Source: Lapin, thesis, chapter 1.1.
 """
 
 from ..kernel.functions import cos, sin, tan
+from ..kernel.records import Field, Record
 from .matrices import multiply
 from .vectors import Vector3, cross, vector
+
+
+class AttitudeState(Record):
+    """Attitude against the orbital frame, and angular velocity."""
+
+    angles = Field(Vector3, unit="rad", description="roll, yaw, pitch")
+    angular_velocity = Field(Vector3, unit="rad/s", frame="body", description="absolute")
 
 
 def index_of_measured(j: int) -> int:

@@ -4,6 +4,7 @@ import math
 
 from ..block import Parameter, State
 from ..interfaces.attitude_observer import NOT_POSITIVE, AttitudeObserver
+from ..kernel.records import replace
 from ..mathlib.kalman import predict, update
 from ..mathlib.orbital import angle_rate_derivatives, angle_rates, apply_matrix
 from ..mathlib.vectors import Vector3, vector
@@ -53,22 +54,24 @@ class OrbitalFilter(AttitudeObserver):
     def advance(self, w: Vector3) -> None:
         """Angles and covariance a tick ahead, at the mean angular velocity w (rad/s, body)."""
         half = 0.5 * self.sample_period
-        middle = self.angles_now + half * angle_rates(self.angles_now, w, self.orbital_rate)
+        angles = self.estimate.angles
+        middle = angles + half * angle_rates(angles, w, self.orbital_rate)
         self.predict_covariance(middle, w)
-        self.angles_now = self.angles_now + self.sample_period * angle_rates(middle, w, self.orbital_rate)
+        turned = angles + self.sample_period * angle_rates(middle, w, self.orbital_rate)
+        self.estimate = replace(self.estimate, angles=turned)
 
     def correct(self) -> None:
         """Take roll and pitch in."""
         x = [0.0] * 6
         for k in range(3):
-            x[k] = self.angles_now[k]
+            x[k] = self.estimate.angles[k]
             x[3 + k] = self.bias[k]
         variance = self.vertical_sigma * self.vertical_sigma
         of_roll = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
         of_pitch = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
         update(x, self.covariance, of_roll, variance, self.measured_roll, 6)
         update(x, self.covariance, of_pitch, variance, self.measured_pitch, 6)
-        self.angles_now = vector(*x[0:3])
+        self.estimate = replace(self.estimate, angles=vector(*x[0:3]))
         self.bias = vector(*x[3:6])
 
     def coning_correction(self) -> Vector3:
@@ -83,14 +86,14 @@ class OrbitalFilter(AttitudeObserver):
         mean = 0.5 * (self.last_rates + self.measured_angular_velocity)
         self.advance(mean + self.coning_correction() - self.bias)
         self.correct()
-        expected = self.rates_now + gained
-        self.rates_now = expected + self.rate_gain * (self.measured_angular_velocity - self.bias - expected)
+        expected = self.estimate.angular_velocity + gained
+        rates = expected + self.rate_gain * (self.measured_angular_velocity - self.bias - expected)
+        self.estimate = replace(self.estimate, angular_velocity=rates)
 
     def coast(self) -> None:
-        before = self.rates_now
-        angles, self.rates_now = self.carry(self.angles_now, self.rates_now, True)
-        self.advance(0.5 * (before + self.rates_now))
-        self.angles_now = angles
+        carried = self.carry(True)
+        self.advance(0.5 * (self.estimate.angular_velocity + carried.angular_velocity))
+        self.estimate = carried
 
     def bound(self) -> None:
         """The filter's yaw is free; put out what it knows of it."""

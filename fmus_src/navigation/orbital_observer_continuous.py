@@ -2,7 +2,7 @@
 
 from ..block import Parameter
 from ..interfaces.full_attitude_observer import FullAttitudeObserver
-from ..mathlib.orbital import linear_model
+from ..mathlib.orbital import AttitudeState, linear_model
 from ..mathlib.vectors import Vector3
 
 
@@ -27,10 +27,8 @@ class OrbitalObserverContinuous(FullAttitudeObserver):
         self.compose(a, row)
         return True
 
-    def slopes(self, angles: Vector3, w: Vector3, torque: Vector3) -> tuple[Vector3, Vector3]:
-        turning, acceleration = self.motion(angles, w, torque)
-        of_angles, of_rates = self.correction(angles, w, self.last_roll, self.last_pitch, self.last_rates)
-        return turning + of_angles, acceleration + of_rates
+    def derivatives(self, t: float, s: AttitudeState, torque: Vector3) -> AttitudeState:
+        return self.motion(s, torque) + self.correction(s, self.last_roll, self.last_pitch, self.last_rates)
 
     def observe(self) -> None:
-        self.angles_now, self.rates_now = self.carry(self.angles_now, self.rates_now, self.split)
+        self.estimate = self.carry(self.split)

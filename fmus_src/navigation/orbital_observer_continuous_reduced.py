@@ -26,19 +26,20 @@ class OrbitalObserverContinuousReduced(AttitudeObserver):
         roll = 0.5 * (self.last_roll + self.measured_roll)
         pitch = 0.5 * (self.last_pitch + self.measured_pitch)
         w = 0.5 * (self.last_rates + self.measured_angular_velocity)
-        sin_yaw = sin(self.angles_now.y)
+        yaw = self.estimate.angles.y
+        sin_yaw = sin(yaw)
         cos_pitch = cos(pitch)
         tan_pitch = tan(pitch)
         q = w.y * cos(roll) - w.z * sin(roll)
         yaw_rate = q / cos_pitch + w0 * sin_yaw * tan_pitch
         roll_rate = w.x - tan_pitch * q
-        bent = sin_yaw / cos_pitch - self.angles_now.y
+        bent = sin_yaw / cos_pitch - yaw
         f = yaw_rate - fraction * roll_rate + fraction * w0 * bent + fraction * fraction * w0 * roll
         retained = exp(-pole * self.sample_period)
         self.z = retained * self.z + (1.0 - retained) * f / pole
         self.take_measured(self.z + fraction * self.measured_roll)
 
     def coast(self) -> None:
-        self.angles_now, self.rates_now = self.carry(self.angles_now, self.rates_now, True)
+        self.estimate = self.carry(True)
         fraction = -self.reduced_yaw_pole / self.orbital_rate
-        self.z = self.angles_now.y - fraction * self.angles_now.x
+        self.z = self.estimate.angles.y - fraction * self.estimate.angles.x

@@ -44,9 +44,5 @@ class OrbitalObserverDiscrete(FullAttitudeObserver):
         return True
 
     def observe(self) -> None:
-        angles, w = self.carry(self.angles_now, self.rates_now, self.split)
-        of_angles, of_rates = self.correction(
-            angles, w, self.measured_roll, self.measured_pitch, self.measured_angular_velocity
-        )
-        self.angles_now = angles + of_angles
-        self.rates_now = w + of_rates
+        s = self.carry(self.split)
+        self.estimate = s + self.correction(s, self.measured_roll, self.measured_pitch, self.measured_angular_velocity)

@@ -17,7 +17,7 @@ class OrbitalObserverDiscreteReduced(AttitudeObserver):
     split = Parameter(False, description="follow each pulse instead of their mean")
 
     def observe(self) -> None:
-        angles, _ = self.carry(self.angles_now, self.rates_now, self.split)
+        carried = self.carry(self.split)
         turn = self.orbital_rate * self.sample_period
         gain = (1.0 - exp(-self.reduced_yaw_pole * self.sample_period)) / turn
-        self.take_measured(angles.y - gain * (self.measured_roll - angles.x))
+        self.take_measured(carried.angles.y - gain * (self.measured_roll - carried.angles.x))

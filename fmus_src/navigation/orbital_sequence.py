@@ -44,8 +44,8 @@ class OrbitalSequence(AttitudeObserver):
     def observe(self) -> None:
         yaw = 0.0
         if self.stage == HOLDING:
-            angles, _ = self.carry(self.angles_now, self.rates_now, True)
-            yaw = angles.y
+            carried = self.carry(True)
+            yaw = carried.angles.y
         elif self.stage == AVERAGING:
             yaw = self.average()
         elif self.due(self.levelling_end):

@@ -1,6 +1,7 @@
 """Orbital attitude as it is."""
 
 from ..interfaces.attitude_observer import AttitudeObserver
+from ..mathlib.orbital import AttitudeState
 
 
 class OrbitalTrueState(AttitudeObserver):
@@ -8,5 +9,4 @@ class OrbitalTrueState(AttitudeObserver):
 
     def bound(self) -> None:
         """Tell the truth, whatever the sample."""
-        self.angles_now = self.true_angles
-        self.rates_now = self.true_angular_velocity
+        self.estimate = AttitudeState(angles=self.true_angles, angular_velocity=self.true_angular_velocity)

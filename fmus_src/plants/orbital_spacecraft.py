@@ -2,6 +2,7 @@
 
 from ..block import Input, Output, Parameter, State
 from ..interfaces.orbital_body import OrbitalBody
+from ..mathlib.orbital import AttitudeState
 from ..mathlib.vectors import Vector3, vector
 
 GOOD = 0
@@ -61,9 +62,10 @@ class OrbitalSpacecraft(OrbitalBody):
             self.fired_pulses = self.pulse_lengths
         self.held_torque = self.mean_torque
         if self.status == GOOD:
-            self.angles, self.angular_velocity = self.fire(
-                self.angles, self.angular_velocity, self.left, self.mean_torque, h, self.internal_step
-            )
+            s = AttitudeState(angles=self.angles, angular_velocity=self.angular_velocity)
+            s = self.fire(s, self.left, self.mean_torque, h, self.internal_step)
+            self.angles = s.angles
+            self.angular_velocity = s.angular_velocity
         before = self.size(self.left)
         self.left = vector(self.after(self.left.x, h), self.after(self.left.y, h), self.after(self.left.z, h))
         self.jet_seconds = self.jet_seconds + before - self.size(self.left)

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from perilune.fmus_src.control.orbital_arrival_control import OrbitalArrivalControl
 from perilune.fmus_src.control.orbital_modal_control import OrbitalModalControl
-from perilune.fmus_src.mathlib.orbital import linear_model
+from perilune.fmus_src.mathlib.orbital import AttitudeState, linear_model
 from perilune.fmus_src.plants.orbital_spacecraft import OrbitalSpacecraft
 from tests.support.flights.orbital_motion import DEGREE, INERTIA, JET_TORQUE, ORBITAL_RATE
 
@@ -79,7 +79,8 @@ def test_arrival_asks_for_the_rate_that_arrives():
     plant.initialize()
     torque = answer(block, plant.angles, plant.angular_velocity)
     rate = torque[1] * 0.2 * np.linalg.inv(INERTIA)[1, 1]
-    turning, _ = plant.slopes(plant.angles, plant.angular_velocity, plant.held_torque)
+    here = AttitudeState(angles=plant.angles, angular_velocity=plant.angular_velocity)
+    turning = plant.derivatives(0.0, here, plant.held_torque).angles
     assert turning.y + rate == pytest.approx(-9.9 * DEGREE / 35.0, rel=1e-12)
     assert torque[2] == 0.0
 

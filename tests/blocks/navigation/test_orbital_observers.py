@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
+from perilune.fmus_src.kernel.records import replace
 from perilune.fmus_src.mathlib.orbital import linear_model
 from perilune.fmus_src.plants.orbital_spacecraft import OrbitalSpacecraft
 from tests.support.flights.orbital_motion import DEGREE, INERTIA, ORBITAL_RATE
@@ -96,7 +97,7 @@ def test_what_follows_each_pulse_stays_with_the_plant(name):
     lengths = np.random.default_rng(5).uniform(-0.1, 0.1, (100, 3))
     for k, pulses in enumerate(lengths.tolist()):
         if name == "orbital_sequence" and k == 2:
-            run.block.angles_now = plant.angles
+            run.block.estimate = replace(run.block.estimate, angles=plant.angles)
         plant.pulse_lengths, plant.pulse_count = pulses, k + 1
         plant.step(TICK * k, TICK)
         row = run.step(still_sample(plant.angles.x, plant.angles.z, plant.angular_velocity), pulses)
