@@ -184,8 +184,9 @@ class HoverGuidance(HoverPlan):
 
     def weigh_thrust(self) -> None:
         """Compare the thrust of the last cycle with its command."""
-        ends, _, impulse = lagged_thrust(self.engine_thrust, self.commanded_thrust, self.engine_lag, self.elapsed)
-        self.engine_thrust = ends.z
+        thrust = lagged_thrust(self.engine_thrust, self.commanded_thrust, self.engine_lag, self.elapsed)
+        impulse = thrust.impulse
+        self.engine_thrust = thrust.end
         mean = impulse / self.elapsed
         if self.estimate_thrust and mean > 0.0:
             exhaust = STANDARD_GRAVITY * self.specific_impulse

@@ -4,9 +4,30 @@ import math
 
 from ..block import Block, Input, Output, Parameter, State
 from ..kernel.functions import log1p
+from ..kernel.integrators import Push, Translation, gain_of, runge_kutta_nystrom
+from ..kernel.records import Field, Record
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity
 from ..mathlib.lagged_thrust import lagged_thrust
 from ..mathlib.vectors import Vector3, norm, vector
+
+
+class Burn(Record):
+    """Thrust over mass in a step, and what it comes to."""
+
+    start = Field(unit="m/s2", description="at the start of the step")
+    middle = Field(unit="m/s2", description="in its middle")
+    end = Field(unit="m/s2", description="at its end")
+    gain = Field(unit="m/s", description="the speed gained, of the rocket equation")
+
+
+def scaled(burn: Burn, simpson: float) -> Burn:
+    """A burn whose mean by Simpson's rule, ``simpson`` (m/s), is its gain."""
+    return Burn(
+        start=burn.start * burn.gain / simpson,
+        middle=burn.middle * burn.gain / simpson,
+        end=burn.end * burn.gain / simpson,
+        gain=burn.gain,
+    )
 
 
 class MoonLander(Block, interface=True):
@@ -88,40 +109,38 @@ class MoonLander(Block, interface=True):
     def turn(self, t: float, h: float) -> None:
         """Advance the attitude by h (s)."""
 
-    def burn(self, h: float, commanded: float) -> tuple[Vector3, float]:
-        """Thrust over mass (m/s2) at start, middle and end of a step, and the speed gained; spends the mass."""
+    def burn(self, h: float, commanded: float) -> Burn:
+        """A step of h (s) of thrust under a command (N); spends the mass."""
         exhaust = STANDARD_GRAVITY * self.specific_impulse
-        thrust, middle_impulse, impulse = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
-        used = impulse / exhaust
+        thrust = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
+        used = thrust.impulse / exhaust
         if used >= self.mass:
             self.delivered_thrust = 0.0
-            return vector(0.0, 0.0, 0.0), 0.0
-        first = thrust[0] / self.mass
-        middle = thrust[1] / (self.mass - middle_impulse / exhaust)
-        self.delivered_thrust = thrust[2]
+            return Burn(start=0.0, middle=0.0, end=0.0, gain=0.0)
+        first = thrust.start / self.mass
+        middle = thrust.middle / (self.mass - thrust.middle_impulse / exhaust)
+        self.delivered_thrust = thrust.end
         self.mass = self.mass - used
-        return vector(first, middle, thrust[2] / self.mass), exhaust * log1p(used / self.mass)
+        gain = exhaust * log1p(used / self.mass)
+        return Burn(start=first, middle=middle, end=thrust.end / self.mass, gain=gain)
 
     def advance(self, t: float, h: float, commanded: float) -> Vector3:
         """Move by h (s) under one command (N); returns the velocity that thrust gives (m/s)."""
-        force, gain = self.burn(h, commanded)
-        simpson = h * (force[0] + 4.0 * force[1] + force[2]) / 6.0
+        burn = self.burn(h, commanded)
+        simpson = h * (burn.start + 4.0 * burn.middle + burn.end) / 6.0
         if simpson > 0.0:
-            force = force * gain / simpson
-        first = force[0] * self.attitude
+            burn = scaled(burn, simpson)
+        first = burn.start * self.attitude
         self.turn(t, 0.5 * h)
-        middle = force[1] * self.attitude
+        middle = burn.middle * self.attitude
         self.turn(t + 0.5 * h, 0.5 * h)
-        g1 = self.gravity(self.position)
-        g2 = self.gravity(self.position + 0.5 * h * (self.velocity + 0.25 * h * (g1 + first)))
-        g4 = self.gravity(self.position + h * (self.velocity + 0.5 * h * (g2 + middle)))
-        fall = g1 + 2.0 * g2
-        push = first + 2.0 * middle
-        gained = h * (push + 2.0 * middle + force[2] * self.attitude) / 6.0
-        self.position = self.position + h * (self.velocity + h * (fall + push) / 6.0)
-        self.velocity = self.velocity + gained + h * (fall + 2.0 * g2 + g4) / 6.0
+        push = Push(start=first, middle=middle, end=burn.end * self.attitude)
+        s = Translation(position=self.position, velocity=self.velocity)
+        s = runge_kutta_nystrom(self.gravity, s, push, h)
+        self.position = s.position
+        self.velocity = s.velocity
         self.altitude = self.height(self.position)
-        return gained
+        return gain_of(push, h)
 
     def touch(self) -> None:
         """Stop where the ground is reached."""

@@ -9,6 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from .records import Field, Record
+from .vector_types import Vector3
+
 State = TypeVar("State")  # a float, a vector or a record
 Derivatives = Callable[..., Any]  # (t, state, *inputs) -> rate of the state
 
@@ -24,3 +27,38 @@ def runge_kutta_4(derivatives: Derivatives, t: float, state: State, h: float, *i
     k3 = derivatives(t + half, state + half * k2, *inputs)
     k4 = derivatives(t + h, state + h * k3, *inputs)
     return state + h * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
+
+
+class Translation(Record):
+    """Motion of a point."""
+
+    position = Field(Vector3, unit="m", description="position")
+    velocity = Field(Vector3, unit="m/s", description="velocity")
+
+
+class Push(Record):
+    """An acceleration over a step that does not depend on the motion."""
+
+    start = Field(Vector3, unit="m/s2", description="at the start of the step")
+    middle = Field(Vector3, unit="m/s2", description="in its middle")
+    end = Field(Vector3, unit="m/s2", description="at its end")
+
+
+def runge_kutta_nystrom(field: Derivatives, s: Translation, push: Push, h: float) -> Translation:
+    """The motion h (s) later under x'' = field(x) + push: Nystrom's method of fourth order (1925).
+
+    Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 1993, section II.14.
+    """
+    g1 = field(s.position)
+    g2 = field(s.position + 0.5 * h * (s.velocity + 0.25 * h * (g1 + push.start)))
+    g4 = field(s.position + h * (s.velocity + 0.5 * h * (g2 + push.middle)))
+    mean = (g1 + 2.0 * g2) + (push.start + 2.0 * push.middle)
+    fall = h * (g1 + 2.0 * g2 + 2.0 * g2 + g4) / 6.0
+    return Translation(
+        position=s.position + h * (s.velocity + h * mean / 6.0), velocity=s.velocity + gain_of(push, h) + fall
+    )
+
+
+def gain_of(push: Push, h: float) -> Vector3:
+    """The velocity (m/s) that a push gives over h (s), by Simpson's rule."""
+    return h * (push.start + 2.0 * push.middle + 2.0 * push.middle + push.end) / 6.0

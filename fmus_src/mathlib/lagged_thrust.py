@@ -1,11 +1,21 @@
 """Thrust that follows a command with a first-order lag, exactly. Kernel functions."""
 
 from ..kernel.functions import expm1
-from .vectors import Vector3, vector
+from ..kernel.records import Field, Record
 
 
-def lagged_thrust(delivered: float, commanded: float, lag: float, h: float) -> tuple[Vector3, float, float]:
-    """Thrust (N) at start, middle and end of h (s) under a command (N), and its impulses (N s) until the latter two.
+class LaggedThrust(Record):
+    """Thrust over a step, and what it has given."""
+
+    start = Field(unit="N", description="at the start of the step")
+    middle = Field(unit="N", description="in its middle")
+    end = Field(unit="N", description="at its end")
+    middle_impulse = Field(unit="N.s", description="until the middle")
+    impulse = Field(unit="N.s", description="until the end")
+
+
+def lagged_thrust(delivered: float, commanded: float, lag: float, h: float) -> LaggedThrust:
+    """Thrust over h (s) under a command (N).
 
     Thrust is ``delivered`` at the start, and the command at once where the lag (s) is 0.
     """
@@ -14,8 +24,10 @@ def lagged_thrust(delivered: float, commanded: float, lag: float, h: float) -> t
     if lag > 0.0:
         excess = delivered - commanded
         half = -expm1(-0.5 * h / lag)
-    middle_impulse = 0.5 * commanded * h + excess * lag * half
-    impulse = commanded * h + excess * lag * half * (2.0 - half)
-    middle = commanded + excess * (1.0 - half)
-    end = commanded + excess * (1.0 - half) * (1.0 - half)
-    return vector(commanded + excess, middle, end), middle_impulse, impulse
+    return LaggedThrust(
+        start=commanded + excess,
+        middle=commanded + excess * (1.0 - half),
+        end=commanded + excess * (1.0 - half) * (1.0 - half),
+        middle_impulse=0.5 * commanded * h + excess * lag * half,
+        impulse=commanded * h + excess * lag * half * (2.0 - half),
+    )

@@ -5,7 +5,7 @@ from ..interfaces.moon_lander import MoonLander
 from ..kernel.functions import atan2
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity, vertical_at
 from ..mathlib.lagged_thrust import lagged_thrust
-from ..mathlib.thrust_axis import turn_axis
+from ..mathlib.thrust_axis import AxisState, turn_axis
 from ..mathlib.vectors import Vector3, across, clip, cross, dot, norm, vector
 
 HALVINGS = 60  # of a step, until the moment at which the tank is empty is exact
@@ -90,14 +90,15 @@ class AttitudeMoonLander(MoonLander):
 
     def turn(self, t: float, h: float) -> None:
         """Advance attitude and angular rate by h (s)."""
-        self.attitude, self.angular_rate = turn_axis(
-            self.attitude, self.angular_rate, self.angular_acceleration, self.maximum_angular_acceleration, h
-        )
+        s = AxisState(axis=self.attitude, rate=self.angular_rate)
+        s = turn_axis(s, self.angular_acceleration, self.maximum_angular_acceleration, h)
+        self.attitude = s.axis
+        self.angular_rate = s.rate
 
     def impulse(self, h: float, commanded: float) -> float:
         """Impulse (N s) of h (s) under a command (N)."""
-        _, _, total = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
-        return total
+        thrust = lagged_thrust(self.delivered_thrust, commanded, self.thrust_lag, h)
+        return thrust.impulse
 
     def thrusting_time(self, h: float, commanded: float) -> float:
         """How much of h (s) the propellant lasts under a command (N)."""

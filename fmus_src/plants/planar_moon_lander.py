@@ -4,8 +4,18 @@ import math
 
 from ..block import Block, Input, Output, Parameter, State
 from ..kernel.functions import atan2, cos, sin
+from ..kernel.integrators import runge_kutta_4
+from ..kernel.records import Field, Record
 from ..mathlib.gravity import STANDARD_GRAVITY
-from ..mathlib.vectors import Vector4, vector
+
+
+class PlanarMotion(Record):
+    """Motion over a round Moon, in local vertical axes."""
+
+    vertical_speed = Field(unit="m/s", description="upwards")
+    horizontal_speed = Field(unit="m/s", description="where the central angle grows")
+    altitude = Field(unit="m", description="altitude")
+    central_angle = Field(unit="rad", description="angle flown over the Moon")
 
 
 class PlanarMoonLander(Block):
@@ -44,31 +54,33 @@ class PlanarMoonLander(Block):
     central_angle = Output(0.0, unit="rad", description="angle flown over the Moon")
     mass = Output(940.0, unit="kg", description="mass")
     ground_contact = Output(False, description="the ground was reached")
-    motion = State([0.0] * 4, description="vertical and horizontal velocity (m/s), altitude (m), central angle (rad)")
+    motion = State(PlanarMotion)
 
     def initialize(self) -> None:
-        self.motion = vector(
-            self.initial_speed * cos(self.initial_path_angle),
-            self.initial_speed * sin(self.initial_path_angle),
-            self.initial_altitude,
-            self.initial_central_angle,
+        self.motion = PlanarMotion(
+            vertical_speed=self.initial_speed * cos(self.initial_path_angle),
+            horizontal_speed=self.initial_speed * sin(self.initial_path_angle),
+            altitude=self.initial_altitude,
+            central_angle=self.initial_central_angle,
         )
         self.mass = self.initial_mass
         self.path_angle = self.initial_path_angle
         self.publish()
 
-    def slope(self, motion: Vector4, acceleration: float) -> Vector4:
-        """Time derivative of motion under thrust over mass ``acceleration`` (m/s2)."""
-        vertical, horizontal, altitude, _ = motion
-        radius = self.moon_radius + altitude
+    def derivatives(self, t: float, s: PlanarMotion, force: float, flow: float) -> PlanarMotion:
+        """Rates under a thrust (N), ``t`` (s) after mass began to flow out (kg/s)."""
+        acceleration = force / (self.mass - t * flow)
+        radius = self.moon_radius + s.altitude
         ratio = self.moon_radius / radius
-        turning = horizontal / radius
+        turning = s.horizontal_speed / radius
         climb = acceleration * cos(self.thrust_angle) - self.surface_gravity * ratio * ratio
         push = acceleration * sin(self.thrust_angle)
         if self.curvature:
-            climb = climb + horizontal * turning
-            push = push - vertical * turning
-        return vector(climb, push, vertical, turning)
+            climb = climb + s.horizontal_speed * turning
+            push = push - s.vertical_speed * turning
+        return PlanarMotion(
+            vertical_speed=climb, horizontal_speed=push, altitude=s.vertical_speed, central_angle=turning
+        )
 
     def move(self, h: float) -> None:
         """Motion and mass h (s) later."""
@@ -77,20 +89,17 @@ class PlanarMoonLander(Block):
         if self.mass <= flow * h:
             force = 0.0
             flow = 0.0
-        middle = force / (self.mass - 0.5 * h * flow)
-        k1 = self.slope(self.motion, force / self.mass)
-        k2 = self.slope(self.motion + 0.5 * h * k1, middle)
-        k3 = self.slope(self.motion + 0.5 * h * k2, middle)
-        k4 = self.slope(self.motion + h * k3, force / (self.mass - h * flow))
-        self.motion = self.motion + h * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
+        self.motion = runge_kutta_4(self.derivatives, 0.0, self.motion, h, force, flow)
         self.mass = self.mass - h * flow
 
     def publish(self) -> None:
         """Outputs of the motion; the path angle is the one nearest to the last, and stays where speed is 0."""
-        vertical, horizontal, self.altitude, self.central_angle = self.motion
-        self.speed = math.sqrt(vertical * vertical + horizontal * horizontal)
+        s = self.motion
+        self.altitude = s.altitude
+        self.central_angle = s.central_angle
+        self.speed = math.sqrt(s.vertical_speed * s.vertical_speed + s.horizontal_speed * s.horizontal_speed)
         if self.speed > 0.0:
-            angle = atan2(horizontal, vertical)
+            angle = atan2(s.horizontal_speed, s.vertical_speed)
             turns = math.floor((self.path_angle - angle) / math.tau + 0.5)
             self.path_angle = angle + math.tau * float(turns)
         self.ground_contact = self.altitude <= 0.0

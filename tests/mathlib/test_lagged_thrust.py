@@ -20,23 +20,24 @@ def test_thrust_is_exponential_and_the_impulse_its_integral(delivered, commanded
     def thrust(t):
         return commanded + (delivered - commanded) * math.exp(-t / lag)
 
-    levels, half, whole = lagged_thrust(delivered, commanded, lag, h)
-    assert list(levels) == pytest.approx([delivered, thrust(0.5 * h), thrust(h)], rel=1e-12, abs=1e-9)
-    assert half == pytest.approx(quad(thrust, 0.0, 0.5 * h)[0], rel=1e-9, abs=1e-9)
-    assert whole == pytest.approx(quad(thrust, 0.0, h, limit=200)[0], rel=1e-6, abs=1e-9)
+    step = lagged_thrust(delivered, commanded, lag, h)
+    levels = [step.start, step.middle, step.end]
+    assert levels == pytest.approx([delivered, thrust(0.5 * h), thrust(h)], rel=1e-12, abs=1e-9)
+    assert step.middle_impulse == pytest.approx(quad(thrust, 0.0, 0.5 * h)[0], rel=1e-9, abs=1e-9)
+    assert step.impulse == pytest.approx(quad(thrust, 0.0, h, limit=200)[0], rel=1e-6, abs=1e-9)
 
 
 @given(thrusts, thrusts, st.floats(0.01, 5.0), st.floats(0.01, 2.0), st.floats(0.1, 0.9))
 def test_cutting_the_time_changes_nothing(delivered, commanded, lag, h, share):
-    whole, _, impulse = lagged_thrust(delivered, commanded, lag, h)
-    first, _, before = lagged_thrust(delivered, commanded, lag, share * h)
-    second, _, after = lagged_thrust(first.z, commanded, lag, (1.0 - share) * h)
-    assert second.z == pytest.approx(whole.z, rel=1e-12, abs=1e-9)
-    assert before + after == pytest.approx(impulse, rel=1e-12, abs=1e-9)
+    whole = lagged_thrust(delivered, commanded, lag, h)
+    first = lagged_thrust(delivered, commanded, lag, share * h)
+    second = lagged_thrust(first.end, commanded, lag, (1.0 - share) * h)
+    assert second.end == pytest.approx(whole.end, rel=1e-12, abs=1e-9)
+    assert first.impulse + second.impulse == pytest.approx(whole.impulse, rel=1e-12, abs=1e-9)
 
 
 @given(thrusts, thrusts)
 def test_without_a_lag_the_command_is_there_at_once(delivered, commanded):
-    levels, half, whole = lagged_thrust(delivered, commanded, 0.0, 0.4)
-    assert list(levels) == [commanded] * 3
-    assert (half, whole) == pytest.approx((0.2 * commanded, 0.4 * commanded))
+    step = lagged_thrust(delivered, commanded, 0.0, 0.4)
+    assert [step.start, step.middle, step.end] == [commanded] * 3
+    assert (step.middle_impulse, step.impulse) == pytest.approx((0.2 * commanded, 0.4 * commanded))

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from perilune.fmus_src.mathlib.thrust_axis import turn_axis
+from perilune.fmus_src.mathlib.thrust_axis import AxisState, turn_axis
 from perilune.fmus_src.mathlib.vectors import across, dot, norm, vector
 
 small = st.floats(-0.3, 0.3)
@@ -23,16 +23,16 @@ ACCELERATION = vector(0.02, 0.05, -0.03)
 @given(vectors, st.floats(0.01, 0.1))
 def test_a_constant_rate_turns_the_axis_on_a_circle(rate, h):
     w = across(rate, AXIS)
-    axis, after = turn_axis(AXIS, w, vector(0.0, 0.0, 0.0), 0.0, h)
-    assert np.array(axis) == pytest.approx(Rotation.from_rotvec(h * np.array(w)).apply(AXIS), abs=1e-8)
-    assert np.array(after) == pytest.approx(np.array(w), abs=1e-15)
+    s = turn_axis(AxisState(axis=AXIS, rate=w), vector(0.0, 0.0, 0.0), 0.0, h)
+    assert np.array(s.axis) == pytest.approx(Rotation.from_rotvec(h * np.array(w)).apply(AXIS), abs=1e-8)
+    assert np.array(s.rate) == pytest.approx(np.array(w), abs=1e-15)
 
 
 def flown(steps, limit):
-    axis, rate = AXIS, across(vector(0.1, 0.2, 0.0), AXIS)
+    s = AxisState(axis=AXIS, rate=across(vector(0.1, 0.2, 0.0), AXIS))
     for _ in range(steps):
-        axis, rate = turn_axis(axis, rate, ACCELERATION, limit, 4.0 / steps)
-    return np.array([*axis, *rate])
+        s = turn_axis(s, ACCELERATION, limit, 4.0 / steps)
+    return np.array(s.elements())
 
 
 def integrated(limit):
@@ -53,6 +53,6 @@ def test_it_is_of_fourth_order(limit):
 
 @given(vectors, vectors)
 def test_the_axis_stays_a_unit_vector_and_the_rate_perpendicular(rate, acceleration):
-    axis, after = turn_axis(AXIS, across(rate, AXIS), acceleration, 0.02, 0.5)
-    assert norm(axis) == pytest.approx(1.0, abs=1e-15)
-    assert dot(axis, after) == pytest.approx(0.0, abs=1e-16)
+    s = turn_axis(AxisState(axis=AXIS, rate=across(rate, AXIS)), acceleration, 0.02, 0.5)
+    assert norm(s.axis) == pytest.approx(1.0, abs=1e-15)
+    assert dot(s.axis, s.rate) == pytest.approx(0.0, abs=1e-16)
