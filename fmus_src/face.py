@@ -21,7 +21,7 @@ HOMES = {
         *("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "exp2", "expm1"),
         *("log", "log2", "log10", "log1p", "pow", "sinh", "cosh", "tanh", "cbrt", "fmod"),
     ),
-    "kernel.integrators": ("runge_kutta_4",),
+    "kernel.integrators": ("Forcing", "Translation", "runge_kutta_4", "runge_kutta_nystrom"),
     "kernel.records": ("Field", "Record", "replace"),
     "mathlib.vectors": ("Vector", "Vector2", "Vector3", "Vector4", "cross", "dot", "norm", "vector"),
 }

@@ -153,6 +153,27 @@ from .fmus_src.kernel.functions import (
 from .fmus_src.kernel.functions import (
     tanh as tanh,
 )
+from .fmus_src.kernel.integrators import (
+    Forcing as Forcing,
+)
+from .fmus_src.kernel.integrators import (
+    Translation as Translation,
+)
+from .fmus_src.kernel.integrators import (
+    runge_kutta_4 as runge_kutta_4,
+)
+from .fmus_src.kernel.integrators import (
+    runge_kutta_nystrom as runge_kutta_nystrom,
+)
+from .fmus_src.kernel.records import (
+    Field as Field,
+)
+from .fmus_src.kernel.records import (
+    Record as Record,
+)
+from .fmus_src.kernel.records import (
+    replace as replace,
+)
 from .fmus_src.mathlib.vectors import (
     Vector as Vector,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import inspect
 import pkgutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
 from types import FunctionType
 
@@ -23,6 +23,7 @@ from perilune.fmus_src.export.judge.subset_table import (
     RULES,
     MathFunction,
 )
+from perilune.fmus_src.kernel.integrators import runge_kutta_4, runge_kutta_nystrom
 
 from .markdown import escaped, table
 
@@ -38,6 +39,7 @@ SYMBOLS = {
     ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.FloorDiv: "//", ast.Mod: "%",
     ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
 }  # fmt: skip
+INTEGRATORS = (runge_kutta_4, runge_kutta_nystrom)
 FREE = ("{", "}")  # of words that a message fills in
 
 
@@ -56,6 +58,12 @@ def kernel_page() -> str:
         f"`float`, `int` of 64 bits and `bool`, with {operators}, and the functions "
         f"{', '.join(f'`{name}`' for name in BUILTIN_FUNCTIONS)}. Two to four floats are a vector: `vector(x, y, z)`, "
         "`v.x`, `v[0]`, `v[0:2]`, with `+` `-` `*` `/`. More are a list of a fixed size: `[0.0] * n`.",
+        'Values with names are a record: `class Motion(Record)` with fields `speed = Field(unit="m/s")`; write '
+        "`Motion(speed=v)`, `replace(s, speed=v)`, `s.speed`.",
+        "## Integrators",
+        "They call a function that they are given: `runge_kutta_4(self.derivatives, t, self.state, h, force)`. "
+        "Write `from perilune import runge_kutta_4`.",
+        table(["function", "what it gives"], _signatures(INTEGRATORS)),
         "## Elementary functions",
         f"Write `from perilune import {', '.join(list(ELEMENTARY_FUNCTIONS)[:3])}` at the top of the file. They have "
         "the same bits on every processor, in Python and in C, which those of `math` do not; their errors are below "
@@ -71,8 +79,7 @@ def kernel_page() -> str:
         "`perilune`, too.",
     ]
     for name, functions in _helpers():
-        rows = [[f"`{item.__name__}{_arguments(item)}`", escaped(_first(item))] for item in functions]
-        parts += [f"### {name}", table(["function", "what it gives"], rows)]
+        parts += [f"### {name}", table(["function", "what it gives"], _signatures(functions))]
     refused = [(f"`{name}`", escaped(remedy)) for name, remedy in REFUSED_FUNCTIONS.items()]
     rules = [*REFUSED_SYNTAX.values(), *RULES.values()]
     said = {rule.what: rule.remedy for rule in rules if not any(mark in rule.what + rule.remedy for mark in FREE)}
@@ -103,6 +110,10 @@ def _rows(functions: Mapping[str, MathFunction], prefix: str) -> list[list[str]]
 
 def _raises(faults: tuple[str, ...]) -> str:
     return ", ".join(f"`{name}`" for name in faults) or "nothing"
+
+
+def _signatures(functions: Iterable[FunctionType]) -> list[list[str]]:
+    return [[f"`{item.__name__}{_arguments(item)}`", escaped(_first(item))] for item in functions]
 
 
 def _arguments(function: FunctionType) -> str:

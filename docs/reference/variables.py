@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from perilune.fmus_src.block import Block, Input, Output, Parameter, State, Variable
+from perilune.fmus_src.kernel.records import count_numbers
 
 from .markdown import escaped, number, table
 
@@ -44,10 +45,16 @@ def parameters(block: type[Block]) -> str:
 
 def states(block: type[Block]) -> str:
     """The table of what it keeps from step to step."""
-    rows = [
-        [*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)]
-        for variable in declared(block, State)
-    ]
+    rows = []
+    for variable in declared(block, State):
+        if variable.record is None:
+            rows.append([*_name(variable), _unit(variable), _bounds(variable), _frame(variable), _words(variable)])
+            continue
+        for name, field in variable.record.fields.items():
+            size = count_numbers(field.kind)
+            label = f"`{variable.name}.{name}{f'[{size}]' if size > 1 else ''}`"
+            words = escaped(field.description)
+            rows.append([label, "Real", escaped(field.unit or "1"), "", escaped(field.frame or ""), words])
     return _filled(["state", "type", "unit", "bounds", "frame", "what it is"], rows)
 
 

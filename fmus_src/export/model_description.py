@@ -132,7 +132,8 @@ def _state_layout(root: etree._Element, variables: list[Variable], encoding: str
     reference = 0
     for variable in variables:
         if isinstance(variable, State):
-            frozen += [reference + position for position, held in enumerate(variable.frozen_elements()) if held]
+            flags = enumerate(variable.frozen_elements(), reference)
+            frozen += [element for element, is_frozen in flags if is_frozen]
         reference += variable.size
     annotations = etree.SubElement(root, "VendorAnnotations")
     tool = etree.SubElement(annotations, "Tool", name=STATE_ANNOTATION)

@@ -4,7 +4,7 @@ import math
 
 from ..block import Block, Input, Output, Parameter, State
 from ..kernel.functions import log1p
-from ..kernel.integrators import Push, Translation, gain_of, runge_kutta_nystrom
+from ..kernel.integrators import Forcing, Translation, gain_of, runge_kutta_nystrom
 from ..kernel.records import Field, Record
 from ..mathlib.gravity import STANDARD_GRAVITY, altitude_of, central_gravity
 from ..mathlib.lagged_thrust import lagged_thrust
@@ -134,13 +134,13 @@ class MoonLander(Block, interface=True):
         self.turn(t, 0.5 * h)
         middle = burn.middle * self.attitude
         self.turn(t + 0.5 * h, 0.5 * h)
-        push = Push(start=first, middle=middle, end=burn.end * self.attitude)
+        forcing = Forcing(start=first, middle=middle, end=burn.end * self.attitude)
         s = Translation(position=self.position, velocity=self.velocity)
-        s = runge_kutta_nystrom(self.gravity, s, push, h)
+        s = runge_kutta_nystrom(self.gravity, s, forcing, h)
         self.position = s.position
         self.velocity = s.velocity
         self.altitude = self.height(self.position)
-        return gain_of(push, h)
+        return gain_of(forcing, h)
 
     def touch(self) -> None:
         """Stop where the ground is reached."""

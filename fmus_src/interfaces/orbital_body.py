@@ -68,8 +68,10 @@ class OrbitalBody(Block, interface=True):
             z = math.copysign(self.jet_torque.z, pulses.z)
         return vector(x, y, z)
 
-    def fire(self, s: AttitudeState, pulses: Vector3, held: Vector3, h: float, longest: float) -> AttitudeState:
-        """The attitude h (s) later, under pulses (s) from now on and a torque held (N m, body).
+    def fire(
+        self, s: AttitudeState, pulses: Vector3, constant_torque: Vector3, h: float, longest: float
+    ) -> AttitudeState:
+        """The attitude h (s) later, under pulses (s) from now on and a torque constant_torque (N m, body).
 
         The time is cut where a jet goes off, and what lies between into steps no longer than ``longest`` (s).
         """
@@ -80,7 +82,7 @@ class OrbitalBody(Block, interface=True):
                 length = abs(pulses[i])
                 if length > time and length < end:
                     end = length
-            torque = self.torque_at(pulses, time) + held
+            torque = self.torque_at(pulses, time) + constant_torque
             pieces = int((end - time) / longest - STEP_ROUNDING) + 1
             for _ in range(pieces):
                 s = runge_kutta_4(self.derivatives, time, s, (end - time) / float(pieces), torque)

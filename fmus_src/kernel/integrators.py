@@ -36,7 +36,7 @@ class Translation(Record):
     velocity = Field(Vector3, unit="m/s", description="velocity")
 
 
-class Push(Record):
+class Forcing(Record):
     """An acceleration over a step that does not depend on the motion."""
 
     start = Field(Vector3, unit="m/s2", description="at the start of the step")
@@ -44,21 +44,21 @@ class Push(Record):
     end = Field(Vector3, unit="m/s2", description="at its end")
 
 
-def runge_kutta_nystrom(field: Derivatives, s: Translation, push: Push, h: float) -> Translation:
-    """The motion h (s) later under x'' = field(x) + push: Nystrom's method of fourth order (1925).
+def runge_kutta_nystrom(field: Derivatives, s: Translation, forcing: Forcing, h: float) -> Translation:
+    """The motion h (s) later under x'' = field(x) + forcing: Nystrom's method of fourth order (1925).
 
     Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 1993, section II.14.
     """
     g1 = field(s.position)
-    g2 = field(s.position + 0.5 * h * (s.velocity + 0.25 * h * (g1 + push.start)))
-    g4 = field(s.position + h * (s.velocity + 0.5 * h * (g2 + push.middle)))
-    mean = (g1 + 2.0 * g2) + (push.start + 2.0 * push.middle)
+    g2 = field(s.position + 0.5 * h * (s.velocity + 0.25 * h * (g1 + forcing.start)))
+    g4 = field(s.position + h * (s.velocity + 0.5 * h * (g2 + forcing.middle)))
+    mean = (g1 + 2.0 * g2) + (forcing.start + 2.0 * forcing.middle)
     fall = h * (g1 + 2.0 * g2 + 2.0 * g2 + g4) / 6.0
     return Translation(
-        position=s.position + h * (s.velocity + h * mean / 6.0), velocity=s.velocity + gain_of(push, h) + fall
+        position=s.position + h * (s.velocity + h * mean / 6.0), velocity=s.velocity + gain_of(forcing, h) + fall
     )
 
 
-def gain_of(push: Push, h: float) -> Vector3:
-    """The velocity (m/s) that a push gives over h (s), by Simpson's rule."""
-    return h * (push.start + 2.0 * push.middle + 2.0 * push.middle + push.end) / 6.0
+def gain_of(forcing: Forcing, h: float) -> Vector3:
+    """The velocity (m/s) that a forcing gives over h (s), by Simpson's rule."""
+    return h * (forcing.start + 2.0 * forcing.middle + 2.0 * forcing.middle + forcing.end) / 6.0

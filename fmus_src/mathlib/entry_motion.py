@@ -17,8 +17,8 @@ class EntryState(Record):
     longitude = Field(unit="rad", frozen=True, description="longitude")
     latitude = Field(unit="rad", frozen=True, description="latitude")
     speed = Field(unit="m/s", frozen=True, description="over the turning Earth")
-    path_angle = Field(unit="rad", frozen=True, description="of the velocity over the horizon")
-    course = Field(unit="rad", frozen=True, description="of the velocity, from east, counter-clockwise from above")
+    flight_path_angle = Field(unit="rad", frozen=True, description="of the velocity over the horizon")
+    heading = Field(unit="rad", frozen=True, description="of the velocity, from east, counter-clockwise from above")
     attitude = Field(Vector3, unit="rad", description="bank, sideslip, attack")
     angular_velocity = Field(Vector3, unit="rad/s", frame="body", description="absolute")
 
@@ -30,8 +30,8 @@ class PathRate(Record):
     longitude = Field(unit="rad/s")
     latitude = Field(unit="rad/s")
     speed = Field(unit="m/s2")
-    path_angle = Field(unit="rad/s")
-    course = Field(unit="rad/s")
+    flight_path_angle = Field(unit="rad/s")
+    heading = Field(unit="rad/s")
 
 
 def body_axes(attitude: Vector3) -> tuple[Vector3, Vector3, Vector3]:
@@ -49,54 +49,54 @@ def body_axes(attitude: Vector3) -> tuple[Vector3, Vector3, Vector3]:
 
 def earth_forces(s: EntryState, gravitational_parameter: float, earth_rate: float) -> Vector3:
     """Gravity and what the Earth's turn adds to it (m/s2, velocity axes)."""
-    sin_path = sin(s.path_angle)
-    cos_path = cos(s.path_angle)
-    sin_course = sin(s.course)
-    cos_course = cos(s.course)
+    sin_path = sin(s.flight_path_angle)
+    cos_path = cos(s.flight_path_angle)
+    sin_heading = sin(s.heading)
+    cos_heading = cos(s.heading)
     sin_latitude = sin(s.latitude)
     cos_latitude = cos(s.latitude)
     gravity = gravitational_parameter / (s.radius * s.radius)
     coriolis = 2.0 * s.speed * earth_rate
     transport = earth_rate * earth_rate * s.radius * cos_latitude
     return vector(
-        -gravity * sin_path + transport * (cos_latitude * sin_path - sin_latitude * cos_path * sin_course),
+        -gravity * sin_path + transport * (cos_latitude * sin_path - sin_latitude * cos_path * sin_heading),
         -gravity * cos_path
-        + coriolis * cos_latitude * cos_course
-        + transport * (cos_latitude * cos_path + sin_latitude * sin_path * sin_course),
-        coriolis * (cos_path * sin_latitude - sin_path * cos_latitude * sin_course)
-        + transport * sin_latitude * cos_course,
+        + coriolis * cos_latitude * cos_heading
+        + transport * (cos_latitude * cos_path + sin_latitude * sin_path * sin_heading),
+        coriolis * (cos_path * sin_latitude - sin_path * cos_latitude * sin_heading)
+        + transport * sin_latitude * cos_heading,
     )
 
 
 def path_rate(s: EntryState, acceleration: Vector3) -> PathRate:
     """How place and velocity change under an acceleration (m/s2, velocity axes)."""
-    cos_path = cos(s.path_angle)
-    cos_course = cos(s.course)
+    cos_path = cos(s.flight_path_angle)
+    cos_heading = cos(s.heading)
     over = s.speed * cos_path / s.radius
     return PathRate(
-        radius=s.speed * sin(s.path_angle),
-        longitude=over * cos_course / cos(s.latitude),
-        latitude=over * sin(s.course),
+        radius=s.speed * sin(s.flight_path_angle),
+        longitude=over * cos_heading / cos(s.latitude),
+        latitude=over * sin(s.heading),
         speed=acceleration.x,
-        path_angle=over + acceleration.y / s.speed,
-        course=-over * cos_course * tan(s.latitude) - acceleration.z / (s.speed * cos_path),
+        flight_path_angle=over + acceleration.y / s.speed,
+        heading=-over * cos_heading * tan(s.latitude) - acceleration.z / (s.speed * cos_path),
     )
 
 
 def velocity_axes_rate(s: EntryState, rate: PathRate, earth_rate: float) -> Vector3:
     """Absolute angular velocity (rad/s) of the velocity axes, in themselves."""
-    sin_path = sin(s.path_angle)
-    cos_path = cos(s.path_angle)
-    sin_course = sin(s.course)
-    cos_course = cos(s.course)
+    sin_path = sin(s.flight_path_angle)
+    cos_path = cos(s.flight_path_angle)
+    sin_heading = sin(s.heading)
+    cos_heading = cos(s.heading)
     sin_latitude = sin(s.latitude)
     cos_latitude = cos(s.latitude)
     over = s.speed * cos_path / s.radius
-    u = rate.course + over * cos_course * tan(s.latitude)
+    u = rate.heading + over * cos_heading * tan(s.latitude)
     return vector(
-        sin_path * u + earth_rate * (sin_path * sin_latitude + cos_path * cos_latitude * sin_course),
-        cos_path * u + earth_rate * (cos_path * sin_latitude - sin_path * cos_latitude * sin_course),
-        rate.path_angle - over - earth_rate * cos_latitude * cos_course,
+        sin_path * u + earth_rate * (sin_path * sin_latitude + cos_path * cos_latitude * sin_heading),
+        cos_path * u + earth_rate * (cos_path * sin_latitude - sin_path * cos_latitude * sin_heading),
+        rate.flight_path_angle - over - earth_rate * cos_latitude * cos_heading,
     )
 
 

@@ -126,8 +126,8 @@ class EntryCapsule(Block):
             longitude=self.initial_longitude,
             latitude=self.initial_latitude,
             speed=self.initial_speed,
-            path_angle=self.initial_path_angle,
-            course=self.initial_course,
+            flight_path_angle=self.initial_path_angle,
+            heading=self.initial_course,
             attitude=vector(self.initial_bank, self.initial_sideslip, self.initial_attack),
             angular_velocity=self.initial_angular_velocity,
         )
@@ -185,8 +185,8 @@ class EntryCapsule(Block):
             longitude=path.longitude,
             latitude=path.latitude,
             speed=path.speed,
-            path_angle=path.path_angle,
-            course=path.course,
+            flight_path_angle=path.flight_path_angle,
+            heading=path.heading,
             attitude=attitude_rates(s.attitude, relative),
             angular_velocity=apply_matrix(self.inverse_inertia, cross(apply_matrix(self.inertia, w), w) + moment),
         )
@@ -224,8 +224,8 @@ class EntryCapsule(Block):
         self.longitude = s.longitude
         self.latitude = s.latitude
         self.speed = s.speed
-        self.path_angle = s.path_angle
-        self.course = s.course
+        self.path_angle = s.flight_path_angle
+        self.course = s.heading
         self.bank, self.sideslip, self.attack = s.attitude
         self.angular_velocity = s.angular_velocity
         density, sound = air(self.height)

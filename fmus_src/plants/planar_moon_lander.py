@@ -74,12 +74,12 @@ class PlanarMoonLander(Block):
         ratio = self.moon_radius / radius
         turning = s.horizontal_speed / radius
         climb = acceleration * cos(self.thrust_angle) - self.surface_gravity * ratio * ratio
-        push = acceleration * sin(self.thrust_angle)
+        forward = acceleration * sin(self.thrust_angle)
         if self.curvature:
             climb = climb + s.horizontal_speed * turning
-            push = push - s.vertical_speed * turning
+            forward = forward - s.vertical_speed * turning
         return PlanarMotion(
-            vertical_speed=climb, horizontal_speed=push, altitude=s.vertical_speed, central_angle=turning
+            vertical_speed=climb, horizontal_speed=forward, altitude=s.vertical_speed, central_angle=turning
         )
 
     def move(self, h: float) -> None:

@@ -64,7 +64,7 @@ def test_derivatives():
     block = capsule(initial_height=70000.0, initial_speed=7500.0, initial_bank=0.9, **TUMBLING)
     rate = block.derivatives(0.0, block.state, vector(10.0, -20.0, 5.0))
     assert rate.speed == pytest.approx(-4.132585, abs=6e-7)
-    assert [rate.path_angle, rate.course] == pytest.approx([3.674721e-5, -1.1370604e-3], abs=6e-11)
+    assert [rate.flight_path_angle, rate.heading] == pytest.approx([3.674721e-5, -1.1370604e-3], abs=6e-11)
     assert [*rate.attitude] == pytest.approx([0.010187065, -0.033536617, 0.039960007], abs=6e-9)
     assert [*rate.angular_velocity] == pytest.approx([0.008517471, -0.136227984, -0.103223840], abs=6e-9)
 

@@ -71,7 +71,7 @@ def test_the_page_has_every_variable(name):
             assert f"| {variable.unit} |" in rows[whole]
         if variable.min is not None:
             assert f"{float(variable.min):g}" in rows[whole]
-    assert seen == set(catalogue()[name].variables)
+    assert {name.partition(".")[0] for name in seen} == set(catalogue()[name].variables)
 
 
 def test_systems_that_use_a_block_name_it():

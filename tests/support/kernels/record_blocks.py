@@ -37,7 +37,7 @@ def mean_of(pair: Pair) -> Motion:
     return (1.0 - pair.weight) * pair.first + pair.second * pair.weight
 
 
-def judge(m: Motion, count: int) -> tuple[Outcome, float]:
+def assess(m: Motion, count: int) -> tuple[Outcome, float]:
     """Several values with a record among them."""
     size = norm(m.position)
     if size > 3.0:
@@ -56,7 +56,7 @@ class RecordLanguage(Block):
     force = Input([0.5, -0.25, 1.5], unit="N", description="force")
     given = Input(0.75, unit="1", description="a number")
     state = State(Motion, mass=2.0)
-    held = State(Pair, weight=0.25, description="two of them")
+    pair = State(Pair, weight=0.25, description="two of them")
     height = Output(1.0, unit="m", description="a float that is integrated")
     arrow = Output([1.0, 0.0], unit="1", description="a vector that is integrated")
     size = Output(0.0, unit="m", description="of the position")
@@ -66,7 +66,7 @@ class RecordLanguage(Block):
     def initialize(self) -> None:
         start = Motion(position=vector(1.0, 2.0, 3.0), heading=vector(1.0, 0.0), mass=2.0)
         self.state = start
-        self.held = Pair(first=start, second=2.0 * start, weight=0.25)
+        self.pair = Pair(first=start, second=2.0 * start, weight=0.25)
         self.arrow = vector(1.0, 0.0)
 
     def derivatives(self, t: float, s: Motion, force: Vector3, rate: float) -> Motion:
@@ -83,13 +83,13 @@ class RecordLanguage(Block):
         self.height = runge_kutta_4(fall, t, self.height, h, 0.5)
         self.arrow = runge_kutta_4(self.turning, t, self.arrow, h)
         moved = replace(self.state, mass=self.state.mass + 1.0, heading=self.arrow)
-        self.held = replace(self.held, second=moved, first=self.state)
-        mean = mean_of(self.held)
+        self.pair = replace(self.pair, second=moved, first=self.state)
+        mean = mean_of(self.pair)
         chosen = mean if mean.mass > 2.0 else -moved
-        outcome, self.size = judge(chosen - self.state / 4.0, self.count)
+        outcome, self.size = assess(chosen - self.state / 4.0, self.count)
         self.count = outcome.count
         self.good = outcome.good
-        self.held = 0.5 * (self.held + replace(self.held, weight=outcome.motion.position.x / 1e3))
+        self.pair = 0.5 * (self.pair + replace(self.pair, weight=outcome.motion.position.x / 1e3))
 
 
 class RecordFaults(Block):
