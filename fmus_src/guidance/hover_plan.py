@@ -7,7 +7,7 @@ from ..kernel.functions import cos, expm1, sin
 from ..mathlib.gravity import STANDARD_GRAVITY, from_centre, vertical_at
 from ..mathlib.hover_motion import EXHAUST, FULL, GRAVITY, LEAST, SWING, VEHICLE, motion, propellant, thrust_impulse
 from ..mathlib.hover_programme import programme
-from ..mathlib.hover_shape import END, SHAPE, UNKNOWNS, clear, pitch, shape
+from ..mathlib.hover_shape import END, UNKNOWNS, HoverShape, clear, pitch, shape_of
 from ..mathlib.hover_solution import NONE, VERTICAL
 from ..mathlib.transfer_polynomial import TRANSFER, capture, derivative, expense, slow_duration, thrust_along, transfer
 from ..mathlib.vectors import Vector3, add_along, clip, cross, dot, is_finite, norm, smallest_component, vector
@@ -92,9 +92,7 @@ class HoverPlan(Block, interface=True):
     plan_gravity = State(0.0, frozen=True, unit="m/s2", description="gravity of the plan")
     duration = State(0.0, frozen=True, unit="s", description="of the plan")
     vehicle = State([0.0] * VEHICLE, frozen=True, description="of the programme, as mathlib.hover_motion has it")
-    times = State(
-        [0.0] * SHAPE, frozen=True, unit="s", description="the programme's shape, as mathlib.hover_shape has it"
-    )
+    shape = State(HoverShape)
     coefficients = State([0.0] * TRANSFER, frozen=True, unit="m", description="of the polynomial, axis by axis")
 
     def gravity_at(self, position: Vector3) -> float:
@@ -168,11 +166,11 @@ class HoverPlan(Block, interface=True):
                 self.along = level / norm(level)
             if kind == VERTICAL:
                 self.origin = self.goal - y * self.up
-            is_feasible = shape(self.programme, self.vehicle[SWING], self.times)
+            self.shape, is_feasible = shape_of(self.programme, self.vehicle[SWING])
             if is_feasible:
                 self.plan_kind = kind
                 self.duration = self.programme[END]
-                self.predicted_propellant = self.mass * propellant(self.times, self.vehicle, self.duration)
+                self.predicted_propellant = self.mass * propellant(self.shape, self.vehicle, self.duration)
 
     def plan_transfer(self, speed: float, acceleration: float) -> None:
         """A polynomial from rest to rest within a speed (m/s) and an acceleration (m/s2)."""
@@ -240,7 +238,7 @@ class HoverPlan(Block, interface=True):
             place = derivative(self.coefficients, 0, t, self.duration)
             return place, derivative(self.coefficients, 1, t, self.duration)
         state = [0.0] * 4
-        moved = motion(self.times, self.vehicle, t, state)
+        moved = motion(self.shape, self.vehicle, t, state)
         if not moved:
             return self.goal, rest
         place = self.origin + state[0] * self.along + state[2] * self.up
@@ -254,7 +252,7 @@ class HoverPlan(Block, interface=True):
         if self.plan_kind == POLYNOMIAL:
             _, direction, rate, _ = thrust_along(self.coefficients, t, self.duration, self.lift())
             return direction, rate
-        angle, speed = pitch(self.times, self.vehicle[SWING], t)
+        angle, speed = pitch(self.shape, self.vehicle[SWING], t)
         sine = sin(angle)
         cosine = cos(angle)
         direction = cosine * self.up - sine * self.along
@@ -268,7 +266,7 @@ class HoverPlan(Block, interface=True):
     def plan_impulse(self, begin: float, end: float) -> float:
         """Integral (m/s) of the plan's thrust over mass between two times (s) after its start, within its duration."""
         if self.plan_kind != POLYNOMIAL:
-            return thrust_impulse(self.times, self.vehicle, begin, end)
+            return thrust_impulse(self.shape, self.vehicle, begin, end)
         first, _, _, _ = thrust_along(self.coefficients, begin, self.duration, self.lift())
         middle, _, _, _ = thrust_along(self.coefficients, 0.5 * (begin + end), self.duration, self.lift())
         last, _, _, _ = thrust_along(self.coefficients, end, self.duration, self.lift())

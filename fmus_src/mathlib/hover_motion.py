@@ -9,7 +9,7 @@ Source: Huang 2017; Gauss-Legendre quadrature: Abramowitz and Stegun 1964, table
 """
 
 from ..kernel.functions import cos, log, sin
-from .hover_shape import burnt, full_thrust, pitch_piece
+from .hover_shape import HoverShape, burnt, full_thrust, pitch_piece
 
 FULL = 0
 LEAST = 1
@@ -21,12 +21,12 @@ VEHICLE = 5
 LONGEST = 30.0  # s; longest interval of eight nodes, which leave below 1e-9 of the motion
 
 
-def propellant(s: list, vehicle: list, t: float) -> float:
+def propellant(s: HoverShape, vehicle: list, t: float) -> float:
     """Propellant spent until t (s, up to the end of the shape s) over the mass at the start."""
     return (vehicle[LEAST] * t + (vehicle[FULL] - vehicle[LEAST]) * burnt(s, t)) / vehicle[EXHAUST]
 
 
-def thrust_impulse(s: list, vehicle: list, begin: float, end: float) -> float:
+def thrust_impulse(s: HoverShape, vehicle: list, begin: float, end: float) -> float:
     """Integral (m/s) of thrust over mass from one time to another (s), by the rocket equation; 0 where it has none."""
     before = 1.0 - propellant(s, vehicle, begin)
     after = 1.0 - propellant(s, vehicle, end)
@@ -35,7 +35,7 @@ def thrust_impulse(s: list, vehicle: list, begin: float, end: float) -> float:
     return vehicle[EXHAUST] * log(before / after)
 
 
-def motion(s: list, vehicle: list, until: float, state: list) -> bool:
+def motion(s: HoverShape, vehicle: list, until: float, state: list) -> bool:
     """state[4] = x (m), x' (m/s), y and y' at the time ``until`` (s); whether any mass is left then."""
     x = 0.0
     vx = 0.0
@@ -49,7 +49,7 @@ def motion(s: list, vehicle: list, until: float, state: list) -> bool:
     for _ in range(9):
         if begin < until:
             end, thrust = interval(s, vehicle, begin, until)
-            start, value, rate, half = pitch_piece(s, vehicle[SWING], 0.5 * (begin + end))
+            piece = pitch_piece(s, vehicle[SWING], 0.5 * (begin + end))
             span = end - begin
             flow = thrust / vehicle[EXHAUST]
             if not (mass - flow * span > 0.0 and span < 1e4):
@@ -58,12 +58,12 @@ def motion(s: list, vehicle: list, until: float, state: list) -> bool:
             span = span / float(parts)
             scale = span * thrust
             for _ in range(parts):
-                since_begin = begin - start
+                since_begin = begin - piece.begin
                 left = until - begin
                 for k in range(8):
                     part = span * node[k]
                     since = since_begin + part
-                    deviation = value + since * (rate + since * half)
+                    deviation = piece.value + since * (piece.rate + since * piece.half_acceleration)
                     push = scale * weight[k] / (mass - flow * part)
                     side = push * sin(deviation)
                     lift = push * cos(deviation)
@@ -81,16 +81,28 @@ def motion(s: list, vehicle: list, until: float, state: list) -> bool:
     return True
 
 
-def interval(s: list, vehicle: list, begin: float, until: float) -> tuple[float, float]:
+def interval(s: HoverShape, vehicle: list, begin: float, until: float) -> tuple[float, float]:
     """From ``begin`` (s) on: until when (s) pitch is one parabola and thrust one value, and the thrust (m/s2)."""
     end = until
     thrust = vehicle[LEAST]
     if full_thrust(s, begin):
         thrust = vehicle[FULL]
-    for k in range(10):
-        if s[k] > begin and s[k] < end and k != 1 and k != 4:
-            end = s[k]
+    end = earlier(s.t1, begin, end)
+    end = earlier(s.t3, begin, end)
+    end = earlier(s.t4, begin, end)
+    end = earlier(s.t6, begin, end)
+    end = earlier(s.t7, begin, end)
+    end = earlier(s.first_burn_begin, begin, end)
+    end = earlier(s.first_burn_end, begin, end)
+    end = earlier(s.last_burn_begin, begin, end)
     return end, thrust
+
+
+def earlier(time: float, begin: float, end: float) -> float:
+    """The time (s) where it lies between begin and end, otherwise the end."""
+    if time > begin and time < end:
+        return time
+    return end
 
 
 def nodes(node: list, weight: list) -> None:

@@ -7,7 +7,7 @@ of the transfer. The path is ours.
 import math
 
 from .hover_motion import FULL, GRAVITY, LEAST, SWING, motion
-from .hover_shape import END, LAST_BURN, RETURN, SHAPE, TURN, UNKNOWNS, WIDTH, copy, shape
+from .hover_shape import END, LAST_BURN, RETURN, TURN, UNKNOWNS, WIDTH, copy, shape_of
 from .hover_solution import VERTICAL, WITH_FIRST_BURN, WITHOUT_FIRST_BURN, propellant_fraction, solve
 
 NEAR = 0.01  # of the drop, where the first programme aside ends
@@ -44,19 +44,18 @@ def little_aside(x: float, vehicle: list, p: list) -> bool:
     The deviation is about -u (1 - t/t7) + v t/t7, to which the end answers linearly; u and v follow from x, and
     from rest.
     """
-    s = [0.0] * SHAPE
     state = [0.0] * 4
     ahead = [0.0] * 4
     turn = 2.0 * math.sqrt(TILT / vehicle[SWING])
     end = p[END]
     p[TURN] = turn
-    fine = shape(p, vehicle[SWING], s)
+    s, fine = shape_of(p, vehicle[SWING])
     if fine:
         fine = motion(s, vehicle, end, state)
     p[TURN] = 0.0
     p[RETURN] = end - turn
     if fine:
-        fine = shape(p, vehicle[SWING], s)
+        s, fine = shape_of(p, vehicle[SWING])
     if fine:
         fine = motion(s, vehicle, end, ahead)
     p[RETURN] = end

@@ -6,11 +6,13 @@ its least in between. The deviation is the angle of thrust from the vertical, po
 
 A programme is a list of five times (s) with the indices TURN, RETURN, WIDTH, LAST_BURN and END: t2, where the
 deviation is least; t5, where it is largest; w = t1 sqrt(2 (1 - k)), half the first burn where that lies about t2
-symmetrically, 0: no first burn; tp, the last burn's length; t7, the end. Its shape is the list of SHAPE times that
-`shape` makes of it. Source: Huang 2017, with the pieces of its equations where they join.
+symmetrically, 0: no first burn; tp, the last burn's length; t7, the end. `shape_of` makes its `HoverShape` of it.
+Source: Huang 2017, with the pieces of its equations where they join.
 """
 
 import math
+
+from ..kernel.records import Field, Record
 
 TURN = 0
 RETURN = 1
@@ -19,10 +21,33 @@ LAST_BURN = 3
 END = 4
 UNKNOWNS = 5
 
-# A shape: t1, t2, ..., t7; the first burn's begin and end, the last burn's begin; d = t3 - t2; t7 - t6.
-SHAPE = 12
-
 STEEPEST = 0.5 * math.pi  # rad; largest deviation, beyond which thrust would push down
+
+
+class HoverShape(Record):
+    """The times (s) at which pitch acceleration and thrust switch, named t1 to t7 as in the paper."""
+
+    t1 = Field(unit="s", frozen=True, description="first change of angular acceleration")
+    t2 = Field(unit="s", frozen=True, description="where the deviation is least")
+    t3 = Field(unit="s", frozen=True, description="begin of the constant rate")
+    t4 = Field(unit="s", frozen=True, description="its end")
+    t5 = Field(unit="s", frozen=True, description="where the deviation is largest")
+    t6 = Field(unit="s", frozen=True, description="last change of angular acceleration")
+    t7 = Field(unit="s", frozen=True, description="the end")
+    first_burn_begin = Field(unit="s", frozen=True, description="begin of the first burn")
+    first_burn_end = Field(unit="s", frozen=True, description="its end")
+    last_burn_begin = Field(unit="s", frozen=True, description="begin of the last burn, which ends at t7")
+    d = Field(unit="s", frozen=True, description="t3 - t2")
+    last = Field(unit="s", frozen=True, description="t7 - t6")
+
+
+class PitchPiece(Record):
+    """A parabola that the deviation follows."""
+
+    begin = Field(unit="s", description="time that it counts from")
+    value = Field(unit="rad", description="deviation then")
+    rate = Field(unit="rad/s", description="its rate then")
+    half_acceleration = Field(unit="rad/s2", description="half its acceleration")
 
 
 def clear(p: list) -> None:
@@ -37,12 +62,30 @@ def copy(p: list, other: list) -> None:
         other[i] = p[i]
 
 
-def shape(p: list, acceleration: float, s: list) -> bool:
-    """s[12] = the shape of the programme p at an angular acceleration (rad/s2, > 0); whether there is one.
+def without_shape() -> HoverShape:
+    """No shape: all its times are 0."""
+    return HoverShape(
+        t1=0.0,
+        t2=0.0,
+        t3=0.0,
+        t4=0.0,
+        t5=0.0,
+        t6=0.0,
+        t7=0.0,
+        first_burn_begin=0.0,
+        first_burn_end=0.0,
+        last_burn_begin=0.0,
+        d=0.0,
+        last=0.0,
+    )
+
+
+def shape_of(p: list, acceleration: float) -> tuple[HoverShape, bool]:
+    """The shape of the programme p at an angular acceleration (rad/s2, > 0), and whether there is one.
 
     t3 and t4 bound the stretch of constant rate, d after t2 and before t5, that joins both turns:
     d^2 - (t5 - t2) d + t1^2 + (t7 - t6)^2 = 0. There is none without room for that, where thrust would point down,
-    and where the burns overlap; s is not to be used then.
+    and where the burns overlap.
     """
     first = 0.5 * p[TURN]
     last = 0.5 * (p[END] - p[RETURN])
@@ -51,68 +94,78 @@ def shape(p: list, acceleration: float, s: list) -> bool:
     room = between * between - 4.0 * (first * first + last * last)
     turns = first >= 0.0 and last >= 0.0 and between > 0.0 and room >= 0.0 and acceleration > 0.0
     if not (turns and width >= 0.0 and p[LAST_BURN] >= 0.0 and math.isfinite(p[END]) and room < math.inf):
-        return False
+        return without_shape(), False
     if acceleration * first * first > STEEPEST or acceleration * last * last > STEEPEST:
-        return False
+        return without_shape(), False
     d = 2.0 * (first * first + last * last) / (between + math.sqrt(room))
     fraction = 2.0 * first * first - width * width  # 2 k t1^2
     if not fraction >= 0.0:
-        return False
-    s[0] = first
-    s[1] = p[TURN]
-    s[2] = p[TURN] + d
-    s[3] = p[RETURN] - d
-    s[4] = p[RETURN]
-    s[5] = p[RETURN] + last
-    s[6] = p[END]
-    s[7] = p[TURN] - width
-    s[8] = p[TURN] + width
+        return without_shape(), False
+    begin = p[TURN] - width
     if width > first:
-        s[7] = math.sqrt(fraction)
+        begin = math.sqrt(fraction)
+    end = p[TURN] + width
     if width > d:
         if not d > 0.0:
-            return False
-        s[8] = p[TURN] + (width * width + d * d) / (2.0 * d)
-    s[9] = p[END] - p[LAST_BURN]
-    s[10] = d
-    s[11] = last
-    return s[8] <= s[9]
+            return without_shape(), False
+        end = p[TURN] + (width * width + d * d) / (2.0 * d)
+    s = HoverShape(
+        t1=first,
+        t2=p[TURN],
+        t3=p[TURN] + d,
+        t4=p[RETURN] - d,
+        t5=p[RETURN],
+        t6=p[RETURN] + last,
+        t7=p[END],
+        first_burn_begin=begin,
+        first_burn_end=end,
+        last_burn_begin=p[END] - p[LAST_BURN],
+        d=d,
+        last=last,
+    )
+    return s, s.first_burn_end <= s.last_burn_begin
 
 
-def pitch(s: list, acceleration: float, t: float) -> tuple[float, float]:
+def pitch(s: HoverShape, acceleration: float, t: float) -> tuple[float, float]:
     """Deviation (rad) and its rate (rad/s) at the time t (s); 0 before the start and from the end on."""
-    begin, value, rate, half = pitch_piece(s, acceleration, t)
-    since = t - begin
-    return value + since * (rate + since * half), rate + 2.0 * since * half
+    piece = pitch_piece(s, acceleration, t)
+    since = t - piece.begin
+    deviation = piece.value + since * (piece.rate + since * piece.half_acceleration)
+    return deviation, piece.rate + 2.0 * since * piece.half_acceleration
 
 
-def pitch_piece(s: list, acceleration: float, t: float) -> tuple[float, float, float, float]:
-    """The parabola that the deviation follows at t: from which time (s), its value, rate and half the acceleration."""
-    if not (t > 0.0 and t < s[6]):
-        return t, 0.0, 0.0, 0.0
-    if t < s[0]:
-        return 0.0, 0.0, 0.0, -0.5 * acceleration
-    if t < s[2]:
-        return s[1], -acceleration * s[0] * s[0], 0.0, 0.5 * acceleration
-    if t < s[3]:
-        return s[2], acceleration * (0.5 * s[10] * s[10] - s[0] * s[0]), acceleration * s[10], 0.0
-    if t < s[5]:
-        return s[4], acceleration * s[11] * s[11], 0.0, -0.5 * acceleration
-    return s[6], 0.0, 0.0, 0.5 * acceleration
+def pitch_piece(s: HoverShape, acceleration: float, t: float) -> PitchPiece:
+    """The parabola that the deviation follows at t (s)."""
+    if not (t > 0.0 and t < s.t7):
+        return parabola(t, 0.0, 0.0, 0.0)
+    if t < s.t1:
+        return parabola(0.0, 0.0, 0.0, -0.5 * acceleration)
+    if t < s.t3:
+        return parabola(s.t2, -acceleration * s.t1 * s.t1, 0.0, 0.5 * acceleration)
+    if t < s.t4:
+        return parabola(s.t3, acceleration * (0.5 * s.d * s.d - s.t1 * s.t1), acceleration * s.d, 0.0)
+    if t < s.t6:
+        return parabola(s.t5, acceleration * s.last * s.last, 0.0, -0.5 * acceleration)
+    return parabola(s.t7, 0.0, 0.0, 0.5 * acceleration)
 
 
-def full_thrust(s: list, t: float) -> bool:
+def parabola(begin: float, value: float, rate: float, half_acceleration: float) -> PitchPiece:
+    """A piece in the order of its fields."""
+    return PitchPiece(begin=begin, value=value, rate=rate, half_acceleration=half_acceleration)
+
+
+def full_thrust(s: HoverShape, t: float) -> bool:
     """Whether the engine gives full thrust at the time t (s), in place of its least."""
-    return (t >= s[7] and t < s[8]) or (t >= s[9] and t < s[6])
+    return (t >= s.first_burn_begin and t < s.first_burn_end) or (t >= s.last_burn_begin and t < s.t7)
 
 
-def burnt(s: list, t: float) -> float:
+def burnt(s: HoverShape, t: float) -> float:
     """Time at full thrust (s) from the start to t (s)."""
     time = 0.0
-    if t > s[7]:
-        time = s[8] - s[7]
-        if t < s[8]:
-            time = t - s[7]
-    if t > s[9]:
-        time = time + t - s[9]
+    if t > s.first_burn_begin:
+        time = s.first_burn_end - s.first_burn_begin
+        if t < s.first_burn_end:
+            time = t - s.first_burn_begin
+    if t > s.last_burn_begin:
+        time = time + t - s.last_burn_begin
     return time

@@ -6,7 +6,7 @@ Programmes, shapes and vehicles as in `hover_shape` and `hover_motion`.
 import math
 
 from .hover_motion import SWING, motion, propellant
-from .hover_shape import END, LAST_BURN, RETURN, SHAPE, TURN, UNKNOWNS, WIDTH, copy, shape
+from .hover_shape import END, LAST_BURN, RETURN, TURN, UNKNOWNS, WIDTH, copy, shape_of
 from .matrices import inverse
 
 NONE = 0
@@ -22,8 +22,7 @@ DIFFERENCE = 1e-6  # s
 
 def propellant_fraction(p: list, vehicle: list) -> float:
     """Propellant of the programme p over the mass at its start; infinite without room for its shape."""
-    s = [0.0] * SHAPE
-    room = shape(p, vehicle[SWING], s)
+    s, room = shape_of(p, vehicle[SWING])
     if not room:
         return math.inf
     return propellant(s, vehicle, p[END])
@@ -31,8 +30,7 @@ def propellant_fraction(p: list, vehicle: list) -> float:
 
 def residual(p: list, vehicle: list, x: float, y: float, r: list) -> float:
     """r[4] = what is missing at the end: (y/10, y', x/10, x'); returns its length, infinite without a motion."""
-    s = [0.0] * SHAPE
-    room = shape(p, vehicle[SWING], s)
+    s, room = shape_of(p, vehicle[SWING])
     if not room:
         return math.inf
     state = [0.0] * 4

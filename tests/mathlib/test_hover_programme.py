@@ -16,7 +16,7 @@ from scipy.optimize import fsolve
 
 from perilune.fmus_src.mathlib.hover_motion import motion, propellant, thrust_impulse
 from perilune.fmus_src.mathlib.hover_programme import programme, programme_of_duration
-from perilune.fmus_src.mathlib.hover_shape import SHAPE, UNKNOWNS, full_thrust, pitch, shape
+from perilune.fmus_src.mathlib.hover_shape import UNKNOWNS, full_thrust, pitch, shape_of
 from perilune.fmus_src.mathlib.hover_solution import (
     NONE,
     VERTICAL,
@@ -64,8 +64,8 @@ def test_best_duration():
 
 def test_published_pitch():
     _, p, _ = planned(1600.0)
-    s = [0.0] * SHAPE
-    assert shape(p, PAPER[4], s)
+    s, room = shape_of(p, PAPER[4])
+    assert room
     angles = [90.0 + math.degrees(pitch(s, PAPER[4], t)[0]) for t in np.linspace(0.0, p[4], 4001)]
     assert min(angles) == pytest.approx(31.7, abs=0.05)
     assert max(angles) == pytest.approx(135.7, abs=0.05)
@@ -120,8 +120,9 @@ def test_sideways_costs_what_the_paper_says_and_grows_linearly():
 
 
 def end_of(p, vehicle=PAPER):
-    s, state = [0.0] * SHAPE, [0.0] * 4
-    assert shape(p, vehicle[4], s)
+    state = [0.0] * 4
+    s, room = shape_of(p, vehicle[4])
+    assert room
     assert motion(s, vehicle, p[4], state)
     return state
 
@@ -154,8 +155,9 @@ def test_low_drops_with_far_sides_stay_above_the_target():
         kind, p, _ = planned(x, y)
         assert kind == WITH_FIRST_BURN
         assert flown(p, PAPER)[:4] == pytest.approx([x, 0.0, y, 0.0], abs=1e-6)
-        s, state = [0.0] * SHAPE, [0.0] * 4
-        assert shape(p, PAPER[4], s)
+        state = [0.0] * 4
+        s, room = shape_of(p, PAPER[4])
+        assert room
         for t in np.linspace(0.0, p[4], 101):
             assert motion(s, PAPER, t, state)
             assert state[2] > y - 1e-6
@@ -164,8 +166,9 @@ def test_low_drops_with_far_sides_stay_above_the_target():
 @pytest.mark.parametrize("t", [5.0, 15.0, 20.0, 62.0, 70.0, 77.0])
 def test_motion_pitch_and_propellant_on_the_way(t):
     _, p, _ = planned(1600.0)
-    s, state = [0.0] * SHAPE, [0.0] * 4
-    assert shape(p, PAPER[4], s)
+    state = [0.0] * 4
+    s, room = shape_of(p, PAPER[4])
+    assert room
     assert motion(s, PAPER, t, state)
     deviation, rate = pitch(s, PAPER[4], t)
     actual = [*state, propellant(s, PAPER, t), 0.5 * math.pi + deviation, rate]
@@ -174,14 +177,21 @@ def test_motion_pitch_and_propellant_on_the_way(t):
 
 def test_impulse_is_the_integral_of_thrust_over_mass():
     _, p, _ = planned(1600.0)
-    s = [0.0] * SHAPE
-    assert shape(p, PAPER[4], s)
+    s, room = shape_of(p, PAPER[4])
+    assert room
 
     def push(t):
         return (PAPER[0] if full_thrust(s, t) else PAPER[1]) / (1.0 - propellant(s, PAPER, t))
 
+    switches = (s.first_burn_begin, s.first_burn_end, s.last_burn_begin)
     for begin, end in ((0.0, 10.0), (13.0, 14.0), (14.0, 18.0), (60.0, 70.0), (10.0, p[4])):
-        truth = quad(push, begin, end, points=[t for t in s[7:10] if begin < t < end], epsabs=1e-12)[0]
+        truth = quad(
+            push,
+            begin,
+            end,
+            points=[t for t in switches if begin < t < end],
+            epsabs=1e-12,
+        )[0]
         assert thrust_impulse(s, PAPER, begin, end) == pytest.approx(truth, abs=1e-9)
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ....fmus_src.mathlib import hover_motion, hover_programme, hover_shape, hover_solution
+from ....fmus_src.mathlib.hover_shape import HoverShape
 from .path import PlannedPath
 from .vehicle import Transfer, Vehicle
 
@@ -50,24 +51,23 @@ class Programme:
     def burns(self) -> list[tuple[float, float]]:
         """Begin and end of full thrust, s."""
         shape = self.shape()
-        burns = [(shape[7], shape[8]), (shape[9], shape[6])]
+        burns = [(shape.first_burn_begin, shape.first_burn_end), (shape.last_burn_begin, shape.t7)]
         return [(begin, end) for begin, end in burns if end > begin]
 
     @property
     def extremes(self) -> tuple[float, float]:
         """Least and largest pitch (rad), the angle of thrust from the horizontal towards the target."""
         shape, swing = self.shape(), self.vehicle.angular_acceleration
-        return 0.5 * math.pi - swing * shape[0] ** 2, 0.5 * math.pi + swing * shape[11] ** 2
+        return 0.5 * math.pi - swing * shape.t1**2, 0.5 * math.pi + swing * shape.last**2
 
     @property
     def turn_rate(self) -> float:
         """Largest rate of pitch, rad/s."""
-        return self.vehicle.angular_acceleration * self.shape()[10]
+        return self.vehicle.angular_acceleration * self.shape().d
 
-    def shape(self) -> list[float]:
+    def shape(self) -> HoverShape:
         """Its shape as the kernels have it, see `hover_shape`."""
-        shape = [0.0] * hover_shape.SHAPE
-        hover_shape.shape(list(self.times), self.vehicle.angular_acceleration, shape)
+        shape, _ = hover_shape.shape_of(list(self.times), self.vehicle.angular_acceleration)
         return shape
 
     def states(self, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
