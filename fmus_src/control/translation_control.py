@@ -1,7 +1,7 @@
 """From the error of position and velocity to the force wanted."""
 
 from ..block import Block, Input, Output, Parameter, State
-from ..mathlib.lead import advance_lead, change_lead, lead_output, tustin_lead
+from ..mathlib.lead import LeadLaw, advance_lead, change_lead, is_same, lead_output, tustin_lead
 from ..mathlib.vectors import Vector3, is_finite
 
 LEAD = 0
@@ -45,7 +45,7 @@ class TranslationControl(Block):
     status = Output(0, minimum=0, maximum=1, direct=True, description="0 good, 1 last inputs not finite, force held")
     ticks = State(0, description="translation_count of the last tick")
     lead_state = State([0.0, 0.0, 0.0], unit="m", frame="inertial", description="of the lead compensator")
-    last_law = State([0.0, 0.0, 0.0], description="decay, share, direct of the lead at the last tick")
+    last_law = State(LeadLaw, description="lead of the last tick")
     started = State(False, description="last_law is set")
 
     def initialize(self) -> None:
@@ -66,7 +66,7 @@ class TranslationControl(Block):
         k = self.design()
         if self.law == LEAD:
             law = tustin_lead(self.lead_gain[k], self.lead_time[k], self.lag_time[k], self.translation_period)
-            changed = law[0] != self.last_law[0] or law[1] != self.last_law[1] or law[2] != self.last_law[2]
+            changed = not is_same(law, self.last_law)
             if self.started and changed:
                 self.lead_state = change_lead(self.last_law, law, self.position_error, self.lead_state)
             self.started = True

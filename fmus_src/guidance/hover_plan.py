@@ -5,7 +5,7 @@ import math
 from ..block import Block, Input, Output, Parameter, State
 from ..kernel.functions import cos, expm1, sin
 from ..mathlib.gravity import STANDARD_GRAVITY, from_centre, vertical_at
-from ..mathlib.hover_motion import EXHAUST, FULL, GRAVITY, LEAST, SWING, VEHICLE, motion, propellant, thrust_impulse
+from ..mathlib.hover_motion import HoverVehicle, motion, propellant, thrust_impulse
 from ..mathlib.hover_programme import programme
 from ..mathlib.hover_shape import END, UNKNOWNS, HoverShape, clear, pitch, shape_of
 from ..mathlib.hover_solution import NONE, VERTICAL
@@ -91,7 +91,7 @@ class HoverPlan(Block, interface=True):
     )
     plan_gravity = State(0.0, frozen=True, unit="m/s2", description="gravity of the plan")
     duration = State(0.0, frozen=True, unit="s", description="of the plan")
-    vehicle = State([0.0] * VEHICLE, frozen=True, description="of the programme, as mathlib.hover_motion has it")
+    vehicle = State(HoverVehicle)
     shape = State(HoverShape)
     coefficients = State([0.0] * TRANSFER, frozen=True, unit="m", description="of the polynomial, axis by axis")
 
@@ -143,11 +143,13 @@ class HoverPlan(Block, interface=True):
         """The programme on least propellant; a quick polynomial where there is none."""
         exhaust = STANDARD_GRAVITY * self.specific_impulse
         full = self.maximum_thrust / self.mass
-        self.vehicle[FULL] = self.planned_maximum * full
-        self.vehicle[LEAST] = self.planned_minimum * full
-        self.vehicle[EXHAUST] = exhaust
-        self.vehicle[GRAVITY] = self.plan_gravity
-        self.vehicle[SWING] = self.planned_angular_acceleration
+        self.vehicle = HoverVehicle(
+            full=self.planned_maximum * full,
+            least=self.planned_minimum * full,
+            exhaust=exhaust,
+            gravity=self.plan_gravity,
+            swing=self.planned_angular_acceleration,
+        )
         way = self.goal - self.origin
         y = dot(way, self.up)
         side = way - y * self.up
@@ -166,7 +168,7 @@ class HoverPlan(Block, interface=True):
                 self.along = level / norm(level)
             if kind == VERTICAL:
                 self.origin = self.goal - y * self.up
-            self.shape, is_feasible = shape_of(self.programme, self.vehicle[SWING])
+            self.shape, is_feasible = shape_of(self.programme, self.vehicle.swing)
             if is_feasible:
                 self.plan_kind = kind
                 self.duration = self.programme[END]
@@ -252,7 +254,7 @@ class HoverPlan(Block, interface=True):
         if self.plan_kind == POLYNOMIAL:
             _, direction, rate, _ = thrust_along(self.coefficients, t, self.duration, self.lift())
             return direction, rate
-        angle, speed = pitch(self.shape, self.vehicle[SWING], t)
+        angle, speed = pitch(self.shape, self.vehicle.swing, t)
         sine = sin(angle)
         cosine = cos(angle)
         direction = cosine * self.up - sine * self.along

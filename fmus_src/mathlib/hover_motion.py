@@ -1,41 +1,43 @@
 """Motion under the simplified hover-to-hover programme, by quadrature. Kernel functions.
 
 Controls depend on time alone, so velocity and position are integrals: x' = A cos th, y' = A sin th - g,
-A = FULL or LEAST over the mass that is left. In the plane of the transfer: x towards the target, y up; from rest.
+A = full or least over the mass that is left. In the plane of the transfer: x towards the target, y up; from rest.
 
-A vehicle is a list of five with the indices FULL and LEAST, the plan's largest and least thrust over the mass at the
-start (m/s2); EXHAUST, exhaust speed (m/s); GRAVITY (m/s2), uniform; SWING, the angular acceleration (rad/s2).
 Source: Huang 2017; Gauss-Legendre quadrature: Abramowitz and Stegun 1964, table 25.4.
 """
 
 from ..kernel.functions import cos, log, sin
-from .hover_shape import HoverShape, burnt, full_thrust, pitch_piece
-
-FULL = 0
-LEAST = 1
-EXHAUST = 2
-GRAVITY = 3
-SWING = 4
-VEHICLE = 5
+from ..kernel.records import Field, Record
+from .hover_shape import HoverShape, burnt, full_thrust, pitch_segment
 
 LONGEST = 30.0  # s; longest interval of eight nodes, which leave below 1e-9 of the motion
 
 
-def propellant(s: HoverShape, vehicle: list, t: float) -> float:
+class HoverVehicle(Record):
+    """A lander as its plan takes it."""
+
+    full = Field(unit="m/s2", frozen=True, description="largest thrust over the mass at the start")
+    least = Field(unit="m/s2", frozen=True, description="least thrust over the mass at the start")
+    exhaust = Field(unit="m/s", frozen=True, description="exhaust speed")
+    gravity = Field(unit="m/s2", frozen=True, description="gravity, uniform")
+    swing = Field(unit="rad/s2", frozen=True, description="angular acceleration")
+
+
+def propellant(s: HoverShape, vehicle: HoverVehicle, t: float) -> float:
     """Propellant spent until t (s, up to the end of the shape s) over the mass at the start."""
-    return (vehicle[LEAST] * t + (vehicle[FULL] - vehicle[LEAST]) * burnt(s, t)) / vehicle[EXHAUST]
+    return (vehicle.least * t + (vehicle.full - vehicle.least) * burnt(s, t)) / vehicle.exhaust
 
 
-def thrust_impulse(s: HoverShape, vehicle: list, begin: float, end: float) -> float:
+def thrust_impulse(s: HoverShape, vehicle: HoverVehicle, begin: float, end: float) -> float:
     """Integral (m/s) of thrust over mass from one time to another (s), by the rocket equation; 0 where it has none."""
     before = 1.0 - propellant(s, vehicle, begin)
     after = 1.0 - propellant(s, vehicle, end)
     if not (before > 0.0 and after > 0.0):
         return 0.0
-    return vehicle[EXHAUST] * log(before / after)
+    return vehicle.exhaust * log(before / after)
 
 
-def motion(s: HoverShape, vehicle: list, until: float, state: list) -> bool:
+def motion(s: HoverShape, vehicle: HoverVehicle, until: float, state: list) -> bool:
     """state[4] = x (m), x' (m/s), y and y' at the time ``until`` (s); whether any mass is left then."""
     x = 0.0
     vx = 0.0
@@ -49,21 +51,21 @@ def motion(s: HoverShape, vehicle: list, until: float, state: list) -> bool:
     for _ in range(9):
         if begin < until:
             end, thrust = interval(s, vehicle, begin, until)
-            piece = pitch_piece(s, vehicle[SWING], 0.5 * (begin + end))
+            segment = pitch_segment(s, vehicle.swing, 0.5 * (begin + end))
             span = end - begin
-            flow = thrust / vehicle[EXHAUST]
+            flow = thrust / vehicle.exhaust
             if not (mass - flow * span > 0.0 and span < 1e4):
                 return False
             parts = int(span / LONGEST) + 1
             span = span / float(parts)
             scale = span * thrust
             for _ in range(parts):
-                since_begin = begin - piece.begin
+                since_begin = begin - segment.begin
                 left = until - begin
                 for k in range(8):
                     part = span * node[k]
                     since = since_begin + part
-                    deviation = piece.value + since * (piece.rate + since * piece.half_acceleration)
+                    deviation = segment.value + since * (segment.rate + since * segment.half_acceleration)
                     push = scale * weight[k] / (mass - flow * part)
                     side = push * sin(deviation)
                     lift = push * cos(deviation)
@@ -76,17 +78,17 @@ def motion(s: HoverShape, vehicle: list, until: float, state: list) -> bool:
             begin = end
     state[0] = x
     state[1] = vx
-    state[2] = y - 0.5 * vehicle[GRAVITY] * until * until
-    state[3] = vy - vehicle[GRAVITY] * until
+    state[2] = y - 0.5 * vehicle.gravity * until * until
+    state[3] = vy - vehicle.gravity * until
     return True
 
 
-def interval(s: HoverShape, vehicle: list, begin: float, until: float) -> tuple[float, float]:
+def interval(s: HoverShape, vehicle: HoverVehicle, begin: float, until: float) -> tuple[float, float]:
     """From ``begin`` (s) on: until when (s) pitch is one parabola and thrust one value, and the thrust (m/s2)."""
     end = until
-    thrust = vehicle[LEAST]
+    thrust = vehicle.least
     if full_thrust(s, begin):
-        thrust = vehicle[FULL]
+        thrust = vehicle.full
     end = earlier(s.t1, begin, end)
     end = earlier(s.t3, begin, end)
     end = earlier(s.t4, begin, end)

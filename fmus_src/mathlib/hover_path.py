@@ -6,7 +6,7 @@ of the transfer. The path is ours.
 
 import math
 
-from .hover_motion import FULL, GRAVITY, LEAST, SWING, motion
+from .hover_motion import HoverVehicle, motion
 from .hover_shape import END, LAST_BURN, RETURN, TURN, UNKNOWNS, WIDTH, copy, shape_of
 from .hover_solution import VERTICAL, WITH_FIRST_BURN, WITHOUT_FIRST_BURN, propellant_fraction, solve
 
@@ -21,10 +21,10 @@ LARGEST_PATH = 60  # programmes
 TILT = 0.01  # rad, for the response to small tilts
 
 
-def vertical(y: float, vehicle: list, p: list) -> bool:
+def vertical(y: float, vehicle: HoverVehicle, p: list) -> bool:
     """p = the programme straight down; whether there is one."""
-    fall = vehicle[GRAVITY] - vehicle[LEAST]
-    brake = vehicle[FULL] - vehicle[GRAVITY]
+    fall = vehicle.gravity - vehicle.least
+    brake = vehicle.full - vehicle.gravity
     scale = fall * (fall + brake)
     if not scale > 0.0:
         return False
@@ -38,7 +38,7 @@ def vertical(y: float, vehicle: list, p: list) -> bool:
     return is_feasible
 
 
-def little_aside(x: float, vehicle: list, p: list) -> bool:
+def little_aside(x: float, vehicle: HoverVehicle, p: list) -> bool:
     """Tilt the vertical programme p so that it goes about x (m) aside; whether it can be done.
 
     The deviation is about -u (1 - t/t7) + v t/t7, to which the end answers linearly; u and v follow from x, and
@@ -46,16 +46,16 @@ def little_aside(x: float, vehicle: list, p: list) -> bool:
     """
     state = [0.0] * 4
     ahead = [0.0] * 4
-    turn = 2.0 * math.sqrt(TILT / vehicle[SWING])
+    turn = 2.0 * math.sqrt(TILT / vehicle.swing)
     end = p[END]
     p[TURN] = turn
-    s, fine = shape_of(p, vehicle[SWING])
+    s, fine = shape_of(p, vehicle.swing)
     if fine:
         fine = motion(s, vehicle, end, state)
     p[TURN] = 0.0
     p[RETURN] = end - turn
     if fine:
-        s, fine = shape_of(p, vehicle[SWING])
+        s, fine = shape_of(p, vehicle.swing)
     if fine:
         fine = motion(s, vehicle, end, ahead)
     p[RETURN] = end
@@ -88,7 +88,7 @@ def lengthen(p: list, end: float, other: list) -> None:
     other[RETURN] = p[RETURN] + end - p[END]
 
 
-def aside(x: float, y: float, vehicle: list, p: list) -> float:
+def aside(x: float, y: float, vehicle: HoverVehicle, p: list) -> float:
     """From the vertical programme p to the one without first burn to x, or as near as there is; returns its x (m)."""
     place = x
     if place > -NEAR * y:
@@ -115,7 +115,7 @@ def aside(x: float, y: float, vehicle: list, p: list) -> float:
     return place
 
 
-def ending(end: float, x: float, y: float, vehicle: list, p: list, other: list) -> float:
+def ending(end: float, x: float, y: float, vehicle: HoverVehicle, p: list, other: list) -> float:
     """other = the programme with first burn that ends at ``end`` (s), from p near by; its propellant, infinite if none.
 
     Propellant is over the mass at the start.
@@ -127,7 +127,7 @@ def ending(end: float, x: float, y: float, vehicle: list, p: list, other: list) 
     return propellant_fraction(other, vehicle)
 
 
-def stretch(end: float, x: float, y: float, vehicle: list, p: list) -> bool:
+def stretch(end: float, x: float, y: float, vehicle: HoverVehicle, p: list) -> bool:
     """Change p to the programme with first burn that ends at ``end`` (s), in steps; whether it is reached."""
     trial = [0.0] * UNKNOWNS
     part = LARGEST_STRETCH * p[END]
@@ -145,7 +145,7 @@ def stretch(end: float, x: float, y: float, vehicle: list, p: list) -> bool:
     return p[END] == end
 
 
-def further(reached: float, x: float, y: float, vehicle: list, p: list) -> bool:
+def further(reached: float, x: float, y: float, vehicle: HoverVehicle, p: list) -> bool:
     """From the programme p without first burn to x = reached (m), to one with it to x; whether there is one.
 
     A little nearer, where a first burn begins, then longer, then farther.

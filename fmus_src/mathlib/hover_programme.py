@@ -6,7 +6,7 @@ plane of the transfer. Source: Huang 2017; the path of the search is ours.
 
 import math
 
-from .hover_motion import FULL, GRAVITY, LEAST, VEHICLE
+from .hover_motion import HoverVehicle
 from .hover_path import aside, ending, further, stretch, vertical
 from .hover_shape import END, UNKNOWNS, WIDTH, clear, copy
 from .hover_solution import NONE, VERTICAL, WITH_FIRST_BURN, WITHOUT_FIRST_BURN, propellant_fraction, solve
@@ -18,7 +18,7 @@ TIME_SETTLED = 1e-3  # s, of the best end
 LARGEST_PATH = 60  # programmes
 
 
-def programme(x: float, y: float, vehicle: list, p: list) -> int:
+def programme(x: float, y: float, vehicle: HoverVehicle, p: list) -> int:
     """p[5] = the programme to (x, y) on least propellant; returns its kind, NONE if none was found."""
     clear(p)
     is_feasible = possible(x, y, vehicle)
@@ -53,7 +53,7 @@ def programme(x: float, y: float, vehicle: list, p: list) -> int:
     return WITH_FIRST_BURN
 
 
-def programme_of_duration(x: float, y: float, duration: float, vehicle: list, p: list) -> int:
+def programme_of_duration(x: float, y: float, duration: float, vehicle: HoverVehicle, p: list) -> int:
     """p[5] = the programme to (x, y) that ends after a given time (s); returns its kind, NONE if none was found.
 
     It has a first burn, but if it is the one without that ends just then.
@@ -72,17 +72,22 @@ def programme_of_duration(x: float, y: float, duration: float, vehicle: list, p:
     return WITH_FIRST_BURN
 
 
-def possible(x: float, y: float, vehicle: list) -> bool:
+def possible(x: float, y: float, vehicle: HoverVehicle) -> bool:
     """Whether the target is below, the vehicle can fall and brake, and all is finite."""
-    for i in range(VEHICLE):
-        if not (vehicle[i] > 0.0 and math.isfinite(vehicle[i])):
-            return False
-    if not (vehicle[LEAST] < vehicle[GRAVITY] and vehicle[FULL] > vehicle[GRAVITY]):
+    thrusts = is_usable(vehicle.full) and is_usable(vehicle.least) and is_usable(vehicle.exhaust)
+    if not (thrusts and is_usable(vehicle.gravity) and is_usable(vehicle.swing)):
+        return False
+    if not (vehicle.least < vehicle.gravity and vehicle.full > vehicle.gravity):
         return False
     return y < 0.0 and math.isfinite(x) and math.isfinite(y)
 
 
-def least_propellant(x: float, y: float, vehicle: list, p: list) -> None:
+def is_usable(value: float) -> bool:
+    """Whether a number is positive and finite."""
+    return value > 0.0 and math.isfinite(value)
+
+
+def least_propellant(x: float, y: float, vehicle: HoverVehicle, p: list) -> None:
     """Change the programme p with first burn to the one whose end takes least propellant: golden section."""
     low, high = descend(1.0, x, y, vehicle, p)
     if low == p[END]:
@@ -108,7 +113,7 @@ def least_propellant(x: float, y: float, vehicle: list, p: list) -> None:
                 low = outside
 
 
-def descend(way: float, x: float, y: float, vehicle: list, p: list) -> tuple[float, float]:
+def descend(way: float, x: float, y: float, vehicle: HoverVehicle, p: list) -> tuple[float, float]:
     """Move the end of p by way (s), then by more and more, as long as it takes less propellant.
 
     Returns the ends (s) before the last one, which is that of p where there is none, and after it.

@@ -41,7 +41,7 @@ class HoverShape(Record):
     last = Field(unit="s", frozen=True, description="t7 - t6")
 
 
-class PitchPiece(Record):
+class PitchSegment(Record):
     """A parabola that the deviation follows."""
 
     begin = Field(unit="s", description="time that it counts from")
@@ -128,13 +128,13 @@ def shape_of(p: list, acceleration: float) -> tuple[HoverShape, bool]:
 
 def pitch(s: HoverShape, acceleration: float, t: float) -> tuple[float, float]:
     """Deviation (rad) and its rate (rad/s) at the time t (s); 0 before the start and from the end on."""
-    piece = pitch_piece(s, acceleration, t)
-    since = t - piece.begin
-    deviation = piece.value + since * (piece.rate + since * piece.half_acceleration)
-    return deviation, piece.rate + 2.0 * since * piece.half_acceleration
+    segment = pitch_segment(s, acceleration, t)
+    since = t - segment.begin
+    deviation = segment.value + since * (segment.rate + since * segment.half_acceleration)
+    return deviation, segment.rate + 2.0 * since * segment.half_acceleration
 
 
-def pitch_piece(s: HoverShape, acceleration: float, t: float) -> PitchPiece:
+def pitch_segment(s: HoverShape, acceleration: float, t: float) -> PitchSegment:
     """The parabola that the deviation follows at t (s)."""
     if not (t > 0.0 and t < s.t7):
         return parabola(t, 0.0, 0.0, 0.0)
@@ -149,9 +149,9 @@ def pitch_piece(s: HoverShape, acceleration: float, t: float) -> PitchPiece:
     return parabola(s.t7, 0.0, 0.0, 0.5 * acceleration)
 
 
-def parabola(begin: float, value: float, rate: float, half_acceleration: float) -> PitchPiece:
-    """A piece in the order of its fields."""
-    return PitchPiece(begin=begin, value=value, rate=rate, half_acceleration=half_acceleration)
+def parabola(begin: float, value: float, rate: float, half_acceleration: float) -> PitchSegment:
+    """A segment in the order of its fields."""
+    return PitchSegment(begin=begin, value=value, rate=rate, half_acceleration=half_acceleration)
 
 
 def full_thrust(s: HoverShape, t: float) -> bool:

@@ -5,7 +5,7 @@ Programmes, shapes and vehicles as in `hover_shape` and `hover_motion`.
 
 import math
 
-from .hover_motion import SWING, motion, propellant
+from .hover_motion import HoverVehicle, motion, propellant
 from .hover_shape import END, LAST_BURN, RETURN, TURN, UNKNOWNS, WIDTH, copy, shape_of
 from .matrices import inverse
 
@@ -20,17 +20,17 @@ LEAST_PART = 0.1  # of a step of Newton's
 DIFFERENCE = 1e-6  # s
 
 
-def propellant_fraction(p: list, vehicle: list) -> float:
+def propellant_fraction(p: list, vehicle: HoverVehicle) -> float:
     """Propellant of the programme p over the mass at its start; infinite without room for its shape."""
-    s, room = shape_of(p, vehicle[SWING])
+    s, room = shape_of(p, vehicle.swing)
     if not room:
         return math.inf
     return propellant(s, vehicle, p[END])
 
 
-def residual(p: list, vehicle: list, x: float, y: float, r: list) -> float:
+def residual(p: list, vehicle: HoverVehicle, x: float, y: float, r: list) -> float:
     """r[4] = what is missing at the end: (y/10, y', x/10, x'); returns its length, infinite without a motion."""
-    s, room = shape_of(p, vehicle[SWING])
+    s, room = shape_of(p, vehicle.swing)
     if not room:
         return math.inf
     state = [0.0] * 4
@@ -69,7 +69,7 @@ def move(kind: int, p: list, i: int, time: float) -> None:
         p[RETURN] = p[END]
 
 
-def sensitivities(kind: int, p: list, vehicle: list, x: float, y: float, r: list, inverted: list) -> bool:
+def sensitivities(kind: int, p: list, vehicle: HoverVehicle, x: float, y: float, r: list, inverted: list) -> bool:
     """inverted[16] = how the free times answer to the residual, by differences from r at p; whether they do."""
     free = [0] * 4
     n = free_times(kind, free)
@@ -93,7 +93,9 @@ def sensitivities(kind: int, p: list, vehicle: list, x: float, y: float, r: list
     return is_regular
 
 
-def advance(kind: int, p: list, vehicle: list, x: float, y: float, r: list, inverted: list, part: float) -> float:
+def advance(
+    kind: int, p: list, vehicle: HoverVehicle, x: float, y: float, r: list, inverted: list, part: float
+) -> float:
     """Move p by a part of Newton's step from the residual r; returns the new residual's length, and r itself."""
     free = [0] * 4
     n = free_times(kind, free)
@@ -106,7 +108,7 @@ def advance(kind: int, p: list, vehicle: list, x: float, y: float, r: list, inve
     return size
 
 
-def solve(kind: int, p: list, vehicle: list, x: float, y: float) -> bool:
+def solve(kind: int, p: list, vehicle: HoverVehicle, x: float, y: float) -> bool:
     """Change the free times of p until it ends at (x, y) (m) and at rest; whether it does. p is kept where not.
 
     Steps are halved until the residual falls; while it falls to a tenth, the sensitivities are kept. Free are t2, t5

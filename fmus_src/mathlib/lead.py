@@ -1,42 +1,54 @@
 """Lead compensator in discrete time by Tustin's rule, for three axes. Kernel functions.
 
-gain (lead s + 1)/(lag s + 1), sampled with a period T, is g' = decay g + e, m = share g + direct e, and a law
-is the vector (decay, share, direct):
+gain (lead s + 1)/(lag s + 1), sampled with a period T, is g' = decay g + e, m = state_gain g + input_gain e:
 
-    decay = (2 lag - T)/(2 lag + T)    direct = gain (2 lead + T)/(2 lag + T)
-    share = gain ((T - 2 lead)/(2 lag + T) + decay (2 lead + T)/(2 lag + T))
+    decay = (2 lag - T)/(2 lag + T)    input_gain = gain (2 lead + T)/(2 lag + T)
+    state_gain = gain ((T - 2 lead)/(2 lag + T) + decay (2 lead + T)/(2 lag + T))
 
 Source: Franklin, Powell and Workman 1998, section 6.1.2; derivation in docs/systems/robot_rendezvous.md.
 """
 
+from ..kernel.records import Field, Record
 from .vectors import Vector3, vector
 
-NO_STATE = 1e-12  # of the direct part: a share below it cannot carry an output
+NO_STATE = 1e-12  # of the gain of the input: a gain of the state below it cannot carry an output
 
 
-def tustin_lead(gain: float, lead: float, lag: float, period: float) -> Vector3:
+class LeadLaw(Record):
+    """A lead compensator in discrete time."""
+
+    decay = Field(unit="1", description="of the state, per tick")
+    state_gain = Field(description="of the state in the output")
+    input_gain = Field(description="of the input in the output")
+
+
+def tustin_lead(gain: float, lead: float, lag: float, period: float) -> LeadLaw:
     """The law; times in s, not both lag and period 0."""
     divisor = 2.0 * lag + period
     decay = (2.0 * lag - period) / divisor
-    direct = gain * (2.0 * lead + period) / divisor
-    return vector(decay, gain * (period - 2.0 * lead) / divisor + decay * direct, direct)
+    input_gain = gain * (2.0 * lead + period) / divisor
+    return LeadLaw(
+        decay=decay, state_gain=gain * (period - 2.0 * lead) / divisor + decay * input_gain, input_gain=input_gain
+    )
 
 
-def lead_output(law: Vector3, g: Vector3, e: Vector3) -> Vector3:
+def lead_output(law: LeadLaw, g: Vector3, e: Vector3) -> Vector3:
     """The output from the state g and the input e."""
-    _, fraction, direct = law
-    return fraction * g + direct * e
+    return law.state_gain * g + law.input_gain * e
 
 
-def advance_lead(law: Vector3, g: Vector3, e: Vector3) -> Vector3:
+def advance_lead(law: LeadLaw, g: Vector3, e: Vector3) -> Vector3:
     """The state at the next tick."""
-    return law[0] * g + e
+    return law.decay * g + e
 
 
-def change_lead(old: Vector3, new: Vector3, e: Vector3, g: Vector3) -> Vector3:
+def is_same(one: LeadLaw, other: LeadLaw) -> bool:
+    """Whether two laws are one."""
+    return one.decay == other.decay and one.state_gain == other.state_gain and one.input_gain == other.input_gain
+
+
+def change_lead(old: LeadLaw, new: LeadLaw, e: Vector3, g: Vector3) -> Vector3:
     """The state with which the new law puts out for e what the old one did; 0 where the new one has no state."""
-    _, old_share, old_direct = old
-    _, fraction, direct = new
-    if abs(fraction) > NO_STATE * abs(direct):
-        return (old_share * g + (old_direct - direct) * e) / fraction
+    if abs(new.state_gain) > NO_STATE * abs(new.input_gain):
+        return (old.state_gain * g + (old.input_gain - new.input_gain) * e) / new.state_gain
     return vector(0.0, 0.0, 0.0)

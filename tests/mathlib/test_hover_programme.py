@@ -14,7 +14,8 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import fsolve
 
-from perilune.fmus_src.mathlib.hover_motion import motion, propellant, thrust_impulse
+from perilune.fmus_src.kernel.records import replace
+from perilune.fmus_src.mathlib.hover_motion import HoverVehicle, motion, propellant, thrust_impulse
 from perilune.fmus_src.mathlib.hover_programme import programme, programme_of_duration
 from perilune.fmus_src.mathlib.hover_shape import UNKNOWNS, full_thrust, pitch, shape_of
 from perilune.fmus_src.mathlib.hover_solution import (
@@ -29,8 +30,8 @@ from tests.support.lengths import either
 
 EARTH = 9.80665
 DROP = -2300.0
-PAPER = [0.8 * EARTH, 0.8 * EARTH / 15.0, 300.0 * EARTH, 1.622, math.radians(1.0)]
-MARGINS = [0.9 * 0.8 * EARTH, 0.1 * 0.8 * EARTH, 300.0 * EARTH, 1.622, math.radians(0.7)]
+PAPER = HoverVehicle.of_elements([0.8 * EARTH, 0.8 * EARTH / 15.0, 300.0 * EARTH, 1.622, math.radians(1.0)])
+MARGINS = HoverVehicle.of_elements([0.9 * 0.8 * EARTH, 0.1 * 0.8 * EARTH, 300.0 * EARTH, 1.622, math.radians(0.7)])
 
 
 def planned(x, y=DROP, vehicle=PAPER, duration=None):
@@ -64,12 +65,12 @@ def test_best_duration():
 
 def test_published_pitch():
     _, p, _ = planned(1600.0)
-    s, room = shape_of(p, PAPER[4])
+    s, room = shape_of(p, PAPER.swing)
     assert room
-    angles = [90.0 + math.degrees(pitch(s, PAPER[4], t)[0]) for t in np.linspace(0.0, p[4], 4001)]
+    angles = [90.0 + math.degrees(pitch(s, PAPER.swing, t)[0]) for t in np.linspace(0.0, p[4], 4001)]
     assert min(angles) == pytest.approx(31.7, abs=0.05)
     assert max(angles) == pytest.approx(135.7, abs=0.05)
-    assert math.degrees(pitch(s, PAPER[4], 40.0)[1]) == pytest.approx(2.254, abs=5e-4)
+    assert math.degrees(pitch(s, PAPER.swing, 40.0)[1]) == pytest.approx(2.254, abs=5e-4)
 
 
 def test_control_margins():
@@ -121,7 +122,7 @@ def test_sideways_costs_what_the_paper_says_and_grows_linearly():
 
 def end_of(p, vehicle=PAPER):
     state = [0.0] * 4
-    s, room = shape_of(p, vehicle[4])
+    s, room = shape_of(p, vehicle.swing)
     assert room
     assert motion(s, vehicle, p[4], state)
     return state
@@ -156,7 +157,7 @@ def test_low_drops_with_far_sides_stay_above_the_target():
         assert kind == WITH_FIRST_BURN
         assert flown(p, PAPER)[:4] == pytest.approx([x, 0.0, y, 0.0], abs=1e-6)
         state = [0.0] * 4
-        s, room = shape_of(p, PAPER[4])
+        s, room = shape_of(p, PAPER.swing)
         assert room
         for t in np.linspace(0.0, p[4], 101):
             assert motion(s, PAPER, t, state)
@@ -167,21 +168,21 @@ def test_low_drops_with_far_sides_stay_above_the_target():
 def test_motion_pitch_and_propellant_on_the_way(t):
     _, p, _ = planned(1600.0)
     state = [0.0] * 4
-    s, room = shape_of(p, PAPER[4])
+    s, room = shape_of(p, PAPER.swing)
     assert room
     assert motion(s, PAPER, t, state)
-    deviation, rate = pitch(s, PAPER[4], t)
+    deviation, rate = pitch(s, PAPER.swing, t)
     actual = [*state, propellant(s, PAPER, t), 0.5 * math.pi + deviation, rate]
     assert actual == pytest.approx(flown(p, PAPER, until=t), abs=1e-7)
 
 
 def test_impulse_is_the_integral_of_thrust_over_mass():
     _, p, _ = planned(1600.0)
-    s, room = shape_of(p, PAPER[4])
+    s, room = shape_of(p, PAPER.swing)
     assert room
 
     def push(t):
-        return (PAPER[0] if full_thrust(s, t) else PAPER[1]) / (1.0 - propellant(s, PAPER, t))
+        return (PAPER.full if full_thrust(s, t) else PAPER.least) / (1.0 - propellant(s, PAPER, t))
 
     switches = (s.first_burn_begin, s.first_burn_end, s.last_burn_begin)
     for begin, end in ((0.0, 10.0), (13.0, 14.0), (14.0, 18.0), (60.0, 70.0), (10.0, p[4])):
@@ -196,7 +197,7 @@ def test_impulse_is_the_integral_of_thrust_over_mass():
 
 
 def test_straight_down_is_the_rocket_equation():
-    full, minimum, c, gravity, _ = PAPER
+    full, minimum, c, gravity, _ = PAPER.elements()
     q, r = minimum / c, full / c
 
     def missing(times):
@@ -224,7 +225,8 @@ def test_random_vehicles_and_targets():
         x = draws.uniform(0.0, 1.3) * -y
         thrust, limit = EARTH * draws.uniform(0.7, 1.05), draws.uniform(0.85, 1.0)
         swing = math.radians(draws.uniform(0.6, 1.0))
-        vehicle = [limit * thrust, draws.uniform(1.0 / 15.0, 0.1) * thrust, 300.0 * EARTH, 1.622, swing]
+        least = draws.uniform(1.0 / 15.0, 0.1) * thrust
+        vehicle = HoverVehicle.of_elements([limit * thrust, least, 300.0 * EARTH, 1.622, swing])
         kind, p, mu = planned(x, y, vehicle)
         assert kind != NONE, (x, y, vehicle)
         assert 0.0 < mu < 1.0
@@ -239,17 +241,17 @@ def test_random_vehicles_and_targets():
         (1600.0, 100.0, {}),
         (math.nan, DROP, {}),
         (1600.0, -math.inf, {}),
-        (1600.0, DROP, {0: 1.5}),
-        (1600.0, DROP, {1: 1.7}),
-        (1600.0, DROP, {4: 0.0}),
-        (1600.0, DROP, {2: math.nan}),
-        (1600.0, DROP, {2: 10.0}),
+        (1600.0, DROP, {"full": 1.5}),
+        (1600.0, DROP, {"least": 1.7}),
+        (1600.0, DROP, {"swing": 0.0}),
+        (1600.0, DROP, {"exhaust": math.nan}),
+        (1600.0, DROP, {"exhaust": 10.0}),
         (1e300, DROP, {}),
         (20.0, -20.0, {}),
     ],
 )
 def test_no_programme(x, y, change):
-    vehicle = [change.get(k, value) for k, value in enumerate(PAPER)]
+    vehicle = replace(PAPER, **change)
     assert planned(x, y, vehicle)[:2] == (NONE, [0.0] * UNKNOWNS)
 
 
@@ -261,7 +263,7 @@ def test_no_programme_of_that_duration():
 
 @pytest.mark.parametrize(("x", "y"), [(3172.0, -898.0), (5544.0, -951.0), (4600.0, -2350.0), (6650.0, -480.0)])
 def test_far_sides_never_thrust_downwards(x, y):
-    vehicle = [*MARGINS]
+    vehicle = MARGINS
     kind, p, _ = planned(x, y, vehicle)
     if kind == WITH_FIRST_BURN:
         angles = [flown(p, vehicle, until=t)[5] for t in np.linspace(0.1, 0.999, 25) * p[4]]

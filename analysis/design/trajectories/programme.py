@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ....fmus_src.mathlib import hover_motion, hover_programme, hover_shape, hover_solution
+from ....fmus_src.mathlib.hover_motion import HoverVehicle
 from ....fmus_src.mathlib.hover_shape import HoverShape
 from .path import PlannedPath
 from .vehicle import Transfer, Vehicle
@@ -137,9 +138,11 @@ def _fractions(programmes: list[Programme | None]) -> np.ndarray:
     return np.array([np.nan if programme is None else programme.propellant_fraction for programme in programmes])
 
 
-def _kernel_vehicle(vehicle: Vehicle, transfer: Transfer) -> list[float]:
-    values = [0.0] * hover_motion.VEHICLE
-    values[hover_motion.FULL], values[hover_motion.LEAST] = vehicle.full, vehicle.least
-    values[hover_motion.EXHAUST], values[hover_motion.GRAVITY] = vehicle.exhaust_speed, transfer.gravity
-    values[hover_motion.SWING] = vehicle.angular_acceleration
-    return values
+def _kernel_vehicle(vehicle: Vehicle, transfer: Transfer) -> HoverVehicle:
+    return HoverVehicle(
+        full=vehicle.full,
+        least=vehicle.least,
+        exhaust=vehicle.exhaust_speed,
+        gravity=transfer.gravity,
+        swing=vehicle.angular_acceleration,
+    )
