@@ -21,8 +21,13 @@ def runge_kutta_4(derivatives: Derivatives, t: float, state: State, h: float, *i
 
     Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, 1993, table II.1.2.
     """
-    half = 0.5 * h
     k1 = derivatives(t, state, *inputs)
+    return runge_kutta_4_from(k1, derivatives, t, state, h, *inputs)
+
+
+def runge_kutta_4_from(k1: Any, derivatives: Derivatives, t: float, state: State, h: float, *inputs: Any) -> State:
+    """The same, where the rate k1 at the start is known already."""
+    half = 0.5 * h
     k2 = derivatives(t + half, state + half * k1, *inputs)
     k3 = derivatives(t + half, state + half * k2, *inputs)
     k4 = derivatives(t + h, state + h * k3, *inputs)

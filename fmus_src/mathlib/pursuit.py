@@ -7,6 +7,8 @@ the goal. No frame implied.
 """
 
 from ..kernel.functions import atan2
+from ..kernel.integrators import runge_kutta_4_from
+from ..kernel.records import Field, Record
 from .rotation import turn_towards
 from .vectors import Vector3, add_along, dot, norm, smallest_component
 
@@ -43,19 +45,30 @@ def turning(direction: Vector3, goal: Vector3, response: float, limit: float) ->
     return angle, slope
 
 
-def runge_kutta(
+class Pursuit(Record):
+    """A step of a pursuit."""
+
+    direction = Field(Vector3, description="unit vector at its end")
+    goal = Field(Vector3, description="unit vector at its end")
+    angle = Field(unit="rad", description="from the direction to the goal at its start")
+
+
+def pursuit_rate(
+    t: float, direction: Vector3, base: Vector3, rate: Vector3, last_goal: Vector3, response: float, limit: float
+) -> Vector3:
+    """The derivative of the direction at the time t (s) of the goal."""
+    _, slope = turning(direction, goal_at(base, rate, t, last_goal), response, limit)
+    return slope
+
+
+def pursue(
     direction: Vector3, base: Vector3, rate: Vector3, s: float, h: float, response: float, limit: float
-) -> tuple[Vector3, Vector3, float]:
-    """One step of fourth order from time s to s + h: direction and goal at its end, and the angle at its start."""
+) -> Pursuit:
+    """One step of Runge-Kutta's fourth order from time s to s + h."""
     goal = goal_at(base, rate, s, direction)
     angle, k1 = turning(direction, goal, response, limit)
-    goal = goal_at(base, rate, s + 0.5 * h, goal)
-    _, k2 = turning(direction + 0.5 * h * k1, goal, response, limit)
-    _, k3 = turning(direction + 0.5 * h * k2, goal, response, limit)
-    goal = goal_at(base, rate, s + h, goal)
-    _, k4 = turning(direction + h * k3, goal, response, limit)
-    turned = direction + h * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
-    return turned / norm(turned), goal, angle
+    turned = runge_kutta_4_from(k1, pursuit_rate, s, direction, h, base, rate, goal, response, limit)
+    return Pursuit(direction=turned / norm(turned), goal=goal_at(base, rate, s + h, goal), angle=angle)
 
 
 def follow(
@@ -75,16 +88,16 @@ def follow(
         if not left > 2.0 * limit * h:
             turned, _ = turn_towards(direction, goal_at(base, rate, s + h, goal), limit * h)
             return turned
-    turned, goal, before = runge_kutta(direction, base, rate, s, h, response, limit)
+    whole = pursue(direction, base, rate, s, h, response, limit)
     if response > 0.0 and limit > 0.0:
         knee = response * limit
-        after, _ = turning(turned, goal, response, limit)
-        if (before > knee) != (after > knee):
-            part = h * (before - knee) / (before - after)
-            if before > knee:
-                turned, _, _ = runge_kutta(direction, base, rate, s, part, 0.0, limit)
-                turned, _, _ = runge_kutta(turned, base, rate, s + part, h - part, response, 0.0)
+        after, _ = turning(whole.direction, whole.goal, response, limit)
+        if (whole.angle > knee) != (after > knee):
+            part = h * (whole.angle - knee) / (whole.angle - after)
+            if whole.angle > knee:
+                first = pursue(direction, base, rate, s, part, 0.0, limit)
+                whole = pursue(first.direction, base, rate, s + part, h - part, response, 0.0)
             else:
-                turned, _, _ = runge_kutta(direction, base, rate, s, part, response, 0.0)
-                turned, _, _ = runge_kutta(turned, base, rate, s + part, h - part, 0.0, limit)
-    return turned
+                first = pursue(direction, base, rate, s, part, response, 0.0)
+                whole = pursue(first.direction, base, rate, s + part, h - part, 0.0, limit)
+    return whole.direction
