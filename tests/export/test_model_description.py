@@ -38,7 +38,8 @@ def test_variables_are_those_declared(fmus, name):
     references = [variable.valueReference for variable in variables.values()]
     assert references == list(range(len(references)))
     for declared in block.variables.values():
-        for element, start in zip(declared.element_names(), declared.elements, strict=True):
+        units = declared.units()
+        for element, start, unit in zip(declared.element_names(), declared.elements, units, strict=True):
             actual = variables[element]
             assert (actual.causality, actual.type) == (declared.causality, declared.type_name)
             assert actual.description.startswith(re.sub(r"\s+", " ", declared.description))
@@ -48,16 +49,16 @@ def test_variables_are_those_declared(fmus, name):
                 )
                 assert value == start
             if actual.type == "Real":
-                assert actual.unit == declared.unit
+                assert actual.unit == unit
             for bound, text in ((declared.minimum, actual.min), (declared.maximum, actual.max)):
                 assert (bound is None) == (text is None)
                 assert bound is None or float(text) == bound
     assert {unit.name for unit in description.unitDefinitions} == {
-        variable.unit for variable in block.variables.values() if variable.unit
+        unit for variable in block.variables.values() for unit in variable.units() if unit
     }
-    for unit in description.unitDefinitions:
-        exponents = {base: getattr(unit.baseUnit, base) for base in BASE_UNITS}
-        assert {base: power for base, power in exponents.items() if power} == unit_definition(unit.name).exponents
+    for defined in description.unitDefinitions:
+        exponents = {base: getattr(defined.baseUnit, base) for base in BASE_UNITS}
+        assert {base: power for base, power in exponents.items() if power} == unit_definition(defined.name).exponents
         assert (unit.baseUnit.factor, unit.baseUnit.offset) == (1.0, 0.0)
 
 
