@@ -59,7 +59,7 @@ def test_variables_are_those_declared(fmus, name):
     for defined in description.unitDefinitions:
         exponents = {base: getattr(defined.baseUnit, base) for base in BASE_UNITS}
         assert {base: power for base, power in exponents.items() if power} == unit_definition(defined.name).exponents
-        assert (unit.baseUnit.factor, unit.baseUnit.offset) == (1.0, 0.0)
+        assert (defined.baseUnit.factor, defined.baseUnit.offset) == (1.0, 0.0)
 
 
 @pytest.mark.parametrize("name", BLOCKS)
