@@ -12,6 +12,7 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 from perilune.fmus_src.guidance.hover_guidance import CAPTURE, DESCEND, PROGRAMME, SLOW
+from perilune.fmus_src.mathlib.hover_motion import HoverVehicle
 from tests.support.flights.hover_equations import flown
 from tests.support.flights.hover_flight import EXHAUST, GRAVITY, MASS, START, TARGET, H, begun, fly, last
 
@@ -51,7 +52,8 @@ def test_the_reference_is_the_programme_in_space(t):
     side = way - (way @ up) * up
     along = side / np.linalg.norm(side)
     gravity = np.mean([MU / np.sum((r - centre) ** 2) for r in (start, target)])
-    vehicle = [0.9 * 4707.192 / MASS, 0.1 * 4707.192 / MASS, EXHAUST, gravity, math.radians(0.7)]
+    limits = [0.9 * 4707.192 / MASS, 0.1 * 4707.192 / MASS]
+    vehicle = HoverVehicle.of_elements([*limits, EXHAUST, gravity, math.radians(0.7)])
     x, vx, y, vy, _, pitch, rate = flown(block.programme, vehicle, until=t)
     assert block.reference_position == pytest.approx(start + x * along + y * up, abs=1e-5)
     assert block.reference_velocity == pytest.approx(vx * along + vy * up, abs=1e-6)
