@@ -227,7 +227,7 @@ class State(Variable):
     """Internal, kept from step to step; readable from outside, never set.
 
     ``start`` may be a record's class, with the starts of fields by name (others 0): ``State(Motion, speed=7620.0)`` has
-    the FMI variables ``motion.speed``, ``motion.attitude[1]`` and so on.
+    the FMI variables ``NAME.speed``, ``NAME.attitude[1]`` and so on, NAME the variable's.
 
     ``frozen``: left as it is along the flight where a system is linearised: the memory of random number generators,
     and covariances, whose small changes act on estimates only through innovations.

@@ -1,7 +1,7 @@
 """Campaigns leave the same bytes on a processor without fused operations and wide vectors.
 
-Truth: the folder of the same campaign on this processor. The C library, numpy, OpenBLAS and numba are told that theirs
-has less. `make processors` flies whole campaigns.
+Truth: the folder of the same campaign on this processor. The C library, numpy, OpenBLAS and numba are set to use
+less of it. `make processors` flies whole campaigns.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ..judge.expressions import type_of_variable
 from ..judge.kernel import FLOAT, Kernel, RecordType, Several, Vector
 from .layout import Lines
 from .names import c_type, declaration, identifier
@@ -33,6 +34,8 @@ def _records_of(kernel: Kernel) -> list[RecordType]:
                     add(part.field(name))
                 ordered[part] = None
 
+    for variable in kernel.block_class.variables.values():  # a state may be one that no function reads
+        add(type_of_variable(variable))
     for function in kernel.functions:
         for kind in (*function.parameters.values(), *function.locals.values(), *function.types.values()):
             add(kind)
