@@ -12,7 +12,7 @@ from dataclasses import replace
 from ..common.errors import InputError
 from ..runtime.system.order.schedule import origin
 from ..runtime.system.prepared import PreparedSystem
-from .injection.bench import StudyError
+from .point.bench import StudyError
 from .request.request import Request
 from .request.subject import Subject
 from .results.loop import JointReport, LoopReport

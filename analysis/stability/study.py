@@ -16,8 +16,9 @@ from ..campaigns.fly.workers.workers import worker_count
 from ..common.errors import InputError
 from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
-from .injection.bench import StudyError
+from .dispersion import disperse
 from .orders import in_both_orders
+from .point.bench import StudyError
 from .point.limit_cycles import element_report
 from .point.point_study import PointStudy
 from .progress import Tell, begin, listen, show_progress, tell_parent
@@ -28,9 +29,8 @@ from .request.subject import Subject
 from .results.loop import JointReport, LoopReport
 from .results.report import PointReport, StabilityReport, Unstudied
 from .results.varied import Dispersion
-from .variation.dispersion import disperse
-from .variation.sampling import vary_step
-from .variation.sweep import run_sweep
+from .sampling import vary_step
+from .sweep import run_sweep
 
 
 @dataclass

@@ -8,8 +8,8 @@ import control
 import numpy as np
 import pytest
 
-from perilune.analysis.stability.linear.lifted import LiftedModel, Port, reachable
-from perilune.analysis.stability.linear.modes import modes, structure
+from perilune.analysis.stability.point.lifted import LiftedModel, Port, reachable
+from perilune.analysis.stability.point.modes import modes, structure
 from perilune.analysis.stability.request.channels import Channel
 from tests.support.loops.exact_periodic import STATES, exact_model, flown_response, hyperperiod
 from tests.support.loops.sampled_loops import held, response_of

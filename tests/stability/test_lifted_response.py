@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from perilune.analysis.stability.linear.lifted import LiftedModel, Port
+from perilune.analysis.stability.point.lifted import LiftedModel, Port
 from tests.support.loops.sampled_loops import HeldDoubleIntegrator, response_of
 
 

@@ -16,8 +16,8 @@ import pytest
 from scipy.io import loadmat
 
 import perilune
-from perilune.analysis.stability.linear.lifted import LiftedModel, Port, StateVariable
-from perilune.analysis.stability.linear.open_loop import open_loop
+from perilune.analysis.stability.point.lifted import LiftedModel, Port, StateVariable
+from perilune.analysis.stability.point.open_loop import open_loop
 from perilune.analysis.stability.request.channels import Channel
 from perilune.analysis.stability.results.mat_file import mat_bytes
 from tests.support.loops.exact_margins import crossings, disk_margin

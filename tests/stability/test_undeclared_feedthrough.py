@@ -18,9 +18,9 @@ import perilune
 from perilune.analysis.cli import main
 from perilune.analysis.reports.stability.orders.words import order_sentences, withheld_line
 from perilune.analysis.runtime.system.options import SystemOptions
-from perilune.analysis.stability.injection.bench import StudyError
 from perilune.analysis.stability.loops.margin_values import MARGINS, Quantity
 from perilune.analysis.stability.orders import in_both_orders
+from perilune.analysis.stability.point.bench import StudyError
 from perilune.analysis.stability.request.request import read_request
 from perilune.analysis.stability.results.requirement import Verdict
 from tests.support.builders import component, connection, document, inline, pack, system

@@ -11,7 +11,6 @@ from ...runtime.flight.results import COMPLETE
 from ...runtime.flight.simulation import Simulation
 from ...runtime.system.options import Layer
 from ...runtime.system.prepared import PreparedSystem
-from ..injection.bench import StudyError
 from ..loops.curves import Response
 from ..loops.describing_function import ELEMENTS, amplitude_range, complete_parameters, describing_function
 from ..loops.harmonic_balance import predict
@@ -19,6 +18,7 @@ from ..loops.oscillation import find_oscillation
 from ..request.channels import Channel
 from ..request.declaration import Element
 from ..results.nonlinear import LimitCycle, Nonlinearity
+from .bench import StudyError
 
 POINTS = 400
 LARGEST_GAIN = 1e3

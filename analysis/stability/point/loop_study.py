@@ -8,10 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from ..injection.bench import Bench, StudyError
-from ..injection.injection import Injector, NotMeasurableError, measure_response
-from ..linear.modes import structure
-from ..linear.open_loop import open_loop
 from ..loops.curves import Response, interpolate, quotient
 from ..loops.decibels import decibels
 from ..request.channels import Channel
@@ -20,6 +16,10 @@ from ..results.loop import LoopReport
 from ..results.nonlinear import AmplitudePoint
 from ..results.responses import Measured
 from .assessment import Assessment, assess, requirements
+from .bench import Bench, StudyError
+from .injection import Injector, NotMeasurableError, measure_response
+from .modes import structure
+from .open_loop import open_loop
 from .responses import DOUBTFUL, NOT_LINEAR, LoopModel, agreement, disagreement
 
 SILENT = "nothing of what is added comes back: L is 0"

@@ -7,11 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...common.errors import InputError
-from ..injection.bench import Bench, StudyError
-from ..injection.operating_point import OperatingPoint
-from ..linear.jacobian import STEPS
-from ..linear.linearise import Linearisation, linearise
-from ..linear.open_loop import open_loop
 from ..loops.decibels import decibel_size, degree_size
 from ..loops.disk import joint_disk_margin
 from ..loops.margin_values import UNSTABLE, Quantity
@@ -22,7 +17,12 @@ from ..results.loop import JointReport
 from ..results.report import PointReport
 from ..results.requirement import Requirement, Scope
 from .assessment import lowest_frequency
+from .bench import Bench, StudyError
+from .jacobian import STEPS
+from .linearise import Linearisation, linearise
 from .loop_study import LoopStudy
+from .open_loop import open_loop
+from .operating_point import OperatingPoint
 from .responses import DOUBTFUL, LoopModel, loop_model
 
 MOST_TRIM = 8  # of the memory that changes most

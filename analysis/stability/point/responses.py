@@ -8,14 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
-from ..linear.lifted import UNIT_CIRCLE, LiftedModel, Port
-from ..linear.linearise import Linearisation
-from ..linear.modes import modes, unseen_mode
-from ..linear.whole import Block
 from ..loops.curves import Response, quotient
 from ..loops.decibels import decibels, factor_of
 from ..results.responses import Agreement, Linearised, Measured, Mode
 from .assessment import lowest_frequency
+from .lifted import UNIT_CIRCLE, LiftedModel, Port
+from .linearise import Linearisation
+from .modes import modes, unseen_mode
+from .whole import Block
 
 GAIN_AGREES = factor_of(0.1)
 PHASE_AGREES = np.radians(0.5)

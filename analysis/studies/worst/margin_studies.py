@@ -20,11 +20,11 @@ from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
 from ...common.process_end import leave_when_done
 from ...common.progress import progress_bar
-from ...stability.injection.bench import StudyError
+from ...stability.dispersion import models_of_trial
+from ...stability.followed import margins_of
 from ...stability.loops.margin_values import Margins
+from ...stability.point.bench import StudyError
 from ...stability.point.point_study import PointStudy
-from ...stability.variation.dispersion import models_of_trial
-from ...stability.variation.followed import margins_of
 from ..evaluation.flights import OWN
 from ..evaluation.noise import make_samples, noise_of
 from .margin import margin_columns

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from perilune.analysis.stability.linear.lifted import LiftedModel, Port
+from perilune.analysis.stability.point.lifted import LiftedModel, Port
 from perilune.analysis.stability.request.channels import Channel
 from tests.support.builders import component, connection, document, inline, system
 

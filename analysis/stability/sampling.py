@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ...common.errors import InputError
-from ..injection.bench import StudyError
-from ..point.point_study import PointStudy
-from ..request.declaration import Loop, Point
-from ..request.subject import Subject
-from ..results.varied import Sampled
+from ..common.errors import InputError
 from .followed import ONE_STEP, margins_of, model_of
+from .point.bench import StudyError
+from .point.point_study import PointStudy
+from .request.declaration import Loop, Point
+from .request.subject import Subject
+from .results.varied import Sampled
 
 FACTORS = (0.5, 1.0, 2.0)  # of the communication step
 

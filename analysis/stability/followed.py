@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..injection.bench import StudyError
-from ..linear.linearise import Linearisation
-from ..loops.margin_values import Margins
-from ..point.assessment import assess, lowest_frequency
-from ..point.responses import LoopModel, loop_model
+from .loops.margin_values import Margins
+from .point.assessment import assess, lowest_frequency
+from .point.bench import StudyError
+from .point.linearise import Linearisation
+from .point.responses import LoopModel, loop_model
 
 ONE_STEP = (1e-6,)  # of differences, where a plateau has been seen at the same point already
 

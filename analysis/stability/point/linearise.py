@@ -9,9 +9,9 @@ from functools import partial
 import numpy as np
 import scipy.linalg
 
-from ..injection.operating_point import OperatingPoint
 from .jacobian import STEPS, Jacobian, plateau
 from .lifted import LiftedModel, StateVariable, reachable
+from .operating_point import OperatingPoint
 from .whole import Block, circles, multipliers
 
 

@@ -9,15 +9,15 @@ from functools import cache
 import numpy as np
 from scipy.optimize import brentq
 
-from ...runtime.system.options import Layer
-from ...runtime.system.prepared import PreparedSystem
-from ..injection.bench import StudyError
-from ..loops.margin_values import Margins, Quantity
-from ..point.point_study import PointStudy
-from ..request.declaration import Limits, Loop, Point, Sweep
-from ..request.subject import Subject
-from ..results.varied import SweepCrossing, SweepReport
+from ..runtime.system.options import Layer
+from ..runtime.system.prepared import PreparedSystem
 from .followed import ONE_STEP, margins_of, model_of
+from .loops.margin_values import Margins, Quantity
+from .point.bench import StudyError
+from .point.point_study import PointStudy
+from .request.declaration import Limits, Loop, Point, Sweep
+from .request.subject import Subject
+from .results.varied import SweepCrossing, SweepReport
 
 VALUES = 13
 CROSSING = 1e-3  # relative, of the value at which a limit is reached

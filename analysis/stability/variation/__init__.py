@@ -1,1 +1,0 @@
-"""Margins followed while something varies: the step, a parameter, the trials of a campaign."""
