@@ -8,14 +8,13 @@ from functools import partial
 import numpy as np
 
 from ..campaigns.spec.plan import BatchPlan
-from .followed import ONE_STEP, margins_of, model_of, poles_of
 from .loops.margin_values import Margins, Quantity, worst_of
+from .point.bench import OperatingPoint
 from .point.linearise import linearise
-from .point.operating_point import OperatingPoint
 from .point.point_study import PointStudy
-from .point.responses import LoopModel
+from .point.responses import ONE_STEP, LoopModel, margins_of, model_of, poles_of
 from .request.declaration import Limits, Loop, Point
-from .request.subject import Subject
+from .request.request import Subject
 from .results.requirement import Requirement, Scope
 from .results.varied import Dispersion
 

@@ -13,10 +13,8 @@ from ..common.errors import InputError
 from ..runtime.system.order.schedule import origin
 from ..runtime.system.prepared import PreparedSystem
 from .point.bench import StudyError
-from .request.request import Request
-from .request.subject import Subject
-from .results.loop import JointReport, LoopReport
-from .results.report import Orders, StabilityReport, Unstudied
+from .request.request import Request, Subject
+from .results.report import JointReport, LoopReport, Orders, StabilityReport, Unstudied
 from .results.requirement import Requirement
 
 NOT_STUDIED, DIFFERENT = (

@@ -24,13 +24,10 @@ from .point.point_study import PointStudy
 from .progress import Tell, begin, listen, show_progress, tell_parent
 from .request.channels import Channel
 from .request.declaration import Point
-from .request.request import Request
-from .request.subject import Subject
-from .results.loop import JointReport, LoopReport
-from .results.report import PointReport, StabilityReport, Unstudied
+from .request.request import Request, Subject
+from .results.report import JointReport, LoopReport, PointReport, StabilityReport, Unstudied
 from .results.varied import Dispersion
-from .sampling import vary_step
-from .sweep import run_sweep
+from .variation import run_sweep, vary_step
 
 
 @dataclass

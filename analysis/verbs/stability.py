@@ -21,7 +21,7 @@ from ..stability.request.request import read_request
 from ..stability.results import report
 from ..stability.results.data import write_data
 from ..stability.results.document import KEYS, document
-from ..stability.results.loop import LoopReport
+from ..stability.results.report import LoopReport
 from ..stability.results.requirement import Verdict
 from ..stability.study import study
 from .common.stability_text import stability_lines, stability_problems

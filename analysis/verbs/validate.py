@@ -27,7 +27,7 @@ from ..runtime.system.prepared import prepare_system
 from ..stability.request.channels import channels_of
 from ..stability.request.declaration import Declaration
 from ..stability.request.reading import read_declaration
-from ..stability.request.subject import Subject
+from ..stability.request.request import Subject
 from .common.paths import path_list
 from .common.text import wrap
 from .options.looking import VALIDATE

@@ -11,8 +11,7 @@ import pytest
 import perilune
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.stability.point.point_study import PointStudy
-from perilune.analysis.stability.request.request import read_request
-from perilune.analysis.stability.request.subject import Subject
+from perilune.analysis.stability.request.request import Subject, read_request
 from tests.support.lengths import either
 from tests.support.loops.exact_lunar import STEP, HoverLoop
 from tests.support.loops.exact_margins import crossings, disk_margin

@@ -13,7 +13,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.stability.loops.decibels import decibel_size, degree_size
+from perilune.analysis.stability.loops.readings import decibel_size, degree_size
 from tests.support.builders import component, connection, document, pack, system
 from tests.support.loops.foreign_fmus import build_foreign_fmus
 

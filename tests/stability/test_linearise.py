@@ -11,9 +11,8 @@ import perilune
 from perilune.analysis.common.errors import InputError
 from perilune.analysis.runtime.system.options import SystemOptions
 from perilune.analysis.runtime.system.prepared import prepare_system
-from perilune.analysis.stability.point.bench import Bench, StudyError
+from perilune.analysis.stability.point.bench import Bench, OperatingPoint, StudyError
 from perilune.analysis.stability.point.linearise import linearise
-from perilune.analysis.stability.point.operating_point import OperatingPoint
 from perilune.analysis.stability.request.channels import channels_of
 from perilune.analysis.stability.request.declaration import Loop, Point
 from tests.support.builders import component, connection, document, pack, system

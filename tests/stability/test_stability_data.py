@@ -19,7 +19,7 @@ import perilune
 from perilune.analysis.stability.point.lifted import LiftedModel, Port, StateVariable
 from perilune.analysis.stability.point.open_loop import open_loop
 from perilune.analysis.stability.request.channels import Channel
-from perilune.analysis.stability.results.mat_file import mat_bytes
+from perilune.analysis.stability.results.data import mat_bytes
 from tests.support.loops.exact_margins import crossings, disk_margin
 from tests.support.loops.exact_periodic import exact_model
 from tests.support.loops.sampled_loops import held, response_of

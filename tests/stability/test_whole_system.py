@@ -12,7 +12,7 @@ import pytest
 
 import perilune
 from perilune.analysis.cli import main
-from perilune.analysis.stability.point.whole import circles, multipliers
+from perilune.analysis.stability.point.modes import circles, multipliers
 from tests.support.builders import component, inline, pack
 from tests.support.loops.exact_systems import pendulum
 from tests.support.loops.studies import foreign_system

@@ -8,10 +8,9 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.axes import Axes
 
-from ...stability.loops.decibels import decibels
 from ...stability.loops.margin_values import MARGINS, UNSTABLE, Quantity
-from ...stability.results.loop import JointReport, LoopReport
-from ...stability.results.report import StabilityReport
+from ...stability.loops.readings import decibels
+from ...stability.results.report import JointReport, LoopReport, StabilityReport
 from ...stability.results.varied import SweepReport
 from ..common.panels import HALF_WIDTH, PANEL_WIDTH, Panel, panel
 from ..common.quantities import number

@@ -8,8 +8,7 @@ from pathlib import Path
 from markupsafe import Markup
 
 from ...stability.loops.margin_values import Quantity
-from ...stability.results.loop import LoopReport
-from ...stability.results.report import StabilityReport
+from ...stability.results.report import LoopReport, StabilityReport
 from ...stability.results.requirement import Verdict
 from ...stability.results.varied import SweepCrossing, SweepReport
 from ..common.page import write_page

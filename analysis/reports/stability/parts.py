@@ -9,9 +9,8 @@ import numpy as np
 from markupsafe import Markup
 
 from ...stability.loops.margin_values import MARGINS
-from ...stability.results.loop import LoopReport
-from ...stability.results.nonlinear import Nonlinearity
-from ...stability.results.responses import Mode
+from ...stability.results.report import LoopReport
+from ...stability.results.responses import Mode, Nonlinearity
 from ...stability.results.varied import LEVELS, Dispersion
 from ..common.panels import Panel
 from ..common.quantities import MINUS, NONE, display_unit

@@ -8,7 +8,7 @@ from enum import StrEnum
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...stability.results.loop import LoopReport
+from ...stability.results.report import LoopReport
 from ..common.style import house_style, new_figure
 from .diagrams.bode import draw_bode
 from .diagrams.frequency import draw_sensitivity

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from markupsafe import Markup
 
-from ...stability.results.loop import LoopReport
+from ...stability.results.report import LoopReport
 from ..common.panels import Panel
 
 TOLERANCE = 0.5  # pt; lines of responses are 1.3 pt wide

@@ -10,8 +10,7 @@ from typing import Any
 from markupsafe import Markup
 
 from ...stability.loops.margin_values import UNSTABLE
-from ...stability.results.loop import LoopReport
-from ...stability.results.report import PointReport, StabilityReport
+from ...stability.results.report import LoopReport, PointReport, StabilityReport
 from ...stability.results.requirement import Requirement, Scope, Verdict
 from ..common.quantities import display_unit, number
 from .orders.words import order_note

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from ...stability.loops.decibels import decibel_size, decibels, degree_size
 from ...stability.loops.margin_values import UNSTABLE, Margins
-from ...stability.results.loop import LoopReport
+from ...stability.loops.readings import decibel_size, decibels, degree_size
+from ...stability.results.report import LoopReport
 from ...stability.results.requirement import Requirement, Verdict
 from ..common.page import exact
 from ..common.quantities import MINUS, NONE, display_unit, number

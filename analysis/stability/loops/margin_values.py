@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from ...campaigns.verdicts.quantiles import quantile_rank
-from .decibels import decibel_size, degree_size
-from .readings import Classical, Robust
+from .readings import Classical, Robust, decibel_size, degree_size
 
 UNSTABLE = -math.inf
 UNLIMITED = math.inf

@@ -6,9 +6,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from .bench import StudyError
+from .bench import OperatingPoint, StudyError
 from .lifted import Port
-from .operating_point import OperatingPoint
 
 STEPS = tuple(10.0**-power for power in range(3, 15))  # of a cell's scale or a signal's size
 LEVELS = 4  # steps in a row, from the largest on that the flight survives

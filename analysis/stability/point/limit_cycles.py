@@ -17,7 +17,7 @@ from ..loops.harmonic_balance import predict
 from ..loops.oscillation import find_oscillation
 from ..request.channels import Channel
 from ..request.declaration import Element
-from ..results.nonlinear import LimitCycle, Nonlinearity
+from ..results.responses import LimitCycle, Nonlinearity
 from .bench import StudyError
 
 POINTS = 400

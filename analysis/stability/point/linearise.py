@@ -9,10 +9,10 @@ from functools import partial
 import numpy as np
 import scipy.linalg
 
+from .bench import OperatingPoint
 from .jacobian import STEPS, Jacobian, plateau
 from .lifted import LiftedModel, StateVariable, reachable
-from .operating_point import OperatingPoint
-from .whole import Block, circles, multipliers
+from .modes import Block, circles, multipliers
 
 
 @dataclass

@@ -9,12 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from ..loops.curves import Response, interpolate, quotient
-from ..loops.decibels import decibels
+from ..loops.readings import decibels
 from ..request.channels import Channel
 from ..request.declaration import Limits
-from ..results.loop import LoopReport
-from ..results.nonlinear import AmplitudePoint
-from ..results.responses import Measured
+from ..results.report import LoopReport
+from ..results.responses import AmplitudePoint, Measured
 from .assessment import Assessment, assess, requirements
 from .bench import Bench, StudyError
 from .injection import Injector, NotMeasurableError, measure_response

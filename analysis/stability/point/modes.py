@@ -1,9 +1,18 @@
-"""Closed-loop modes of a linear model, and what a cut can move and see of them."""
+"""Multipliers of a whole system, closed-loop modes of a loop's linear model, and what a cut can move and see of them.
+
+Memory that reaches itself through others is a block. Ordered by what reaches what, the blocks stand on the diagonal of
+a triangular matrix: the multipliers of the whole system are those of its blocks. Memory on no circle is forgotten, and
+a number that only adds up what others bring has the multiplier 1.
+Source: Tarjan 1972, Depth-first search and linear graph algorithms (strongly connected components).
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import scipy.linalg
+from scipy.sparse.csgraph import connected_components
 
 from ..results.responses import Mode, Structure
 from .lifted import LiftedModel, Port
@@ -66,3 +75,36 @@ def _rank(a: np.ndarray, b: np.ndarray) -> tuple[int, float]:
         return 0, 0.0
     retained = sizes[sizes > RANK * sizes[0]]
     return retained.size, float(retained[-1] / sizes[0])
+
+
+ADDS_UP = 1e-6  # from 1: a cell that depends on itself so nearly only adds up, or holds, whatever parameters say
+
+
+@dataclass(frozen=True)
+class Block:
+    """Memory that reaches itself through all of itself.
+
+    ``multipliers`` are the largest first, and ``change`` is how much the largest changes with the next smaller steps of
+    the differences. ``moved`` and ``moves`` say of every port whether its cut moves it, and whether it moves the cut.
+    """
+
+    names: tuple[str, ...]
+    multipliers: np.ndarray
+    change: float
+    moved: tuple[bool, ...]
+    moves: tuple[bool, ...]
+
+
+def circles(matrix: np.ndarray) -> list[np.ndarray]:
+    """The cells of each block of a matrix [to, from] whose multipliers need not be 0 or 1."""
+    _, labels = connected_components(matrix != 0.0, directed=True, connection="strong")
+    own = np.diagonal(matrix)
+    grows = (own != 0.0) & (abs(own - 1.0) > ADDS_UP)
+    blocks = [np.flatnonzero(labels == label) for label in np.unique(labels)]
+    return [cells for cells in blocks if cells.size > 1 or grows[cells[0]]]
+
+
+def multipliers(matrix: np.ndarray, cells: np.ndarray) -> np.ndarray:
+    """Eigenvalues of a block, largest first."""
+    values = np.linalg.eigvals(matrix[np.ix_(cells, cells)])
+    return values[np.argsort(-abs(values), kind="stable")]

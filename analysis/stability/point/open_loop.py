@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..results.state_space import StateSpace
+from ..results.responses import StateSpace
 from .lifted import LiftedModel, Port
 
 LOWEST, HIGHEST, COUNT = 1e-3, 0.97, 60  # frequencies, over the Nyquist frequency, at which L is compared

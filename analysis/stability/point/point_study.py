@@ -7,22 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...common.errors import InputError
-from ..loops.decibels import decibel_size, degree_size
-from ..loops.disk import joint_disk_margin
 from ..loops.margin_values import UNSTABLE, Quantity
+from ..loops.readings import decibel_size, degree_size
+from ..loops.structured import joint_disk_margin
 from ..request.channels import Channel, channels_of
 from ..request.declaration import Limits, Loop, Point
-from ..request.subject import Subject
-from ..results.loop import JointReport
-from ..results.report import PointReport
+from ..request.request import Subject
+from ..results.report import JointReport, PointReport
 from ..results.requirement import Requirement, Scope
 from .assessment import lowest_frequency
-from .bench import Bench, StudyError
+from .bench import Bench, OperatingPoint, StudyError
 from .jacobian import STEPS
 from .linearise import Linearisation, linearise
 from .loop_study import LoopStudy
 from .open_loop import open_loop
-from .operating_point import OperatingPoint
 from .responses import DOUBTFUL, LoopModel, loop_model
 
 MOST_TRIM = 8  # of the memory that changes most

@@ -1,4 +1,4 @@
-"""The two methods for a loop's frequency response, and whether they agree."""
+"""A loop's linear model with its modes and margins, and the comparison of linearised and measured responses."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from functools import cached_property
 import numpy as np
 
 from ..loops.curves import Response, quotient
-from ..loops.decibels import decibels, factor_of
+from ..loops.margin_values import Margins
+from ..loops.readings import decibels, factor_of
 from ..results.responses import Agreement, Linearised, Measured, Mode
-from .assessment import lowest_frequency
+from .assessment import assess, lowest_frequency
+from .bench import StudyError
 from .lifted import UNIT_CIRCLE, LiftedModel, Port
 from .linearise import Linearisation
-from .modes import modes, unseen_mode
-from .whole import Block
+from .modes import Block, modes, unseen_mode
 
 GAIN_AGREES = factor_of(0.1)
 PHASE_AGREES = np.radians(0.5)
@@ -173,3 +174,28 @@ def disagreement(compared: Agreement, a: Linearised, b: Measured) -> str:
         reasons.append(f"the loop changes from sample to sample ({a.periodicity:.2g} comes back at other frequencies)")
     size = f"{decibels(compared.gain):.2g} dB and {np.degrees(compared.phase):.2g} deg apart"
     return f"{size}: " + ("; ".join(reasons) or "neither method sees a reason; the operating point does not last")
+
+
+ONE_STEP = (1e-6,)  # of differences, where a plateau has been seen at the same point already
+
+
+def model_of(linear: Linearisation, name: str) -> LoopModel:
+    """The loop of one channel in a linear model."""
+    return loop_model(linear, next(port for port in linear.model.ports if port.channel.name == name))
+
+
+def margins_of(model: LoopModel) -> Margins:
+    """The nearest margins of one loop. Raises StudyError where they cannot be read."""
+    seconds = model.port.seconds
+    low = lowest_frequency(model.response, seconds)
+    try:
+        undamped, near = model.lightly_damped()
+        assessment = assess(model.response, low, np.pi / seconds, seconds, None, (), [*undamped, *near])
+    except ValueError as error:
+        raise StudyError(f"{model.port.channel.name}: {error}") from error
+    return Margins.of(assessment.classical, assessment.robust, model.stable, model.largest)
+
+
+def poles_of(model: LoopModel) -> np.ndarray:
+    """The multipliers of the closed-loop modes that the cut moves and sees."""
+    return np.array([mode.z for mode in model.modes if mode.kind == "loop"])

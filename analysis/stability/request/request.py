@@ -1,10 +1,10 @@
-"""What is asked of a study: a system, its loops and points, a campaign; read and checked before anything flies."""
+"""A stability study's request: system, options, loops, points and campaign, checked before anything is simulated."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 
 from ...campaigns.spec.checks import check_plan
@@ -13,7 +13,9 @@ from ...common.errors import InputError, suggestion
 from ...runtime.ssp.archive import open_system
 from ...runtime.ssp.description import Description
 from ...runtime.ssp.reading import read_description
+from ...runtime.system.fmu import Fmu
 from ...runtime.system.options import Layer, SystemOptions
+from ...runtime.system.prepared import PreparedSystem, prepare_system
 from ...verbs.options.command import write_command
 from ...verbs.options.option import options_of
 from ...verbs.options.stability import STABILITY
@@ -195,3 +197,22 @@ def _values_of_trial(plan: BatchPlan, options: SystemOptions, trial: int) -> Sys
     prepared = plan.prepare(variant)
     sampled = {name: str(value) for name, value in plan.parameters(prepared, trial).items()}
     return options.among(campaign=plan.campaign.layer_of(variant), draws=Layer(set=sampled))
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A system and options; `changed` gives another one that shares its loaded FMUs."""
+
+    system: str
+    options: SystemOptions
+    fmus: dict[str, Fmu] = field(default_factory=dict)
+
+    def with_options(self, *, step: float | None = None, **layers: Layer) -> Subject:
+        """With another communication step (s), and with what others ask, by the names of `LAYERS`."""
+        options = self.options.among(**layers)
+        return replace(self, options=options if step is None else replace(options, step=step))
+
+    def at(self, point: Point, study: Layer | None = None) -> PreparedSystem:
+        """The system at a point, with ``study`` over all other layers. Raises InputError."""
+        options = self.options.among(operating_point=point.layer, study=study or Layer())
+        return prepare_system(self.system, options, self.fmus)

@@ -1,7 +1,10 @@
 """Loop responses and linear models as files for python-control, MATLAB and spreadsheets, with names and units.
 
 Three files say the same: `loops.json` for python-control, `loops.mat` for MATLAB, `responses.csv` with the responses
-alone. Gains are factors, frequencies rad/s, times s; signals and states are in the units that stand beside them.
+alone. Gains are factors, frequencies rad/s, times s; signals and states are in the units that stand beside them. The
+bytes depend on the content alone.
+Source: The MathWorks, MAT-File Format (version 5): the first 116 bytes are a text that begins with "MATLAB 5.0
+MAT-file", then come the subsystem's offset, the version and the byte order. SciPy writes date and platform into it.
 """
 
 from __future__ import annotations
@@ -9,18 +12,17 @@ from __future__ import annotations
 import csv
 import io
 import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.io import savemat
 
 from ...common.atomic import write_atomically
 from .document import document
-from .loop import JointReport, LoopReport
-from .mat_file import mat_bytes, struct_array
-from .report import Orders, StabilityReport
-from .responses import Measured
-from .state_space import StateSpace
+from .report import JointReport, LoopReport, Orders, StabilityReport
+from .responses import Measured, StateSpace
 
 JSON, MAT, CSV = "loops.json", "loops.mat", "responses.csv"
 SIGN = (
@@ -171,3 +173,29 @@ def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         return np.stack([value.real, value.imag], axis=-1).tolist() if np.iscomplexobj(value) else value.tolist()
     raise TypeError(type(value).__name__)
+
+
+HEADER = b"MATLAB 5.0 MAT-file, written by Perilune".ljust(116)
+
+
+def mat_bytes(variables: Mapping[str, Any]) -> bytes:
+    """The file with these variables; names are at most 63 letters, digits and underscores."""
+    file = io.BytesIO()
+    savemat(file, dict(variables), long_field_names=True, oned_as="column")
+    return HEADER + file.getvalue()[len(HEADER) :]
+
+
+def struct_array(records: Sequence[Mapping[str, Any]]) -> np.ndarray:
+    """Records with the same keys as a MATLAB struct array, one by n; lists of texts are cell arrays."""
+    names = list(records[0]) if records else []
+    array = np.empty((1, len(records)), dtype=[(name, object) for name in names])
+    for place, record in enumerate(records):
+        for name, value in record.items():
+            array[name][0, place] = _cells(value) if isinstance(value, list) else value
+    return array
+
+
+def _cells(texts: Sequence[str]) -> np.ndarray:
+    cells = np.empty((len(texts), 1), dtype=object)
+    cells[:, 0] = texts
+    return cells

@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ..loops.decibels import decibels, degree_size
 from ..loops.margin_values import UNLIMITED, UNSTABLE, Margins, Quantity
-from .loop import JointReport, LoopReport
-from .nonlinear import Nonlinearity
-from .report import PointReport, StabilityReport
+from ..loops.readings import decibels, degree_size
+from .report import JointReport, LoopReport, PointReport, StabilityReport
 from .requirement import Requirement, Verdict
+from .responses import Nonlinearity
 from .varied import Dispersion, SweepReport
 
 KEYS = {

@@ -21,10 +21,10 @@ from ...common.errors import InputError
 from ...common.process_end import leave_when_done
 from ...common.progress import progress_bar
 from ...stability.dispersion import models_of_trial
-from ...stability.followed import margins_of
 from ...stability.loops.margin_values import Margins
 from ...stability.point.bench import StudyError
 from ...stability.point.point_study import PointStudy
+from ...stability.point.responses import margins_of
 from ..evaluation.flights import OWN
 from ..evaluation.noise import make_samples, noise_of
 from .margin import margin_columns

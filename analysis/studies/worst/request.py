@@ -13,8 +13,7 @@ from ...runtime.system.options import SystemOptions
 from ...stability.dispersion import vary
 from ...stability.point.point_study import PointStudy
 from ...stability.request.declaration import Loop, Point
-from ...stability.request.request import Request, read_request
-from ...stability.request.subject import Subject
+from ...stability.request.request import Request, Subject, read_request
 
 OF_A_LOOP = ("margin", "point", "at")
 OF_FLIGHTS = {  # and what to do where a margin is looked for

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from ...reports.stability.orders.words import order_loops, order_sentences, withheld_line
 from ...stability.loops.margin_values import MARGINS, UNLIMITED, Quantity
-from ...stability.results.loop import JointReport, LoopReport
-from ...stability.results.report import StabilityReport
+from ...stability.results.report import JointReport, LoopReport, StabilityReport
 from ...stability.results.requirement import Requirement, Verdict
 from ...stability.results.varied import SweepCrossing, SweepReport
 

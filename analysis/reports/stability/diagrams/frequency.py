@@ -15,9 +15,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from ....stability.loops.decibels import decibel_size, decibels, degree_size
-from ....stability.loops.readings import Classical, Curve
-from ....stability.results.loop import LoopReport
+from ....stability.loops.readings import Classical, Curve, decibel_size, decibels, degree_size
+from ....stability.results.report import LoopReport
 from ...common.quantities import log_tick, number, tick
 from ...common.style import BLUE, FAINT, GREEN, INK, VERMILION, log_ticks_x
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ....stability.loops.margin_values import Quantity
-from ....stability.results.loop import LoopReport
+from ....stability.results.report import LoopReport
 from ...common.style import VERMILION
 
 LIMIT: Any = {"color": VERMILION, "linewidth": 1.0, "linestyle": (0, (4, 2))}

@@ -10,9 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
-from ....stability.loops.decibels import decibel_size, decibels
-from ....stability.loops.readings import Crossing
-from ....stability.results.loop import LoopReport
+from ....stability.loops.readings import Crossing, decibel_size, decibels
+from ....stability.results.report import LoopReport
 from ...common.quantities import number, tick
 from ...common.style import BLUE, VERMILION
 from .frequency import (

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
-from ....stability.results.loop import LoopReport
+from ....stability.results.report import LoopReport
 from ...common.style import BLUE, FAINT, INK, VERMILION, plain_ticks
 from .frequency import faint_line
 

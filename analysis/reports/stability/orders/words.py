@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from ....stability.loops.margin_values import UNLIMITED, UNSTABLE
-from ....stability.results.loop import JointReport, LoopReport
-from ....stability.results.report import StabilityReport
+from ....stability.results.report import JointReport, LoopReport, StabilityReport
 from ....stability.results.requirement import Requirement, Verdict
 
 

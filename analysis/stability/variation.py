@@ -1,4 +1,4 @@
-"""Margins over one parameter, and the values at which they reach their limits or the loop becomes unstable."""
+"""Margins over one parameter, with the values at which they reach their limits, and over the communication step."""
 
 from __future__ import annotations
 
@@ -9,15 +9,16 @@ from functools import cache
 import numpy as np
 from scipy.optimize import brentq
 
+from ..common.errors import InputError
 from ..runtime.system.options import Layer
 from ..runtime.system.prepared import PreparedSystem
-from .followed import ONE_STEP, margins_of, model_of
 from .loops.margin_values import Margins, Quantity
 from .point.bench import StudyError
 from .point.point_study import PointStudy
+from .point.responses import ONE_STEP, margins_of, model_of
 from .request.declaration import Limits, Loop, Point, Sweep
-from .request.subject import Subject
-from .results.varied import SweepCrossing, SweepReport
+from .request.request import Subject
+from .results.varied import Sampled, SweepCrossing, SweepReport
 
 VALUES = 13
 CROSSING = 1e-3  # relative, of the value at which a limit is reached
@@ -113,3 +114,37 @@ def _bisect(is_low: Callable[[float], bool], low: float, high: float) -> tuple[f
         middle = 0.5 * (low + high)
         low, high = (middle, high) if is_low(middle) else (low, middle)
     return low, high
+
+
+FACTORS = (0.5, 1.0, 2.0)  # of the communication step
+
+
+def vary_step(
+    subject: Subject,
+    point: Point,
+    loops: Sequence[Loop],
+    step: float,
+    cells: Sequence[int],
+    names: Sequence[str],
+    tell: Callable[[int, int], None],
+) -> dict[str, list[Sampled]]:
+    """Margins of the channels ``names`` with half, the same and twice the communication step ``step`` (s).
+
+    ``cells`` is the memory that matters at this point. Where there are no margins the note says why. ``tell`` is told
+    how many steps are expected and done.
+    """
+    tell(len(FACTORS), 0)
+    by_name: dict[str, list[Sampled]] = {name: [] for name in names}
+    for factor in FACTORS:
+        try:
+            with PointStudy(subject.with_options(step=factor * step), point, loops) as study:
+                study.linearise(cells, ONE_STEP)
+                if study.linear is None:
+                    raise StudyError(study.why_not)
+                rows = [Sampled(factor * step, margins_of(model_of(study.linear, name))) for name in names]
+        except (InputError, StudyError) as error:
+            rows = [Sampled(factor * step, None, str(error))] * len(names)
+        for name, row in zip(names, rows, strict=True):
+            by_name[name].append(row)
+        tell(0, 1)
+    return by_name
