@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from scipy.signal import place_poles
 from tqdm import tqdm
 
-from perilune.analysis.design.poles.output.feedback import output_feedback
+from perilune.analysis.design.poles.output_feedback import output_feedback
 from perilune.analysis.design.poles.place import place
 from perilune.analysis.design.poles.spectrum import Spectrum
 from perilune.analysis.reports.common.style import house_style

@@ -17,7 +17,7 @@ from ....fmus_src.paths import ROOT
 from ....fmus_src.plants.entry_capsule import EntryCapsule
 from ...common.atomic import write_atomically
 from ...runtime.ssp.parameter_sets import write_parameter_set
-from ..poles.output.levels import output_feedback_levels
+from ..poles.levels import output_feedback_levels
 
 TRIM = math.radians(-20.0)
 MACH = 25.9  # at 75 km, where one gain has to do for all

@@ -16,7 +16,7 @@ from ....fmus_src.kernel.records import replace
 from ....fmus_src.mathlib.standard_atmosphere import air
 from ....fmus_src.mathlib.vectors import vector
 from ....fmus_src.plants.entry_capsule import EntryCapsule
-from ..poles.output.levels import output_feedback_levels
+from ..poles.levels import output_feedback_levels
 from .entry_gains import DESIGN_PRESSURE, TRIM
 
 HEIGHT = 75000.0  # m, where DESIGN_PRESSURE is flown

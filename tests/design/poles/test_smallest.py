@@ -8,7 +8,7 @@ from scipy.linalg import null_space
 from scipy.optimize import approx_fprime
 
 from perilune import modal
-from perilune.analysis.design.poles.output.smallest import polynomial_and_slope
+from perilune.analysis.design.poles.smallest import polynomial_and_slope
 from tests.support.lengths import LONG, either
 from tests.support.modal.draws import assert_placed, random_systems
 

@@ -12,11 +12,11 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import least_squares
 
-from ..freedom import family_of, on_levels
-from ..refusal import PlacementError, Reason
-from ..results import OutputFeedback
-from ..spectrum import Spectrum
+from .freedom import family_of, on_levels
 from .newton import polish
+from .refusal import PlacementError, Reason
+from .results import OutputFeedback
+from .spectrum import Spectrum
 from .zeroth_level import ZerothLevel, condition_of
 
 _SOLVED = 1e-5  # of the polynomial's coefficients, poles measured by the largest wanted one; Newton does the rest

@@ -10,12 +10,12 @@ from itertools import islice
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....common.errors import InputError, suggestion
-from ..plant import input_matrix, output_matrix, state_matrix
-from ..refusal import PlacementError, Reason
-from ..results import OutputFeedback
-from ..spectrum import Spectrum
+from ...common.errors import InputError, suggestion
+from .plant import input_matrix, output_matrix, state_matrix
+from .refusal import PlacementError, Reason
+from .results import OutputFeedback
 from .smallest import smallest
+from .spectrum import Spectrum
 from .square import square
 from .zeroth_level import ZerothLevel, direct
 

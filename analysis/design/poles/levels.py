@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....common.errors import InputError
-from ..place import place_levels
-from ..plant import input_matrix, output_matrix, real_matrix, state_matrix
-from ..results import OutputFeedback
-from ..spectrum import Spectrum
+from ...common.errors import InputError
+from .place import place_levels
+from .plant import input_matrix, output_matrix, real_matrix, state_matrix
+from .results import OutputFeedback
+from .spectrum import Spectrum
 from .zeroth_level import ZerothLevel, under
 
 _ORTHONORMAL = 1e-9

@@ -14,9 +14,9 @@ import numpy as np
 from scipy.linalg import qr
 from scipy.optimize import minimize
 
-from ..refusal import PlacementError, Reason
-from ..results import OutputFeedback
 from .newton import polish
+from .refusal import PlacementError, Reason
+from .results import OutputFeedback
 
 _STARTS = 5  # the smallest that the spreads gave
 _ACCURACY = 1e-10  # of |F|^2, relative to the start's

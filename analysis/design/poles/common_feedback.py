@@ -18,12 +18,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import block_diag
 
-from ....common.errors import InputError
-from ..ackermann import row_stack, split
-from ..plant import input_matrix, output_matrix, state_matrix
-from ..polynomial import block_companion
-from ..refusal import PlacementError, Reason
-from ..results import OutputFeedback
+from ...common.errors import InputError
+from .ackermann import row_stack, split
+from .plant import input_matrix, output_matrix, state_matrix
+from .polynomial import block_companion
+from .refusal import PlacementError, Reason
+from .results import OutputFeedback
 
 _RESIDUAL = 1e-10  # of the right side
 

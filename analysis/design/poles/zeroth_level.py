@@ -17,11 +17,11 @@ from dataclasses import replace
 import numpy as np
 from scipy.linalg import null_space
 
-from ..controllability import TOLERANCE
-from ..place import make_placement
-from ..refusal import PlacementError, Reason
-from ..results import OutputFeedback, StateFeedback
-from ..spectrum import Spectrum
+from .controllability import TOLERANCE
+from .place import make_placement
+from .refusal import PlacementError, Reason
+from .results import OutputFeedback, StateFeedback
+from .spectrum import Spectrum
 
 
 class ZerothLevel:

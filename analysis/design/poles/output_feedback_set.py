@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import null_space
 
-from ..ackermann import row_stack, split
-from ..plant import input_matrix, output_matrix, real_matrix, state_matrix
-from ..polynomial import block_companion
-from ..refusal import PlacementError, Reason
-from ..results import OutputFeedback
+from .ackermann import row_stack, split
+from .plant import input_matrix, output_matrix, real_matrix, state_matrix
+from .polynomial import block_companion
+from .refusal import PlacementError, Reason
+from .results import OutputFeedback
 
 
 @dataclass(frozen=True)

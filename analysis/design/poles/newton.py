@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..results import OutputFeedback
-from ..spectrum import match
+from .results import OutputFeedback
+from .spectrum import match
 
 _STEPS = 3  # the second is within rounding where the first was small
 _RANK = 1e-12  # relative; half of the equations say the same for conjugate poles

@@ -1,1 +1,0 @@
-"""Placing poles from measured outputs alone, u = F y."""
