@@ -59,7 +59,7 @@ explore: build
 # gain of the whole model, which no regulator has.
 gains: .venv/ready
 	$(BIN)/python -m perilune.analysis.design.synthesis.entry_gains
-	@$(BIN)/python -c "import numpy; from perilune.analysis.design.synthesis.entry_whole_gain import whole_gain; \
+	@$(BIN)/python -c "import numpy; from perilune.analysis.design.synthesis.entry_gains import whole_gain; \
 		print(f'whole model: |F| = {numpy.linalg.norm(whole_gain()):.4g}')"
 
 # The pictures of docs/images, each below 100 kB; those of modal synthesis take two minutes.

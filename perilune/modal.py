@@ -7,16 +7,27 @@ ones.
 
 from __future__ import annotations
 
-from .analysis.design.poles.common_feedback import CommonFeedback, common_feedback
-from .analysis.design.poles.levels import output_feedback_levels
 from .analysis.design.poles.observers import observer, reduced_observer
 from .analysis.design.poles.output_feedback import output_feedback
-from .analysis.design.poles.output_feedback_set import OutputFeedbackSet, output_feedback_set
+from .analysis.design.poles.output_feedback_set import (
+    CommonFeedback,
+    OutputFeedbackSet,
+    common_feedback,
+    output_feedback_set,
+)
 from .analysis.design.poles.place import place, place_levels, place_polynomial, polynomial_of_gain
 from .analysis.design.poles.polynomial import polynomial_of_solvents
 from .analysis.design.poles.pulses import PulsedPlant, pulsed_step
-from .analysis.design.poles.refusal import PlacementError, Reason
-from .analysis.design.poles.results import Observer, OutputFeedback, Placement, ReducedObserver, StateFeedback
+from .analysis.design.poles.results import (
+    Observer,
+    OutputFeedback,
+    Placement,
+    PlacementError,
+    Reason,
+    ReducedObserver,
+    StateFeedback,
+)
+from .analysis.design.poles.zeroth_level import output_feedback_levels
 
 __all__ = [
     "CommonFeedback",

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 from scipy.linalg import expm
 
-from perilune.analysis.design.poles.common_feedback import common_feedback
+from perilune.analysis.design.poles.output_feedback_set import common_feedback
 from perilune.analysis.reports.common.quantities import log_tick
 from perilune.analysis.reports.common.style import BLUE, FAINT, INK, VERMILION, look, new_figure, plain_ticks
 

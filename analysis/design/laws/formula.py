@@ -6,13 +6,12 @@ from collections import Counter
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from .expression_tree import OUTPUT_NUMBERS, Node, expression_tree, nodes_of
-from .law import Law
-from .operations import (
+from .expression_tree import (
     ATOM,
     IDENTITY,
     MAXIMUM,
     NEGATIVE,
+    OUTPUT_NUMBERS,
     POWER_LEVEL,
     PRODUCT,
     PRODUCT_LEVEL,
@@ -20,7 +19,11 @@ from .operations import (
     SUM,
     SUM_LEVEL,
     UNARY,
+    Node,
+    expression_tree,
+    nodes_of,
 )
+from .law import Law
 
 LONGEST_INLINE = 40  # characters of a part that is written where it is used
 SOURCE_LEVELS = {"pi + theta": SUM_LEVEL, "(hf - h)/h0": PRODUCT_LEVEL}

@@ -11,10 +11,9 @@ from matplotlib.path import Path
 from ...reports.common.quantities import MINUS
 from ...reports.common.style import BLUE, FAINT, INK, VERMILION, house_style, new_figure
 from ...reports.common.svg import svg_bytes
-from .expression_tree import OUTPUT_NUMBERS, Node, expression_tree, nodes_of
+from .expression_tree import BINARY, IDENTITY, OUTPUT_NUMBERS, UNARY, Node, expression_tree, nodes_of
 from .law import Law
 from .layers import Edge, Layout
-from .operations import BINARY, IDENTITY, UNARY
 
 COLUMN, ROW = 1.75, 0.66  # in, between layers and between neighbours
 RADIUS = 0.13  # in, of a node

@@ -1,4 +1,4 @@
-"""Laws as files: a network operator's matrix and parameters as JSON, read, checked, written."""
+"""Laws as files: a network operator's matrix and parameters as JSON, read, checked and written; as parameter set."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from ....fmus_src.mathlib.network_operator import BINARY_OPERATIONS, SIZE, UNARY
 from ....fmus_src.paths import LAWS
 from ...common.atomic import write_atomically
 from ...common.errors import InputError, suggestion
+from ...runtime.ssp.parameter_sets import write_parameter_set
 
 FORMAT, VERSION = "perilune-network-operator", 1
 KEYS = ("format", "version", "name", "description", "matrix", "q", "exp_saturation")
@@ -172,3 +173,20 @@ def _pairs(pairs: Sequence[tuple[str, Any]]) -> dict[str, Any]:
 
 def _refuse_constant(text: str) -> NoReturn:
     raise ValueError(f"{text} is no number")
+
+
+def law_parameters(law: Law, component: str) -> dict[str, int | float]:
+    """The law as values of ``component``'s parameters matrix, q and exp_saturation, by name."""
+    values: dict[str, int | float] = {}
+    for row, entries in enumerate(law.matrix, 1):
+        for column, entry in enumerate(entries, 1):
+            values[f"{component}.matrix[{row},{column}]"] = entry
+    for place, value in enumerate(law.q, 1):
+        values[f"{component}.q[{place}]"] = value
+    values[f"{component}.exp_saturation"] = EXP_SATURATIONS.index(law.exp_saturation)
+    return values
+
+
+def parameter_set(law: Law, component: str) -> bytes:
+    """The content of an .ssv file with the whole law, zeros of the matrix included."""
+    return write_parameter_set(law.name, law_parameters(law, component), law.description)

@@ -1,4 +1,4 @@
-"""Generalised Ackermann formula: several inputs, without canonical forms.
+"""Generalised Ackermann and Bass-Gura formulas: several inputs, without canonical forms.
 
 For n = p m states and U = [B AB .. A^(p-1) B] nonsingular, T = [0 .. 0 I] U^-1, u = -K x with
 
@@ -8,6 +8,12 @@ The m x m matrices N_i are free apart from that determinant: a parametrised set 
 Ackermann, "Der Entwurf linearer Regelungssysteme im Zustandsraum", Regelungstechnik 20 (1972), for m = 1; for several
 inputs Lapin's thesis (2.1.2.3) and Zubov, Mikrin and Ryabchenko; the formulas were derived here, T' U' = ..
 by T A^i B = 0 for i < p - 1 and T A^(p-1) B = I.
+
+Bass and Gura take the gain from the coefficients that a plant has and those that it should have. With
+V = [T; T A; ..; T A^(p-1)], -T A^p V^-1 = [a_0 .. a_(p-1)], it is K = [N_0 - a_0 .. N_(p-1) - a_(p-1)] V. The a_i are
+left coefficients; the right ones, of A^p B = -sum A^i B b_i, differ for several inputs.
+Bass and Gura, "High order system design via state-space considerations", JACC (1965), for m = 1; for several inputs
+Lapin's thesis (2.1.2.2), the formulas derived here.
 """
 
 from __future__ import annotations
@@ -16,8 +22,7 @@ import numpy as np
 
 from .controllability import controllability_matrix
 from .polynomial import block_companion, make_polynomial
-from .refusal import PlacementError, Reason
-from .results import StateFeedback
+from .results import PlacementError, Reason, StateFeedback
 from .spectrum import Spectrum
 
 FORMULA = "generalised Ackermann"  # as refusals name it
@@ -84,3 +89,13 @@ def row_stack(a: np.ndarray, b: np.ndarray, formula: str = FORMULA) -> tuple[np.
 def split(side_by_side: np.ndarray, inputs: int) -> np.ndarray:
     """[N_0 .. N_(p-1)] (m, n) as (p, m, m)."""
     return np.stack(np.hsplit(side_by_side, side_by_side.shape[1] // inputs))
+
+
+def bass_gura(a: np.ndarray, b: np.ndarray, spectrum: Spectrum) -> StateFeedback:
+    """Place the spectrum with the N_i that the Ackermann formula takes. Raises PlacementError."""
+    stack, power, condition = row_stack(a, b, "generalised Bass-Gura")
+    inputs = b.shape[1]
+    own = np.linalg.solve(stack.T, -power.T).T
+    wanted = np.hstack(list(make_polynomial(spectrum, [len(a) // inputs] * inputs)))
+    gain = (wanted - own) @ stack
+    return StateFeedback("bass_gura", gain, spectrum.poles, a - b @ gain, condition)

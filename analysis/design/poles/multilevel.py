@@ -20,8 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .controllability import TOLERANCE
-from .refusal import PlacementError, Reason
-from .results import StateFeedback
+from .results import PlacementError, Reason, StateFeedback
 from .spectrum import Spectrum
 
 _OUTSIDE = 1e-8  # relative; how far a basis that is given may miss what is driven

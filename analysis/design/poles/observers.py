@@ -16,8 +16,7 @@ from ...common.errors import InputError
 from .controllability import TOLERANCE
 from .place import place
 from .plant import input_matrix, output_matrix, state_matrix
-from .refusal import PlacementError, Reason
-from .results import Observer, ReducedObserver, StateFeedback
+from .results import Observer, PlacementError, Reason, ReducedObserver, StateFeedback
 
 
 def observer(

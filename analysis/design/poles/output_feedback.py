@@ -12,12 +12,10 @@ from numpy.typing import ArrayLike
 
 from ...common.errors import InputError, suggestion
 from .plant import input_matrix, output_matrix, state_matrix
-from .refusal import PlacementError, Reason
-from .results import OutputFeedback
+from .results import OutputFeedback, PlacementError, Reason
 from .smallest import smallest
 from .spectrum import Spectrum
-from .square import square
-from .zeroth_level import ZerothLevel, direct
+from .zeroth_level import ZerothLevel, direct, square
 
 
 class Route(StrEnum):

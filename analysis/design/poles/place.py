@@ -10,15 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...common.errors import InputError, suggestion
-from .ackermann import ackermann, ackermann_of, coefficients_of
-from .bass_gura import bass_gura
-from .controllability import TOLERANCE
+from .ackermann import ackermann, ackermann_of, bass_gura, coefficients_of
+from .controllability import TOLERANCE, indices
 from .freedom import least_condition, least_norm
-from .indices import indices
 from .multilevel import decompose, multilevel, place_on_levels
 from .plant import input_matrix, real_matrix, state_matrix
-from .refusal import PlacementError, Reason
-from .results import StateFeedback
+from .results import PlacementError, Reason, StateFeedback
 from .spectrum import Spectrum
 
 _ONE_CLASS: dict[str, Callable[[np.ndarray, np.ndarray, Spectrum], StateFeedback]] = {

@@ -1,16 +1,43 @@
-"""What every placement returns: the gain, and how well it can be believed."""
+"""What every placement returns: the gain and its quality, or the error of a method that does not apply."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 from functools import cached_property
 
 import numpy as np
 
+from ...common.errors import InputError
 from .spectrum import distance, match
 
 _SEMISIMPLE = 1e-9  # relative, of the singular values that count as none
+
+
+class Reason(StrEnum):
+    """Why poles cannot be placed as asked."""
+
+    NOT_CONTROLLABLE = "not controllable"
+    NOT_OBSERVABLE = "not observable"
+    CLASS = "wrong class"  # of dimensions or indices
+    SPREAD = "no real spread"  # of conjugate pairs over levels
+    RANK = "rank"
+    RESIDUAL = "residual"
+
+
+class PlacementError(InputError):
+    """A ``routine`` that does not apply to what it was given.
+
+    ``number`` is what decided: the largest singular value left out, n/m, a condition number, a residual. It stands in
+    ``problem``, too; ``remedy`` says what to do.
+    """
+
+    def __init__(self, routine: str, reason: Reason, problem: str, number: float, remedy: str) -> None:
+        super().__init__(routine, reason, problem, remedy)
+        self.args = (routine, reason, problem, number, remedy)
+        self.reason = reason
+        self.number = number
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,9 @@
-"""The smallest of all F that have the wanted poles, from a few that do.
+"""The smallest of all F that have the wanted poles, from a few that do, and Newton steps on F itself.
 
 They are a set m p - n numbers wide, given by the coefficients of the characteristic polynomial, whose derivatives are
 those of det(s I - M): d det = -tr(adj(s I - M) dM), adj(s I - M) by Faddeev and Leverrier. On it |F| is minimised by
-sequential quadratic programming (scipy's SLSQP, Kraft 1988), and Newton's method takes the poles to rounding. Ours.
+sequential quadratic programming (scipy's SLSQP, Kraft 1988), and Newton's method takes the poles to rounding: a simple
+pole with the left and right eigenvectors w, v (w v = 1) moves by dlambda = w B dF C v when F does. Ours.
 """
 
 from __future__ import annotations
@@ -14,15 +15,34 @@ import numpy as np
 from scipy.linalg import qr
 from scipy.optimize import minimize
 
-from .newton import polish
-from .refusal import PlacementError, Reason
-from .results import OutputFeedback
+from .results import OutputFeedback, PlacementError, Reason
+from .spectrum import match
 
+_NEWTON_STEPS = 3  # the second is within rounding where the first was small
+_RANK = 1e-12  # relative; half of the equations say the same for conjugate poles
 _STARTS = 5  # the smallest that the spreads gave
 _ACCURACY = 1e-10  # of |F|^2, relative to the start's
 _STEPS = 100  # of one search
 _ROUNDS, _WORTH = 10, 0.01  # searches one after the other, and what the last must have brought
 _ALLOWED = 1000.0 * np.finfo(float).eps  # of kappa |Ac|; how far from the poles rounding may leave an F
+
+
+def polish(feedback: OutputFeedback, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:
+    """The nearest to the wanted poles after some Newton steps, each the smallest that would reach them.
+
+    The formulas go through matrices that may be larger than F, and so are the errors that they bring.
+    """
+    best = feedback
+    for _ in range(_NEWTON_STEPS):
+        poles, right = np.linalg.eig(feedback.closed_loop)
+        left = np.linalg.solve(right, b.astype(complex))
+        slope = (left[:, :, None] * (c @ right).T[:, None, :]).reshape(len(poles), -1)
+        lacking = match(feedback.wanted, poles) - poles
+        rows, sides = np.vstack([slope.real, slope.imag]), np.concatenate([lacking.real, lacking.imag])
+        gain = feedback.gain + np.linalg.lstsq(rows, sides, rcond=_RANK)[0].reshape(feedback.gain.shape)
+        feedback = replace(feedback, gain=gain, closed_loop=a + b @ gain @ c)
+        best = min(best, feedback, key=lambda one: one.error)
+    return best
 
 
 def smallest(feedbacks: Sequence[OutputFeedback], a: np.ndarray, b: np.ndarray, c: np.ndarray) -> OutputFeedback:

@@ -8,6 +8,11 @@ Y = B^- A C^perp (m x (n - p)) the other m are those of
 Z by the dual placement on (Y X^+, Q): then F C = Phi_0 B^- - B^- A, the state feedback of the multilevel placement.
 Generic for m + p > n. After Van der Woude, "A note on pole placement by static output feedback for single-input
 systems" (1988) and the thesis of Lapin (2.3.1.1); the formulas were derived here.
+
+With m + p = n Phi_0 = Y X^-1 is fixed by K_1, and K_1 is what is chosen. The eigenvectors of the upper level's poles
+are free (Phi_1 = S D S^-1); the m equations "characteristic polynomial of Phi_0 as wanted" are solved for them by least
+squares from random starts. Ours; for m p > n solutions are generic over complex numbers (Brockett and Byrnes 1981),
+real ones not.
 """
 
 from __future__ import annotations
@@ -15,13 +20,22 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.linalg import null_space
+from scipy.optimize import least_squares
 
+from ...common.errors import InputError
 from .controllability import TOLERANCE
-from .place import make_placement
-from .refusal import PlacementError, Reason
-from .results import OutputFeedback, StateFeedback
+from .freedom import family_of, on_levels
+from .place import make_placement, place_levels
+from .plant import input_matrix, output_matrix, real_matrix, state_matrix
+from .results import OutputFeedback, PlacementError, Reason, StateFeedback
+from .smallest import polish
 from .spectrum import Spectrum
+
+_ORTHONORMAL = 1e-9
+_SOLVED = 1e-5  # of the polynomial's coefficients, poles measured by the largest wanted one; Newton does the rest
+_STEPS = 60  # of a search: those that arrive took fewer
 
 
 class ZerothLevel:
@@ -111,3 +125,60 @@ def condition_of(x: np.ndarray) -> float:
             "spread the poles in another way",
         )
     return condition
+
+
+def output_feedback_levels(
+    a: ArrayLike, b: ArrayLike, c: ArrayLike, upper: ArrayLike, poles: ArrayLike, *, basis: ArrayLike | None = None
+) -> OutputFeedback:
+    """The gain F (m, p) of **u = F y**, m + p > n, with the matrix ``upper`` on the upper level, ``poles`` below.
+
+    ``upper`` (n - m, n - m) is what moves the coordinates basis' x of the upper level in the closed loop; ``basis``
+    (n, n - m) are orthonormal columns with basis' B = 0, else those of a singular value decomposition. ``poles`` are
+    the other m. With a basis F is unique. For the dual give A', C', B' and transpose F. Raises InputError, and
+    PlacementError where the upper level is not driven as a whole or the rest does not apply.
+    """
+    state = state_matrix(a)
+    inputs, outputs = input_matrix(b, len(state)), output_matrix(c, len(state))
+    size = len(state) - inputs.shape[1]
+    given = None
+    if basis is not None:
+        given = real_matrix("basis", basis, (len(state), size))
+        off = max(np.abs(given.T @ given - np.eye(size)).max(), np.abs(given.T @ inputs).max() / np.abs(inputs).max())
+        if off > _ORTHONORMAL:
+            problem = f"its columns are not orthonormal with basis' B = 0, by {off:.2g}"
+            raise InputError("modal", "basis", problem, "take columns of the null space of B'")
+    level = ZerothLevel(state, inputs, outputs, given)
+    wanted = real_matrix("upper", upper, (size, size))
+    first = place_levels(*level.above, [wanted], bases=[np.eye(size)])
+    high = Spectrum.of(np.linalg.eigvals(wanted), size, "upper")
+    return under(level, first, high, Spectrum.of(poles, inputs.shape[1]))
+
+
+def square(level: ZerothLevel, upper: Spectrum, lower: Spectrum, starts: int, seed: int) -> OutputFeedback:
+    """``upper`` (n - m poles) on the upper level, ``lower`` (m) on the zeroth. Raises PlacementError."""
+    levels, family = family_of(*level.above, upper)
+    radius = float(np.max(np.abs(lower.poles)))
+    wanted = np.poly(lower.poles / radius).real[1:]
+
+    def residual(free: np.ndarray) -> np.ndarray:
+        _, x, y = level.lower_matrices(family.gain(family.at(free)))
+        return np.poly(np.linalg.solve(x.T, y.T) / radius).real[1:] - wanted
+
+    random = np.random.default_rng(seed)
+    minimum = np.inf
+    for _ in range(starts):
+        solution = least_squares(residual, random.normal(size=family.parameters), max_nfev=_STEPS)
+        minimum = min(minimum, size := float(np.max(np.abs(solution.fun))))
+        if size < _SOLVED:
+            first = on_levels(levels, family, solution.x)
+            inverse, x, y = level.lower_matrices(-first.gain)
+            phi = np.linalg.solve(x.T, y.T).T
+            placed = replace(level.feedback(inverse, phi, upper, lower, condition_of(x)), levels=first.levels)
+            return polish(placed, level.a, level.b, level.c)
+    raise PlacementError(
+        "output feedback",
+        Reason.RESIDUAL,
+        f"m + p = n, and of {starts} starts the nearest leaves {minimum:.2g} of the polynomial",
+        minimum,
+        "give more starts, spread the poles in another way, or measure more",
+    )

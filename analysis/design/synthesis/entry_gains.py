@@ -2,7 +2,12 @@
 
 Bank, sideslip and two rates at trim, at frozen pressure q: bank' = c0 wx - s0 wy, sideslip' = s0 wx + c0 wy,
 J (wx', wy')' = q m sideslip + (ux, uy), measured bank, wx, wy. The poles -0.35, -0.6, -0.7 +- 0.8i are spread over the
-levels in four ways. Source: Lapin, thesis, chapters 2 and 3.2; numbers ours: docs/systems/entry_attitude.md.
+levels in four ways.
+
+The whole attitude, for comparison: bank, sideslip, angle of attack and three rates at trim, turning with the velocity,
+measured bank and rates, three torques: m + p = 7 > 6, so the poles can be placed. The angle of attack hangs on the rest
+by the slow turn of the flight path alone, which is why nobody would fly that gain.
+Source: Lapin, thesis, chapters 2 and 3.2; numbers ours: docs/systems/entry_attitude.md.
 """
 
 from __future__ import annotations
@@ -10,14 +15,17 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.optimize import fsolve
 
+from ....fmus_src.kernel.records import replace
 from ....fmus_src.mathlib.entry_motion import body_axes
+from ....fmus_src.mathlib.standard_atmosphere import air
 from ....fmus_src.mathlib.vectors import cross, vector
 from ....fmus_src.paths import ROOT
 from ....fmus_src.plants.entry_capsule import EntryCapsule
 from ...common.atomic import write_atomically
 from ...runtime.ssp.parameter_sets import write_parameter_set
-from ..poles.levels import output_feedback_levels
+from ..poles.zeroth_level import output_feedback_levels
 
 TRIM = math.radians(-20.0)
 MACH = 25.9  # at 75 km, where one gain has to do for all
@@ -26,6 +34,13 @@ SCHEDULE = (600.0, 1200.0, 2400.0)  # Pa
 REAL, PAIR = (-0.35, -0.6), (-0.7, 0.8)
 TURNING = np.array([[PAIR[0], -PAIR[1]], [PAIR[1], PAIR[0]]])
 SYSTEM = ROOT / "ssp_systems" / "entry_attitude"
+HEIGHT = 75000.0  # m, where DESIGN_PRESSURE is flown
+PATH_ANGLE = math.radians(-1.36)  # of the nominal flight there, as the course
+COURSE = math.radians(31.0)
+BANK = math.radians(60.0)
+UPPER = np.diag([-0.35, -0.6, -0.5])
+LOWER = [-0.6, complex(-0.7, 0.8), complex(-0.7, -0.8)]
+DIFFERENCE = 1e-5  # rad and rad/s, of the central differences; 1e-4 and 1e-6 give the same eight digits
 
 
 def sideslip_moments() -> tuple[float, float]:
@@ -113,6 +128,40 @@ def gain_files() -> dict[str, bytes]:
         )
         for name, gain in entry_gains().items()
     }
+
+
+def whole_model() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A, B, C of (bank, sideslip, attack, wx, wy, wz), three torques (N m) and outputs (bank, wx, wy, wz), SI."""
+    density, _ = air(HEIGHT)
+    capsule = EntryCapsule(
+        initial_height=HEIGHT,
+        initial_speed=math.sqrt(2.0 * DESIGN_PRESSURE / density),
+        initial_path_angle=PATH_ANGLE,
+        initial_course=COURSE,
+        initial_bank=BANK,
+        initial_sideslip=0.0,
+        initial_attack=TRIM,
+    )
+    capsule.initialize()
+
+    def rates(state: np.ndarray) -> np.ndarray:
+        attitude, w = vector(*state[:3].tolist()), vector(*state[3:].tolist())
+        here = replace(capsule.state, attitude=attitude, angular_velocity=w)
+        rate = capsule.derivatives(0.0, here, vector(0.0, 0.0, 0.0))
+        return np.array([*rate.attitude, *rate.angular_velocity])
+
+    attitude = [*capsule.state.attitude]
+    turning = fsolve(lambda w: rates(np.array([*attitude, *w]))[:3], np.zeros(3), xtol=1e-13)
+    trim = np.array([*attitude, *turning])
+    steps = DIFFERENCE * np.eye(6)
+    a = np.array([(rates(trim + step) - rates(trim - step)) / (2.0 * DIFFERENCE) for step in steps]).T
+    b = np.vstack([np.zeros((3, 3)), np.reshape(capsule.inverse_inertia, (3, 3))])
+    return a, b, np.delete(np.eye(6), [1, 2], axis=0)
+
+
+def whole_gain() -> np.ndarray:
+    """F (3, 4) of torques (N m) over bank (rad) and rates (rad/s) that puts the six poles on UPPER and LOWER."""
+    return output_feedback_levels(*whole_model(), UPPER, LOWER).gain
 
 
 if __name__ == "__main__":

@@ -13,15 +13,14 @@ from ...campaigns.spec.expressions import Expression
 from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError
 from ...runtime.ssp.parameter_sets import ParameterValue
-from ..laws.law import Law
-from ..laws.parameter_set import law_parameters
+from ..laws.law import Law, law_parameters
 from .candidate import Bar, Evaluation, Task
 
 VARIANT = "default"
 
 
 class FlightEvaluator:
-    """Evaluates laws by flying them, as many at a time as there are workers; see `evaluator.Evaluator`.
+    """Evaluates laws by flying them, as many at a time as there are workers; see `candidate.Evaluator`.
 
     ``plan`` overlays the parameters of ``component`` that make a law; ``basic`` gives what the search does
     not vary; ``objectives`` are expressions over metrics. ``evaluated`` is called after each law.

@@ -13,8 +13,19 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..laws.law import Matrix
-from .breeding import cross, mutate, random_genes
-from .candidate import Bar, Candidate, Evaluation, Evaluator, Genes, Phenotype, Task, phenotype
+from .candidate import (
+    Bar,
+    Candidate,
+    Evaluation,
+    Evaluator,
+    Genes,
+    Phenotype,
+    Task,
+    cross,
+    mutate,
+    phenotype,
+    random_genes,
+)
 from .pareto import ParetoOrder, dominators, is_dominated
 from .search_settings import SearchSettings
 from .variations import NO_VARIATION, apply_variations

@@ -15,8 +15,7 @@ from typing import Any
 from ...common.atomic import write_atomically
 from ..laws.formula import formula, formula_text
 from ..laws.graph import law_svg
-from ..laws.law import Law
-from ..laws.parameter_set import parameter_set
+from ..laws.law import Law, parameter_set
 from .candidate import Candidate
 from .genetic import Search
 from .synthesis_file import Synthesis

@@ -16,7 +16,7 @@ from ...campaigns.spec.plan import BatchPlan
 from ...common.errors import InputError, suggestion
 from ...common.progress import progress_bar
 from ...runtime.system.prepared import PreparedSystem
-from ..laws.parameter_set import law_parameters
+from ..laws.law import law_parameters
 from .checkpoint import read_checkpoint, write_checkpoint
 from .fitness import VARIANT, FlightEvaluator
 from .genetic import Search, SearchState

@@ -17,8 +17,7 @@ from ...campaigns.spec.toml.source import read_source_file
 from ...campaigns.spec.toml.table import Table, expression, integer, number, text
 from ...common.errors import InputError
 from ...runtime.system.options import SystemOptions
-from ..laws.law import Law, find_law, read_law
-from ..laws.parameter_set import law_parameters
+from ..laws.law import Law, find_law, law_parameters, read_law
 from .search_settings import SearchSettings
 from .variations import OUTPUTS, SIZE, SOURCES, edges_in, edges_out
 

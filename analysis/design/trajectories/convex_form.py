@@ -1,8 +1,8 @@
-"""The point-mass problem at a fixed time as a sequence of convex ones: second-order cones, solved by Clarabel.
+"""The point-mass problem at a fixed time as a sequence of convex ones, and the time of least propellant.
 
-Size of thrust acceleration s >= |u| in place of s = |u|, logarithm of the mass ratio z in place of the mass (Acikmese
-and Ploen 2007, "Convex programming approach to powered descent guidance for Mars landing"); thrust limits and gravity
-are expanded about the last solution until nothing changes.
+Second-order cones, solved by Clarabel. Size of thrust acceleration s >= |u| in place of s = |u|, logarithm of the mass
+ratio z in place of the mass (Acikmese and Ploen 2007, "Convex programming approach to powered descent guidance for Mars
+landing"); thrust limits and gravity are expanded about the last solution until nothing changes.
 """
 
 from __future__ import annotations
@@ -13,14 +13,19 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.optimize import minimize_scalar
 
-from .path import OFF, PlannedPath
+from .path import OFF, PlanError, PlannedPath
 from .point_mass import PointMassProblem
 from .solvers import clarabel
 
 SOLVES = 12  # three to six are needed
 CHANGE = 1e-7  # of the propellant fraction between two solves
 TOLERANCE = 1e-10
+COARSE = 40  # intervals of the search's first look
+GROWTH = 1.3  # from one time of it to the next
+FIRST, LAST = -8, 11  # times from 1/8 to 18 times the natural one
+ACCURACY = 1e-2  # s; the propellant is flat there
 
 
 @dataclass(frozen=True)
@@ -178,3 +183,37 @@ def _clarabel(cost: np.ndarray, rows: list[Any], right: list[np.ndarray], cones:
     if status not in ("Solved", "AlmostSolved"):
         return None
     return np.array(solution.x)
+
+
+def least_propellant(problem: PointMassProblem, intervals: int) -> PointMassPath:
+    """The best path over all durations; raises `PlanError`."""
+    first, last = _bracket(problem)
+
+    paths: dict[float, PointMassPath] = {}
+
+    def propellant(duration: float) -> float:
+        nearest = min(paths, key=lambda other: abs(other - duration), default=None)
+        path = solve_fixed_time(problem, duration, intervals, None if nearest is None else paths[nearest])
+        if path is None:
+            return 1.0
+        paths[duration] = path
+        return path.propellant_fraction
+
+    best = minimize_scalar(propellant, bounds=(first, last), method="bounded", options={"xatol": ACCURACY})
+    if best.x not in paths:
+        raise PlanError(f"bound: no solution on {intervals} intervals near {best.x:.2f} s")
+    return paths[best.x]
+
+
+def _bracket(problem: PointMassProblem) -> tuple[float, float]:
+    """Durations (s) on both sides of the best, from coarse solutions at growing ones until it rises."""
+    times = problem.natural_time * GROWTH ** np.arange(FIRST, LAST + 1)
+    best, minimum = None, 1.0
+    for index, time in enumerate(times):
+        path = solve_fixed_time(problem, float(time), COARSE)
+        value = 1.0 if path is None else path.propellant_fraction
+        if value < minimum:
+            best, minimum = index, value
+        elif best is not None:
+            return float(times[max(0, best - 1)]), float(time)
+    raise PlanError(f"bound: the vehicle cannot do it in any time from {times[0]:.3g} to {times[-1]:.3g} s")

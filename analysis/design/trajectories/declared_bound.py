@@ -15,8 +15,7 @@ from ...common.errors import InputError
 from ...runtime.ssp.annotations import AnnotationReader
 from ...runtime.system.names import split_name
 from ...runtime.system.prepared import PreparedSystem, prepare_system
-from .bounds import landing_problem, transfer_problem
-from .point_mass import PointMassProblem
+from .point_mass import PointMassProblem, landing_problem, transfer_problem
 from .vehicle import Landing, Transfer, Vehicle
 
 ANNOTATION = "org.perilune.bound"

@@ -9,9 +9,9 @@ from typing import Any, Self
 import numpy as np
 
 from ...common.progress import progress_bar
-from .bounds import transfer_problem
-from .least_time import least_propellant
+from .convex_form import least_propellant
 from .path import PlanError, PlannedPath
+from .point_mass import transfer_problem
 from .programme import Programme, find_programme, over_distance, over_duration
 from .true_optimum import find_true_optimum
 from .vehicle import Margins, Transfer, Vehicle

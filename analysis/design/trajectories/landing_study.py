@@ -7,13 +7,12 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ...common.progress import progress_bar
-from .bounds import landing_problem
+from .convex_form import least_propellant
 from .declared_bound import Inputs
-from .direct_method import direct_propellant
 from .hover_study import BOUND_INTERVALS, vehicle_document
-from .least_time import least_propellant
+from .multiple_shooting import direct_propellant
 from .path import PlannedPath
-from .point_mass import PointMassProblem
+from .point_mass import PointMassProblem, landing_problem
 from .stored_bound import StoredBound, digest
 from .vehicle import Landing, Vehicle
 

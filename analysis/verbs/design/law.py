@@ -14,8 +14,7 @@ from ...common.errors import InputError
 from ...design.laws import law as laws
 from ...design.laws.formula import formula, formula_text
 from ...design.laws.graph import law_figure, law_svg
-from ...design.laws.law import find_law
-from ...design.laws.parameter_set import parameter_set
+from ...design.laws.law import find_law, parameter_set
 from ...reports.common.notebook import Grid, notebook_view
 from ...reports.common.style import house_style
 from ..options.design import LAW, LawOptions

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from scipy.optimize import approx_fprime
 from scipy.signal import place_poles
 
+from perilune.analysis.design.poles.controllability import indices
 from perilune.analysis.design.poles.freedom import condition, family_of, gain_norm, least_condition, least_norm
-from perilune.analysis.design.poles.indices import indices
 from perilune.analysis.design.poles.multilevel import multilevel
-from perilune.analysis.design.poles.refusal import PlacementError, Reason
+from perilune.analysis.design.poles.results import PlacementError, Reason
 from perilune.analysis.design.poles.spectrum import Spectrum
 from tests.support.lengths import LONG, either
 from tests.support.modal.draws import assert_placed, kappa_of, random_spectrum, random_systems

@@ -8,9 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from perilune.analysis.design.poles.controllability import controllability_indices
-from perilune.analysis.design.poles.indices import indices
-from perilune.analysis.design.poles.refusal import PlacementError, Reason
+from perilune.analysis.design.poles.controllability import controllability_indices, indices
+from perilune.analysis.design.poles.results import PlacementError, Reason
 from perilune.analysis.design.poles.spectrum import Spectrum
 from tests.support.lengths import either
 from tests.support.modal.draws import assert_placed, random_spectrum, random_systems

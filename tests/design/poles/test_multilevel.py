@@ -10,7 +10,7 @@ from scipy.linalg import block_diag
 from scipy.signal import place_poles
 
 from perilune.analysis.design.poles.multilevel import assemble, decompose, multilevel, place_on_levels
-from perilune.analysis.design.poles.refusal import PlacementError, Reason
+from perilune.analysis.design.poles.results import PlacementError, Reason
 from perilune.analysis.design.poles.spectrum import Spectrum
 from tests.support.lengths import either
 from tests.support.modal.draws import assert_placed, random_spectrum, random_systems

@@ -1,4 +1,7 @@
-"""The set of all output feedbacks: it has m p numbers, and contains every feedback found otherwise."""
+"""The set of all output feedbacks: it has m p numbers, and contains every feedback found otherwise.
+
+Output feedback that is free of a parameter of the plant: the published example, and plants made to have one.
+"""
 
 from __future__ import annotations
 
@@ -53,3 +56,74 @@ def test_what_it_refuses() -> None:
     assert refused.value.number == 2
     with pytest.raises(ValueError, match="modal: z: it is 5; give 6 numbers"):
         modal.output_feedback_set(a, b, c).at(np.ones(5))
+
+
+C, S = np.cos(np.radians(-20.0)), np.sin(np.radians(-20.0))
+VALUES = (0.05, 0.5, 2.0, 8.0)
+INPUTS = np.vstack([np.zeros((2, 2)), [[C, S], [-S, C]]])
+MEASURED = np.eye(4)[[0, 2, 3]]
+FREE = np.nan
+
+
+def turned_plant(q: float) -> np.ndarray:
+    """x = (e, b, wx, wy): e' = c wx - s wy, b' = s wx + c wy, (wx', wy') = -q b (s, c) + R v."""
+    return np.array([[0, 0, C, -S], [0, 0, S, C], [0, -q * S, 0, 0], [0, -q * C, 0, 0]], dtype=float)
+
+
+def test_the_example() -> None:
+    wanted = [[[0.25, 0.0], [0.0, FREE]], np.eye(2)]
+    actual = modal.common_feedback([turned_plant(q) for q in VALUES], INPUTS, MEASURED, wanted)
+    expected = [[-0.25, -0.93969, -0.34202], [0.0, 0.34202, -0.93969]]
+    np.testing.assert_allclose(actual.gain, expected, atol=5e-6)
+    assert actual.residual < 1e-14
+    np.testing.assert_allclose(actual.coefficients[:, 0, 1, 1], VALUES, rtol=1e-12)
+    for q, loop in zip(VALUES, actual.loops, strict=True):
+        # (s^2 + s + 1/4)(s^2 + s + q), the first with a double root
+        closed = turned_plant(q) + INPUTS @ actual.gain @ MEASURED
+        np.testing.assert_allclose(np.poly(closed), np.convolve([1, 1, 0.25], [1, 1, q]), atol=1e-14 * (1.0 + q))
+        assert pole_error(closed, np.roots(np.convolve([1, 1, 0.25], [1, 1, q]))) < 1e-6
+        np.testing.assert_array_equal(loop.closed_loop, closed)
+
+
+def test_what_the_plants_do_not_let_be_prescribed() -> None:
+    wanted = [[[0.25, 0.0], [0.0, 0.5]], np.eye(2)]
+    with pytest.raises(modal.PlacementError, match=r"no F gives all 4 plants what is prescribed: 0.94") as refused:
+        modal.common_feedback([turned_plant(q) for q in VALUES], INPUTS, MEASURED, wanted)
+    assert refused.value.reason is modal.Reason.RESIDUAL
+    assert refused.value.number == pytest.approx(0.94, abs=0.005)
+    # one plant alone lets it
+    actual = modal.common_feedback([turned_plant(0.5)], INPUTS, MEASURED, wanted)
+    np.testing.assert_allclose(actual.coefficients[0], wanted, atol=1e-13)
+
+
+def test_plants_that_a_common_feedback_made() -> None:
+    """A_k = companion of N_k - B F C in coordinates that leave B and C: then F is found again from part of the N_k."""
+    random = np.random.default_rng(2)
+    for _ in range(either(50, 6)):
+        gain, prescribed = random.normal(size=(2, 3)), random.normal(size=(2, 2, 2))
+        c = np.hstack([np.zeros((3, 1)), np.eye(3)]) @ np.linalg.qr(random.normal(size=(4, 4)))[0]
+        b = np.vstack([np.zeros((2, 2)), np.eye(2)])
+        plants, wanted = [], prescribed.copy()
+        for _ in range(3):
+            own = prescribed.copy()
+            own[0, 1, 1] = random.normal()  # this one differs from plant to plant
+            companion = np.block([[np.zeros((2, 2)), np.eye(2)], [-own[0], -own[1]]])
+            plants.append(companion - b @ gain @ c)
+        wanted[0, 1, 1] = FREE
+        actual = modal.common_feedback(plants, b, c, wanted)
+        assert actual.residual < 1e-12
+        np.testing.assert_allclose(actual.gain, gain, atol=1e-9 * (1.0 + np.max(np.abs(gain))))
+
+
+@pytest.mark.parametrize(
+    ("plants", "wanted", "problem"),
+    [
+        ([], np.eye(2), "plants: there are none"),
+        ([np.eye(4), np.eye(2)], np.zeros((2, 2, 2)), "plants: their sizes do not fit 2 inputs"),
+        ([turned_plant(1.0)], [np.eye(2), [1.0]], "wanted: it is no array of numbers; give p matrices"),
+        ([turned_plant(1.0)], np.eye(2), r"wanted: it is \(2, 2\); give \(2, 2, 2\)"),
+    ],
+)
+def test_wrong_input_is_one_line(plants: list, wanted: np.ndarray, problem: str) -> None:
+    with pytest.raises(ValueError, match=problem):
+        modal.common_feedback(plants, INPUTS, MEASURED, wanted)

@@ -9,16 +9,19 @@ import pytest
 from perilune import modal
 from perilune.analysis.design.synthesis.entry_gains import (
     DESIGN_PRESSURE,
+    LOWER,
     SCHEDULE,
     SYSTEM,
+    UPPER,
     entry_gains,
     gain_files,
     gain_parameters,
     plant,
     sideslip_block,
     sideslip_moments,
+    whole_gain,
+    whole_model,
 )
-from perilune.analysis.design.synthesis.entry_whole_gain import LOWER, UPPER, whole_gain, whole_model
 from perilune.fmus_src.control.output_feedback import OutputFeedback
 
 POLES = [-0.7 - 0.8j, -0.7 + 0.8j, -0.6, -0.35]

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from perilune.analysis.design.synthesis.gray_code import Coding, from_gray, to_gray
+from perilune.analysis.design.synthesis.search_settings import Coding, from_gray, to_gray
 
 
 def test_three_bits_as_printed():

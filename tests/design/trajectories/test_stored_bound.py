@@ -11,8 +11,8 @@ from dataclasses import replace
 import pytest
 
 from perilune.analysis.common.errors import InputError
-from perilune.analysis.design.trajectories.bounds import landing_problem
 from perilune.analysis.design.trajectories.declared_bound import landing_of, pieces_of, read_inputs
+from perilune.analysis.design.trajectories.point_mass import landing_problem
 from perilune.analysis.design.trajectories.stored_bound import (
     PLACE,
     MissingBound,
