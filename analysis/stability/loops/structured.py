@@ -28,7 +28,7 @@ _FLAT = 1e-10  # curvature that is added: a channel that only answers to others 
 _ROUNDING = 1e-15
 _SWEEPS = 4
 _LOG_STEP = 0.05  # largest change of log alpha between neighbouring frequencies
-_FREQUENCIES = 3000  # at most
+_MOST_FREQUENCIES = 3000
 
 
 def upper_bound(matrix: np.ndarray) -> np.ndarray:
@@ -219,8 +219,8 @@ def joint_disk_margin(response: Response, low: float, high: float, *, include: I
     frequency = base_grid(low, high, include)
     alphas = margins(frequency)
     while (coarse := np.flatnonzero(np.abs(np.diff(np.log(alphas))) > _LOG_STEP)).size:
-        if len(frequency) + len(coarse) > _FREQUENCIES:
-            raise ValueError(f"the disk margin is not resolved by {_FREQUENCIES} frequencies up to {high:g} rad/s")
+        if len(frequency) + len(coarse) > _MOST_FREQUENCIES:
+            raise ValueError(f"the disk margin is not resolved by {_MOST_FREQUENCIES} frequencies up to {high:g} rad/s")
         middle = 0.5 * (frequency[coarse] + frequency[coarse + 1])
         frequency = np.insert(frequency, coarse + 1, middle)
         alphas = np.insert(alphas, coarse + 1, margins(middle))
