@@ -1,7 +1,6 @@
-"""Simultaneous disk margin of several loops, by the structured singular value of complex matrices.
+"""Structured singular value of complex matrices, one complex uncertainty per channel: its upper bound by scaling.
 
-The margin's uncertainty is one complex factor per channel. The structured singular value is given by its upper bound:
-the least largest singular value of D M D^-1 over positive diagonal D; up to three channels it is the
+The bound is the least largest singular value of D M D^-1 over positive diagonal D; up to three channels it is the
 structured singular value itself (Packard and Doyle, "The complex structured singular value", Automatica 29 (1993),
 sections 5 and 9). The logarithm of any Schatten norm of D M D^-1 is convex in log D (three lines theorem), smooth
 while the norm's order is finite, and for m channels at most log(m)/order above that of the largest singular value.
@@ -10,14 +9,8 @@ So Newton's method minimises norms of growing order, each from the minimum befor
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import NamedTuple
-
 import numpy as np
 from scipy.sparse.csgraph import connected_components
-
-from .curves import Response, base_grid, cache_response
-from .margins import disk_gain, disk_phase, highest
 
 _ACCURACY = 1e-10  # relative, of the last norm; the bound is within a few of it, as the tests hold
 _GROWTH = 10.0  # of the order from norm to norm
@@ -27,8 +20,6 @@ _FARTHEST = 3.0  # longest step of log D
 _FLAT = 1e-10  # curvature that is added: a channel that only answers to others is scaled without end, to no effect
 _ROUNDING = 1e-15
 _SWEEPS = 4
-_LOG_STEP = 0.05  # largest change of log alpha between neighbouring frequencies
-_MOST_FREQUENCIES = 3000
 
 
 def upper_bound(matrix: np.ndarray) -> np.ndarray:
@@ -183,50 +174,3 @@ def _expansion(
     hessian[:, diagonal, diagonal] += 4.0 * np.sum(weight[:, None] * seen[:, :, diagonal, diagonal].real, axis=2)
     hessian = 0.5 * hessian / total[:, :, None] - 0.5 * order * gradient[:, :, None] * gradient[:, None, :]
     return value, 0.5 * gradient, hessian, sizes
-
-
-class JointDisk(NamedTuple):
-    """The least disk margin, what it guarantees in every channel at once, and the margin over frequency."""
-
-    alpha: float
-    gain: float  # the factor up, and 1/factor down
-    phase: float  # rad
-    frequency: float  # rad/s, of the least
-    frequencies: np.ndarray
-    alphas: np.ndarray
-
-
-def disk_margins(value: np.ndarray) -> np.ndarray:
-    """The disk margin (skew 0) of each L in ``value`` (n, m, m): one over the structured singular value of S - I/2.
-
-    Every channel is scaled by a complex number of its own. The singular value is its upper bound by scaling, exact up
-    to three channels, as in python-control's `disk_margins`, which does not take frequency data.
-    Seiler, Packard and Gahinet, "An introduction to disk margins", IEEE Control Systems Magazine 40 (2020).
-    """
-    identity = np.eye(value.shape[-1])
-    bounds = upper_bound(np.linalg.inv(identity + value) - 0.5 * identity)
-    with np.errstate(divide="ignore"):
-        return 1.0 / bounds
-
-
-def joint_disk_margin(response: Response, low: float, high: float, *, include: Iterable[float] = ()) -> JointDisk:
-    """The disk margin of the channels of ``response`` (n, m, m) between ``low`` and ``high`` (rad/s).
-
-    It bounds what the loops stand only where the closed loop is stable. ``include`` holds the frequencies of lightly
-    damped poles. Raises ValueError when the margin is not resolved over frequency.
-    """
-    margins = cache_response(lambda angular: disk_margins(response(angular)))
-    frequency = base_grid(low, high, include)
-    alphas = margins(frequency)
-    while (coarse := np.flatnonzero(np.abs(np.diff(np.log(alphas))) > _LOG_STEP)).size:
-        if len(frequency) + len(coarse) > _MOST_FREQUENCIES:
-            raise ValueError(f"the disk margin is not resolved by {_MOST_FREQUENCIES} frequencies up to {high:g} rad/s")
-        middle = 0.5 * (frequency[coarse] + frequency[coarse + 1])
-        frequency = np.insert(frequency, coarse + 1, middle)
-        alphas = np.insert(alphas, coarse + 1, margins(middle))
-    bound, worst = highest(lambda angular: 1.0 / margins(angular), frequency)
-    alpha = 1.0 / bound
-    place = int(np.searchsorted(frequency, worst))
-    if place == len(frequency) or frequency[place] != worst:
-        frequency, alphas = np.insert(frequency, place, worst), np.insert(alphas, place, alpha)
-    return JointDisk(alpha, disk_gain(alpha), disk_phase(alpha), worst, frequency, alphas)

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...common.errors import InputError
+from ..loops.disk import joint_disk_margin
 from ..loops.margin_values import UNSTABLE, Quantity
 from ..loops.readings import decibel_size, degree_size
-from ..loops.structured import joint_disk_margin
 from ..request.channels import Channel, channels_of
 from ..request.declaration import Limits, Loop, Point
 from ..request.request import Subject

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from perilune.analysis.stability.loops.disk import disk_margins, joint_disk_margin
 from perilune.analysis.stability.loops.margins import robust
-from perilune.analysis.stability.loops.structured import disk_margins, joint_disk_margin
 from tests.support.loops.sampled_loops import delay, held, nearest_to_circle, outside, random_loops, response_of
 
 S = control.tf("s")
